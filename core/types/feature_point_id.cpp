@@ -1,0 +1,55 @@
+#include "core/types/feature_point_id.h"
+
+#include <charconv>
+
+namespace semblante {
+namespace {
+
+/// Points per group of the standard, groups 2..11. There is no group 1.
+constexpr std::array<std::uint8_t, 10> group_sizes = {14, 14, 6, 4, 4, 1, 10, 15, 10, 6};
+constexpr int first_group = 2;
+
+struct GroupAndNumber {
+  int group;
+  int number;
+};
+
+constexpr GroupAndNumber split(std::uint8_t index) {
+  int group = first_group;
+  for (const std::uint8_t size : group_sizes) {
+    if (index < size) break;
+    index = static_cast<std::uint8_t>(index - size);
+    ++group;
+  }
+  return {group, index + 1};
+}
+
+}  // namespace
+
+std::optional<FeaturePointId> parse_feature_point(std::string_view text) {
+  const char* const end = text.data() + text.size();
+  int group = 0;
+  int number = 0;
+  const auto dot = std::from_chars(text.data(), end, group);
+  if (dot.ec != std::errc{} || dot.ptr == end || *dot.ptr != '.') return std::nullopt;
+  const auto last = std::from_chars(dot.ptr + 1, end, number);
+  if (last.ec != std::errc{} || last.ptr != end) return std::nullopt;
+  const int slot = group - first_group;
+  if (slot < 0 || slot >= static_cast<int>(group_sizes.size())) return std::nullopt;
+  if (number < 1 || number > group_sizes[static_cast<std::size_t>(slot)]) return std::nullopt;
+  int index = number - 1;
+  for (int g = 0; g < slot; ++g) index += group_sizes[static_cast<std::size_t>(g)];
+  const FeaturePointId id(static_cast<std::uint8_t>(index));
+  // One spelling per point: "2.01" or "+2.1" would otherwise be a second key for the same thing.
+  return to_string(id) == text ? std::optional(id) : std::nullopt;
+}
+
+std::string to_string(FeaturePointId id) {
+  const auto [group, number] = split(id.value());
+  return std::to_string(group) + "." + std::to_string(number);
+}
+
+int group_of(FeaturePointId id) { return split(id.value()).group; }
+int number_of(FeaturePointId id) { return split(id.value()).number; }
+
+}  // namespace semblante

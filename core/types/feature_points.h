@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+/// One marked point. With a vertex it is that surface vertex and moves it; without, it is a bare position (7.1, a pupil
+/// inside a triangle) that serves FAPUs and pivots and influences nothing.
+struct FeaturePoint {
+  FeaturePointId id;
+  std::optional<VertexId> vertex;
+  glm::vec3 position{0.0F};  ///< model units, MPEG-4 frame
+};
+
+/// The marked points of one model, each id at most once, in rising order of id.
+using FeaturePointSet = std::vector<FeaturePoint>;
+
+}  // namespace semblante

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace semblante {
+
+/// Three corner indices, counter-clockwise seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// An image kept as the file's own bytes; never decoded on the server.
+struct Image {
+  std::string mime_type;  ///< "image/png" or "image/jpeg"
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What glTF's metallic-roughness material says that a face needs.
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0F};  ///< linear RGBA
+  int base_color_image = -1;   ///< index into Model::images, -1: none
+  int normal_image = -1;       ///< index into Model::images, -1: none
+  float metallic = 0.0F;
+  float roughness = 0.8F;
+  float alpha_cutoff = 0.5F;  ///< for alpha_mode == mask
+  enum class AlphaMode { opaque, mask, blend } alpha_mode = AlphaMode::opaque;
+  bool double_sided = false;
+};
+
+/// A run of triangles that share a name and a material: a glTF primitive, an OBJ group.
+struct Primitive {
+  std::string name;
+  int material = -1;  ///< index into Model::materials, -1: none
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+};
+
+/// A head as it was read: indexed triangles over *file vertices*, with UVs and normals indexed on their own as OBJ
+/// does. Positions are the file's float32 in the MPEG-4 frame (algorithm.md section 0), that is, after
+/// `to_file_frame`'s inverse. A glTF has uv_triangles == triangles.
+struct Model {
+  std::vector<glm::vec3> positions;  ///< #V
+  std::vector<Triangle> triangles;   ///< #T by 3, into positions
+
+  std::vector<glm::vec2> uvs;          ///< #UV or empty; origin top left, as glTF
+  std::vector<Triangle> uv_triangles;  ///< #T by 3 into uvs, or empty; `no_index` where a corner has none
+
+  std::vector<glm::vec3> normals;          ///< #N or empty, unit length
+  std::vector<Triangle> normal_triangles;  ///< #T by 3 into normals, or empty; `no_index` where a corner has none
+
+  std::vector<Primitive> primitives;  ///< cover all triangles, in order
+  std::vector<Material> materials;
+  std::vector<Image> images;
+
+  /// Takes positions back to the axes and unit of the file. Identity where the file was in the MPEG-4 frame already.
+  glm::mat4 to_file_frame{1.0F};
+  std::string format;                 ///< "glb", "gltf", "obj", "ply", "stl"
+  std::vector<std::string> warnings;  ///< what was repaired or left out on import, in words
+
+  static constexpr std::uint32_t no_index = 0xFFFFFFFFU;
+};
+
+}  // namespace semblante

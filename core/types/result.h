@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace semblante {
+
+/// What was wrong, never where it surfaced. The REST layer turns each into a stable problem `type`.
+enum class ErrorCode {
+  malformed,         ///< the bytes are not of the format they claim
+  truncated,         ///< the data ends before what it announced
+  out_of_range,      ///< an index or a number outside its bounds
+  not_finite,        ///< NaN or infinity where a number belongs
+  too_large,         ///< over a documented limit
+  empty,             ///< nothing to work on (no triangles, no points)
+  unsupported,       ///< a valid file that needs something we do not read
+  mismatch,          ///< two things that must belong together do not
+  missing,           ///< something required is absent
+  invalid_argument,  ///< a value that cannot mean anything here
+  cancelled,         ///< stopped on request
+  io,                ///< the file system or the network said no
+  internal,          ///< a fault of ours that was caught
+};
+
+/// `code` for programs, `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for people.
+struct Error {
+  ErrorCode code = ErrorCode::internal;
+  std::string where;
+  std::string message;
+};
+
+/// The value or the reason there is none. For other people's bytes; our own mistakes are asserts.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  T& value() & { return assert(ok()), *std::get_if<0>(&state_); }
+  const T& value() const& { return assert(ok()), *std::get_if<0>(&state_); }
+  T&& value() && { return assert(ok()), std::move(*std::get_if<0>(&state_)); }
+  T& operator*() & { return value(); }
+  const T& operator*() const& { return value(); }
+  T&& operator*() && { return std::move(*this).value(); }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+
+  const Error& error() const& { return assert(!ok()), *std::get_if<1>(&state_); }
+  Error&& error() && { return assert(!ok()), std::move(*std::get_if<1>(&state_)); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// Success without a value.
+struct Unit {};
+using Status = Result<Unit>;
+
+}  // namespace semblante

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/types/fapu.h"
+#include "core/types/feature_points.h"
+#include "core/types/weight_table.h"
+
+namespace semblante {
+
+/// What a connected part is, and so what moves it (algorithm.md section 3).
+enum class PartRole : std::uint8_t { skin, left_eye, right_eye, upper_teeth, lower_teeth, tongue, attached, rest };
+inline constexpr std::array<std::string_view, 8> part_role_names = {
+    "skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "attached", "rest"};
+
+/// A part as reports and clients see it.
+struct Part {
+  std::string name;  ///< of the primitive most of its triangles belong to; may be empty
+  PartRole role = PartRole::skin;
+  bool role_by_user = false;       ///< set by hand: a later guess leaves it alone
+  std::uint32_t vertex_count = 0;  ///< file vertices
+  std::uint32_t triangle_count = 0;
+  glm::vec3 box_min{0.0F}, box_max{0.0F};
+};
+
+/// The rigid motion that applies to a vertex before the head's: values of Rig::rigid_of_vertex.
+enum class RigidMotion : std::uint8_t { none, left_eye, right_eye };
+inline constexpr std::size_t rigid_motion_count = 3;
+
+/// Everything the server computes once about a model, per file vertex. The face package is this, reordered and
+/// quantized.
+struct Rig {
+  FeaturePointSet points;
+  Fapu fapu;
+  WeightTable<double> weights;   ///< #V rows: W of Eq. 4, surface weights alone, before roles and the quotient of Eq. 7
+  WeightTable<float> influence;  ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
+  std::vector<RigidMotion> rigid_of_vertex;  ///< #V
+  std::vector<PartId> part_of_vertex;        ///< #V
+  std::vector<Part> parts;                   ///< by PartId
+  glm::vec3 left_eye_pivot{0.0F};
+  glm::vec3 right_eye_pivot{0.0F};
+  glm::vec3 head_pivot{0.0F};         ///< 7.1, or an estimate from the box of the model when it is not marked
+  std::vector<std::string> warnings;  ///< in words: what is missing and what it stops
+};
+
+}  // namespace semblante
