@@ -1,0 +1,2 @@
+const root = document.querySelector<HTMLElement>('#studio');
+if (root) root.textContent = 'Semblante';

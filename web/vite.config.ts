@@ -1,0 +1,56 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { defineConfig, type Plugin } from 'vite';
+import { aliases } from './aliases.ts';
+
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+const kernel = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm/semblante_kernel.wasm');
+const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
+
+/** Files that are fetched at run time under a fixed name: the deformation kernel and the Draco decoder. */
+const assets: Record<string, string> = {
+  'kernel.wasm': kernel,
+  'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
+  'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
+};
+
+function runtimeAssets(): Plugin {
+  return {
+    name: 'semblante-runtime-assets',
+    configureServer(server) {
+      server.middlewares.use((request, response, next) => {
+        const name = (request.url ?? '').split('?')[0]!.replace(/^\//, '');
+        const file = assets[name];
+        if (file === undefined || !existsSync(file)) return next();
+        response.setHeader('Content-Type', name.endsWith('.wasm') ? 'application/wasm' : 'text/javascript');
+        response.end(readFileSync(file));
+      });
+    },
+    generateBundle() {
+      for (const [fileName, file] of Object.entries(assets)) {
+        if (!existsSync(file)) {
+          const advice = fileName === 'kernel.wasm' ? ': build the target semblante-kernel-wasm, or set SEMBLANTE_WASM' : '';
+          this.error(`${fileName} is missing${advice}`);
+        }
+        this.emitFile({ type: 'asset', fileName, source: readFileSync(file) });
+      }
+    },
+  };
+}
+
+const server = process.env['SEMBLANTE_SERVER'] ?? 'http://127.0.0.1:8080';
+
+export default defineConfig({
+  base: './',
+  resolve: { alias: aliases, dedupe: ['three'] },
+  plugins: [runtimeAssets()],
+  build: { target: 'es2022', chunkSizeWarningLimit: 900, assetsInlineLimit: 0 },
+  server: {
+    fs: { allow: ['..'] },
+    proxy: {
+      '/v1': { target: server, ws: true },
+      '/version': { target: server },
+      '/healthz': { target: server },
+    },
+  },
+});

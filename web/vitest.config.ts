@@ -1,0 +1,12 @@
+import { defineConfig } from 'vitest/config';
+import { aliases, packagesForTests } from './aliases.ts';
+
+/** Unit tests: ours in test/, and those of the protocol and the JS client in ../tests/unit/ts. No browser, no server. */
+export default defineConfig({
+  resolve: { alias: [...aliases, ...packagesForTests] },
+  server: { fs: { allow: ['..'] } },
+  test: {
+    include: ['test/**/*.test.ts', '../tests/unit/ts/**/*.test.ts'],
+    environment: 'node',
+  },
+});
