@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+/// A feature point as a person or a file marks it, before it is matched with the model: a file vertex, a position or
+/// both. parametrize/place_feature_points turns it into a FeaturePoint or says why it cannot.
+struct MarkedPoint {
+  FeaturePointId id;
+  std::optional<std::uint32_t> vertex;  ///< file vertex, not checked against the model
+  std::optional<glm::dvec3> position;   ///< model units, MPEG-4 frame
+};
+
+}  // namespace semblante
