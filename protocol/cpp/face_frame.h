@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace semblante {
+
+inline constexpr int first_low_level_fap = 3;
+inline constexpr int last_low_level_fap = 68;
+inline constexpr std::size_t low_level_fap_count = 66;
+
+/// FAP 1: viseme(select1) * blend/63 + viseme(select2) * (1 - blend/63). Selects 0..14 (0 is silence), blend 0..63.
+struct VisemeBlend {
+  std::uint8_t select1 = 0;
+  std::uint8_t select2 = 0;
+  std::uint8_t blend = 0;
+  friend bool operator==(const VisemeBlend&, const VisemeBlend&) = default;
+};
+
+/// FAP 2: the sum of expression(select) * intensity/63. Selects 0..6 (0 is none), intensities 0..63.
+struct ExpressionBlend {
+  std::uint8_t select1 = 0;
+  std::uint8_t intensity1 = 0;
+  std::uint8_t select2 = 0;
+  std::uint8_t intensity2 = 0;
+  friend bool operator==(const ExpressionBlend&, const ExpressionBlend&) = default;
+};
+
+/// The whole state of a face at one moment: never a change, never an event. A default frame is the neutral face.
+struct FaceFrame {
+  VisemeBlend viseme;
+  ExpressionBlend expression;
+  /// By FAP number (entries 0..2 unused): quantized level, -32767..32767; FAP units = level * the stream's step for
+  /// that FAP. Level 0 is "absent": the FAP does not override visemes and expressions.
+  std::array<std::int16_t, 69> level{};
+
+  friend bool operator==(const FaceFrame&, const FaceFrame&) = default;
+};
+
+/// A frame with its place in time: whole milliseconds after the media time of the message (or request) it came in.
+struct TimedFrame {
+  std::uint32_t time = 0;
+  FaceFrame state;
+  friend bool operator==(const TimedFrame&, const TimedFrame&) = default;
+};
+
+}  // namespace semblante

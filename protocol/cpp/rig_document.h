@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/types/fapu.h"
+#include "core/types/feature_points.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+#include "protocol/cpp/sha256.h"
+
+namespace semblante {
+
+inline constexpr std::size_t viseme_count = 15;
+inline constexpr std::size_t expression_count = 7;  ///< entry 0 is "none"
+
+/// rig.json: what a client needs to know beside the vertices. All lengths in model units, MPEG-4 frame.
+struct RigDocument {
+  /// Draco unique ids of the attributes of mesh.drc; empty: the mesh has none.
+  struct Attributes {
+    std::optional<std::uint32_t> position, normal, uv, material, file_vertex;
+  };
+  struct Mesh {
+    Sha256 sha256{};
+    std::uint32_t vertices = 0;
+    std::uint32_t triangles = 0;
+    std::uint64_t bytes = 0;
+    Attributes attributes;
+  };
+  struct Weights {
+    Sha256 sha256{};
+    std::uint64_t bytes = 0;
+    int bits = 12;
+    std::uint32_t max_influences = 0;
+    double mean_influences = 0.0;
+    double max_error = 0.0;  ///< of one weight, by quantization
+  };
+  struct Point {
+    FeaturePointId id;
+    std::optional<std::uint32_t> vertex;  ///< of the decoded mesh
+    glm::vec3 position{0.0F};
+  };
+  struct Displacement {
+    FeaturePointId id;
+    glm::vec3 by{0.0F};  ///< at full intensity
+  };
+  struct DisplacementSet {
+    std::string name;
+    std::vector<Displacement> displacements;  ///< ids rise
+  };
+  struct PartInfo {
+    std::string name;
+    PartRole role = PartRole::skin;
+    std::uint32_t vertices = 0;
+    std::uint32_t triangles = 0;
+  };
+  struct MaterialInfo {
+    std::string name;
+    glm::vec4 base_color{1.0F};  ///< linear RGBA
+    float metallic = 0.0F;
+    float roughness = 0.8F;
+    enum class AlphaMode : std::uint8_t { opaque, mask, blend } alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5F;
+    bool double_sided = false;
+    std::optional<Sha256> base_color_image;
+    std::optional<Sha256> normal_image;
+  };
+  struct ImageInfo {
+    Sha256 sha256{};
+    std::string mime_type;
+    std::uint64_t bytes = 0;
+  };
+
+  std::string name;
+  Mesh mesh;
+  Weights weights;
+  Fapu fapu;  ///< already divided by 1024
+  std::vector<Point> feature_points;
+  std::array<glm::vec3, 2> eye_pivots{glm::vec3(0.0F), glm::vec3(0.0F)};  ///< left, right
+  glm::vec3 head_pivot{0.0F};
+  std::vector<PartInfo> parts;
+  double viseme_share = 0.85;                                 ///< of Eq. 5
+  std::array<DisplacementSet, viseme_count> visemes;          ///< entry 0 "sil"
+  std::array<DisplacementSet, expression_count> expressions;  ///< entry 0 "none", empty
+  glm::vec3 bounds_min{0.0F}, bounds_max{0.0F};
+  std::vector<MaterialInfo> materials;  ///< at least one
+  std::vector<ImageInfo> images;
+  std::vector<std::string> warnings;
+};
+
+/// The document as JSON text.
+std::string write_rig(const RigDocument& rig);
+
+/// Reads and checks one: errors carry the JSON pointer of the member at fault. Unknown members are skipped.
+Result<RigDocument> read_rig(std::string_view json);
+
+}  // namespace semblante
