@@ -1,0 +1,105 @@
+/* The per-frame kernel: face parameters -> feature points (Eq. 5, 6) -> vertices (Eq. 7, then eyes, then head).
+ *
+ * Freestanding C99: no heap, no libm, no globals that change; every function may run on any thread. The same source
+ * is the native library, the WebAssembly module and the phones' build, and gives the same bits on all of them: the
+ * order of every sum is fixed and nothing is fused.
+ *
+ * Frame of everything: right-handed, +X to the face's own left, +Y up, +Z out of the face. Lengths are model units.
+ * Feature points (FPs) are dense indices 0..83 in the order of the standard: by group, then number (2.1 is 0).
+ */
+#ifndef SEMBLANTE_KERNEL_H
+#define SEMBLANTE_KERNEL_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SEMBLANTE_FP_COUNT 84
+#define SEMBLANTE_FAP_COUNT 68
+#define SEMBLANTE_VISEME_COUNT 15
+#define SEMBLANTE_EXPRESSION_COUNT 7 /* 0 is "none" */
+#define SEMBLANTE_FAPU_COUNT 5       /* IRISD, ES, ENS, MNS, MW, in this order */
+#define SEMBLANTE_BLEND_MAX 63       /* full blend or intensity in FAPs 1 and 2 */
+/* Rigid motion of a vertex before the head's. */
+#define SEMBLANTE_RIGID_NONE 0
+#define SEMBLANTE_RIGID_LEFT_EYE 1
+#define SEMBLANTE_RIGID_RIGHT_EYE 2
+#define SEMBLANTE_RIGID_COUNT 3
+
+/* One frame of face parameters: state, not event. All zero is the neutral face. 284 bytes. */
+typedef struct semblante_frame {
+  /* FAP 1: (viseme_blend/63) of viseme1 + (1 - viseme_blend/63) of viseme2. 0..14; a greater number moves nothing. */
+  uint8_t viseme1, viseme2, viseme_blend;
+  /* FAP 2: (intensity1/63) of expression1 + (intensity2/63) of expression2. 0 none, 1..6; a greater number: none. */
+  uint8_t expression1, intensity1, expression2, intensity2;
+  uint8_t reserved; /* 0 */
+  /* fap[n] is FAP n in FAP units (rotations: 1e-5 rad), finite; 0 is absent. fap[0..2] are not read.
+   * FAPs 29, 30 (pupils) and 47 (roll of the tongue) have no effect on positions here. */
+  float fap[SEMBLANTE_FAP_COUNT + 1];
+} semblante_frame;
+
+/* What the frame needs to know about one model. The two arrays stay the caller's and must outlive the calls. */
+typedef struct semblante_rig {
+  const float* viseme;              /* 15 by 84 by 3: displacement sets; may be null: FAP 1 moves nothing */
+  const float* expression;          /* 7 by 84 by 3, entry 0 all zero; may be null: FAP 2 moves nothing */
+  float fapu[SEMBLANTE_FAPU_COUNT]; /* already divided by 1024; 0: unknown, and FAPs in that unit do nothing */
+  float eye_pivot[2][3];            /* left, right */
+  float head_pivot[3];
+  float viseme_share; /* share of the viseme at an FP that an expression moves too (Eq. 5): 0.85 */
+} semblante_rig;
+
+/* A frame on one model: where the FPs went and how the rigid parts turned. Poses interpolate linearly. */
+typedef struct semblante_pose {
+  float fp[SEMBLANTE_FP_COUNT * 3]; /* displacement of each FP */
+  float eye_rotation[2][4];         /* left, right; unit quaternions x, y, z, w */
+  float eye_translation[2][3];
+  float head_rotation[4];
+  float eye_pivot[2][3];
+  float head_pivot[3];
+} semblante_pose;
+
+/* A mesh with its influence table in rows, one row a vertex: entries row_offsets[v] .. row_offsets[v + 1] - 1.
+ * Trusted: whoever reads a table from a file checks that offsets rise, points are < 84 and rigid < 3. */
+typedef struct semblante_face {
+  uint32_t vertex_count;
+  const float* rest;           /* #V by 3: the neutral face */
+  const uint32_t* row_offsets; /* #V + 1 */
+  const uint8_t* row_points;   /* #entries, FP index */
+  const float* row_weights;    /* #entries, the quotient W_iP / sum of W_iP of Eq. 7 */
+  const uint8_t* rigid;        /* #V of SEMBLANTE_RIGID_*, or null: none */
+} semblante_face;
+
+/* Frame -> pose.
+ * FAPs 1 and 2 are blended first. An FP that both move gets viseme_share * viseme + (1 - viseme_share) * expression
+ * (Eq. 5); an FP that one of them moves gets that one's. A low-level FAP that is not zero then replaces the
+ * displacement of its FP on its own axis by value * FAPU (Eq. 6). Eyes: yaw after pitch, about their pivots.
+ * Head: roll first, then pitch, then yaw. */
+void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, semblante_pose* pose);
+
+/* The pose t of the way from a to b, 0 <= t <= 1 (clamped). Displacements linearly, rotations along the shorter arc.
+ * `out` may be a or b. */
+void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, float t, semblante_pose* out);
+
+/* Pose -> vertices: positions[v] = rest[v] + sum of weight * displacement over the row of v (Eq. 7), then the eye's
+ * motion for the vertices of an eye, then the head's for all. positions: #V by 3, must not overlap the face.
+ * A neutral pose gives the rest positions bit for bit. */
+void semblante_deform(const semblante_face* face, const semblante_pose* pose, float* positions);
+
+/* Sine and cosine of an angle in radians, |angle| < 1e6, to 1e-7: the same bits on every machine. Beyond: 0 and 1. */
+void semblante_sincos(float angle, float* sine, float* cosine);
+
+#ifdef __wasm__
+/* Memory for JavaScript: 16-byte aligned, zeroed by nobody; null when the engine gives no more. Growth detaches the
+ * typed arrays that view the memory: make them anew after a call. */
+void* semblante_alloc(uint32_t bytes);
+/* Gives back everything semblante_alloc gave. */
+void semblante_free_all(void);
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

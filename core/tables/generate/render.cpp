@@ -1,0 +1,285 @@
+#include "core/tables/generate/render.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace semblante::tables {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr const char* notice =
+    "Generated from core/tables/data by semblante-codegen-tables; change the data, not this.";
+
+json read_json(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  try {
+    return json::parse(file);
+  } catch (const json::exception& fault) {
+    throw std::runtime_error(path + ": " + fault.what());
+  }
+}
+
+/// Dense index of a feature point: its place in the list.
+int index_of(const TableData& data, const std::string& id) {
+  int index = 0;
+  for (const json& point : data.feature_points["feature_points"]) {
+    if (point["id"] == id) return index;
+    ++index;
+  }
+  throw std::runtime_error("no feature point " + id);
+}
+
+/// (axis, sign) of a unit vector along an axis; (-1, 0) for null.
+std::pair<int, int> axis_and_sign(const json& axis) {
+  if (!axis.is_array()) return {-1, 0};
+  for (int i = 0; i < 3; ++i) {
+    const int component = axis[static_cast<std::size_t>(i)];
+    if (component != 0) return {i, component};
+  }
+  throw std::runtime_error("an axis of length zero");
+}
+
+std::string quoted(const json& text) { return json(text).dump(); }
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  return text;
+}
+
+std::string joined(const json& words) {
+  std::string all;
+  for (const json& word : words) {
+    if (!all.empty()) all += ' ';
+    all += word.get<std::string>();
+  }
+  return all;
+}
+
+}  // namespace
+
+TableData read_table_data(const std::string& data_folder) {
+  return {read_json(data_folder + "/faps.json"), read_json(data_folder + "/feature-points.json"),
+          read_json(data_folder + "/fapus.json"), read_json(data_folder + "/high-level.json")};
+}
+
+std::string render_c_header(const TableData& data) {
+  std::ostringstream out;
+  out << "/* " << notice << " */\n/* clang-format off */\n"
+      << "#ifndef SEMBLANTE_MPEG4_TABLES_H\n#define SEMBLANTE_MPEG4_TABLES_H\n\n#include <stdint.h>\n\n"
+      << "#define SEMBLANTE_FAP_NO_MOTION 0 /* high-level, pupils, roll of the tongue */\n"
+      << "#define SEMBLANTE_FAP_TRANSLATION 1\n#define SEMBLANTE_FAP_ROTATION 2\n\n"
+      << "#define SEMBLANTE_FP_LEFT_PUPIL " << index_of(data, "3.5") << "\n"
+      << "#define SEMBLANTE_FP_RIGHT_PUPIL " << index_of(data, "3.6") << "\n\n"
+      << "/* displacement (or angle) = sign * value * unit along (or about) the axis */\n"
+      << "typedef struct semblante_fap_entry {\n"
+      << "  uint8_t kind; /* SEMBLANTE_FAP_* */\n"
+      << "  uint8_t fp;   /* dense index of the feature point */\n"
+      << "  uint8_t axis; /* 0 x, 1 y, 2 z */\n"
+      << "  int8_t sign;\n"
+      << "  uint8_t unit; /* 0 IRISD, 1 ES, 2 ENS, 3 MNS, 4 MW, 5 AU */\n"
+      << "} semblante_fap_entry;\n\n"
+      << "/* By FAP number; entry 0 is not a FAP. */\n"
+      << "static const semblante_fap_entry semblante_fap_table[" << data.faps["faps"].size() + 1 << "] = {\n"
+      << "    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0},\n";
+  std::vector<std::string> units;
+  for (const json& fapu : data.fapus["fapus"]) units.push_back(fapu["name"]);
+  for (const json& fap : data.faps["faps"]) {
+    const std::string kind = fap["kind"];
+    const auto [axis, sign] = axis_and_sign(fap.value("axis", json()));
+    if (axis < 0) {
+      out << "    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}";
+    } else {
+      std::size_t unit = 0;
+      while (units.at(unit) != fap["unit"]) ++unit;
+      out << "    {" << (kind == "rotation" ? "SEMBLANTE_FAP_ROTATION" : "SEMBLANTE_FAP_TRANSLATION") << ", "
+          << index_of(data, fap["feature_points"][0]) << ", " << axis << ", " << sign << ", " << unit << "}";
+    }
+    out << ", /* " << fap["number"] << " " << fap["name"].get<std::string>() << " */\n";
+  }
+  out << "};\n\n#endif\n";
+  return out.str();
+}
+
+std::string render_cpp_header(const TableData& data) {
+  std::ostringstream out;
+  out << "// " << notice << "\n// clang-format off\n#pragma once\n\n#include \"core/tables/mpeg4.h\"\n\n"
+      << "namespace semblante::mpeg4 {\n\n";
+  const auto array = [&out](const char* type, const char* name, std::size_t size) {
+    out << "inline constexpr std::array<" << type << ", " << size << "> " << name << " = {{\n";
+  };
+  array("FapGroup", "fap_groups", data.faps["groups"].size());
+  for (const json& group : data.faps["groups"]) {
+    out << "    {" << group["group"] << ", " << quoted(group["name"]) << ", " << group["first"] << ", " << group["last"]
+        << "},\n";
+  }
+  out << "}};\n\n";
+  array("Fap", "faps", data.faps["faps"].size());
+  for (const json& fap : data.faps["faps"]) {
+    const auto [axis, sign] = axis_and_sign(fap.value("axis", json()));
+    const json points = fap.value("feature_points", json::array());
+    const json levels = fap.value("levels", json::array({0, 0}));
+    const json usual = fap.value("usual", json::array({0, 0}));
+    out << "    {" << fap["number"] << ", " << quoted(fap["name"]) << ",\n     " << quoted(fap["description"])
+        << ",\n     " << fap["group"] << ", FapKind::" << fap["kind"].get<std::string>()
+        << ", Unit::" << lower(fap.value("unit", "none")) << ", "
+        << (fap.value("directionality", "U") == "B" ? "true" : "false") << ", " << axis << ", " << sign << ", {";
+    for (std::size_t i = 0; i < points.size(); ++i) out << (i == 0 ? "" : ", ") << index_of(data, points[i]);
+    out << "}, " << points.size() << ", " << fap.value("mirror", 0) << ", " << fap.value("mirror_sign", 0) << ", "
+        << fap.value("quantizer_step", 1) << ", " << levels[0] << ", " << levels[1] << ", " << usual[0] << ", "
+        << usual[1] << "},\n";
+  }
+  out << "}};\n\n";
+  array("FeaturePoint", "feature_points", data.feature_points["feature_points"].size());
+  for (const json& point : data.feature_points["feature_points"]) {
+    out << "    {" << quoted(point["id"]) << ", " << quoted(point["name"])
+        << ", Side::" << point["side"].get<std::string>() << ", " << index_of(data, point["mirror"]) << "},\n";
+  }
+  out << "}};\n\n";
+  array("FapuInfo", "fapus", data.fapus["fapus"].size());
+  for (const json& fapu : data.fapus["fapus"]) {
+    const json measures = fapu.value("measures", json::array());
+    out << "    {" << quoted(fapu["name"]) << ", " << quoted(fapu["meaning"]) << ", {{";
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+      out << (i == 0 ? "" : ", ") << "{" << index_of(data, measures[i]["from"]) << ", "
+          << index_of(data, measures[i]["to"]) << ", " << measures[i]["axis"] << "}";
+    }
+    out << "}}, " << measures.size() << "},\n";
+  }
+  out << "}};\n\n";
+  array("VisemeInfo", "visemes", data.high_level["visemes"].size());
+  for (const json& viseme : data.high_level["visemes"]) {
+    out << "    {" << quoted(viseme["name"]) << ", " << quoted(joined(viseme["phonemes"])) << ", "
+        << quoted(joined(viseme["examples"])) << "},\n";
+  }
+  out << "}};\n\n";
+  array("ExpressionInfo", "expressions", data.high_level["expressions"].size());
+  for (const json& expression : data.high_level["expressions"]) {
+    out << "    {" << quoted(expression["name"]) << ", " << quoted(expression["description"]) << "},\n";
+  }
+  out << "}};\n\n}  // namespace semblante::mpeg4\n";
+  return out.str();
+}
+
+std::string render_typescript(const TableData& data) {
+  std::ostringstream out;
+  out << "// " << notice << R"(
+
+export type FapKind = "high_level" | "translation" | "rotation" | "scale";
+export type FapUnit = "IRISD" | "ES" | "ENS" | "MNS" | "MW" | "AU";
+export type Side = "center" | "left" | "right";
+
+export interface FapGroup {
+  readonly number: number;
+  readonly name: string;
+  readonly first: number;
+  readonly last: number;
+}
+
+export interface Fap {
+  /** 1..68 */
+  readonly number: number;
+  readonly name: string;
+  readonly description: string;
+  readonly group: number;
+  readonly kind: FapKind;
+  /** null for FAPs 1 and 2 */
+  readonly unit: FapUnit | null;
+  readonly bidirectional: boolean;
+  /** 0 x, 1 y, 2 z; null where the FAP moves or turns nothing along one axis */
+  readonly axis: 0 | 1 | 2 | null;
+  /** displacement (or angle) = sign * value * unit along (or about) the axis */
+  readonly sign: -1 | 0 | 1;
+  readonly featurePoints: readonly string[];
+  /** To mirror a frame: new[mirror] = mirrorSign * old[number]; 0 for FAPs 1 and 2. */
+  readonly mirror: number;
+  readonly mirrorSign: -1 | 0 | 1;
+  readonly quantizerStep: number;
+  /** Range the wire carries, FAP units. */
+  readonly min: number;
+  readonly max: number;
+  /** What a face does, FAP units: the range of a slider. */
+  readonly usualMin: number;
+  readonly usualMax: number;
+}
+
+export interface FeaturePoint {
+  readonly id: string;
+  readonly name: string;
+  readonly side: Side;
+  /** id of the point on the other side; its own in the middle */
+  readonly mirror: string;
+}
+
+export interface Fapu {
+  readonly name: FapUnit;
+  readonly meaning: string;
+}
+
+export interface Viseme {
+  readonly name: string;
+  /** IPA */
+  readonly phonemes: readonly string[];
+  readonly examples: readonly string[];
+}
+
+export interface Expression {
+  readonly name: string;
+  readonly description: string;
+}
+
+)";
+  const auto list = [&out](const char* type, const char* name, const json& rows) {
+    out << "export const " << name << ": readonly " << type << "[] = [\n";
+    for (const json& row : rows) out << "  " << row.dump() << ",\n";
+    out << "];\n\n";
+  };
+  json groups = json::array();
+  for (const json& g : data.faps["groups"]) {
+    groups.push_back({{"number", g["group"]}, {"name", g["name"]}, {"first", g["first"]}, {"last", g["last"]}});
+  }
+  json faps = json::array();
+  for (const json& f : data.faps["faps"]) {
+    const auto [axis, sign] = axis_and_sign(f.value("axis", json()));
+    const int step = f.value("quantizer_step", 1);
+    const json levels = f.value("levels", json::array({0, 0}));
+    const json usual = f.value("usual", json::array({0, 0}));
+    faps.push_back({{"number", f["number"]},
+                    {"name", f["name"]},
+                    {"description", f["description"]},
+                    {"group", f["group"]},
+                    {"kind", f["kind"]},
+                    {"unit", f.value("unit", json())},
+                    {"bidirectional", f.value("directionality", "U") == "B"},
+                    {"axis", axis < 0 ? json() : json(axis)},
+                    {"sign", sign},
+                    {"featurePoints", f.value("feature_points", json::array())},
+                    {"mirror", f.value("mirror", 0)},
+                    {"mirrorSign", f.value("mirror_sign", 0)},
+                    {"quantizerStep", step},
+                    {"min", levels[0].get<int>() * step},
+                    {"max", levels[1].get<int>() * step},
+                    {"usualMin", usual[0]},
+                    {"usualMax", usual[1]}});
+  }
+  json fapus = json::array();
+  for (const json& f : data.fapus["fapus"]) fapus.push_back({{"name", f["name"]}, {"meaning", f["meaning"]}});
+  list("FapGroup", "fapGroups", groups);
+  out << "/** faps[n - 1] is FAP n. */\n";
+  list("Fap", "faps", faps);
+  out << "/** In the order of the standard: the index is the dense feature point index of the formats. */\n";
+  list("FeaturePoint", "featurePoints", data.feature_points["feature_points"]);
+  list("Fapu", "fapus", fapus);
+  out << "/** By the number that FAP 1 selects. */\n";
+  list("Viseme", "visemes", data.high_level["visemes"]);
+  out << "/** By the number that FAP 2 selects; 0 is none. */\n";
+  list("Expression", "expressions", data.high_level["expressions"]);
+  std::string text = out.str();
+  text.pop_back();  // one newline at the end
+  return text;
+}
+
+}  // namespace semblante::tables

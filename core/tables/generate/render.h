@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace semblante::tables {
+
+/// The parsed files of core/tables/data.
+struct TableData {
+  nlohmann::ordered_json faps, feature_points, fapus, high_level;
+};
+
+/// Reads the data files. Throws std::exception with the file's name on any fault: this runs at development time only.
+TableData read_table_data(const std::string& data_folder);
+
+/// core/tables/generated/mpeg4_tables.h: what the freestanding kernel needs, in C.
+std::string render_c_header(const TableData& data);
+/// core/tables/generated/mpeg4_entries.h: the constexpr entries of core/tables/mpeg4.h.
+std::string render_cpp_header(const TableData& data);
+/// protocol/ts/generated/mpeg4.ts: the same for the web.
+std::string render_typescript(const TableData& data);
+
+}  // namespace semblante::tables
