@@ -1,0 +1,111 @@
+# Set-up shared by deploy/run and tests/run. Sourced, not run; expects `set -euo pipefail` and the repository as $root.
+
+say() { printf '\033[1m== %s\033[0m\n' "$*"; }
+fail() {
+  printf '\033[31mError: %s\033[0m\n' "$*" >&2
+  exit 1
+}
+
+# What the server and the studio are built with and run on.
+product_packages=(build-essential cmake ninja-build pkg-config
+  libboost1.81-dev libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
+  libtinygltf-dev libdraco-dev libstb-dev nlohmann-json3-dev libglm-dev libcli11-dev
+  clang-14 lld-14 curl ca-certificates)
+# What the native client and the tests need beyond that.
+test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
+  libgtest-dev libgmock-dev libclang-rt-14-dev clang-format-14 clang-tidy-14 chromium fonts-dejavu-core git)
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    fail "installing packages needs root: run this as root or install sudo"
+  fi
+}
+
+# install_packages NAME...: installs what is missing, after saying what and how much. Silent when nothing is.
+install_packages() {
+  local wanted=("$@") missing=() package
+  # Any Node with npm serves; a system that has one from elsewhere keeps it.
+  command -v node >/dev/null || wanted+=(nodejs)
+  command -v npm >/dev/null || wanted+=(npm)
+  for package in "${wanted[@]}"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  [ ${#missing[@]} = 0 ] && return
+  command -v apt-get >/dev/null || fail "this script installs Debian packages, and there is no apt-get here; missing: ${missing[*]}"
+  grep -q '^VERSION_ID="12"' /etc/os-release 2>/dev/null ||
+    printf 'Note: made for Debian 12; this is %s\n' "$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}")" >&2
+
+  say "Debian packages to install: ${missing[*]}"
+  as_root apt-get -qq update || fail "apt-get update failed: is a Debian mirror reachable?"
+  local plan
+  plan=$(LC_ALL=C as_root apt-get install --no-install-recommends --assume-no "${missing[@]}" 2>&1) || true
+  grep -q 'Unable to locate package' <<<"$plan" && fail "$(grep -m3 'Unable to locate' <<<"$plan")"
+  grep -E 'newly installed|Need to get|After this operation' <<<"$plan" | sed 's/^/   /'
+  # Removing other people's software to make room for ours must be their decision, never a side effect.
+  if grep -qE '[1-9][0-9]* to remove' <<<"$plan"; then
+    grep -A3 'will be REMOVED' <<<"$plan" >&2
+    fail "installing these would remove the packages above; resolve that by hand, then run this again"
+  fi
+  local log
+  log=$(mktemp)
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" \
+    >"$log" 2>&1 || {
+    tail -n 15 "$log" >&2
+    fail "apt-get install failed (the end of its output is above; the whole of it: $log)"
+  }
+  rm -f "$log"
+}
+
+# configure DIR [cmake options]: configures once; again only if an option changed.
+configure() {
+  local dir=$1 log
+  shift
+  log=$dir/configure.log
+  mkdir -p "$dir"
+  if [ -f "$dir/build.ninja" ] && [ "$(cat "$dir/.options" 2>/dev/null)" = "$*" ]; then return; fi
+  say "Configuring $(realpath --relative-to="$root" "$dir")"
+  cmake -S "$root" -B "$dir" -G Ninja "$@" >"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    fail "cmake could not configure (whole log: $log)"
+  }
+  printf '%s' "$*" >"$dir/.options"
+}
+
+# compile DIR [targets]: builds with ninja's own progress; quiet when there is nothing to do.
+compile() {
+  local dir=$1
+  shift
+  [ "$(ninja -C "$dir" -n "$@" 2>/dev/null | tail -n 1)" = "ninja: no work to do." ] && return
+  say "Building $(realpath --relative-to="$root" "$dir")"
+  # One Beast translation unit takes up to 2 GB: fewer jobs on a small machine than it has cores.
+  local jobs memory
+  jobs=$(nproc)
+  memory=$(awk '/MemAvailable/ {print int($2 / 2000000)}' /proc/meminfo)
+  [ "$memory" -lt 1 ] && memory=1
+  [ "$jobs" -gt "$memory" ] && jobs=$memory
+  NINJA_STATUS='   [%f/%t] ' ninja -C "$dir" -j "$jobs" "$@" || fail "the build failed (see above)"
+}
+
+# stamp_of FILES...: a fingerprint of the contents of files and folders.
+stamp_of() { find "$@" -type f -not -path '*/node_modules/*' -not -path '*/dist/*' -print0 | sort -z | xargs -0 sha256sum | sha256sum; }
+
+# build_web DIR: npm packages and the studio's static files into web/dist, when their sources changed. DIR holds wasm/.
+build_web() {
+  local build=$1 stamp
+  stamp=$(stamp_of "$root/web/package-lock.json")
+  if [ "$(cat "$root/web/node_modules/.stamp" 2>/dev/null)" != "$stamp" ]; then
+    say "Installing the studio's npm packages"
+    (cd "$root/web" && npm ci --no-audit --no-fund --loglevel=error) || fail "npm ci failed: is the npm registry reachable?"
+    printf '%s' "$stamp" >"$root/web/node_modules/.stamp"
+  fi
+  stamp=$(stamp_of "$root/web" "$root/protocol/ts" "$root/clients/js" "$build/wasm")
+  if [ "$(cat "$root/web/dist/.stamp" 2>/dev/null)" != "$stamp" ]; then
+    say "Building the studio"
+    (cd "$root/web" && SEMBLANTE_WASM="$build/wasm/semblante_kernel.wasm" npm run --silent build) || fail "the studio did not build"
+    printf '%s' "$stamp" >"$root/web/dist/.stamp"
+  fi
+}
