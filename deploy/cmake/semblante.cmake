@@ -30,11 +30,41 @@ function(semblante_library name)
   add_library(semblante::${name} ALIAS ${target})
 endfunction()
 
-# semblante_test(NAME SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest runs one by one.
+# Targets for the narrower test configurations of tests/run, which build no more than they run.
+add_custom_target(sanitize_tests)
+add_custom_target(threads_tests)
+add_custom_target(fuzz_targets)
+
+# semblante_test(NAME SOURCES ... DEPENDS ... [THREADS] [PROCESSES] [TIMEOUT seconds]): a GoogleTest program whose cases
+# ctest runs one by one. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs, so it belongs to the
+# normal build and not to the sanitizers' unit runs.
 function(semblante_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS;PROCESSES" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main GTest::gmock semblante_flags)
   target_compile_definitions(test_${name} PRIVATE SEMBLANTE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SEMBLANTE_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60)
+  set(labels "")
+  if(ARG_PROCESSES)
+    list(APPEND labels processes)
+  else()
+    list(APPEND labels sanitize)
+    add_dependencies(sanitize_tests test_${name})
+  endif()
+  if(ARG_THREADS)
+    list(APPEND labels threads)
+    add_dependencies(threads_tests test_${name})
+  endif()
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+# semblante_fuzz(NAME SOURCES ... DEPENDS ...): a libFuzzer program `fuzz_NAME`.
+function(semblante_fuzz name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(fuzz_${name} ${ARG_SOURCES})
+  target_link_libraries(fuzz_${name} PRIVATE ${ARG_DEPENDS} semblante_flags)
+  target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  add_dependencies(fuzz_targets fuzz_${name})
 endfunction()
