@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <zlib.h>
+
+#include "core/types/rig.h"
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/weights_format.h"
+#include "protocol/cpp/weights_layout.h"
+
+namespace semblante {
+namespace {
+
+using namespace weights_layout;
+
+/// Deflate makes at most 1032 bytes of one: an announced size beyond that is a lie, refused before memory is asked for.
+constexpr std::uint64_t max_inflation = 1032;
+
+struct Header {
+  int bits = 0;
+  std::uint32_t vertex_count = 0;
+  std::uint32_t set_count = 0;
+  std::uint32_t entry_count = 0;
+  std::uint32_t raw_bytes = 0;
+  std::uint32_t packed_bytes = 0;
+};
+
+Error fail(ErrorCode code, std::string where, std::string message) {
+  return {code, std::move(where), "weights: " + std::move(message)};
+}
+
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  static constexpr std::array<std::uint8_t, 4> zero{};
+  uLong crc = crc32_z(0, bytes.data(), at_crc);
+  crc = crc32_z(crc, zero.data(), zero.size());
+  return static_cast<std::uint32_t>(
+      crc32_z(crc, bytes.data() + at_crc + zero.size(), bytes.size() - at_crc - zero.size()));
+}
+
+Result<Header> read_header(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < header_bytes) return fail(ErrorCode::truncated, "header", "shorter than its header of 64 bytes");
+  if (std::memcmp(bytes.data(), magic, sizeof(magic)) != 0) return fail(ErrorCode::malformed, "magic", "not SBWT");
+  const std::uint16_t file_version = byte_io::get_u16(&bytes[at_version]);
+  if (file_version != version) {
+    return fail(ErrorCode::unsupported, "version", "version " + std::to_string(file_version) + ", only 1 is known");
+  }
+  Header header;
+  header.bits = bytes[at_bits];
+  header.vertex_count = byte_io::get_u32(&bytes[at_vertex_count]);
+  header.set_count = byte_io::get_u32(&bytes[at_set_count]);
+  header.entry_count = byte_io::get_u32(&bytes[at_entry_count]);
+  header.raw_bytes = byte_io::get_u32(&bytes[at_raw_bytes]);
+  header.packed_bytes = byte_io::get_u32(&bytes[at_packed_bytes]);
+
+  if (header.bits < min_bits || header.bits > max_bits) return fail(ErrorCode::out_of_range, "bits", "not 8..16");
+  if (bytes[at_reserved] != 0) return fail(ErrorCode::malformed, "reserved", "not zero");
+  if (header.vertex_count == 0) return fail(ErrorCode::empty, "vertex_count", "no vertices");
+  if (header.vertex_count > max_weights_vertices) return fail(ErrorCode::too_large, "vertex_count", "over 4000000");
+  if (header.entry_count > max_weights_entries) return fail(ErrorCode::too_large, "entry_count", "over 48000000");
+  if (header.set_count == 0 || header.set_count > header.vertex_count || header.set_count > max_set_count) {
+    return fail(ErrorCode::out_of_range, "set_count", "not between 1 and the number of vertices");
+  }
+  if (header.packed_bytes > bytes.size() - header_bytes) {
+    return fail(ErrorCode::truncated, "payload", "ends before the announced size");
+  }
+  if (header.packed_bytes < bytes.size() - header_bytes) {
+    return fail(ErrorCode::malformed, "payload", "bytes after the announced size");
+  }
+  if (header.raw_bytes > max_inflation * header.packed_bytes) {
+    return fail(ErrorCode::malformed, "raw_bytes", "more than the packed bytes can hold");
+  }
+  if (checksum(bytes) != byte_io::get_u32(&bytes[at_crc])) return fail(ErrorCode::mismatch, "crc", "checksum differs");
+  return header;
+}
+
+Result<std::vector<std::uint8_t>> inflate_payload(std::span<const std::uint8_t> packed, std::uint32_t raw_bytes) {
+  std::vector<std::uint8_t> raw(raw_bytes);
+  uLongf size = raw.size();
+  uLong consumed = packed.size();
+  if (uncompress2(raw.data(), &size, packed.data(), &consumed) != Z_OK || size != raw.size() ||
+      consumed != packed.size()) {
+    return fail(ErrorCode::malformed, "payload", "not the announced zlib stream");
+  }
+  return raw;
+}
+
+struct InfluenceSet {
+  std::span<const std::uint8_t> points;
+  bool unit_sum = false;
+  [[nodiscard]] std::size_t stored() const { return points.size() - (unit_sum ? 1 : 0); }
+};
+
+Result<std::vector<InfluenceSet>> read_dictionary(byte_io::Reader& reader, std::uint32_t set_count) {
+  if (set_count > reader.remaining()) return fail(ErrorCode::truncated, "set_count", "more sets than bytes");
+  std::vector<InfluenceSet> sets(set_count);
+  for (InfluenceSet& set : sets) {
+    const std::uint8_t first = reader.u8();
+    set.unit_sum = (first & unit_sum_flag) != 0;
+    set.points = reader.take(first & ~unit_sum_flag & 0xFFU);
+    if (reader.failed()) return fail(ErrorCode::truncated, "dictionary", "ends early");
+    if (set.unit_sum && set.points.empty()) return fail(ErrorCode::malformed, "dictionary", "nothing sums to one");
+    if (std::adjacent_find(set.points.begin(), set.points.end(), std::greater_equal<>()) != set.points.end()) {
+      return fail(ErrorCode::malformed, "dictionary", "the points of a set do not rise");
+    }
+    if (!set.points.empty() && set.points.back() >= feature_point_count) {
+      return fail(ErrorCode::out_of_range, "dictionary", "no feature point " + std::to_string(set.points.back()));
+    }
+  }
+  return sets;
+}
+
+std::uint32_t from_planes(std::span<const std::uint8_t> planes, std::size_t count, std::size_t index) {
+  std::uint32_t value = 0;
+  for (std::size_t at = index, shift = 0; at < planes.size(); at += count, shift += 8) {
+    value |= static_cast<std::uint32_t>(planes[at]) << shift;
+  }
+  return value;
+}
+
+Result<std::vector<std::uint32_t>> read_set_ids(byte_io::Reader& reader, const Header& header,
+                                                const std::vector<InfluenceSet>& sets) {
+  const auto planes =
+      reader.take(std::size_t{header.vertex_count} * static_cast<std::size_t>(id_planes(header.set_count)));
+  if (reader.failed()) return fail(ErrorCode::truncated, "set_ids", "ends early");
+  std::vector<std::uint32_t> ids(header.vertex_count);
+  std::uint64_t entries = 0;
+  for (std::size_t v = 0; v < ids.size(); ++v) {
+    ids[v] = from_planes(planes, ids.size(), v);
+    if (ids[v] >= sets.size()) return fail(ErrorCode::out_of_range, "set_ids", "vertex " + std::to_string(v));
+    entries += sets[ids[v]].points.size();
+  }
+  if (entries != header.entry_count) {
+    return fail(ErrorCode::mismatch, "entry_count", "the sets hold " + std::to_string(entries));
+  }
+  return ids;
+}
+
+Status read_rows(byte_io::Reader& reader, const Header& header, const std::vector<InfluenceSet>& sets,
+                 const std::vector<std::uint32_t>& ids, WeightTable<float>& rows) {
+  std::size_t stored = 0;
+  for (const std::uint32_t id : ids) stored += sets[id].stored();
+  const auto planes = reader.take(stored * static_cast<std::size_t>(weight_planes(header.bits)));
+  if (reader.failed()) return fail(ErrorCode::truncated, "weights", "ends early");
+
+  const std::uint32_t total = (1U << static_cast<unsigned>(header.bits)) - 1U;
+  std::vector<std::vector<std::uint32_t>> last(sets.size());
+  rows.offsets.reserve(ids.size() + 1);
+  rows.points.reserve(header.entry_count);
+  rows.weights.reserve(header.entry_count);
+  for (std::size_t v = 0, at = 0; v < ids.size(); ++v) {
+    const InfluenceSet& set = sets[ids[v]];
+    auto& prediction = last[ids[v]];
+    prediction.resize(set.stored());
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < set.points.size(); ++i) {
+      std::uint32_t level = total - sum;
+      if (i < set.stored()) {
+        const std::uint32_t folded = from_planes(planes, stored, at++);
+        if (folded > total) return fail(ErrorCode::out_of_range, "weights", "vertex " + std::to_string(v));
+        level = prediction[i] = unfold(folded, prediction[i], header.bits);
+      }
+      sum += level;
+      if (set.unit_sum && sum > total) {
+        return fail(ErrorCode::out_of_range, "weights", "vertex " + std::to_string(v) + " sums to more than one");
+      }
+      rows.push(FeaturePointId(set.points[i]), static_cast<float>(level) / static_cast<float>(total));
+    }
+    rows.end_row();
+  }
+  return Unit{};
+}
+
+Status read_rigid(byte_io::Reader& reader, std::uint32_t vertex_count, std::vector<std::uint8_t>& rigid) {
+  rigid.reserve(vertex_count);
+  while (rigid.size() < vertex_count) {
+    const std::uint8_t motion = reader.u8();
+    const std::uint64_t run = reader.varint();
+    if (reader.failed()) return fail(ErrorCode::truncated, "rigid", "ends early");
+    if (motion >= rigid_motion_count) return fail(ErrorCode::out_of_range, "rigid", "unknown rigid motion");
+    if (run == 0 || run > vertex_count - rigid.size()) return fail(ErrorCode::out_of_range, "rigid", "length of a run");
+    rigid.insert(rigid.end(), run, motion);
+  }
+  return Unit{};
+}
+
+}  // namespace
+
+Result<InfluenceTable> decode_weights(std::span<const std::uint8_t> bytes) {
+  const auto header = read_header(bytes);
+  if (!header) return header.error();
+  const auto payload = inflate_payload(bytes.subspan(header_bytes), header->raw_bytes);
+  if (!payload) return payload.error();
+  byte_io::Reader reader(*payload);
+
+  const auto sets = read_dictionary(reader, header->set_count);
+  if (!sets) return sets.error();
+  const auto ids = read_set_ids(reader, *header, *sets);
+  if (!ids) return ids.error();
+
+  InfluenceTable table;
+  table.vertex_count = header->vertex_count;
+  std::copy_n(bytes.begin() + at_mesh_sha256, table.mesh_sha256.size(), table.mesh_sha256.begin());
+  if (const auto status = read_rows(reader, *header, *sets, *ids, table.rows); !status) return status.error();
+  if (const auto status = read_rigid(reader, header->vertex_count, table.rigid); !status) return status.error();
+  if (reader.remaining() != 0) return fail(ErrorCode::malformed, "payload", "bytes after the last field");
+  return table;
+}
+
+}  // namespace semblante

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <zlib.h>
+
+#include "core/types/rig.h"
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/weights_format.h"
+#include "protocol/cpp/weights_layout.h"
+
+namespace semblante {
+namespace {
+
+using namespace weights_layout;
+
+/// One entry of the dictionary: which points move a vertex, and whether its weights sum to one.
+struct InfluenceSet {
+  std::vector<FeaturePointId> points;
+  bool unit_sum = false;
+  auto operator<=>(const InfluenceSet&) const = default;
+};
+
+struct Quantized {
+  std::vector<std::uint32_t> levels;  ///< #entries, 0..2^bits-1
+  std::vector<bool> unit_sum;         ///< #V
+};
+
+bool sums_to_one(std::span<const float> row) {
+  return !row.empty() && std::abs(std::accumulate(row.begin(), row.end(), 0.0) - 1.0) <= 1e-5;
+}
+
+/// Largest remainder: whole parts first, then one more for those that lost most, so that the sum is `total` exactly.
+void quantize_unit_row(std::span<const float> row, std::uint32_t total, std::uint32_t* levels) {
+  const double scale = total / std::accumulate(row.begin(), row.end(), 0.0);
+  std::vector<std::pair<double, std::size_t>> remainders;
+  std::uint32_t given = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const double exact = static_cast<double>(row[i]) * scale;
+    levels[i] = std::min(static_cast<std::uint32_t>(exact), total - given);
+    given += levels[i];
+    remainders.emplace_back(exact - levels[i], i);
+  }
+  std::stable_sort(remainders.begin(), remainders.end(), [](auto& a, auto& b) { return a.first > b.first; });
+  for (std::size_t i = 0; given < total; i = (i + 1) % row.size(), ++given) ++levels[remainders[i].second];
+}
+
+Quantized quantize_rows(const WeightTable<float>& rows, int bits) {
+  const std::uint32_t total = (1U << static_cast<unsigned>(bits)) - 1U;
+  Quantized result;
+  result.levels.resize(rows.weights.size());
+  result.unit_sum.resize(rows.row_count());
+  for (std::size_t v = 0; v < rows.row_count(); ++v) {
+    const auto row = rows.weights_of(v);
+    std::uint32_t* levels = result.levels.data() + rows.offsets[v];
+    result.unit_sum[v] = sums_to_one(row);
+    if (result.unit_sum[v]) {
+      quantize_unit_row(row, total, levels);
+    } else {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        levels[i] = static_cast<std::uint32_t>(std::lround(static_cast<double>(row[i]) * total));
+      }
+    }
+  }
+  return result;
+}
+
+struct Dictionary {
+  std::vector<InfluenceSet> sets;  ///< most used first; ties by content, so that equal tables give equal bytes
+  std::vector<std::uint32_t> set_of_vertex;
+};
+
+Dictionary build_dictionary(const WeightTable<float>& rows, const std::vector<bool>& unit_sum) {
+  std::map<InfluenceSet, std::vector<std::uint32_t>> vertices_of;
+  for (std::size_t v = 0; v < rows.row_count(); ++v) {
+    const auto points = rows.points_of(v);
+    vertices_of[{{points.begin(), points.end()}, unit_sum[v]}].push_back(static_cast<std::uint32_t>(v));
+  }
+  std::vector<const std::pair<const InfluenceSet, std::vector<std::uint32_t>>*> order;
+  for (const auto& entry : vertices_of) order.push_back(&entry);
+  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->second.size() > b->second.size(); });
+
+  Dictionary result;
+  result.set_of_vertex.resize(rows.row_count());
+  for (const auto* entry : order) {
+    for (const std::uint32_t v : entry->second) {
+      result.set_of_vertex[v] = static_cast<std::uint32_t>(result.sets.size());
+    }
+    result.sets.push_back(entry->first);
+  }
+  return result;
+}
+
+void append_planes(std::vector<std::uint8_t>& to, std::span<const std::uint32_t> values, int planes) {
+  for (int plane = 0; plane < planes; ++plane) {
+    for (const std::uint32_t value : values) {
+      to.push_back(static_cast<std::uint8_t>(value >> (8U * static_cast<unsigned>(plane))));
+    }
+  }
+}
+
+/// A weight is foretold by that of the last vertex with the same set: neighbours in the mesh follow each other.
+std::vector<std::uint32_t> residuals(const WeightTable<float>& rows, const Quantized& quantized,
+                                     const Dictionary& dictionary, int bits) {
+  std::vector<std::vector<std::uint32_t>> last(dictionary.sets.size());
+  std::vector<std::uint32_t> result;
+  for (std::size_t v = 0; v < rows.row_count(); ++v) {
+    const std::size_t count = rows.points_of(v).size();
+    auto& prediction = last[dictionary.set_of_vertex[v]];
+    prediction.resize(count);
+    const std::uint32_t* levels = quantized.levels.data() + rows.offsets[v];
+    for (std::size_t i = 0; i < count - (quantized.unit_sum[v] ? 1 : 0); ++i) {
+      result.push_back(fold(levels[i], prediction[i], bits));
+      prediction[i] = levels[i];
+    }
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> build_payload(const InfluenceTable& table, const Quantized& quantized,
+                                        const Dictionary& dictionary, int bits) {
+  std::vector<std::uint8_t> payload;
+  for (const InfluenceSet& set : dictionary.sets) {
+    payload.push_back(static_cast<std::uint8_t>(set.points.size() | (set.unit_sum ? unit_sum_flag : 0U)));
+    for (const FeaturePointId point : set.points) payload.push_back(point.value());
+  }
+  append_planes(payload, dictionary.set_of_vertex, id_planes(static_cast<std::uint32_t>(dictionary.sets.size())));
+  append_planes(payload, residuals(table.rows, quantized, dictionary, bits), weight_planes(bits));
+  for (std::size_t v = 0; v < table.rigid.size();) {
+    std::size_t end = v + 1;
+    while (end < table.rigid.size() && table.rigid[end] == table.rigid[v]) ++end;
+    payload.push_back(table.rigid[v]);
+    byte_io::append_varint(payload, end - v);
+    v = end;
+  }
+  return payload;
+}
+
+void assert_consistent([[maybe_unused]] const InfluenceTable& table) {
+#ifndef NDEBUG
+  assert(table.vertex_count > 0 && table.vertex_count <= max_weights_vertices);
+  assert(table.rows.row_count() == table.vertex_count && table.rigid.size() == table.vertex_count);
+  assert(table.rows.points.size() == table.rows.weights.size() && table.rows.points.size() <= max_weights_entries);
+  for (std::size_t v = 0; v < table.vertex_count; ++v) {
+    const auto points = table.rows.points_of(v);
+    assert(std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end());
+    assert(points.empty() || points.back().value() < feature_point_count);
+    assert(table.rigid[v] < rigid_motion_count);
+  }
+  for (const float weight : table.rows.weights) assert(weight >= 0.0F && weight <= 1.0F);
+#endif
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const WeightsEncoding& encoding) {
+  assert(encoding.bits >= min_bits && encoding.bits <= max_bits);
+  assert_consistent(table);
+  const Quantized quantized = quantize_rows(table.rows, encoding.bits);
+  const Dictionary dictionary = build_dictionary(table.rows, quantized.unit_sum);
+  const std::vector<std::uint8_t> payload = build_payload(table, quantized, dictionary, encoding.bits);
+
+  std::vector<std::uint8_t> bytes(header_bytes + compressBound(payload.size()));
+  uLongf packed = bytes.size() - header_bytes;
+  const int status =
+      compress2(bytes.data() + header_bytes, &packed, payload.data(), payload.size(), Z_BEST_COMPRESSION);
+  if (status != Z_OK) std::abort();  // the buffer is compressBound() long: only out of memory is left
+  bytes.resize(header_bytes + packed);
+
+  std::memcpy(bytes.data(), magic, sizeof(magic));
+  byte_io::put_u16(&bytes[at_version], version);
+  bytes[at_bits] = static_cast<std::uint8_t>(encoding.bits);
+  byte_io::put_u32(&bytes[at_vertex_count], table.vertex_count);
+  byte_io::put_u32(&bytes[at_set_count], static_cast<std::uint32_t>(dictionary.sets.size()));
+  byte_io::put_u32(&bytes[at_entry_count], static_cast<std::uint32_t>(table.rows.points.size()));
+  byte_io::put_u32(&bytes[at_raw_bytes], static_cast<std::uint32_t>(payload.size()));
+  byte_io::put_u32(&bytes[at_packed_bytes], static_cast<std::uint32_t>(packed));
+  std::copy(table.mesh_sha256.begin(), table.mesh_sha256.end(), bytes.begin() + at_mesh_sha256);
+  byte_io::put_u32(&bytes[at_crc], static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size())));
+  return bytes;
+}
+
+double max_quantization_error(const InfluenceTable& table, const InfluenceTable& decoded) {
+  assert(table.rows.points == decoded.rows.points && table.rows.offsets == decoded.rows.offsets);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < table.rows.weights.size(); ++i) {
+    worst = std::max(worst, std::abs(static_cast<double>(table.rows.weights[i]) - decoded.rows.weights[i]));
+  }
+  return worst;
+}
+
+}  // namespace semblante

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// What the encoder and the decoder of the `weights` artefact must agree on: SPEC.md, "The weights artefact".
+namespace semblante::weights_layout {
+
+inline constexpr std::uint8_t magic[4] = {'S', 'B', 'W', 'T'};
+inline constexpr std::uint16_t version = 1;
+inline constexpr int min_bits = 8;
+inline constexpr int max_bits = 16;
+
+// Offsets into the header, all little-endian.
+inline constexpr std::size_t at_version = 4;
+inline constexpr std::size_t at_bits = 6;
+inline constexpr std::size_t at_reserved = 7;
+inline constexpr std::size_t at_crc = 8;
+inline constexpr std::size_t at_vertex_count = 12;
+inline constexpr std::size_t at_set_count = 16;
+inline constexpr std::size_t at_entry_count = 20;
+inline constexpr std::size_t at_raw_bytes = 24;
+inline constexpr std::size_t at_packed_bytes = 28;
+inline constexpr std::size_t at_mesh_sha256 = 32;
+inline constexpr std::size_t header_bytes = 64;
+
+/// Top bit of a set's first byte: the weights of its vertices sum to exactly one, so that the last is not stored.
+inline constexpr std::uint8_t unit_sum_flag = 0x80;
+
+/// Bytes that one set id takes, stored as planes: the low bytes of all vertices, then the next, ...
+constexpr int id_planes(std::uint32_t set_count) { return set_count <= 0x100U ? 1 : set_count <= 0x10000U ? 2 : 3; }
+inline constexpr std::uint32_t max_set_count = 1U << 24U;
+
+/// Bytes that one weight residual takes, stored as planes likewise.
+constexpr int weight_planes(int bits) { return bits <= 8 ? 1 : 2; }
+
+/// Differences wrap modulo 2^bits, so that they too have `bits` bits; small ones of either sign become small numbers.
+constexpr std::uint32_t fold(std::uint32_t value, std::uint32_t prediction, int bits) {
+  const std::uint32_t mask = (1U << static_cast<unsigned>(bits)) - 1U;
+  const std::uint32_t difference = (value - prediction) & mask;
+  const bool negative = (difference >> static_cast<unsigned>(bits - 1)) != 0U;
+  return negative ? 2U * (mask - difference) + 1U : 2U * difference;
+}
+constexpr std::uint32_t unfold(std::uint32_t folded, std::uint32_t prediction, int bits) {
+  const std::uint32_t mask = (1U << static_cast<unsigned>(bits)) - 1U;
+  const std::uint32_t half = folded >> 1U;
+  const std::uint32_t difference = (folded & 1U) != 0U ? mask - half : half;
+  return (prediction + difference) & mask;
+}
+
+}  // namespace semblante::weights_layout
