@@ -1,0 +1,28 @@
+// semblante-codegen-expressions SOURCE_DIR: writes the displacement sets from core/expressions/data.
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "core/expressions/generate/render.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: semblante-codegen-expressions SOURCE_DIR\n", stderr);
+    return 2;
+  }
+  try {
+    const std::string root = argv[1];
+    const auto sets = semblante::expressions::read_sets(root + "/core/expressions/data");
+    const std::string path = root + "/core/expressions/generated/displacement_sets.h";
+    std::ofstream file(path, std::ios::binary);
+    file << semblante::expressions::render_header(sets);
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path);
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "semblante-codegen-expressions: %s\n", fault.what());
+    return 1;
+  }
+  return 0;
+}

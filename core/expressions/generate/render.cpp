@@ -1,0 +1,139 @@
+#include "core/expressions/generate/render.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "core/tables/mpeg4.h"
+
+namespace semblante::expressions {
+namespace {
+
+using json = nlohmann::ordered_json;
+using Displacements = std::map<FeaturePointId, Vec3>;
+
+json read_json(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  try {
+    return json::parse(file);
+  } catch (const json::exception& fault) {
+    throw std::runtime_error(path + ": " + fault.what());
+  }
+}
+
+FeaturePointId mirror_of(FeaturePointId point) { return FeaturePointId(mpeg4::feature_points[point.value()].mirror); }
+
+/// "2.4": [x, y, z] of a left or middle point; the right side mirrors the left unless it is given too.
+Displacements read_displacements(const json& source) {
+  Displacements result;
+  for (const auto& [key, value] : source.items()) {
+    const auto point = parse_feature_point(key);
+    if (!point) throw std::runtime_error("no feature point " + key);
+    result[*point] = value.get<Vec3>();
+  }
+  const Displacements given = result;
+  for (const auto& [point, d] : given) result.insert({mirror_of(point), Vec3{-d[0], d[1], d[2]}});
+  return result;
+}
+
+void add(Displacements& to, const Displacements& what, double amount) {
+  for (const auto& [point, d] : what) {
+    Vec3& sum = to.insert({point, Vec3{}}).first->second;
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += amount * d[i];
+  }
+}
+
+std::map<std::string, Displacements> read_actions(const std::string& path) {
+  std::map<std::string, Displacements> actions;
+  const json file = read_json(path);
+  for (const json& action : file.at("actions")) {
+    const std::string name = action.at("name");
+    if (!actions.insert({name, read_displacements(action.at("displacements"))}).second) {
+      throw std::runtime_error(path + ": action " + name + " twice");
+    }
+  }
+  return actions;
+}
+
+NamedSet read_set(const json& entry, const std::map<std::string, Displacements>& actions) {
+  NamedSet set{entry.at("name"), {}};
+  const json amounts = entry.value("actions", json::object());
+  for (const auto& [name, amount] : amounts.items()) {
+    const auto action = actions.find(name);
+    if (action == actions.end()) throw std::runtime_error(set.name + ": no action " + name);
+    add(set.displacements, action->second, amount.get<double>());
+  }
+  add(set.displacements, read_displacements(entry.value("displacements", json::object())), 1.0);
+  // Whole units are fine enough (a unit is about 0.02 mm), and keep the table readable.
+  for (auto& [point, d] : set.displacements) {
+    for (double& component : d) component = std::round(component) + 0.0;  // + 0.0: no negative zero
+  }
+  std::erase_if(set.displacements, [](const auto& item) { return item.second == Vec3{}; });
+  return set;
+}
+
+template <class Infos>
+std::vector<NamedSet> read_list(const std::string& path, const char* key, const Infos& infos,
+                                const std::map<std::string, Displacements>& actions) {
+  std::vector<NamedSet> sets;
+  const json file = read_json(path);
+  try {
+    for (const json& entry : file.at(key)) {
+      sets.push_back(read_set(entry, actions));
+      if (sets.size() > infos.size() || sets.back().name != infos[sets.size() - 1].name) {
+        throw std::runtime_error("entry " + std::to_string(sets.size() - 1) + " is out of order");
+      }
+    }
+  } catch (const std::exception& fault) {
+    throw std::runtime_error(path + ": " + fault.what());
+  }
+  if (sets.size() != infos.size()) throw std::runtime_error(path + ": entries are missing");
+  return sets;
+}
+
+}  // namespace
+
+Sets read_sets(const std::string& data_folder) {
+  const auto actions = read_actions(data_folder + "/actions.json");
+  return {read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions),
+          read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions)};
+}
+
+std::string render_header(const Sets& sets) {
+  std::ostringstream entries;
+  std::ostringstream tables;
+  std::size_t count = 0;
+  const auto table = [&](const char* name, const std::vector<NamedSet>& list) {
+    tables << "inline constexpr std::array<Set, " << list.size() << "> " << name << " = {{\n";
+    for (const NamedSet& set : list) {
+      tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size() << "},\n";
+      entries << "    // " << set.name << "\n";
+      for (const auto& [point, d] : set.displacements) {
+        entries << "    {" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
+                << "},  // " << to_string(point) << "\n";
+      }
+      count += set.displacements.size();
+    }
+    tables << "}};\n\n";
+  };
+  table("visemes", sets.visemes);
+  table("expressions", sets.expressions);
+
+  std::ostringstream out;
+  out << "// Generated from core/expressions/data by semblante-codegen-expressions; change the data, not this.\n"
+      << "// clang-format off\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n"
+      << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
+      << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  float x, y, z;      ///< FAPU units\n};\n\n"
+      << "/// displacements[first] .. displacements[first + count - 1]\n"
+      << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n};\n\n"
+      << "inline constexpr std::array<Entry, " << count << "> displacements = {{\n"
+      << entries.str() << "}};\n\n"
+      << tables.str() << "}  // namespace semblante::generated\n";
+  return out.str();
+}
+
+}  // namespace semblante::expressions

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/types/feature_point_id.h"
+
+namespace semblante::expressions {
+
+using Vec3 = std::array<double, 3>;
+
+/// A set as authored, resolved: actions summed, sides mirrored. FAPU units.
+struct NamedSet {
+  std::string name;
+  std::map<FeaturePointId, Vec3> displacements;
+};
+
+struct Sets {
+  std::vector<NamedSet> visemes;
+  std::vector<NamedSet> expressions;  ///< entry 0 is "none"
+};
+
+/// Reads actions.json, visemes.json and expressions.json. Throws std::exception naming file and entry on any fault:
+/// this runs at development time only.
+Sets read_sets(const std::string& data_folder);
+
+/// core/expressions/generated/displacement_sets.h
+std::string render_header(const Sets& sets);
+
+}  // namespace semblante::expressions

@@ -1,0 +1,62 @@
+#include "core/expressions/kernel_rig.h"
+
+#include <type_traits>
+
+namespace semblante {
+namespace {
+
+static_assert(SEMBLANTE_FP_COUNT == feature_point_count && SEMBLANTE_FAPU_COUNT == fapu_unit_count);
+static_assert(static_cast<int>(RigidMotion::left_eye) == SEMBLANTE_RIGID_LEFT_EYE);
+static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_EYE);
+// The kernel reads our strong ids and enums as the bytes they are.
+static_assert(sizeof(FeaturePointId) == 1 && std::is_standard_layout_v<FeaturePointId>);
+static_assert(sizeof(RigidMotion) == 1);
+
+std::vector<float> dense(std::span<const DisplacementSet> sets, const Fapu& fapu) {
+  std::vector<float> table;
+  table.reserve(sets.size() * feature_point_count * 3);
+  for (const DisplacementSet& set : sets) {
+    const auto row = to_dense(to_model_units(set, fapu).displacements);
+    table.insert(table.end(), row.begin(), row.end());
+  }
+  return table;
+}
+
+}  // namespace
+
+semblante_rig KernelRig::view() const {
+  semblante_rig rig = fixed;
+  rig.viseme = visemes.data();
+  rig.expression = expressions.data();
+  return rig;
+}
+
+KernelRig make_kernel_rig(const Rig& rig) {
+  KernelRig result;
+  result.visemes = dense(viseme_library(), rig.fapu);
+  result.expressions = dense(expression_library(), rig.fapu);
+  for (std::size_t i = 0; i < fapu_unit_count; ++i) {
+    result.fixed.fapu[i] = static_cast<float>(rig.fapu.value[i].value_or(0.0));
+  }
+  for (int i = 0; i < 3; ++i) {
+    result.fixed.eye_pivot[0][i] = rig.left_eye_pivot[i];
+    result.fixed.eye_pivot[1][i] = rig.right_eye_pivot[i];
+    result.fixed.head_pivot[i] = rig.head_pivot[i];
+  }
+  result.fixed.viseme_share = default_viseme_share;
+  return result;
+}
+
+semblante_face make_kernel_face(const Rig& rig, const float* rest) {
+  semblante_face face{};
+  face.vertex_count = static_cast<std::uint32_t>(rig.influence.row_count());
+  face.rest = rest;
+  face.row_offsets = rig.influence.offsets.data();
+  face.row_points = reinterpret_cast<const std::uint8_t*>(rig.influence.points.data());
+  face.row_weights = rig.influence.weights.data();
+  face.rigid =
+      rig.rigid_of_vertex.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(rig.rigid_of_vertex.data());
+  return face;
+}
+
+}  // namespace semblante

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/types/fapu.h"
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+struct Displacement {
+  FeaturePointId point;
+  glm::vec3 value;  ///< in what unit, the owner says
+};
+
+/// A viseme or an expression for any head: how far each FP moves, per axis in units of that FP's and axis' FAPU
+/// (fapu_of below). Points rise; none is all zero.
+struct DisplacementSet {
+  std::string_view name;
+  std::span<const Displacement> displacements;
+};
+
+/// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Lives as long as the
+/// program.
+std::span<const DisplacementSet> viseme_library();
+/// The expressions of FAP 2, by number: none joy sadness anger fear disgust surprise. Lives as long as the program.
+std::span<const DisplacementSet> expression_library();
+
+/// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it so, else that of its region
+/// (algorithm.md, displacement sets).
+FapuUnit fapu_of(FeaturePointId point, int axis);
+
+/// A displacement that a head cannot have, because the unit it is measured in is not known there.
+struct MissingUnit {
+  FeaturePointId point;
+  FapuUnit unit;
+};
+
+/// A displacement set on one head.
+struct ModelDisplacements {
+  std::vector<Displacement> displacements;  ///< model units
+  std::vector<MissingUnit> skipped;         ///< FPs left out whole, each with the first unit that is missing
+};
+
+/// The set in model units of a head. An FP with a non-zero component in an unknown FAPU is left out and reported.
+ModelDisplacements to_model_units(const DisplacementSet& set, const Fapu& fapu);
+
+/// 84 by 3 floats, zero where the set says nothing: what the kernel reads.
+std::array<float, feature_point_count * 3> to_dense(std::span<const Displacement> displacements);
+
+}  // namespace semblante
