@@ -1,0 +1,57 @@
+#include "clients/native/render/eyeballs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace semblante::render {
+
+Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+                       const std::vector<bool>& is_eye) {
+  Eyeballs eyeballs;
+  eyeballs.place.assign(positions.size(), glm::vec4(0.0F));
+  // Shells of one eye (sclera, cornea) need not be joined by edges, so the two eyes are told apart by side: of the
+  // middle between the outermost eye vertices, which also holds for a head that does not stand at x = 0.
+  Box both;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (is_eye[t]) {
+      for (const std::uint32_t v : triangles[t]) {
+        both.add(positions[v]);
+      }
+    }
+  }
+  if (both.empty()) {
+    return eyeballs;
+  }
+  const float middle = both.centre().x;
+  std::array<Box, 2> boxes;
+  const auto side_of = [&](const Triangle& triangle) {
+    const float x = (positions[triangle[0]].x + positions[triangle[1]].x + positions[triangle[2]].x) / 3.0F;
+    return x >= middle ? std::size_t{0} : std::size_t{1};
+  };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (is_eye[t]) {
+      for (const std::uint32_t v : triangles[t]) {
+        boxes[side_of(triangles[t])].add(positions[v]);
+      }
+    }
+  }
+  if (boxes[0].empty() || boxes[1].empty() || boxes[0].min.x <= boxes[1].max.x) {
+    return eyeballs;  // one eye, or something that is no pair of eyes
+  }
+  eyeballs.pair = boxes;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!is_eye[t]) {
+      continue;
+    }
+    const Box& box = boxes[side_of(triangles[t])];
+    const float radius = std::max(box.size().x, box.size().y) / 2;
+    // From the front: many eyeballs are only the half that shows.
+    const glm::vec3 centre(box.centre().x, box.centre().y, box.max.z - radius);
+    for (const std::uint32_t v : triangles[t]) {
+      eyeballs.place[v] = glm::vec4((positions[v] - centre) / std::max(radius, 1e-20F), 1.0F);
+    }
+  }
+  return eyeballs;
+}
+
+}  // namespace semblante::render

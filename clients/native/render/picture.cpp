@@ -1,0 +1,61 @@
+#include "clients/native/render/picture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <fstream>
+
+#include <stb/stb_image_write.h>
+
+namespace semblante::render {
+
+Picture::Picture(int w, int h, Rgb fill) : width(w), height(h), rgb(static_cast<std::size_t>(w) * h * 3) {
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    rgb[i] = fill[i % 3];
+  }
+}
+
+void Picture::paste(const Picture& other, int x, int y) {
+  const int left = std::max(0, x);
+  const int right = std::min(width, x + other.width);
+  if (left >= right) {
+    return;
+  }
+  for (int row = std::max(0, y); row < std::min(height, y + other.height); ++row) {
+    const auto from = other.rgb.begin() + (static_cast<std::ptrdiff_t>(row - y) * other.width + (left - x)) * 3;
+    std::copy_n(from, (right - left) * 3, rgb.begin() + (static_cast<std::ptrdiff_t>(row) * width + left) * 3);
+  }
+}
+
+std::vector<std::uint8_t> encode_png(const Picture& picture) {
+  std::vector<std::uint8_t> bytes;
+  const auto append = [](void* context, void* data, int size) {
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    static_cast<std::vector<std::uint8_t>*>(context)->insert(static_cast<std::vector<std::uint8_t>*>(context)->end(),
+                                                             first, first + size);
+  };
+  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), picture.width * 3);
+  return bytes;
+}
+
+Status write_png(const Picture& picture, const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = encode_png(picture);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (bytes.empty() || !file) {
+    return Error{ErrorCode::io, path.string(), "could not write the picture"};
+  }
+  return Unit{};
+}
+
+double mean_difference(const Picture& a, const Picture& b) {
+  assert(a.rgb.size() == b.rgb.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    sum += std::abs(int{a.rgb[i]} - int{b.rgb[i]});
+  }
+  return a.rgb.empty() ? 0 : sum / static_cast<double>(a.rgb.size());
+}
+
+}  // namespace semblante::render

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "clients/native/render/camera.h"
+#include "clients/native/render/look.h"
+#include "clients/native/render/smooth_normals.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+
+namespace semblante::render {
+
+/// A decoded image: rows from the top, four bytes a pixel, sRGB and straight alpha.
+struct Texture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// Triangles drawn with one look.
+struct Run {
+  Look look;
+  int texture = -1;  ///< index into Scene::textures
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+};
+
+/// A model laid out for drawing: one vertex for each (file vertex, uv) pair.
+struct Scene {
+  std::vector<glm::vec3> rest;             ///< #V: file vertices of the neutral head
+  std::vector<std::uint32_t> file_vertex;  ///< #R: where a drawn vertex takes position and normal from
+  std::vector<glm::vec2> uvs;              ///< #R
+  std::vector<glm::vec4> eye;              ///< #R: Eyeballs::place
+  std::vector<Triangle> triangles;         ///< #T, drawn vertices
+  std::vector<Run> runs;
+  std::vector<Texture> textures;
+  SmoothNormals normals;
+  Subjects subjects;
+  std::vector<std::string> warnings;  ///< pictures that could not be decoded
+};
+
+struct SceneOptions {
+  std::span<const FeaturePoint> points;      ///< for the close-ups; may be empty
+  std::span<const PartRole> role_of_vertex;  ///< #V or empty: tells eyes and teeth of a nameless model
+};
+
+/// Errors: empty (no triangles), out_of_range (an index beyond its array), not_finite (a position).
+Result<Scene> build_scene(const Model& model, const SceneOptions& options = {});
+
+}  // namespace semblante::render
