@@ -1,0 +1,117 @@
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "protocol/cpp/rig_document.h"
+
+namespace semblante {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The double with the fewest digits that is this float again: 0.1F is written 0.1, not 0.10000000149011612.
+double shortest(float value) {
+  char digits[32];
+  const auto [end, status] = std::to_chars(std::begin(digits), std::end(digits), value);
+  double result = 0.0;
+  std::from_chars(std::begin(digits), end, result);
+  return status == std::errc() ? result : static_cast<double>(value);
+}
+
+ordered_json vector_of(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value.has_value() ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json hash_or_null(const std::optional<Sha256>& hash) {
+  return hash.has_value() ? ordered_json(to_hex(*hash)) : ordered_json(nullptr);
+}
+
+template <std::size_t N>
+ordered_json sets_of(const std::array<RigDocument::DisplacementSet, N>& sets) {
+  ordered_json result = ordered_json::array();
+  for (const auto& set : sets) {
+    ordered_json displacements = ordered_json::object();
+    for (const auto& displacement : set.displacements)
+      displacements[to_string(displacement.id)] = vector_of(displacement.by);
+    result.push_back({{"name", set.name}, {"displacements", std::move(displacements)}});
+  }
+  return result;
+}
+
+ordered_json material_of(const RigDocument::MaterialInfo& material) {
+  static constexpr std::array<const char*, 3> alpha_modes = {"opaque", "mask", "blend"};
+  return {{"name", material.name},
+          {"base_color",
+           {shortest(material.base_color.x), shortest(material.base_color.y), shortest(material.base_color.z),
+            shortest(material.base_color.w)}},
+          {"metallic", shortest(material.metallic)},
+          {"roughness", shortest(material.roughness)},
+          {"alpha_mode", alpha_modes[static_cast<std::size_t>(material.alpha_mode)]},
+          {"alpha_cutoff", shortest(material.alpha_cutoff)},
+          {"double_sided", material.double_sided},
+          {"base_color_image", hash_or_null(material.base_color_image)},
+          {"normal_image", hash_or_null(material.normal_image)}};
+}
+
+}  // namespace
+
+std::string write_rig(const RigDocument& rig) {
+  ordered_json json;
+  json["format"] = "semblante.rig";
+  json["version"] = 1;
+  json["name"] = rig.name;
+  const auto& attributes = rig.mesh.attributes;
+  json["mesh"] = {{"sha256", to_hex(rig.mesh.sha256)},
+                  {"vertices", rig.mesh.vertices},
+                  {"triangles", rig.mesh.triangles},
+                  {"bytes", rig.mesh.bytes},
+                  {"attributes",
+                   {{"position", or_null(attributes.position)},
+                    {"normal", or_null(attributes.normal)},
+                    {"uv", or_null(attributes.uv)},
+                    {"material", or_null(attributes.material)},
+                    {"file_vertex", or_null(attributes.file_vertex)}}}};
+  json["weights"] = {{"sha256", to_hex(rig.weights.sha256)},
+                     {"bytes", rig.weights.bytes},
+                     {"bits", rig.weights.bits},
+                     {"max_influences", rig.weights.max_influences},
+                     {"mean_influences", rig.weights.mean_influences},
+                     {"max_error", rig.weights.max_error}};
+  json["fapu"] = ordered_json::object();
+  for (std::size_t i = 0; i < fapu_unit_count; ++i) {
+    json["fapu"][std::string(fapu_unit_names[i])] = or_null(rig.fapu.value[i]);
+  }
+  json["feature_points"] = ordered_json::array();
+  for (const auto& point : rig.feature_points) {
+    json["feature_points"].push_back(
+        {{"id", to_string(point.id)}, {"vertex", or_null(point.vertex)}, {"position", vector_of(point.position)}});
+  }
+  json["eye_pivots"] = {vector_of(rig.eye_pivots[0]), vector_of(rig.eye_pivots[1])};
+  json["head_pivot"] = vector_of(rig.head_pivot);
+  json["parts"] = ordered_json::array();
+  for (const auto& part : rig.parts) {
+    json["parts"].push_back({{"name", part.name},
+                             {"role", part_role_names[static_cast<std::size_t>(part.role)]},
+                             {"vertices", part.vertices},
+                             {"triangles", part.triangles}});
+  }
+  json["viseme_share"] = rig.viseme_share;
+  json["visemes"] = sets_of(rig.visemes);
+  json["expressions"] = sets_of(rig.expressions);
+  json["bounds"] = {{"min", vector_of(rig.bounds_min)}, {"max", vector_of(rig.bounds_max)}};
+  json["materials"] = ordered_json::array();
+  for (const auto& material : rig.materials) json["materials"].push_back(material_of(material));
+  json["images"] = ordered_json::array();
+  for (const auto& image : rig.images) {
+    json["images"].push_back(
+        {{"sha256", to_hex(image.sha256)}, {"mime_type", image.mime_type}, {"bytes", image.bytes}});
+  }
+  json["warnings"] = rig.warnings;
+  // Names come from model files: bytes that are not UTF-8 are replaced rather than refused.
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace semblante

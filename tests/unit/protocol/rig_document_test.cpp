@@ -1,0 +1,142 @@
+#include "protocol/cpp/rig_document.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace semblante {
+namespace {
+
+using nlohmann::json;
+
+FeaturePointId point(std::string_view id) { return *parse_feature_point(id); }
+
+RigDocument sample() {
+  RigDocument rig;
+  rig.name = "A \"head\" / of Zoë";
+  rig.mesh = {parse_sha256(std::string(64, 'a')).value(), 100, 180, 5000, {0, 1, 2, std::nullopt, 4}};
+  rig.weights = {parse_sha256(std::string(64, '1')).value(), 900, 12, 7, 4.5, 0.0001};
+  rig.fapu.value = {0.01, 0.06, 0.04, std::nullopt, 0.05};
+  rig.feature_points = {{point("2.1"), 99, {0.1F, -0.2F, 0.3F}}, {point("7.1"), std::nullopt, {0.0F, 1e-7F, -3.0F}}};
+  rig.eye_pivots = {glm::vec3(0.3F, 0.0F, 0.0F), glm::vec3(-0.3F, 0.0F, 0.0F)};
+  rig.head_pivot = {0.0F, -1.0F, -0.5F};
+  rig.parts = {{"skin", PartRole::skin, 90, 170}, {"", PartRole::left_eye, 10, 10}};
+  rig.visemes[0].name = "sil";
+  for (std::size_t i = 1; i < rig.visemes.size(); ++i) {
+    rig.visemes[i] = {std::to_string(i) + " viseme", {{point("2.2"), {0.0F, 0.1F, 0.0F}}, {point("8.10"), {1, 2, 3}}}};
+  }
+  rig.expressions[0].name = "none";
+  for (std::size_t i = 1; i < rig.expressions.size(); ++i) rig.expressions[i].name = std::to_string(i) + "e";
+  rig.bounds_min = {-1, -1, -1};
+  rig.bounds_max = {1, 1, 1};
+  RigDocument::MaterialInfo material;
+  material.name = "skin";
+  material.base_color = {0.8F, 0.6F, 0.5F, 1.0F};
+  material.alpha_mode = RigDocument::MaterialInfo::AlphaMode::mask;
+  material.base_color_image = parse_sha256(std::string(64, 'f'));
+  rig.materials = {material};
+  rig.images = {{parse_sha256(std::string(64, 'f')).value(), "image/png", 12345}};
+  rig.warnings = {"8.1 is not marked"};
+  return rig;
+}
+
+TEST(RigDocument, Read_NotJson_IsRefused) {
+  for (const char* text : {"", "{", "[]", "null", "{\"format\":", "\xff\xfe"}) {
+    const auto result = read_rig(text);
+    ASSERT_FALSE(result.ok()) << text;
+    EXPECT_EQ(result.error().code, ErrorCode::malformed) << text;
+  }
+}
+
+TEST(RigDocument, Read_InvalidMembers_AreNamedByTheirPointer) {
+  const json good = json::parse(write_rig(sample()));
+  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
+    json changed = good;
+    change(changed);
+    const auto result = read_rig(changed.dump());
+    ASSERT_FALSE(result.ok()) << pointer;
+    EXPECT_EQ(result.error().where, pointer) << result.error().message;
+    EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
+  };
+  refused("/format", ErrorCode::malformed, [](json& j) { j["format"] = "other"; });
+  refused("/version", ErrorCode::unsupported, [](json& j) { j["version"] = 2; });
+  refused("/name", ErrorCode::malformed, [](json& j) { j["name"] = 3; });
+  refused("/mesh", ErrorCode::missing, [](json& j) { j.erase("mesh"); });
+  refused("/mesh", ErrorCode::malformed, [](json& j) { j["mesh"] = 1; });
+  refused("/mesh/sha256", ErrorCode::malformed, [](json& j) { j["mesh"]["sha256"] = "abc"; });
+  refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 0; });
+  refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 4000001; });
+  refused("/mesh/vertices", ErrorCode::malformed, [](json& j) { j["mesh"]["vertices"] = 1.5; });
+  refused("/mesh/triangles", ErrorCode::out_of_range, [](json& j) { j["mesh"]["triangles"] = -1; });
+  refused("/mesh/attributes/position", ErrorCode::missing,
+          [](json& j) { j["mesh"]["attributes"]["position"] = nullptr; });
+  refused("/weights/bits", ErrorCode::out_of_range, [](json& j) { j["weights"]["bits"] = 17; });
+  refused("/fapu/MW", ErrorCode::malformed, [](json& j) { j["fapu"]["MW"] = "wide"; });
+  refused("/feature_points/0/vertex", ErrorCode::out_of_range, [](json& j) { j["feature_points"][0]["vertex"] = 100; });
+  refused("/feature_points/0/id", ErrorCode::invalid_argument, [](json& j) { j["feature_points"][0]["id"] = "2.99"; });
+  refused("/feature_points/1/id", ErrorCode::malformed, [](json& j) { j["feature_points"][1]["id"] = "2.1"; });
+  refused("/feature_points/0/position", ErrorCode::out_of_range, [](json& j) {
+    j["feature_points"][0]["position"] = {1, 2};
+  });
+  refused("/feature_points/0/position/2", ErrorCode::out_of_range,
+          [](json& j) { j["feature_points"][0]["position"][2] = 1e300; });
+  refused("/parts/1/role", ErrorCode::invalid_argument, [](json& j) { j["parts"][1]["role"] = "hat"; });
+  refused("/viseme_share", ErrorCode::out_of_range, [](json& j) { j["viseme_share"] = 1.5; });
+  refused("/visemes", ErrorCode::out_of_range, [](json& j) { j["visemes"].erase(0); });
+  refused("/visemes/3/displacements/99.1", ErrorCode::invalid_argument, [](json& j) {
+    j["visemes"][3]["displacements"]["99.1"] = {0, 0, 0};
+  });
+  refused("/expressions/6/displacements/2.1/0", ErrorCode::malformed, [](json& j) {
+    j["expressions"][6]["displacements"]["2.1"] = {"x", 0, 0};
+  });
+  refused("/materials", ErrorCode::out_of_range, [](json& j) { j["materials"] = json::array(); });
+  refused("/materials/0/double_sided", ErrorCode::malformed, [](json& j) { j["materials"][0]["double_sided"] = 1; });
+  refused("/images/0/sha256", ErrorCode::malformed, [](json& j) { j["images"][0]["sha256"] = std::string(64, 'g'); });
+  refused("/warnings/0", ErrorCode::malformed, [](json& j) { j["warnings"][0] = 1; });
+  const auto infinite = read_rig(R"({"format":1e999})");
+  ASSERT_FALSE(infinite.ok());
+  EXPECT_EQ(infinite.error().code, ErrorCode::not_finite);
+}
+
+TEST(RigDocument, Read_EveryMemberRemoved_IsRefusedByName) {
+  const json good = json::parse(write_rig(sample()));
+  for (const auto& [name, value] : good.items()) {
+    json changed = good;
+    changed.erase(name);
+    const auto result = read_rig(changed.dump());
+    ASSERT_FALSE(result.ok()) << name;
+    EXPECT_EQ(result.error().code, ErrorCode::missing);
+    EXPECT_EQ(result.error().where, std::string("/").append(name));
+  }
+}
+
+TEST(RigDocument, RoundTrip_GivesTheSameText) {
+  const std::string text = write_rig(sample());
+  const auto rig = read_rig(text);
+  ASSERT_TRUE(rig.ok()) << rig.error().where << " " << rig.error().message;
+  EXPECT_EQ(write_rig(*rig), text);
+  EXPECT_EQ(rig->feature_points[1].position, sample().feature_points[1].position);
+  EXPECT_EQ(rig->visemes[3].displacements[1].by, glm::vec3(1, 2, 3));
+}
+
+TEST(RigDocument, Read_UnknownMembers_AreSkipped) {
+  json changed = json::parse(write_rig(sample()));
+  changed["levels_of_detail"] = {1, 2};
+  changed["mesh"]["later"] = "x";
+  EXPECT_TRUE(read_rig(changed.dump()).ok());
+}
+
+TEST(RigDocument, Write_Floats_HaveTheirShortestDigits) {
+  const std::string text = write_rig(sample());
+  EXPECT_NE(text.find(R"("position":[0.1,-0.2,0.3])"), std::string::npos) << text;
+}
+
+TEST(RigDocument, Write_NameThatIsNotUtf8_StillGivesJson) {
+  RigDocument rig = sample();
+  rig.name = "\xff\xfe";
+  EXPECT_TRUE(read_rig(write_rig(rig)).ok());
+}
+
+}  // namespace
+}  // namespace semblante
