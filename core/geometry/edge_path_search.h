@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/surface.h"
+
+namespace semblante {
+
+/// Surface distance along mesh edges (algorithm.md section 1): one search gives the distances from one vertex to every
+/// other. Keeps its arrays between searches, so that 84 of them allocate once.
+class EdgePathSearch {
+ public:
+  explicit EdgePathSearch(const Surface& surface);  ///< keeps a reference
+
+  /// #S distances from `source`; infinite where no edges lead. Valid until the next call.
+  ///
+  /// The value is the least, over all paths, of the lengths added up from `source` on in double: it does not depend on
+  /// the order of vertices or edges.
+  std::span<const double> from(SurfaceVertexId source) { return from(std::span(&source, 1)); }
+
+  /// The same from the nearest of several sources; they may lie on different parts. None: all infinite.
+  std::span<const double> from(std::span<const SurfaceVertexId> sources);
+
+ private:
+  struct Entry {
+    double distance;
+    std::uint32_t vertex;
+  };
+  void push(Entry entry);
+  Entry pop();
+
+  const Surface& surface_;
+  std::vector<double> distances_;
+  std::vector<Entry> heap_;
+  std::vector<PartId> touched_;  ///< the parts whose distances are not infinite
+};
+
+}  // namespace semblante

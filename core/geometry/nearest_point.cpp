@@ -1,0 +1,63 @@
+#include "core/geometry/nearest_point.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace semblante {
+
+NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {
+  assert(!points.empty());
+  nodes_.reserve(points.size());
+  for (const glm::dvec3& p : points) nodes_.push_back({p, static_cast<std::uint32_t>(nodes_.size())});
+  build(0, nodes_.size(), 0);
+}
+
+void NearestPoint::build(std::size_t first, std::size_t last, int axis) {
+  if (last - first <= 1) return;
+  const std::size_t middle = first + (last - first) / 2;
+  const auto at = [&](std::size_t i) { return nodes_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(first), at(middle), at(last),
+                   [axis](const Node& a, const Node& b) { return a.position[axis] < b.position[axis]; });
+  build(first, middle, (axis + 1) % 3);
+  build(middle + 1, last, (axis + 1) % 3);
+}
+
+void NearestPoint::search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
+                          double& squared) const {
+  if (first >= last) return;
+  const std::size_t middle = first + (last - first) / 2;
+  const Node& node = nodes_[middle];
+  const glm::dvec3 away = node.position - to;
+  const double here = glm::dot(away, away);
+  if (here < squared || (here == squared && node.index < index)) {
+    squared = here;
+    index = node.index;
+  }
+  const double beyond = to[axis] - node.position[axis];
+  const int next = (axis + 1) % 3;
+  const bool low_first = beyond < 0.0;
+  if (low_first) {
+    search(first, middle, next, to, index, squared);
+  } else {
+    search(middle + 1, last, next, to, index, squared);
+  }
+  if (beyond * beyond > squared) return;  // equal distances are looked at: the lowest index wins
+  if (low_first) {
+    search(middle + 1, last, next, to, index, squared);
+  } else {
+    search(first, middle, next, to, index, squared);
+  }
+}
+
+NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
+  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+  double squared = std::numeric_limits<double>::infinity();
+  search(0, nodes_.size(), 0, to, index, squared);
+  return {index, std::sqrt(squared)};
+}
+
+}  // namespace semblante

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace semblante {
+
+/// Answers "which of these points is nearest" for many queries: a balanced k-d tree over a copy of the points.
+class NearestPoint {
+ public:
+  struct Hit {
+    std::uint32_t index;  ///< into the points given; of points at equal distance the lowest
+    double distance;
+  };
+
+  /// `points` must not be empty.
+  explicit NearestPoint(std::span<const glm::dvec3> points);
+
+  [[nodiscard]] Hit nearest(const glm::dvec3& to) const;
+
+ private:
+  struct Node {
+    glm::dvec3 position;
+    std::uint32_t index;
+  };
+  void build(std::size_t first, std::size_t last, int axis);
+  void search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
+              double& squared) const;
+
+  std::vector<Node> nodes_;  ///< the middle of each range splits it, along x, y, z in turn
+};
+
+}  // namespace semblante

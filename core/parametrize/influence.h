@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/types/rig.h"
+#include "core/types/weight_table.h"
+
+namespace semblante {
+
+/// Eq. 7's constant part with the roles of parts applied (algorithm.md sections 3 and 7): #S rows.
+///
+///     skin          W / sum(W)
+///     lower teeth   the jaw point 2.1 alone, fully
+///     tongue        its own W / sum(W), and 2.1 fully on top: such rows sum to 2
+///     attached      the row of the nearest skin vertex
+///     eyes, upper teeth, rest: no row; they move rigidly, with the eye or with the head
+///
+/// A part that holds both rows of teeth (gums with the tongue on them, joined at the throat) follows the jaw in full
+/// where it holds the lower teeth, not at all where it holds the upper ones, and in between by the distance to either.
+WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
+                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights);
+
+}  // namespace semblante

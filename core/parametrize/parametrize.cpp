@@ -1,0 +1,95 @@
+#include "core/parametrize/parametrize.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/parametrize/fapu.h"
+#include "core/parametrize/influence.h"
+#include "core/parametrize/part_roles.h"
+#include "core/parametrize/pivots.h"
+#include "core/parametrize/point_lookup.h"
+
+namespace semblante {
+namespace {
+
+bool has_part(const std::vector<Part>& parts, PartRole role) {
+  return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.role == role; });
+}
+
+void warn_of_points(const Surface& surface, const std::vector<SurfacePoint>& points,
+                    std::vector<std::string>& warnings) {
+  if (points.empty()) warnings.emplace_back("no feature point is marked on the surface; nothing will move");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (surface.steps_from(points[i].vertex).empty()) {
+      warnings.push_back("point " + to_string(points[i].id) +
+                         " is at a vertex that no triangle uses; it moves nothing");
+    }
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (points[i].vertex != points[j].vertex) continue;
+      warnings.push_back("points " + to_string(points[i].id) + " and " + to_string(points[j].id) +
+                         " are at the same place; that vertex follows the mean of both");
+    }
+  }
+}
+
+void warn_of_parts(const std::vector<Part>& parts, const FeaturePointSet& points, std::vector<std::string>& warnings) {
+  if (find_point(points, "2.1") == nullptr &&
+      (has_part(parts, PartRole::lower_teeth) || has_part(parts, PartRole::tongue))) {
+    warnings.emplace_back("2.1 is not marked; lower teeth and tongue do not follow the jaw");
+  }
+  if (!has_part(parts, PartRole::left_eye)) {
+    warnings.emplace_back("no part is the left eye; FAPs 23, 25 and 27 turn nothing");
+  }
+  if (!has_part(parts, PartRole::right_eye)) {
+    warnings.emplace_back("no part is the right eye; FAPs 24, 26 and 28 turn nothing");
+  }
+  if (find_point(points, "7.1") == nullptr) {
+    warnings.emplace_back("7.1 is not marked; the centre of head rotation is an estimate");
+  }
+}
+
+RigidMotion rigid_motion_of(PartRole role) {
+  if (role == PartRole::left_eye) return RigidMotion::left_eye;
+  if (role == PartRole::right_eye) return RigidMotion::right_eye;
+  return RigidMotion::none;
+}
+
+}  // namespace
+
+Result<Rig> parametrize(const Model& model, const Surface& surface, const FeaturePointSet& points,
+                        const ParametrizeOptions& options) {
+  if (model.triangles.empty()) return Error{ErrorCode::empty, "", "the model has no triangles"};
+  const std::vector<SurfacePoint> on_surface = surface_points(surface, points);
+  const Result<WeightTable<double>> weights = surface_weights(surface, on_surface, options.progress);
+  if (!weights) return weights.error();
+
+  Rig rig;
+  rig.points = points;
+  rig.fapu = compute_fapu(points);
+  for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
+    if (options.fapu_by_user.value[unit]) rig.fapu.value[unit] = options.fapu_by_user.value[unit];
+  }
+  rig.parts = describe_parts(model, surface, points, options.roles_by_user);
+  rig.weights = rows_of_file_vertices(surface, *weights);
+  rig.influence = rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights));
+  rig.part_of_vertex.reserve(surface.surface_of.size());
+  rig.rigid_of_vertex.reserve(surface.surface_of.size());
+  for (const SurfaceVertexId vertex : surface.surface_of) {
+    const PartId part = surface.part_of[vertex.value()];
+    rig.part_of_vertex.push_back(part);
+    rig.rigid_of_vertex.push_back(rigid_motion_of(rig.parts[part.value()].role));
+  }
+  rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
+  rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);
+  rig.head_pivot = head_pivot(rig.parts, points);
+
+  rig.warnings = explain_missing_fapu(rig.fapu, points);
+  warn_of_points(surface, on_surface, rig.warnings);
+  warn_of_parts(rig.parts, points, rig.warnings);
+  if (options.progress && !options.progress(1.0, "done")) {
+    return Error{ErrorCode::cancelled, "", "stopped on request"};
+  }
+  return rig;
+}
+
+}  // namespace semblante

@@ -1,0 +1,212 @@
+#include "core/parametrize/place_feature_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/parametrize/part_roles.h"
+#include "core/parametrize/point_lookup.h"
+
+namespace semblante {
+namespace {
+
+// All relative to the diagonal of the model's box.
+constexpr double disagrees = 1e-3;  ///< a vertex this far from the position given with it is another one
+constexpr double at_place = 1e-4;   ///< room for positions printed with few digits
+constexpr double may_snap = 0.05;
+
+std::string pointer_to(FeaturePointId id) { return "/points/" + to_string(id); }
+
+std::string join(const std::vector<FeaturePointId>& ids) {
+  std::string text;
+  for (const FeaturePointId id : ids) text += (text.empty() ? "" : ", ") + to_string(id);
+  return text;
+}
+
+class Placement {
+ public:
+  Placement(const Model& model, const Surface& surface) : model_(model), surface_(surface) {
+    if (model.positions.empty()) return;
+    glm::dvec3 low(model.positions[0]);
+    glm::dvec3 high = low;
+    for (const glm::vec3& p : model.positions) {
+      low = glm::min(low, glm::dvec3(p));
+      high = glm::max(high, glm::dvec3(p));
+    }
+    diagonal_ = glm::distance(low, high);
+  }
+
+  [[nodiscard]] double diagonal() const { return diagonal_; }
+
+  [[nodiscard]] double distance(std::uint32_t vertex, const glm::dvec3& position) const {
+    return glm::distance(glm::dvec3(model_.positions[vertex]), position);
+  }
+
+  /// The file vertex at `position`, see place_feature_points.
+  [[nodiscard]] std::optional<std::uint32_t> vertex_at(const glm::dvec3& position) const {
+    std::optional<std::uint32_t> best;
+    const auto part_size = [&](std::uint32_t v) {
+      return surface_.members_of(surface_.part_of[surface_.surface_of[v].value()]).size();
+    };
+    for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+      if (!is_used(v) || distance(v, position) > at_place * diagonal_) continue;
+      if (!best || part_size(v) > part_size(*best)) best = v;
+    }
+    if (!best) return best;
+    // Among those of the chosen part the nearest: `at_place` may span more than one vertex of a fine mesh.
+    const PartId part = surface_.part_of[surface_.surface_of[*best].value()];
+    for (std::uint32_t v = *best + 1; v < model_.positions.size(); ++v) {
+      if (surface_.part_of[surface_.surface_of[v].value()] != part) continue;
+      if (distance(v, position) < distance(*best, position)) best = v;
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> nearest_vertex(const glm::dvec3& position) const {
+    std::optional<std::uint32_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+      const double here = distance(v, position);
+      if (here >= least || !is_used(v)) continue;
+      least = here;
+      best = v;
+    }
+    return best;
+  }
+
+  [[nodiscard]] FeaturePoint at_vertex(FeaturePointId id, std::uint32_t vertex) const {
+    return {id, VertexId(vertex), model_.positions[vertex]};
+  }
+
+ private:
+  /// A vertex without triangles is no place for a point found by position.
+  [[nodiscard]] bool is_used(std::uint32_t vertex) const {
+    return !surface_.steps_from(surface_.surface_of[vertex]).empty();
+  }
+
+  const Model& model_;
+  const Surface& surface_;
+  double diagonal_ = 0.0;
+};
+
+bool may_be_bare(FeaturePointId id) {
+  const std::string name = to_string(id);
+  return name == "7.1" || name == "3.5" || name == "3.6";
+}
+
+std::optional<Error> find_fault(const Model& model, std::span<const MarkedPoint> marked) {
+  std::array<bool, feature_point_count> seen{};
+  for (const MarkedPoint& point : marked) {
+    const std::string where = pointer_to(point.id);
+    if (std::exchange(seen[point.id.value()], true)) {
+      return Error{ErrorCode::invalid_argument, where, "point " + to_string(point.id) + " is given twice"};
+    }
+    if (!point.vertex && !point.position) {
+      return Error{ErrorCode::missing, where, "point " + to_string(point.id) + " has neither a vertex nor a position"};
+    }
+    if (point.vertex && *point.vertex >= model.positions.size()) {
+      return Error{ErrorCode::out_of_range, where + "/vertex",
+                   "point " + to_string(point.id) + " is at vertex " + std::to_string(*point.vertex) +
+                       ", but the model has " + std::to_string(model.positions.size()) + " vertices"};
+    }
+    if (point.position) {
+      const glm::dvec3& p = *point.position;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        return Error{ErrorCode::not_finite, where + "/position",
+                     "the position of point " + to_string(point.id) + " is not finite"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// True when vertices and positions contradict each other in a way that only a renumbered file explains.
+bool was_renumbered(const Placement& placement, std::span<const MarkedPoint> marked,
+                    std::vector<FeaturePointId>& disagreeing) {
+  bool every_one_found = true;
+  for (const MarkedPoint& point : marked) {
+    if (!point.vertex || !point.position) continue;
+    if (placement.distance(*point.vertex, *point.position) <= disagrees * placement.diagonal()) continue;
+    disagreeing.push_back(point.id);
+    every_one_found = every_one_found && placement.vertex_at(*point.position).has_value();
+  }
+  return !disagreeing.empty() && every_one_found;
+}
+
+std::optional<Error> find_impossible_part(const Surface& surface, const FeaturePointSet& points,
+                                          std::span<const std::optional<PartRole>> roles_by_user) {
+  const std::vector<SurfacePoint> on_surface = surface_points(surface, points);
+  std::vector<std::optional<PartRole>> roles = roles_clear_from_points(surface, on_surface);
+  for (std::size_t p = 0; p < std::min(roles.size(), roles_by_user.size()); ++p) {
+    if (roles_by_user[p]) roles[p] = roles_by_user[p];
+  }
+  for (const SurfacePoint& point : on_surface) {
+    if (!is_skin_point(point.id)) continue;
+    const std::optional<PartRole> role = roles[surface.part_of[point.vertex.value()].value()];
+    if (!role || *role == PartRole::skin || *role == PartRole::attached || *role == PartRole::rest) continue;
+    std::string what(part_role_names[static_cast<std::size_t>(*role)]);
+    std::replace(what.begin(), what.end(), '_', ' ');
+    return Error{ErrorCode::invalid_argument, pointer_to(point.id),
+                 "point " + to_string(point.id) + " belongs on the skin, but its vertex is on a part that is " +
+                     (*role == PartRole::upper_teeth || *role == PartRole::lower_teeth ? "" : "a ") + what};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& surface,
+                                             std::span<const MarkedPoint> marked, std::vector<std::string>* warnings,
+                                             std::span<const std::optional<PartRole>> roles_by_user) {
+  if (std::optional<Error> fault = find_fault(model, marked)) return std::move(*fault);
+  const auto warn = [&](std::string text) {
+    if (warnings != nullptr) warnings->push_back(std::move(text));
+  };
+
+  const Placement placement(model, surface);
+  std::vector<FeaturePointId> disagreeing;
+  const bool positions_win = was_renumbered(placement, marked, disagreeing);
+  if (positions_win) {
+    warn("the vertex numbers of " + join(disagreeing) +
+         " belong to another numbering of this model; the points were placed by their positions");
+  } else if (!disagreeing.empty()) {
+    warn("vertex and position of " + join(disagreeing) + " disagree; the vertex was taken");
+  }
+
+  FeaturePointSet points;
+  std::vector<FeaturePointId> snapped;
+  for (const MarkedPoint& point : marked) {
+    if (point.vertex && !(positions_win && point.position)) {
+      points.push_back(placement.at_vertex(point.id, *point.vertex));
+      continue;
+    }
+    const glm::dvec3& position = *point.position;
+    if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position)) {
+      points.push_back(placement.at_vertex(point.id, *vertex));
+    } else if (point.vertex) {
+      points.push_back(placement.at_vertex(point.id, *point.vertex));  // it agreed with its position well enough
+    } else if (may_be_bare(point.id)) {
+      points.push_back({point.id, std::nullopt, glm::vec3(position)});
+    } else {
+      const std::optional<std::uint32_t> nearest = placement.nearest_vertex(position);
+      if (!nearest || placement.distance(*nearest, position) > may_snap * placement.diagonal()) {
+        return Error{ErrorCode::invalid_argument, pointer_to(point.id) + "/position",
+                     "the position of point " + to_string(point.id) + " is not near the surface"};
+      }
+      points.push_back(placement.at_vertex(point.id, *nearest));
+      snapped.push_back(point.id);
+    }
+  }
+  if (!snapped.empty()) warn("no vertex lies at the position of " + join(snapped) + "; the nearest was taken");
+
+  std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
+  if (std::optional<Error> fault = find_impossible_part(surface, points, roles_by_user)) return std::move(*fault);
+  return points;
+}
+
+}  // namespace semblante

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/types/feature_points.h"
+#include "core/types/marked_point.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+
+namespace semblante {
+
+/// Matches marked points with a model. The result rises by id.
+///
+/// - A vertex: that file vertex. If positions are given too and some disagree (more than 1e-3 of the box diagonal away)
+///   while every disagreeing point has a vertex at its position (within 1e-4), the file's vertices were renumbered and
+///   the positions win. Otherwise the vertices win. Either way `warnings` says so.
+/// - A position alone: a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
+///   then the lowest file vertex). Failing that 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
+///   nearest vertex within 5 % of the diagonal, with a warning.
+///
+/// Errors carry `where` = "/points/<id>" (or below it): `out_of_range` vertex, `not_finite` position, `missing` both,
+/// `invalid_argument` for a point given twice, too far from the surface, or on a part it cannot be on (a skin point on
+/// an eye, teeth or tongue, by `roles_by_user` or clear from the part's own points).
+Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& surface,
+                                             std::span<const MarkedPoint> marked, std::vector<std::string>* warnings,
+                                             std::span<const std::optional<PartRole>> roles_by_user = {});
+
+}  // namespace semblante

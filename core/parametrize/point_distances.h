@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/geometry/edge_path_search.h"
+#include "core/geometry/surface.h"
+#include "core/parametrize/point_lookup.h"
+
+namespace semblante {
+
+/// Surface distances d(f, P) between the feature points of one part and its vertices. A vertex reaches exactly the
+/// points of its own part, so parts are worked on one after the other: memory is #members x #points of the largest.
+struct PointDistances {
+  std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
+  std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
+  std::vector<double> to_members;            ///< #M x #F, row by row
+  std::vector<double> between;               ///< #F x #F, d_ij; symmetric
+
+  [[nodiscard]] std::span<const double> of_member(std::size_t member) const {
+    return std::span(to_members).subspan(member * points.size(), points.size());
+  }
+  [[nodiscard]] double between_points(std::size_t i, std::size_t j) const { return between[i * points.size() + j]; }
+};
+
+/// One search per point. `points` of other parts are left out; `search` must belong to `surface`.
+PointDistances measure_distances(const Surface& surface, PartId part, std::span<const SurfacePoint> points,
+                                 EdgePathSearch& search);
+
+}  // namespace semblante

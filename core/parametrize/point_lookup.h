@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/geometry/surface.h"
+#include "core/types/feature_points.h"
+
+namespace semblante {
+
+/// The marked point of that name ("2.1"), or null. `name` must be one of the 84.
+const FeaturePoint* find_point(const FeaturePointSet& points, std::string_view name);
+
+/// A marked point that moves the surface: one with a vertex.
+struct SurfacePoint {
+  FeaturePointId id;
+  SurfaceVertexId vertex;
+  glm::dvec3 position{0.0};  ///< of the vertex
+};
+
+/// The points of the set that have a vertex, in rising order of id.
+std::vector<SurfacePoint> surface_points(const Surface& surface, const FeaturePointSet& points);
+
+}  // namespace semblante

@@ -1,0 +1,60 @@
+#include "core/parametrize/surface_weights.h"
+
+#include <vector>
+
+#include "core/geometry/edge_path_search.h"
+#include "core/parametrize/influence_regions.h"
+#include "core/parametrize/point_distances.h"
+#include "core/parametrize/weights.h"
+
+namespace semblante {
+
+Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
+                                            const ProgressCallback& progress) {
+  std::vector<std::size_t> points_on(surface.part_count(), 0);
+  std::size_t work = 0;  // searches weighted by the size of their part
+  for (const SurfacePoint& point : points) {
+    const PartId part = surface.part_of[point.vertex.value()];
+    ++points_on[part.value()];
+    work += surface.members_of(part).size();
+  }
+
+  std::vector<WeightTable<double>> of_part(surface.part_count());
+  EdgePathSearch search(surface);
+  std::size_t done = 0;
+  const auto go_on = [&](std::size_t more, std::string_view stage) {
+    done += more;
+    return !progress || progress(work == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(work), stage);
+  };
+  for (std::uint32_t p = 0; p < surface.part_count(); ++p) {
+    if (points_on[p] == 0) continue;
+    const PartId part(p);
+    const std::size_t share = points_on[p] * surface.members_of(part).size();
+    if (!go_on(0, "distances")) return Error{ErrorCode::cancelled, "", "stopped on request"};
+    const PointDistances distances = measure_distances(surface, part, points, search);
+    if (!go_on(share / 2, "regions of influence")) return Error{ErrorCode::cancelled, "", "stopped on request"};
+    const std::vector<SlotSet> regions = influence_regions(surface, distances);
+    if (!go_on(share / 4, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
+    of_part[p] = part_weights(surface, distances, regions);
+    done += share - share / 2 - share / 4;
+  }
+
+  // Parts list their members in rising order, so walking the vertices takes each part's rows one after the other.
+  WeightTable<double> table;
+  table.offsets.reserve(surface.vertex_count() + 1);
+  std::vector<std::size_t> next(surface.part_count(), 0);
+  for (const PartId part : surface.part_of) {
+    const WeightTable<double>& rows = of_part[part.value()];
+    if (rows.row_count() > 0) {
+      const std::size_t row = next[part.value()]++;
+      const auto ids = rows.points_of(row);
+      const auto weights = rows.weights_of(row);
+      table.points.insert(table.points.end(), ids.begin(), ids.end());
+      table.weights.insert(table.weights.end(), weights.begin(), weights.end());
+    }
+    table.end_row();
+  }
+  return table;
+}
+
+}  // namespace semblante

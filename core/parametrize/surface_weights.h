@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/types/result.h"
+#include "core/types/weight_table.h"
+
+namespace semblante {
+
+/// Told how far a parametrization is (0..1) and what it is at; answers false to stop it.
+using ProgressCallback = std::function<bool(double progress, std::string_view stage)>;
+
+/// W of Eq. 4 for every surface vertex (#S rows): distances, regions, neighbours and weights, part by part.
+/// Fails only with `cancelled`. `progress` may be empty.
+Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
+                                            const ProgressCallback& progress = {});
+
+/// Gives each file vertex the row of its surface vertex: #V rows.
+template <class W>
+WeightTable<W> rows_of_file_vertices(const Surface& surface, const WeightTable<W>& rows) {
+  WeightTable<W> table;
+  table.offsets.reserve(surface.surface_of.size() + 1);
+  for (const SurfaceVertexId vertex : surface.surface_of) {
+    const auto points = rows.points_of(vertex.value());
+    const auto weights = rows.weights_of(vertex.value());
+    table.points.insert(table.points.end(), points.begin(), points.end());
+    table.weights.insert(table.weights.end(), weights.begin(), weights.end());
+    table.end_row();
+  }
+  return table;
+}
+
+}  // namespace semblante
