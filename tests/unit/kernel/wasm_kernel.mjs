@@ -1,0 +1,96 @@
+// The kernel's WebAssembly module with its structs laid out by hand, as any JavaScript client does it.
+// Offsets are those of semblante_kernel.h on a machine with 32-bit pointers.
+const FP = 84;
+const POSE_BYTES = 1116;
+
+export class WasmKernel {
+  constructor(bytes) {
+    this.exports = new WebAssembly.Instance(new WebAssembly.Module(bytes), {}).exports;
+  }
+
+  alloc(bytes) {
+    const at = this.exports.semblante_alloc(bytes);
+    if (at === 0) throw new Error(`no memory for ${bytes} bytes`);
+    return at;
+  }
+
+  floats(values) {
+    const at = this.alloc(values.length * 4);
+    new Float32Array(this.exports.memory.buffer, at, values.length).set(values);
+    return at;
+  }
+
+  view() {
+    return new DataView(this.exports.memory.buffer); // made anew: growth detaches the old one
+  }
+
+  rig({ fapu, eye_pivot, head_pivot, viseme_share, visemes, expressions }) {
+    const table = (sets) => {
+      const all = new Float32Array(sets.length * FP * 3);
+      sets.forEach((set, s) => {
+        for (const [fp, d] of Object.entries(set)) all.set(d, (s * FP + Number(fp)) * 3);
+      });
+      return this.floats(all);
+    };
+    const viseme = table(visemes);
+    const expression = table(expressions);
+    const at = this.alloc(68);
+    const view = this.view();
+    view.setUint32(at, viseme, true);
+    view.setUint32(at + 4, expression, true);
+    const numbers = [...fapu, ...eye_pivot.flat(), ...head_pivot, viseme_share];
+    numbers.forEach((x, i) => view.setFloat32(at + 8 + 4 * i, x, true));
+    return at;
+  }
+
+  frame({ viseme, expression, faps }) {
+    const at = this.alloc(284);
+    const view = this.view();
+    const bytes = [viseme.select1, viseme.select2, viseme.blend];
+    bytes.push(expression.select1, expression.intensity1, expression.select2, expression.intensity2, 0);
+    bytes.forEach((b, i) => view.setUint8(at + i, b));
+    for (let n = 0; n <= 68; ++n) view.setFloat32(at + 8 + 4 * n, faps[n] ?? 0, true);
+    return at;
+  }
+
+  face({ rest, rows, rigid }) {
+    const restAt = this.floats(rest.flat());
+    const entries = rows.flat();
+    const offsetsAt = this.alloc(4 * (rows.length + 1));
+    const pointsAt = this.alloc(entries.length);
+    const weightsAt = this.floats(entries.map((e) => e[1]));
+    const rigidAt = this.alloc(rigid.length);
+    const memory = this.exports.memory.buffer;
+    const offsets = new Uint32Array(memory, offsetsAt, rows.length + 1);
+    rows.forEach((row, v) => (offsets[v + 1] = offsets[v] + row.length));
+    new Uint8Array(memory, pointsAt, entries.length).set(entries.map((e) => e[0]));
+    new Uint8Array(memory, rigidAt, rigid.length).set(rigid);
+    const at = this.alloc(24);
+    const view = this.view();
+    [rest.length, restAt, offsetsAt, pointsAt, weightsAt, rigidAt].forEach((x, i) => view.setUint32(at + 4 * i, x, true));
+    return at;
+  }
+
+  evaluate(rig, frame) {
+    const pose = this.alloc(POSE_BYTES);
+    this.exports.semblante_evaluate(rig, frame, pose);
+    return pose;
+  }
+
+  interpolate(a, b, t) {
+    const pose = this.alloc(POSE_BYTES);
+    this.exports.semblante_interpolate(a, b, t, pose);
+    return pose;
+  }
+
+  displacements(pose) {
+    return new Float32Array(this.exports.memory.buffer, pose, FP * 3).slice();
+  }
+
+  deform(face, pose) {
+    const count = this.view().getUint32(face, true);
+    const at = this.alloc(count * 12);
+    this.exports.semblante_deform(face, pose, at);
+    return new Float32Array(this.exports.memory.buffer, at, count * 3).slice();
+  }
+}
