@@ -1,0 +1,269 @@
+#include "core/import/gltf_document.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace semblante::import {
+namespace {
+
+enum ComponentType : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+std::size_t size_of_component(std::uint64_t type) {
+  switch (type) {
+    case i8:
+    case u8:
+      return 1;
+    case i16:
+    case u16:
+      return 2;
+    case u32:
+    case f32:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+std::size_t components_of(std::string_view type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  if (type == "VEC4" || type == "MAT2") return 4;
+  if (type == "MAT3") return 9;
+  if (type == "MAT4") return 16;
+  return 0;
+}
+
+template <class T>
+T load(const std::uint8_t* from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+/// One component as a float; signed normalized values go down to -1, as glTF says.
+float to_float(const std::uint8_t* from, std::uint64_t type, bool normalized) {
+  switch (type) {
+    case i8:
+      return normalized ? std::max(load<std::int8_t>(from) / 127.0F, -1.0F) : load<std::int8_t>(from);
+    case u8:
+      return normalized ? load<std::uint8_t>(from) / 255.0F : load<std::uint8_t>(from);
+    case i16:
+      return normalized ? std::max(load<std::int16_t>(from) / 32767.0F, -1.0F) : load<std::int16_t>(from);
+    case u16:
+      return normalized ? load<std::uint16_t>(from) / 65535.0F : load<std::uint16_t>(from);
+    case u32:
+      return static_cast<float>(load<std::uint32_t>(from));
+    default:
+      return load<float>(from);
+  }
+}
+
+std::uint32_t to_index(const std::uint8_t* from, std::uint64_t type) {
+  if (type == u8) return load<std::uint8_t>(from);
+  if (type == u16) return load<std::uint16_t>(from);
+  return load<std::uint32_t>(from);
+}
+
+bool is_index_type(std::uint64_t type) { return type == u8 || type == u16 || type == u32; }
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> GltfDocument::resource(const std::string& uri) {
+  const std::size_t left = limits_.max_file_bytes - std::min(resource_bytes_, limits_.max_file_bytes);
+  auto bytes = uri.starts_with("data:") ? decode_data_uri(uri, left) : resources_(uri, left);
+  if (bytes) resource_bytes_ += bytes->size();
+  return bytes;
+}
+
+std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
+  const JsonCursor where = item("buffers", index);
+  if (failed()) return {};
+  if (loaded_.empty()) loaded_.resize(count("buffers"));
+  std::span<const std::uint8_t> bytes;
+  if (!where.has("uri")) {
+    if (index != 0) {
+      where.fail(ErrorCode::missing, "has no uri, and only buffer 0 is the binary chunk");
+      return {};
+    }
+    bytes = binary_;
+  } else {
+    if (!loaded_[index]) {
+      auto loaded = resource(where["uri"].text());
+      if (!loaded) {
+        where["uri"].fail(loaded.error().code, loaded.error().message);
+        return {};
+      }
+      loaded_[index] = std::move(*loaded);
+    }
+    bytes = *loaded_[index];
+  }
+  const std::uint64_t announced = where["byteLength"].integer();
+  if (failed()) return {};
+  if (announced > bytes.size()) {
+    where["byteLength"].fail(ErrorCode::truncated, "is " + std::to_string(announced) + ", there are " +
+                                                       std::to_string(bytes.size()) + " bytes");
+    return {};
+  }
+  return bytes.first(announced);
+}
+
+std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
+  const JsonCursor where = item("bufferViews", index);
+  if (failed()) return {};
+  if (where.has("extensions") && where["extensions"].has("EXT_meshopt_compression")) {
+    where.fail(ErrorCode::unsupported, "uses EXT_meshopt_compression, which is not read");
+    return {};
+  }
+  const std::size_t buffer_index = where.required_index("buffer", count("buffers"));
+  const std::uint64_t offset = where.integer_or("byteOffset", 0);
+  const std::uint64_t length = where["byteLength"].integer();
+  if (failed()) return {};
+  const auto bytes = buffer(buffer_index);
+  if (failed()) return {};
+  if (offset > bytes.size() || length > bytes.size() - offset) {
+    where.fail(ErrorCode::out_of_range, "spans bytes " + std::to_string(offset) + " to " +
+                                            std::to_string(offset + length) + " of a buffer of " +
+                                            std::to_string(bytes.size()));
+    return {};
+  }
+  return bytes.subspan(offset, length);
+}
+
+GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t count, std::size_t element_size) {
+  const std::size_t view_index = where.required_index("bufferView", this->count("bufferViews"));
+  const std::uint64_t offset = where.integer_or("byteOffset", 0);
+  if (failed()) return {};
+  const auto bytes = view(view_index);
+  const std::uint64_t stride = item("bufferViews", view_index).integer_or("byteStride", element_size);
+  if (failed()) return {};
+  constexpr std::uint64_t max_stride = 65536;
+  if (stride < element_size || stride > max_stride) {
+    item("bufferViews", view_index)["byteStride"].fail(
+        ErrorCode::out_of_range,
+        "is " + std::to_string(stride) + ", elements have " + std::to_string(element_size) + " bytes");
+    return {};
+  }
+  // count, stride and offset are all far below 2^63 here: no overflow.
+  const std::uint64_t needed = count == 0 ? 0 : offset + (count - 1) * stride + element_size;
+  if (needed > bytes.size()) {
+    where.fail(ErrorCode::out_of_range,
+               "needs " + std::to_string(needed) + " bytes, its buffer view has " + std::to_string(bytes.size()));
+    return {};
+  }
+  return {count == 0 ? std::span<const std::uint8_t>{} : bytes.subspan(offset), stride};
+}
+
+std::size_t GltfDocument::accessor_count(std::size_t accessor, std::size_t max) {
+  const JsonCursor where = item("accessors", accessor)["count"];
+  const std::uint64_t announced = where.integer(~std::uint64_t{0});
+  if (announced > max) {
+    where.fail(ErrorCode::too_large,
+               "is " + std::to_string(announced) + ", at most " + std::to_string(max) + " are allowed");
+  }
+  return failed() ? 0 : static_cast<std::size_t>(announced);
+}
+
+template <class Put>
+void GltfDocument::for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put) {
+  const JsonCursor sparse = accessor["sparse"];
+  const std::uint64_t replaced = sparse["count"].integer(count);
+  const JsonCursor index_place = sparse["indices"];
+  const std::uint64_t type = index_place["componentType"].integer();
+  if (failed()) return;
+  if (!is_index_type(type)) {
+    index_place["componentType"].fail(ErrorCode::malformed, "must be an unsigned type");
+    return;
+  }
+  const Layout indices = layout(index_place, replaced, size_of_component(type));
+  const Layout values = layout(sparse["values"], replaced, element_size);
+  if (failed()) return;
+  for (std::size_t i = 0; i < replaced; ++i) {
+    const std::uint32_t index = to_index(indices.bytes.data() + i * indices.stride, type);
+    if (index >= count) {
+      index_place.fail(ErrorCode::out_of_range,
+                       "has index " + std::to_string(index) + ", the accessor has " + std::to_string(count));
+      return;
+    }
+    put(index, values.bytes.data() + i * values.stride);
+  }
+}
+
+std::vector<float> GltfDocument::floats(std::size_t accessor, std::size_t components, std::size_t count) {
+  const JsonCursor where = item("accessors", accessor);
+  const std::uint64_t type = where["componentType"].integer();
+  const std::size_t component_size = size_of_component(type);
+  const std::string shape = where["type"].text();
+  const bool normalized = where.boolean_or("normalized", false);
+  const std::size_t announced = accessor_count(accessor, limits_.max_vertices);
+  if (failed()) return {};
+  if (component_size == 0) where["componentType"].fail(ErrorCode::malformed, "is not a component type");
+  if (components_of(shape) != components) {
+    where["type"].fail(ErrorCode::malformed, "must have " + std::to_string(components) + " components");
+  }
+  if (announced != count) {
+    where["count"].fail(ErrorCode::mismatch,
+                        "is " + std::to_string(announced) + ", it must be " + std::to_string(count));
+  }
+  if (failed()) return {};
+
+  const std::size_t element_size = components * component_size;
+  const auto convert = [&](const std::uint8_t* from, float* to) {
+    for (std::size_t c = 0; c < components; ++c) to[c] = to_float(from + c * component_size, type, normalized);
+  };
+  const bool has_view = where.has("bufferView");
+  const Layout elements = has_view ? layout(where, count, element_size) : Layout{};
+  if (failed()) return {};
+  std::vector<float> values(count * components, 0.0F);
+  if (has_view) {
+    for (std::size_t i = 0; i < count; ++i) {
+      convert(elements.bytes.data() + i * elements.stride, values.data() + i * components);
+    }
+  }
+  if (where.has("sparse")) {
+    for_each_sparse(where, count, element_size, [&](std::size_t index, const std::uint8_t* from) {
+      convert(from, values.data() + index * components);
+    });
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      where.fail(ErrorCode::not_finite, "element " + std::to_string(i / components) + " is not a finite number");
+      return {};
+    }
+  }
+  return failed() ? std::vector<float>{} : values;
+}
+
+std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor, std::size_t end, std::size_t max_count) {
+  const JsonCursor where = item("accessors", accessor);
+  const std::uint64_t type = where["componentType"].integer();
+  const std::string shape = where["type"].text();
+  const std::size_t count = accessor_count(accessor, max_count);
+  if (failed()) return {};
+  if (!is_index_type(type)) where["componentType"].fail(ErrorCode::malformed, "must be an unsigned type");
+  if (shape != "SCALAR") where["type"].fail(ErrorCode::malformed, "must be SCALAR");
+  if (failed()) return {};
+  const std::size_t element_size = size_of_component(type);
+  const bool has_view = where.has("bufferView");
+  const Layout elements = has_view ? layout(where, count, element_size) : Layout{};
+  if (failed()) return {};
+  std::vector<std::uint32_t> values(count, 0);
+  if (has_view) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = to_index(elements.bytes.data() + i * elements.stride, type);
+  }
+  if (where.has("sparse")) {
+    for_each_sparse(where, count, element_size,
+                    [&](std::size_t index, const std::uint8_t* from) { values[index] = to_index(from, type); });
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= end) {
+      where.fail(ErrorCode::out_of_range, "element " + std::to_string(i) + " is vertex " + std::to_string(values[i]) +
+                                              ", there are " + std::to_string(end));
+      return {};
+    }
+  }
+  return failed() ? std::vector<std::uint32_t>{} : values;
+}
+
+}  // namespace semblante::import

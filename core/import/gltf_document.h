@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/import/gltf_container.h"
+#include "core/import/json.h"
+#include "core/import/limits.h"
+
+namespace semblante::import {
+
+/// A glTF's JSON and its bytes. Everything it hands out has been checked against the bytes that are there; the first
+/// fault is kept (see JsonCursor) and what follows it gives empty values.
+class GltfDocument {
+ public:
+  GltfDocument(nlohmann::json tree, std::span<const std::uint8_t> binary, ResourceReader resources,
+               const ImportLimits& limits)
+      : tree_(std::move(tree)), binary_(binary), resources_(std::move(resources)), limits_(limits) {}
+  GltfDocument(const GltfDocument&) = delete;
+  GltfDocument& operator=(const GltfDocument&) = delete;
+
+  [[nodiscard]] JsonCursor root() { return {tree_, fault_}; }
+  [[nodiscard]] bool failed() const { return fault_.has_value(); }
+  [[nodiscard]] const Error& fault() const { return *fault_; }
+  [[nodiscard]] std::size_t count(const char* array) { return root().size_of(array); }
+
+  /// Element `index` of a top-level array; a fault if it is not there.
+  [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root()[array].element(index); }
+
+  /// The bytes of a buffer view.
+  std::span<const std::uint8_t> view(std::size_t index);
+  /// The bytes a "uri" member stands for: a data: URI, or a file of the same zip.
+  Result<std::vector<std::uint8_t>> resource(const std::string& uri);
+
+  /// Number of elements an accessor announces, at most `max`.
+  std::size_t accessor_count(std::size_t accessor, std::size_t max);
+  /// `count` rows of `components` floats: normalized integers divided, sparse values put in. `components` must be what
+  /// the accessor's type says. Holds the fault "mismatch" if the accessor has another count.
+  std::vector<float> floats(std::size_t accessor, std::size_t components, std::size_t count);
+  /// Unsigned scalars, each below `end`; at most `max_count`.
+  std::vector<std::uint32_t> indices(std::size_t accessor, std::size_t end, std::size_t max_count);
+
+ private:
+  /// Where elements lie: `stride` bytes apart, each inside `bytes`.
+  struct Layout {
+    std::span<const std::uint8_t> bytes;
+    std::size_t stride = 0;
+  };
+
+  std::span<const std::uint8_t> buffer(std::size_t index);
+  Layout layout(const JsonCursor& where, std::size_t count, std::size_t element_size);
+  template <class Put>
+  void for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put);
+
+  nlohmann::json tree_;
+  std::span<const std::uint8_t> binary_;
+  ResourceReader resources_;
+  ImportLimits limits_;
+  std::optional<Error> fault_;
+  std::size_t resource_bytes_ = 0;  ///< decoded so far, bounded by limits_.max_file_bytes
+  std::vector<std::optional<std::vector<std::uint8_t>>> loaded_;
+};
+
+}  // namespace semblante::import

@@ -1,0 +1,178 @@
+#include "core/import/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace semblante::import {
+namespace {
+
+constexpr std::size_t max_materials = 4096;
+
+/// What the bytes are, whatever the file calls them; empty if neither PNG nor JPEG.
+std::string_view mime_type_of(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 4> png = {0x89, 'P', 'N', 'G'};
+  constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
+  if (bytes.size() >= png.size() && std::equal(png.begin(), png.end(), bytes.begin())) return "image/png";
+  if (bytes.size() >= jpeg.size() && std::equal(jpeg.begin(), jpeg.end(), bytes.begin())) return "image/jpeg";
+  return {};
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(GltfDocument& document, ModelBuilder& builder) : document_(document), builder_(builder) {}
+
+  UvSource read(const JsonCursor& source) {
+    Material material;
+    UvSource uv;
+    material.name = source.text_or("name", "");
+    material.roughness = 1.0F;
+    material.metallic = 1.0F;
+    source.must_be_object();
+    if (source.has("pbrMetallicRoughness")) {
+      const JsonCursor pbr = source["pbrMetallicRoughness"];
+      material.base_color = color(pbr, "baseColorFactor");
+      material.metallic = unit(pbr, "metallicFactor");
+      material.roughness = unit(pbr, "roughnessFactor");
+      material.base_color_image = image_of(pbr, "baseColorTexture", &uv);
+    } else if (source.has("extensions") && source["extensions"].has("KHR_materials_pbrSpecularGlossiness")) {
+      const JsonCursor old = source["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+      material.base_color = color(old, "diffuseFactor");
+      material.base_color_image = image_of(old, "diffuseTexture", &uv);
+      material.metallic = 0.0F;
+      material.roughness = 1.0F - unit(old, "glossinessFactor");
+    }
+    if (source.has("extensions") && source["extensions"].has("KHR_materials_unlit")) {
+      material.metallic = 0.0F;
+      material.roughness = 1.0F;
+    }
+    material.normal_image = image_of(source, "normalTexture", nullptr);
+    const std::string mode = source.text_or("alphaMode", "OPAQUE");
+    material.alpha_mode = mode == "MASK"    ? Material::AlphaMode::mask
+                          : mode == "BLEND" ? Material::AlphaMode::blend
+                                            : Material::AlphaMode::opaque;
+    material.alpha_cutoff = static_cast<float>(std::clamp(source.number_or("alphaCutoff", 0.5), 0.0, 1.0));
+    material.double_sided = source.boolean_or("doubleSided", false);
+    builder_.model.materials.push_back(std::move(material));
+    return uv;
+  }
+
+ private:
+  static float unit(const JsonCursor& object, const char* key) {
+    return static_cast<float>(std::clamp(object.number_or(key, 1.0), 0.0, 1.0));
+  }
+
+  static glm::vec4 color(const JsonCursor& object, const char* key) {
+    glm::vec4 value(1.0F);
+    if (!object.has(key)) return value;
+    const JsonCursor array = object[key];
+    if (array.size() != 4) array.fail(ErrorCode::malformed, "must have 4 numbers");
+    for (std::size_t i = 0; i < std::min<std::size_t>(array.size(), 4); ++i) {
+      value[static_cast<int>(i)] = static_cast<float>(std::clamp(array.element(i).number(), 0.0, 1.0));
+    }
+    return value;
+  }
+
+  static void read_transform(const JsonCursor& transform, UvSource& uv) {
+    const auto pair = [&transform](const char* key, double otherwise) {
+      glm::dvec2 value(otherwise);
+      if (transform.has(key)) {
+        for (std::size_t i = 0; i < 2; ++i) value[static_cast<int>(i)] = transform[key].element(i).number();
+      }
+      return value;
+    };
+    const glm::dvec2 offset = pair("offset", 0.0);
+    const glm::dvec2 scale = pair("scale", 1.0);
+    const double angle = transform.number_or("rotation", 0.0);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    // Columns of T * R * S, R as the extension defines it: counter-clockwise about the origin of the image.
+    uv.transform = glm::dmat3(c * scale.x, -s * scale.x, 0.0, s * scale.y, c * scale.y, 0.0, offset.x, offset.y, 1.0);
+    uv.is_identity = uv.transform == glm::dmat3(1.0);
+    uv.set = static_cast<std::size_t>(transform.integer_or("texCoord", uv.set));
+  }
+
+  int image_of(const JsonCursor& object, const char* key, UvSource* uv) {
+    if (!object.has(key)) return -1;
+    const JsonCursor info = object[key];
+    const std::size_t texture_index = info.required_index("index", document_.count("textures"));
+    if (document_.failed()) return -1;
+    if (uv != nullptr) {
+      uv->set = static_cast<std::size_t>(info.integer_or("texCoord", 0));
+      if (info.has("extensions") && info["extensions"].has("KHR_texture_transform")) {
+        read_transform(info["extensions"]["KHR_texture_transform"], *uv);
+      }
+    }
+    const JsonCursor texture = document_.item("textures", texture_index);
+    const auto source = texture.index("source", document_.count("images"));
+    if (document_.failed()) return -1;
+    if (!source) {
+      builder_.warn("texture " + std::to_string(texture_index) + " has no PNG or JPEG image and is left out");
+      return -1;
+    }
+    const auto [entry, is_new] = image_by_source_.try_emplace(*source, -1);
+    if (is_new) entry->second = load_image(*source);
+    return entry->second;
+  }
+
+  int load_image(std::size_t index) {
+    const JsonCursor source = document_.item("images", index);
+    std::vector<std::uint8_t> bytes;
+    if (source.has("bufferView")) {
+      const auto view_index = source.index("bufferView", document_.count("bufferViews"));
+      if (!view_index) return -1;
+      const auto view = document_.view(*view_index);
+      if (within_limit(view.size(), source)) bytes.assign(view.begin(), view.end());
+    } else {
+      auto loaded = document_.resource(source["uri"].text());
+      if (document_.failed()) return -1;
+      if (!loaded) {
+        // A head without its texture is still a head.
+        builder_.warn("image " + std::to_string(index) + " " + loaded.error().message + "; it is left out");
+        return -1;
+      }
+      if (within_limit(loaded->size(), source)) bytes = std::move(*loaded);
+    }
+    if (document_.failed()) return -1;
+    const std::string_view mime_type = mime_type_of(bytes);
+    if (mime_type.empty()) {
+      builder_.warn("image " + std::to_string(index) + " is neither PNG nor JPEG and is left out");
+      return -1;
+    }
+    builder_.model.images.push_back({std::string(mime_type), std::move(bytes)});
+    return static_cast<int>(builder_.model.images.size()) - 1;
+  }
+
+  bool within_limit(std::size_t bytes, const JsonCursor& source) {
+    const ImportLimits& limits = builder_.limits();
+    image_bytes_ += bytes;
+    if (bytes <= limits.max_image_bytes && image_bytes_ <= limits.max_file_bytes) return true;
+    source.fail(ErrorCode::too_large, "has " + std::to_string(bytes) + " bytes, at most " +
+                                          std::to_string(limits.max_image_bytes) + " are allowed");
+    return false;
+  }
+
+  GltfDocument& document_;
+  ModelBuilder& builder_;
+  std::map<std::size_t, int> image_by_source_;
+  std::size_t image_bytes_ = 0;
+};
+
+}  // namespace
+
+std::vector<UvSource> read_materials(GltfDocument& document, ModelBuilder& builder) {
+  const std::size_t count = document.count("materials");
+  if (count > max_materials) {
+    document.root()["materials"].fail(ErrorCode::too_large,
+                                      "more than " + std::to_string(max_materials) + " materials");
+    return {};
+  }
+  MaterialReader reader(document, builder);
+  std::vector<UvSource> sources;
+  for (std::size_t i = 0; i < count && !document.failed(); ++i) {
+    sources.push_back(reader.read(document.item("materials", i)));
+  }
+  return sources;
+}
+
+}  // namespace semblante::import

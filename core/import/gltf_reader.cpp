@@ -1,0 +1,306 @@
+#include "core/import/gltf_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/import/gltf_document.h"
+#include "core/import/gltf_draco.h"
+#include "core/import/gltf_materials.h"
+#include "core/import/gltf_scene.h"
+#include "core/import/model_builder.h"
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+enum Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+
+/// Extensions we read, or that change only how a surface looks. Any other that a file *requires* is refused: without it
+/// the geometry would be wrong.
+constexpr std::array<std::string_view, 9> known_extensions = {
+    "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_lights_punctual",        "KHR_texture_basisu",    "EXT_texture_webp",
+    "EXT_texture_avif",           "KHR_xmp_json_ld",       "KHR_materials_pbrSpecularGlossiness"};
+
+bool is_known_extension(std::string_view name) {
+  return name.starts_with("KHR_materials_") ||
+         std::find(known_extensions.begin(), known_extensions.end(), name) != known_extensions.end();
+}
+
+void check_asset(GltfDocument& document) {
+  const JsonCursor root = document.root();
+  root.must_be_object();
+  if (document.failed()) return;
+  const JsonCursor version = root["asset"]["version"];
+  if (const std::string text = version.text(); !document.failed() && !text.starts_with("2.")) {
+    version.fail(ErrorCode::unsupported, "is " + shown(text) + ", only glTF 2 is read");
+  }
+  for (std::size_t i = 0; i < root.size_of("extensionsRequired"); ++i) {
+    const JsonCursor name = root["extensionsRequired"].element(i);
+    if (const std::string text = name.text(); !document.failed() && !is_known_extension(text)) {
+      name.fail(ErrorCode::unsupported, "requires " + shown(text) + ", which is not read");
+    }
+  }
+}
+
+/// Where a primitive's attributes come from: accessors, or the Draco data that stands in for them.
+class PrimitiveData {
+ public:
+  PrimitiveData(GltfDocument& document, JsonCursor primitive, const ImportLimits& limits)
+      : document_(document), primitive_(std::move(primitive)), attributes_(primitive_["attributes"]) {
+    constexpr const char* name = "KHR_draco_mesh_compression";
+    if (!primitive_.has("extensions") || !primitive_["extensions"].has(name) || document_.failed()) return;
+    draco_place_ = primitive_["extensions"][name];
+    const std::size_t view = draco_place_->required_index("bufferView", document_.count("bufferViews"));
+    if (document_.failed()) return;
+    auto decoded = DracoMesh::decode(document_.view(view), limits);
+    if (!decoded) {
+      draco_place_->fail(decoded.error().code, decoded.error().message);
+    } else {
+      draco_ = std::move(*decoded);
+    }
+  }
+
+  [[nodiscard]] bool has(const char* attribute) const { return attributes_.has(attribute); }
+
+  [[nodiscard]] std::size_t vertex_count(std::size_t max) const {
+    if (draco_ && in_draco("POSITION")) return draco_->point_count();
+    const auto accessor = accessor_of("POSITION");
+    return accessor ? document_.accessor_count(*accessor, max) : 0;
+  }
+
+  [[nodiscard]] std::vector<float> floats(const char* attribute, std::size_t components, std::size_t count) const {
+    const auto accessor = accessor_of(attribute);
+    if (!accessor) return {};
+    if (!draco_ || !in_draco(attribute)) return document_.floats(*accessor, components, count);
+    const bool normalized = document_.item("accessors", *accessor).boolean_or("normalized", false);
+    const JsonCursor id = (*draco_place_)["attributes"][attribute];
+    auto values = draco_->floats(static_cast<std::uint32_t>(id.integer(0xFFFFFFFFU)), components, normalized);
+    if (values && !document_.failed()) return std::move(*values);
+    if (!values) id.fail(values.error().code, values.error().message);
+    return {};
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t vertex_count, std::size_t max_count) const {
+    if (draco_) return draco_->indices();
+    const auto accessor = primitive_.index("indices", document_.count("accessors"));
+    if (document_.failed()) return {};
+    if (accessor) return document_.indices(*accessor, vertex_count, max_count);
+    std::vector<std::uint32_t> in_order(vertex_count);
+    for (std::size_t i = 0; i < vertex_count; ++i) in_order[i] = static_cast<std::uint32_t>(i);
+    return in_order;
+  }
+
+  /// Draco holds triangles (or a strip turned into them) whatever `mode` says.
+  [[nodiscard]] std::uint64_t mode() const { return draco_ ? triangles : primitive_.integer_or("mode", triangles); }
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> accessor_of(const char* attribute) const {
+    return attributes_.index(attribute, document_.count("accessors"));
+  }
+  [[nodiscard]] bool in_draco(const char* attribute) const {
+    return draco_place_->has("attributes") && (*draco_place_)["attributes"].has(attribute);
+  }
+
+  GltfDocument& document_;
+  JsonCursor primitive_;
+  JsonCursor attributes_;
+  std::optional<JsonCursor> draco_place_;
+  std::optional<DracoMesh> draco_;
+};
+
+class GltfReader {
+ public:
+  GltfReader(GltfDocument& document, const ImportLimits& limits) : document_(document), builder_(limits) {}
+
+  Result<Model> read(const char* format) {
+    check_asset(document_);
+    if (!document_.failed()) uv_sources_ = read_materials(document_, builder_);
+    if (!document_.failed()) placements_ = place_meshes(document_);
+    for (std::size_t mesh = 0; !document_.failed() && mesh < document_.count("meshes"); ++mesh) read_mesh(mesh);
+    if (document_.failed()) return document_.fault();
+    pad(builder_.model.uvs);
+    pad(builder_.model.normals);
+    return std::move(builder_).finish(format);
+  }
+
+ private:
+  void read_mesh(std::size_t index) {
+    const JsonCursor mesh = document_.item("meshes", index);
+    const std::string name = mesh.text_or("name", "");
+    const auto& placement = placements_[index];
+    if (!placement) {
+      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) +
+                    " is in no node of the scene: its vertices are numbered, its triangles left out");
+    } else if (placement->node_count > 1) {
+      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) + " stands in " +
+                    std::to_string(placement->node_count) + " nodes; only the first is kept");
+    }
+    const JsonCursor primitives = mesh["primitives"];
+    for (std::size_t i = 0; !document_.failed() && i < primitives.size(); ++i) {
+      read_primitive(primitives.element(i), name, placement);
+    }
+  }
+
+  void read_primitive(const JsonCursor& primitive, const std::string& name,
+                      const std::optional<MeshPlacement>& placement) {
+    const PrimitiveData data(document_, primitive, builder_.limits());
+    if (document_.failed()) return;
+    if (!data.has("POSITION")) {
+      builder_.warn(primitive.pointer() + " has no positions and is left out");
+      return;
+    }
+    const std::size_t vertices_left = builder_.limits().max_vertices - builder_.model.positions.size();
+    const std::size_t count = data.vertex_count(vertices_left);
+    if (count > vertices_left) primitive.fail(ErrorCode::too_large, "has too many vertices");
+    const auto material = primitive.index("material", builder_.model.materials.size());
+    if (document_.failed()) return;
+
+    const auto first = static_cast<std::uint32_t>(builder_.model.positions.size());
+    const std::vector<float> positions = data.floats("POSITION", 3, count);
+    if (document_.failed()) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      builder_.model.positions.push_back(
+          placed(glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]), placement));
+    }
+    const bool has_uvs = read_uvs(data, material, count);
+    const bool has_normals = read_normals(data, placement, count);
+    if (document_.failed() || !placement) return;
+
+    builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1);
+    const bool mirrored = !placement->is_identity && glm::determinant(glm::dmat3(placement->to_world)) < 0.0;
+    add_triangles(primitive, data, Range{first, static_cast<std::uint32_t>(count), has_uvs, has_normals, mirrored});
+  }
+
+  static glm::vec3 placed(const glm::vec3& position, const std::optional<MeshPlacement>& placement) {
+    // A file that stands still keeps its float32 positions to the bit.
+    if (!placement || placement->is_identity) return position;
+    return glm::vec3(glm::dvec3(placement->to_world * glm::dvec4(position, 1.0)));
+  }
+
+  bool read_uvs(const PrimitiveData& data, std::optional<std::size_t> material, std::size_t count) {
+    const UvSource source = material && *material < uv_sources_.size() ? uv_sources_[*material] : UvSource{};
+    const std::string name = "TEXCOORD_" + std::to_string(source.set);
+    if (!data.has(name.c_str())) return false;
+    const std::vector<float> values = data.floats(name.c_str(), 2, count);
+    if (document_.failed()) return false;
+    pad_before(builder_.model.uvs, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      glm::vec2 uv(values[2 * i], values[2 * i + 1]);
+      if (!source.is_identity) uv = glm::vec2(glm::dvec2(source.transform * glm::dvec3(uv, 1.0)));
+      builder_.model.uvs.push_back(uv);
+    }
+    return true;
+  }
+
+  bool read_normals(const PrimitiveData& data, const std::optional<MeshPlacement>& placement, std::size_t count) {
+    if (!data.has("NORMAL")) return false;
+    const std::vector<float> values = data.floats("NORMAL", 3, count);
+    if (document_.failed()) return false;
+    // The cofactor matrix turns normals as the transform turns surfaces, even where it has no inverse.
+    glm::dmat3 turn(1.0);
+    const bool turned = placement && !placement->is_identity;
+    if (turned) {
+      const glm::dmat3 m(placement->to_world);
+      turn = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+      if (glm::determinant(m) < 0.0) turn = -turn;
+    }
+    pad_before(builder_.model.normals, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      glm::dvec3 normal(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+      if (turned) {
+        normal = turn * normal;
+        const double length = glm::length(normal);
+        if (length > 0.0) normal /= length;  // before it becomes a float: a model in millimetres would underflow
+      }
+      builder_.model.normals.emplace_back(normal);
+    }
+    return true;
+  }
+
+  /// UVs and normals run beside the positions; primitives without get zeros that no corner names.
+  template <class V>
+  void pad_before(std::vector<V>& values, std::size_t count) {
+    values.resize(builder_.model.positions.size() - count, V(0.0F));
+  }
+  template <class V>
+  void pad(std::vector<V>& values) {
+    if (!values.empty()) values.resize(builder_.model.positions.size(), V(0.0F));
+  }
+
+  /// The run of file vertices a primitive added, and what its corners have.
+  struct Range {
+    std::uint32_t first, count;
+    bool has_uvs, has_normals, mirrored;
+  };
+
+  void add_triangles(const JsonCursor& primitive, const PrimitiveData& data, const Range& range) {
+    const std::uint64_t mode = data.mode();
+    if (mode > triangle_fan) primitive["mode"].fail(ErrorCode::out_of_range, "is no glTF mode");
+    if (document_.failed()) return;
+    if (mode < triangles) {
+      builder_.warn(primitive.pointer() + " has points or lines: its vertices are numbered, nothing is drawn");
+      return;
+    }
+    const std::size_t left = builder_.triangles_left();
+    const std::vector<std::uint32_t> indices = data.indices(range.count, mode == triangles ? 3 * left : left + 2);
+    if (document_.failed() || indices.size() < 3) return;
+    if (mode == triangles && indices.size() % 3 != 0) {
+      builder_.warn(primitive.pointer() + " has " + std::to_string(indices.size()) +
+                    " indices, not a multiple of 3; the last are left out");
+    }
+    const std::size_t triangle_count = mode == triangles ? indices.size() / 3 : indices.size() - 2;
+    if (triangle_count > left) {
+      primitive.fail(ErrorCode::too_large,
+                     "more than " + std::to_string(builder_.limits().max_triangles) + " triangles");
+      return;
+    }
+    for (std::size_t i = 0; i < triangle_count; ++i) {
+      std::array<std::size_t, 3> corners = {3 * i, 3 * i + 1, 3 * i + 2};
+      if (mode == triangle_strip) corners = {i, i + 1 + i % 2, i + 2 - i % 2};
+      if (mode == triangle_fan) corners = {i + 1, i + 2, 0};
+      if (range.mirrored) std::swap(corners[1], corners[2]);
+      builder_.add_triangle(corner(indices[corners[0]], range), corner(indices[corners[1]], range),
+                            corner(indices[corners[2]], range));
+    }
+  }
+
+  static Corner corner(std::uint32_t index, const Range& range) {
+    const std::uint32_t vertex = range.first + index;
+    return {vertex, range.has_uvs ? vertex : Model::no_index, range.has_normals ? vertex : Model::no_index};
+  }
+
+  GltfDocument& document_;
+  ModelBuilder builder_;
+  std::vector<UvSource> uv_sources_;
+  std::vector<std::optional<MeshPlacement>> placements_;
+};
+
+Result<Model> read_document(std::string_view text, std::span<const std::uint8_t> binary,
+                            const ResourceReader& resources, const ImportLimits& limits, const char* format) {
+  auto tree = parse_json(text);
+  if (!tree) return tree.error();
+  GltfDocument document(std::move(*tree), binary, resources, limits);
+  return GltfReader(document, limits).read(format);
+}
+
+}  // namespace
+
+Result<Model> read_glb(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
+  const auto chunks = split_glb(bytes);
+  if (!chunks) return chunks.error();
+  return read_document(chunks->json, chunks->binary, refuse_resource, limits, "glb");
+}
+
+Result<Model> read_gltf(std::string_view json, const ResourceReader& resources, const ImportLimits& limits) {
+  return read_document(json, {}, resources, limits, "gltf");
+}
+
+}  // namespace semblante::import

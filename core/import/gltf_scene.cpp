@@ -1,0 +1,116 @@
+#include "core/import/gltf_scene.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace semblante::import {
+namespace {
+
+/// `size` numbers of an array that must have just that many.
+template <std::size_t size>
+std::array<double, size> numbers(const JsonCursor& array) {
+  std::array<double, size> values{};
+  if (array.size() != size) {
+    array.fail(ErrorCode::malformed, "must have " + std::to_string(size) + " numbers");
+    return values;
+  }
+  for (std::size_t i = 0; i < size; ++i) values[i] = array.element(i).number();
+  return values;
+}
+
+glm::dmat4 local_transform(const JsonCursor& node) {
+  glm::dmat4 transform(1.0);
+  if (node.has("matrix")) {
+    const auto m = numbers<16>(node["matrix"]);
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) transform[column][row] = m[static_cast<std::size_t>(column * 4 + row)];
+    }
+    return transform;
+  }
+  if (node.has("translation")) {
+    const auto t = numbers<3>(node["translation"]);
+    transform = glm::translate(transform, glm::dvec3(t[0], t[1], t[2]));
+  }
+  if (node.has("rotation")) {
+    const auto r = numbers<4>(node["rotation"]);
+    const glm::dquat rotation(r[3], r[0], r[1], r[2]);
+    const double length = glm::length(rotation);
+    if (length < 1e-6) node["rotation"].fail(ErrorCode::invalid_argument, "is no rotation");
+    if (length > 0.0) transform *= glm::mat4_cast(rotation / length);
+  }
+  if (node.has("scale")) {
+    const auto s = numbers<3>(node["scale"]);
+    transform = glm::scale(transform, glm::dvec3(s[0], s[1], s[2]));
+  }
+  return transform;
+}
+
+/// Nodes nobody names as a child, for a file that has no scene.
+std::vector<std::size_t> root_nodes(GltfDocument& document, std::size_t node_count) {
+  std::vector<bool> is_child(node_count, false);
+  for (std::size_t i = 0; i < node_count; ++i) {
+    const JsonCursor node = document.item("nodes", i);
+    for (std::size_t c = 0; c < node.size_of("children"); ++c) {
+      const std::uint64_t child = node["children"].element(c).integer(node_count - 1);
+      if (!document.failed()) is_child[child] = true;
+    }
+  }
+  std::vector<std::size_t> roots;
+  for (std::size_t i = 0; i < node_count; ++i) {
+    if (!is_child[i]) roots.push_back(i);
+  }
+  return roots;
+}
+
+std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_count) {
+  const std::size_t scene_count = document.count("scenes");
+  if (scene_count == 0) return root_nodes(document, node_count);
+  const JsonCursor scene = document.item("scenes", document.root().index("scene", scene_count).value_or(0));
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < scene.size_of("nodes"); ++i) {
+    nodes.push_back(scene["nodes"].element(i).integer(node_count - 1));
+  }
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
+  const std::size_t mesh_count = document.count("meshes");
+  const std::size_t node_count = document.count("nodes");
+  if (node_count == 0) return std::vector<std::optional<MeshPlacement>>(mesh_count, MeshPlacement{});
+
+  std::vector<std::optional<MeshPlacement>> placements(mesh_count);
+  struct Visit {
+    std::size_t node;
+    glm::dmat4 parent;
+  };
+  std::vector<Visit> pending;
+  const std::vector<std::size_t> roots = scene_nodes(document, node_count);
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
+  std::vector<bool> visited(node_count, false);
+  while (!pending.empty() && !document.failed()) {
+    const auto [index, parent] = pending.back();
+    pending.pop_back();
+    const JsonCursor node = document.item("nodes", index);
+    if (visited[index]) {
+      node.fail(ErrorCode::malformed, "is in the scene twice: nodes must form trees");
+      break;
+    }
+    visited[index] = true;
+    const glm::dmat4 to_world = parent * local_transform(node);
+    if (const auto mesh = node.index("mesh", mesh_count); mesh && !document.failed()) {
+      if (placements[*mesh]) {
+        ++placements[*mesh]->node_count;
+      } else {
+        placements[*mesh] = MeshPlacement{to_world, to_world == glm::dmat4(1.0), 1};
+      }
+    }
+    for (std::size_t c = node.size_of("children"); c-- > 0;) {
+      pending.push_back({node["children"].element(c).integer(node_count - 1), to_world});
+    }
+  }
+  return placements;
+}
+
+}  // namespace semblante::import

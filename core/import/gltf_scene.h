@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "core/import/gltf_document.h"
+
+namespace semblante::import {
+
+/// Where a mesh stands: the first node, depth first in the scene's order, that shows it.
+struct MeshPlacement {
+  glm::dmat4 to_world{1.0};
+  bool is_identity = true;
+  std::size_t node_count = 1;  ///< nodes that show it
+};
+
+/// Per mesh of the document; nullopt for a mesh the scene does not show. A document without nodes shows all of them as
+/// they are. Faults (loops, indices out of range, numbers) are kept in the document.
+std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document);
+
+}  // namespace semblante::import

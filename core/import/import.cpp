@@ -1,0 +1,116 @@
+#include "core/import/import.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+
+#include "core/import/gltf_reader.h"
+#include "core/import/obj_reader.h"
+#include "core/import/text.h"
+
+namespace semblante {
+namespace {
+
+using import::as_text;
+
+bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+}
+
+std::optional<ModelFormat> format_of_name(std::string_view name) {
+  if (has_ending(name, ".glb") || has_ending(name, ".vrm")) return ModelFormat::glb;
+  if (has_ending(name, ".gltf")) return ModelFormat::gltf;
+  if (has_ending(name, ".zip")) return ModelFormat::gltf_zip;
+  if (has_ending(name, ".obj")) return ModelFormat::obj;
+  if (has_ending(name, ".ply")) return ModelFormat::ply;
+  if (has_ending(name, ".stl")) return ModelFormat::stl;
+  return std::nullopt;
+}
+
+/// A binary STL has no magic: 80 bytes of anything, a count, and 50 bytes a triangle.
+bool has_size_of_binary_stl(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 84) return false;
+  const std::uint64_t count = static_cast<std::uint64_t>(bytes[80]) | static_cast<std::uint64_t>(bytes[81]) << 8 |
+                              static_cast<std::uint64_t>(bytes[82]) << 16 | static_cast<std::uint64_t>(bytes[83]) << 24;
+  return bytes.size() == 84 + 50 * count;
+}
+
+/// Whether one of the first lines is a `v`, `f` or another line of OBJ alone.
+bool looks_like_obj(std::string_view text) {
+  constexpr int lines_to_try = 200;
+  import::LineReader lines(text.substr(0, 65536));
+  for (int i = 0; i < lines_to_try; ++i) {
+    auto line = lines.next();
+    if (!line) return false;
+    const std::string_view keyword = import::next_token(*line);
+    if (keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f" || keyword == "mtllib" ||
+        keyword == "usemtl") {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view to_string(ModelFormat format) {
+  switch (format) {
+    case ModelFormat::glb:
+      return "glb";
+    case ModelFormat::gltf:
+      return "gltf";
+    case ModelFormat::gltf_zip:
+      return "gltf_zip";
+    case ModelFormat::obj:
+      return "obj";
+    case ModelFormat::ply:
+      return "ply";
+    case ModelFormat::stl:
+      return "stl";
+  }
+  return "";
+}
+
+std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, std::string_view file_name) {
+  std::string_view text = as_text(bytes);
+  if (text.starts_with("glTF")) return ModelFormat::glb;
+  if (text.starts_with("PK\x03\x04")) return ModelFormat::gltf_zip;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return ModelFormat::ply;
+  if (has_size_of_binary_stl(bytes)) return ModelFormat::stl;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  if (text.substr(begin).starts_with('{')) return ModelFormat::gltf;
+  const bool is_solid = text.substr(begin).starts_with("solid");
+  if (is_solid && text.substr(begin, 4096).find("facet") != std::string_view::npos) return ModelFormat::stl;
+  if (const auto named = format_of_name(file_name)) return named;
+  if (looks_like_obj(text)) return ModelFormat::obj;
+  return std::nullopt;
+}
+
+Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits) {
+  if (bytes.size() > limits.max_file_bytes) {
+    return Error{ErrorCode::too_large, "",
+                 "the file has " + std::to_string(bytes.size()) + " bytes, at most " +
+                     std::to_string(limits.max_file_bytes) + " are allowed"};
+  }
+  if (bytes.empty()) return Error{ErrorCode::empty, "", "the file is empty"};
+  try {
+    switch (format) {
+      case ModelFormat::glb:
+        return import::read_glb(bytes, limits);
+      case ModelFormat::gltf:
+        return import::read_gltf(as_text(bytes), import::refuse_resource, limits);
+      case ModelFormat::obj:
+        return import::read_obj(bytes, limits);
+      default:
+        return Error{ErrorCode::unsupported, "", std::string(to_string(format)) + " is not read yet"};
+    }
+  } catch (const std::bad_alloc&) {
+    // Within the limits, and still more than this machine has: the file's problem, not the end of the server.
+    return Error{ErrorCode::too_large, "", "the model wants more memory than there is"};
+  }
+}
+
+}  // namespace semblante

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+namespace semblante {
+
+/// What an uploaded model may ask of us. Every reader checks announced sizes against these, and against the bytes that
+/// are really there, before it allocates.
+struct ImportLimits {
+  std::size_t max_file_bytes = std::size_t{256} << 20;  ///< of the file, and of everything inflated from a zip
+  std::size_t max_vertices = 2'000'000;                 ///< file vertices, and apart from them UVs and normals
+  std::size_t max_triangles = 4'000'000;                ///< after polygons and strips are split
+  std::size_t max_image_bytes = std::size_t{64} << 20;  ///< of one texture image; all together: max_file_bytes
+};
+
+}  // namespace semblante

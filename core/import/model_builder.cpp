@@ -1,0 +1,139 @@
+#include "core/import/model_builder.h"
+
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+/// Squares of coordinates stay finite in float32 below this, whatever the unit of the file.
+constexpr float max_coordinate = 1e15F;
+/// A hostile file must not turn its repairs into an essay.
+constexpr std::size_t max_warnings = 32;
+
+bool no_corner_has_one(const std::vector<Triangle>& triangles) {
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index != Model::no_index) return false;
+    }
+  }
+  return true;
+}
+
+/// Normals become unit length; corners whose normal has no direction lose it.
+void normalize_normals(Model& model) {
+  std::vector<bool> usable(model.normals.size());
+  for (std::size_t i = 0; i < model.normals.size(); ++i) {
+    const glm::dvec3 normal(model.normals[i]);
+    const double length = glm::length(normal);
+    usable[i] = std::isfinite(length) && length > 1e-12;
+    model.normals[i] = usable[i] ? glm::vec3(normal / length) : glm::vec3(0.0F, 0.0F, 1.0F);
+  }
+  for (Triangle& triangle : model.normal_triangles) {
+    for (std::uint32_t& index : triangle) {
+      if (index != Model::no_index && !usable[index]) index = Model::no_index;
+    }
+  }
+}
+
+Status check_positions(const Model& model) {
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float value = model.positions[i][axis];
+      if (!std::isfinite(value)) {
+        return Error{ErrorCode::not_finite, "vertex " + std::to_string(i), "a coordinate is not a finite number"};
+      }
+      if (std::abs(value) > max_coordinate) {
+        return Error{ErrorCode::out_of_range, "vertex " + std::to_string(i), "a coordinate is larger than 1e15"};
+      }
+    }
+  }
+  return Unit{};
+}
+
+bool has_extent(const Model& model) {
+  for (const Triangle& triangle : model.triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (model.positions[index] != model.positions[model.triangles.front()[0]]) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void ModelBuilder::begin_primitive(const std::string& name, int material) {
+  if (!model.primitives.empty()) {
+    Primitive& last = model.primitives.back();
+    if (last.triangle_count == 0) {
+      last.name = name;
+      last.material = material;
+      return;
+    }
+    if (last.name == name && last.material == material) return;
+  }
+  Primitive next;
+  next.name = name;
+  next.material = material;
+  next.first_triangle = static_cast<std::uint32_t>(model.triangles.size());
+  model.primitives.push_back(std::move(next));
+}
+
+void ModelBuilder::add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+  assert(triangles_seen_ < limits_.max_triangles);
+  assert(a.vertex < model.positions.size() && b.vertex < model.positions.size() && c.vertex < model.positions.size());
+  ++triangles_seen_;
+  if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex) {
+    ++degenerate_;
+    return;
+  }
+  if (model.primitives.empty()) begin_primitive("", -1);
+  model.triangles.push_back({a.vertex, b.vertex, c.vertex});
+  model.uv_triangles.push_back({a.uv, b.uv, c.uv});
+  model.normal_triangles.push_back({a.normal, b.normal, c.normal});
+  ++model.primitives.back().triangle_count;
+}
+
+void ModelBuilder::warn(std::string message) {
+  if (model.warnings.size() >= max_warnings) {
+    ++suppressed_warnings_;
+    return;
+  }
+  model.warnings.push_back(std::move(message));
+}
+
+Result<Model> ModelBuilder::finish(std::string format) && {
+  if (Status status = check_positions(model); !status) return status.error();
+  if (model.triangles.empty()) {
+    return Error{
+        ErrorCode::empty, "",
+        degenerate_ == 0 ? "the file has no triangles" : "the file has no triangles but ones that use a vertex twice"};
+  }
+  if (!has_extent(model)) return Error{ErrorCode::empty, "", "all triangles lie in one point"};
+  if (degenerate_ > 0) {
+    model.warnings.push_back(std::to_string(degenerate_) + " triangles that use a vertex twice were left out");
+  }
+  if (suppressed_warnings_ > 0) {
+    model.warnings.push_back("and " + std::to_string(suppressed_warnings_) + " more warnings");
+  }
+  while (!model.primitives.empty() && model.primitives.back().triangle_count == 0) model.primitives.pop_back();
+  normalize_normals(model);
+  if (model.uvs.empty() || no_corner_has_one(model.uv_triangles)) {
+    model.uvs.clear();
+    model.uv_triangles.clear();
+  }
+  if (model.normals.empty() || no_corner_has_one(model.normal_triangles)) {
+    model.normals.clear();
+    model.normal_triangles.clear();
+  }
+  for (Primitive& primitive : model.primitives) primitive.name = printable(primitive.name);
+  for (Material& material : model.materials) material.name = printable(material.name);
+  model.format = std::move(format);
+  return std::move(model);
+}
+
+}  // namespace semblante::import

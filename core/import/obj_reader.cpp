@@ -1,0 +1,298 @@
+#include "core/import/obj_reader.h"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <vector>
+
+#include "core/import/model_builder.h"
+#include "core/import/polygon.h"
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+/// Reads line by line into flat arrays, then splits the polygons: `f` may come before the `v` it names, and splitting
+/// needs positions.
+class ObjReader {
+ public:
+  ObjReader(std::span<const std::uint8_t> bytes, const ImportLimits& limits)
+      : builder_(limits), limits_(limits), lines_(without_bom(as_text(bytes))) {}
+
+  Result<Model> read() {
+    if (lines_.rest().find('\0') != std::string_view::npos) {
+      return Error{ErrorCode::malformed, "", "not an OBJ file: it has zero bytes, an OBJ file is text"};
+    }
+    while (const auto line = lines_.next_logical()) {
+      if (Status status = read_line(*line); !status) return status.error();
+    }
+    if (unknown_lines_ > 0 && polygons_.empty()) {
+      return Error{ErrorCode::malformed, first_unknown_, "not a line of an OBJ file, and the file has no faces"};
+    }
+    if (Status status = check_forward_references(); !status) return status.error();
+    add_triangles();
+    if (unknown_lines_ > 0) {
+      builder_.warn(std::to_string(unknown_lines_) + " lines are not of an OBJ file and were skipped, the first is " +
+                    first_unknown_);
+    }
+    if (short_faces_ > 0)
+      builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were left out");
+    return std::move(builder_).finish("obj");
+  }
+
+ private:
+  /// Where a run of polygons begins that share a name and a material.
+  struct Section {
+    std::size_t first_polygon;
+    std::string name;
+    int material;
+  };
+  /// An index that lies beyond what had been read so far, and the line that used it. Only rising ones are kept, so the
+  /// first that stays out of range is the first in the file.
+  struct ForwardReference {
+    std::uint32_t index;
+    std::size_t line;
+  };
+
+  static std::string_view without_bom(std::string_view text) {
+    return text.substr(0, 3) == "\xEF\xBB\xBF" ? text.substr(3) : text;
+  }
+
+  [[nodiscard]] Error error(ErrorCode code, std::string message) const {
+    return {code, lines_.where(), std::move(message)};
+  }
+
+  Status read_line(std::string_view rest) {
+    const std::string_view keyword = next_token(rest);
+    if (keyword.empty() || keyword.front() == '#') return Unit{};
+    if (keyword == "v") return read_position(rest);
+    if (keyword == "vt") return read_uv(rest);
+    if (keyword == "vn") return read_normal(rest);
+    if (keyword == "f" || keyword == "fo") return read_face(rest);
+    if (keyword == "o" || keyword == "g") {
+      name_ = trimmed(rest);
+      start_section();
+    } else if (keyword == "usemtl") {
+      return use_material(trimmed(rest));
+    } else if (keyword == "mtllib") {
+      if (!has_material_library_) {
+        builder_.warn("the material file " + shown(trimmed(rest)) + " is not read; materials have default colours");
+      }
+      has_material_library_ = true;
+    } else if (!is_ignored(keyword) && unknown_lines_++ == 0) {
+      first_unknown_ = lines_.where();
+    }
+    return Unit{};
+  }
+
+  /// Smoothing, points, lines, free-form curves and display hints: valid, and without a part in a face.
+  static bool is_ignored(std::string_view keyword) {
+    static constexpr std::array<std::string_view, 33> ignored = {
+        "s",     "p",     "l",    "mg",       "vp",       "cstype", "deg",    "bmat",       "step",
+        "curv",  "curv2", "surf", "parm",     "trim",     "hole",   "scrv",   "sp",         "end",
+        "con",   "bevel", "lod",  "c_interp", "d_interp", "maplib", "usemap", "shadow_obj", "trace_obj",
+        "ctech", "stech", "call", "csh",      "bsp",      "bzp"};
+    for (const std::string_view word : ignored) {
+      if (keyword == word) return true;
+    }
+    return false;
+  }
+
+  static std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+  }
+
+  /// `minimum` to `out.size()` numbers; what the line does not say stays as it is, what follows is not looked at.
+  Status read_numbers(std::string_view rest, std::string_view what, std::size_t minimum, std::span<float> out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::string_view token = next_token(rest);
+      if (token.empty() || token.front() == '#') {
+        if (i >= minimum) return Unit{};
+        return error(ErrorCode::truncated,
+                     std::string(what) + " has " + std::to_string(i) + " numbers, it needs " + std::to_string(minimum));
+      }
+      switch (parse_number(token, out[i])) {
+        case NumberFault::none:
+          break;
+        case NumberFault::not_a_number:
+          return error(ErrorCode::malformed, std::string(what) + " has " + shown(token) + " where a number belongs");
+        case NumberFault::not_finite:
+          return error(ErrorCode::not_finite,
+                       std::string(what) + " has " + shown(token) + ", which is not a finite number");
+      }
+    }
+    return Unit{};
+  }
+
+  /// x y z, then perhaps w (of rational curves) or a colour: neither is part of a mesh.
+  Status read_position(std::string_view rest) {
+    std::array<float, 3> p{};
+    if (Status status = read_numbers(rest, "v", 3, p); !status) return status;
+    if (builder_.model.positions.size() >= limits_.max_vertices) return too_many("vertices", limits_.max_vertices);
+    builder_.model.positions.emplace_back(p[0], p[1], p[2]);
+    return Unit{};
+  }
+
+  Status read_uv(std::string_view rest) {
+    std::array<float, 2> uv{};
+    if (Status status = read_numbers(rest, "vt", 1, uv); !status) return status;
+    if (builder_.model.uvs.size() >= limits_.max_vertices) return too_many("texture coordinates", limits_.max_vertices);
+    builder_.model.uvs.emplace_back(uv[0], 1.0F - uv[1]);  // OBJ counts v from the bottom
+    return Unit{};
+  }
+
+  Status read_normal(std::string_view rest) {
+    std::array<float, 3> n{};
+    if (Status status = read_numbers(rest, "vn", 3, n); !status) return status;
+    if (builder_.model.normals.size() >= limits_.max_vertices) return too_many("normals", limits_.max_vertices);
+    builder_.model.normals.emplace_back(n[0], n[1], n[2]);
+    return Unit{};
+  }
+
+  [[nodiscard]] Error too_many(std::string_view what, std::size_t limit) const {
+    return error(ErrorCode::too_large, "more than " + std::to_string(limit) + " " + std::string(what));
+  }
+
+  Status read_face(std::string_view rest) {
+    const std::size_t first = corners_.size();
+    for (std::string_view token = next_token(rest); !token.empty() && token.front() != '#'; token = next_token(rest)) {
+      Corner corner;
+      if (Status status = read_corner(token, corner); !status) return status;
+      corners_.push_back(corner);
+    }
+    const std::size_t count = corners_.size() - first;
+    if (count < 3) {
+      corners_.resize(first);
+      ++short_faces_;
+      return Unit{};
+    }
+    if (count - 2 > limits_.max_triangles - triangles_) return too_many("triangles", limits_.max_triangles);
+    triangles_ += count - 2;
+    polygons_.push_back(static_cast<std::uint32_t>(first));
+    return Unit{};
+  }
+
+  /// "v", "v/vt", "v//vn" or "v/vt/vn".
+  Status read_corner(std::string_view token, Corner& corner) {
+    const std::string_view whole = token;
+    const auto take = [&token] {
+      const std::size_t slash = token.find('/');
+      const std::string_view part = token.substr(0, slash);
+      token = slash == std::string_view::npos ? std::string_view{} : token.substr(slash + 1);
+      return part;
+    };
+    const std::string_view v = take();
+    const std::string_view vt = take();
+    const std::string_view vn = token;
+    const Model& model = builder_.model;
+    if (Status s = read_index(v, whole, "vertex", model.positions.size(), forward_v_, corner.vertex); !s) return s;
+    if (!vt.empty()) {
+      if (Status s = read_index(vt, whole, "texture coordinate", model.uvs.size(), forward_vt_, corner.uv); !s)
+        return s;
+    }
+    if (!vn.empty()) return read_index(vn, whole, "normal", model.normals.size(), forward_vn_, corner.normal);
+    return Unit{};
+  }
+
+  /// From 1, or negative: back from the last one read.
+  Status read_index(std::string_view text, std::string_view corner, std::string_view what, std::size_t count,
+                    std::vector<ForwardReference>& forward, std::uint32_t& out) {
+    std::int64_t number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || fault == std::errc::invalid_argument || end != text.data() + text.size()) {
+      return error(ErrorCode::malformed,
+                   "f has " + shown(corner) + " where a corner (v, v/vt, v//vn, v/vt/vn) belongs");
+    }
+    const auto available = static_cast<std::int64_t>(count);
+    if (fault != std::errc{} || number == 0 || number < -available ||
+        number > static_cast<std::int64_t>(limits_.max_vertices)) {
+      return error(ErrorCode::out_of_range, "f names " + std::string(what) + " " + std::string(text.substr(0, 24)) +
+                                                ", there are " + std::to_string(count));
+    }
+    out = static_cast<std::uint32_t>(number > 0 ? number - 1 : available + number);
+    if (out >= count && (forward.empty() || out > forward.back().index)) forward.push_back({out, lines_.line()});
+    return Unit{};
+  }
+
+  [[nodiscard]] Status check_forward_references() const {
+    const Model& model = builder_.model;
+    if (Status s = check_forward(forward_v_, "vertex", model.positions.size()); !s) return s;
+    if (Status s = check_forward(forward_vt_, "texture coordinate", model.uvs.size()); !s) return s;
+    return check_forward(forward_vn_, "normal", model.normals.size());
+  }
+
+  static Status check_forward(const std::vector<ForwardReference>& forward, std::string_view what, std::size_t count) {
+    for (const auto& [index, line] : forward) {
+      if (index >= count) {
+        return Error{ErrorCode::out_of_range, "line " + std::to_string(line),
+                     "f names " + std::string(what) + " " + std::to_string(std::uint64_t{index} + 1) + ", there are " +
+                         std::to_string(count)};
+      }
+    }
+    return Unit{};
+  }
+
+  Status use_material(std::string_view name) {
+    const auto [entry, is_new] =
+        material_by_name_.try_emplace(std::string(name), static_cast<int>(builder_.model.materials.size()));
+    if (is_new) {
+      constexpr std::size_t max_materials = 4096;
+      if (builder_.model.materials.size() >= max_materials) return too_many("materials", max_materials);
+      Material material;
+      material.name = std::string(name);
+      builder_.model.materials.push_back(std::move(material));
+    }
+    material_ = entry->second;
+    start_section();
+    return Unit{};
+  }
+
+  void start_section() {
+    if (!sections_.empty() && sections_.back().first_polygon == polygons_.size()) sections_.pop_back();
+    sections_.push_back({polygons_.size(), name_, material_});
+  }
+
+  void add_triangles() {
+    Triangulator triangulator;
+    std::vector<glm::vec3> positions;
+    std::size_t section = 0;
+    for (std::size_t i = 0; i < polygons_.size(); ++i) {
+      for (; section < sections_.size() && sections_[section].first_polygon <= i; ++section) {
+        builder_.begin_primitive(sections_[section].name, sections_[section].material);
+      }
+      const std::size_t end = i + 1 < polygons_.size() ? polygons_[i + 1] : corners_.size();
+      const std::span<const Corner> corners = std::span(corners_).subspan(polygons_[i], end - polygons_[i]);
+      positions.clear();
+      for (const Corner& corner : corners) positions.push_back(builder_.model.positions[corner.vertex]);
+      for (const auto& [a, b, c] : triangulator.split(positions)) {
+        builder_.add_triangle(corners[a], corners[b], corners[c]);
+      }
+    }
+  }
+
+  ModelBuilder builder_;
+  const ImportLimits& limits_;
+  LineReader lines_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> polygons_;  ///< first corner of each
+  std::size_t triangles_ = 0;
+  std::vector<Section> sections_;
+  std::string name_;
+  int material_ = -1;
+  std::map<std::string, int, std::less<>> material_by_name_;
+  std::vector<ForwardReference> forward_v_, forward_vt_, forward_vn_;
+  std::size_t short_faces_ = 0;
+  std::size_t unknown_lines_ = 0;
+  std::string first_unknown_;
+  bool has_material_library_ = false;
+};
+
+}  // namespace
+
+Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
+  return ObjReader(bytes, limits).read();
+}
+
+}  // namespace semblante::import

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/import/limits.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+
+namespace semblante::import {
+
+/// Wavefront OBJ. File vertices are the `v` lines in order, unused ones too. Polygons are split (polygon.h); `o`, `g`
+/// and `usemtl` start primitives; `mtllib` is never followed: materials get their name and a default look. Errors name
+/// the line.
+Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
+
+}  // namespace semblante::import

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace semblante::import {
+
+/// The bytes seen as text. No byte is copied; nothing is assumed about the encoding.
+std::string_view as_text(std::span<const std::uint8_t> bytes);
+
+enum class NumberFault { none, not_a_number, not_finite };
+
+/// One decimal number that fills the whole token, whatever the locale. Underflow gives zero; overflow of float32, nan
+/// and inf are not_finite.
+NumberFault parse_number(std::string_view token, float& value);
+
+/// The next run of characters other than blanks; empty at the end. `rest` moves past it.
+std::string_view next_token(std::string_view& rest);
+
+/// "'abc'", made safe to show: cut at 40 characters, control characters and bytes above 126 as '?'.
+std::string shown(std::string_view token);
+
+/// A name out of a file, made safe to pass on: valid UTF-8 (other bytes become '?'), no control characters, at most 200
+/// bytes.
+std::string printable(std::string_view name);
+
+/// Lines with LF, CRLF or CR ends, numbered from 1.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : rest_(text) {}
+
+  /// The next line without its end; nullopt at the end of the text.
+  std::optional<std::string_view> next();
+  /// As next(), but a backslash before the end of a line joins the following one to it, as OBJ asks.
+  std::optional<std::string_view> next_logical();
+
+  /// Number of the line last returned (of its first line, if joined).
+  [[nodiscard]] std::size_t line() const { return line_; }
+  [[nodiscard]] std::string where() const { return "line " + std::to_string(line_); }
+  /// What has not been read yet.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+  std::string joined_;
+  std::size_t lines_read_ = 0;
+  std::size_t line_ = 0;
+};
+
+}  // namespace semblante::import
