@@ -1,0 +1,183 @@
+#include "server/package/package.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/expressions/library.h"
+#include "protocol/cpp/rig_document.h"
+#include "protocol/cpp/weights_format.h"
+#include "server/package/glb_writer.h"
+#include "server/package/materials.h"
+#include "server/package/mesh_encoding.h"
+#include "server/package/render_mesh.h"
+
+namespace semblante {
+namespace {
+
+Artefact make_artefact(std::vector<std::uint8_t> bytes) {
+  Artefact artefact;
+  artefact.sha256 = sha256(bytes);
+  artefact.bytes = std::move(bytes);
+  return artefact;
+}
+
+/// The rows of the file vertices, laid out for a mesh whose vertex i is file vertex `file_vertex[i]`.
+WeightTable<float> lay_out(const WeightTable<float>& by_file_vertex, std::span<const std::uint32_t> file_vertex) {
+  WeightTable<float> rows;
+  for (const std::uint32_t vertex : file_vertex) {
+    const auto points = by_file_vertex.points_of(vertex);
+    const auto weights = by_file_vertex.weights_of(vertex);
+    for (std::size_t i = 0; i < points.size(); ++i) rows.push(points[i], weights[i]);
+    rows.end_row();
+  }
+  return rows;
+}
+
+std::vector<std::uint8_t> lay_out(const std::vector<RigidMotion>& by_file_vertex,
+                                  std::span<const std::uint32_t> file_vertex) {
+  std::vector<std::uint8_t> rigid;
+  rigid.reserve(file_vertex.size());
+  for (const std::uint32_t vertex : file_vertex) rigid.push_back(static_cast<std::uint8_t>(by_file_vertex[vertex]));
+  return rigid;
+}
+
+std::vector<RigDocument::Point> name_points(const FeaturePointSet& points, std::span<const std::uint32_t> file_vertex) {
+  std::vector<RigDocument::Point> named;
+  for (const FeaturePoint& point : points) {
+    RigDocument::Point out{point.id, std::nullopt, point.position};
+    if (point.vertex) {
+      const auto at = std::find(file_vertex.begin(), file_vertex.end(), point.vertex->value());
+      if (at != file_vertex.end()) out.vertex = static_cast<std::uint32_t>(at - file_vertex.begin());
+    }
+    named.push_back(out);
+  }
+  return named;
+}
+
+RigDocument::MaterialInfo describe(const Material& material, const std::vector<Artefact>& images) {
+  const auto image_hash = [&](int index) -> std::optional<Sha256> {
+    if (index < 0 || static_cast<std::size_t>(index) >= images.size()) return std::nullopt;
+    return images[static_cast<std::size_t>(index)].sha256;
+  };
+  RigDocument::MaterialInfo out;
+  out.name = material.name;
+  out.base_color = material.base_color;
+  out.metallic = material.metallic;
+  out.roughness = material.roughness;
+  out.alpha_mode = static_cast<RigDocument::MaterialInfo::AlphaMode>(material.alpha_mode);
+  out.alpha_cutoff = material.alpha_cutoff;
+  out.double_sided = material.double_sided;
+  out.base_color_image = image_hash(material.base_color_image);
+  out.normal_image = image_hash(material.normal_image);
+  return out;
+}
+
+/// The library's sets on this face: FAPUs become model units, and points that are not marked fall away.
+RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
+  RigDocument::DisplacementSet out;
+  out.name = set.name;
+  for (const Displacement& displacement : to_model_units(set, rig.fapu).displacements) {
+    const bool marked = std::any_of(rig.points.begin(), rig.points.end(),
+                                    [&](const FeaturePoint& p) { return p.id == displacement.point; });
+    if (marked) out.displacements.push_back({displacement.point, displacement.value});
+  }
+  return out;
+}
+
+void describe_influence(const InfluenceTable& table, const Artefact& weights, int bits, double max_error,
+                        RigDocument::Weights& out) {
+  std::size_t influenced = 0;
+  for (std::size_t v = 0; v < table.rows.row_count(); ++v) {
+    const auto count = static_cast<std::uint32_t>(table.rows.points_of(v).size());
+    out.max_influences = std::max(out.max_influences, count);
+    influenced += count > 0 ? 1 : 0;
+  }
+  out.sha256 = weights.sha256;
+  out.bytes = weights.bytes.size();
+  out.bits = bits;
+  out.max_error = max_error;
+  out.mean_influences =
+      influenced == 0 ? 0.0 : static_cast<double>(table.rows.weights.size()) / static_cast<double>(influenced);
+}
+
+}  // namespace
+
+Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
+                                  const PackageOptions& options) {
+  const MaterialAssignment materials = assign_materials(model, surface, rig.parts);
+  const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle);
+  auto encoded = encode_mesh(mesh);
+  if (!encoded) return encoded.error();
+  FacePackage package;
+  package.mesh_drc = make_artefact(std::move(encoded->bytes));
+
+  InfluenceTable table;
+  table.vertex_count = static_cast<std::uint32_t>(encoded->file_vertex.size());
+  table.mesh_sha256 = package.mesh_drc.sha256;
+  table.rows = lay_out(rig.influence, encoded->file_vertex);
+  table.rigid = lay_out(rig.rigid_of_vertex, encoded->file_vertex);
+  package.weights = make_artefact(encode_weights(table, {options.weight_bits}));
+  const auto decoded = decode_weights(package.weights.bytes);
+  if (!decoded) return decoded.error();
+
+  for (const Image& image : model.images) package.images.push_back(make_artefact(image.bytes));
+
+  RigDocument document;
+  document.name = options.name;
+  document.mesh.sha256 = package.mesh_drc.sha256;
+  document.mesh.vertices = table.vertex_count;
+  document.mesh.triangles = static_cast<std::uint32_t>(encoded->triangle_count);
+  document.mesh.bytes = package.mesh_drc.bytes.size();
+  document.mesh.attributes.position = encoded->attributes.position;
+  document.mesh.attributes.normal = encoded->attributes.normal;
+  document.mesh.attributes.uv = encoded->attributes.uv;
+  document.mesh.attributes.material = encoded->attributes.material;
+  describe_influence(table, package.weights, options.weight_bits, max_quantization_error(table, *decoded),
+                     document.weights);
+  document.fapu = rig.fapu;
+  document.feature_points = name_points(rig.points, encoded->file_vertex);
+  document.eye_pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
+  document.head_pivot = rig.head_pivot;
+  for (const Part& part : rig.parts) {
+    document.parts.push_back({part.name, part.role, part.vertex_count, part.triangle_count});
+  }
+  for (std::size_t v = 0; v < viseme_count; ++v) document.visemes[v] = on_this_face(viseme_library()[v], rig);
+  for (std::size_t e = 0; e < expression_count; ++e)
+    document.expressions[e] = on_this_face(expression_library()[e], rig);
+  document.bounds_min = document.bounds_max = mesh.positions[0];
+  for (const glm::vec3& p : mesh.positions) {
+    document.bounds_min = glm::min(document.bounds_min, p);
+    document.bounds_max = glm::max(document.bounds_max, p);
+  }
+  for (const Material& material : materials.materials) {
+    document.materials.push_back(describe(material, package.images));
+  }
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    document.images.push_back({package.images[i].sha256, model.images[i].mime_type, package.images[i].bytes.size()});
+  }
+  document.warnings = model.warnings;
+  document.warnings.insert(document.warnings.end(), rig.warnings.begin(), rig.warnings.end());
+  const std::string rig_json = write_rig(document);
+  package.rig_json = make_artefact({rig_json.begin(), rig_json.end()});
+
+  // face.glb numbers its vertices for itself, so its copy of the rig must not point into mesh.drc.
+  for (RigDocument::Point& point : document.feature_points) point.vertex.reset();
+  GlbFace face;
+  const WeightTable<float> render_rows = lay_out(rig.influence, mesh.file_vertex);
+  const std::vector<std::uint8_t> render_rigid = lay_out(rig.rigid_of_vertex, mesh.file_vertex);
+  face.rows = &render_rows;
+  face.rigid = render_rigid;
+  face.rig_json = write_rig(document);
+  auto glb = write_face_glb(mesh, materials.materials, model.images, face);
+  if (!glb) return glb.error();
+  package.face_glb = make_artefact(std::move(*glb));
+  return package;
+}
+
+Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
+                                                std::span<const Part> parts) {
+  const MaterialAssignment materials = assign_materials(model, surface, parts);
+  return write_preview_glb(make_render_mesh(model, surface, materials.of_triangle), materials.materials, model.images);
+}
+
+}  // namespace semblante

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/geometry/surface.h"
+#include "core/types/model.h"
+
+namespace semblante {
+
+/// What a GPU draws: one vertex for every distinct (file vertex, uv, normal, material) corner of a Model.
+struct RenderMesh {
+  std::vector<std::uint32_t> file_vertex;        ///< #R, the model file's number of each vertex
+  std::vector<glm::vec3> positions;              ///< #R
+  std::vector<glm::vec3> normals;                ///< #R, the file's, or smooth ones where it has none
+  std::vector<glm::vec2> uvs;                    ///< #R, or empty when the model has none
+  std::vector<std::uint8_t> materials;           ///< #R, as MaterialAssignment numbers them
+  std::vector<Triangle> triangles;               ///< #T by 3, in the model's order
+  std::vector<std::uint8_t> triangle_materials;  ///< #T
+};
+
+/// Joins corners. Normals the file lacks are area-weighted means over the stitched surface, so that UV seams do not
+/// show. `triangle_materials` has one entry a triangle.
+RenderMesh make_render_mesh(const Model& model, const Surface& surface,
+                            std::span<const std::uint8_t> triangle_materials);
+
+}  // namespace semblante

@@ -1,0 +1,245 @@
+// The face package against the model and rig it was made from.
+#include "server/package/package.h"
+
+#include <cmath>
+#include <map>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/rig_document.h"
+#include "protocol/cpp/weights_format.h"
+#include "server/package/draco_mesh.h"
+#include "server/package/materials.h"
+#include "server/package/mesh_encoding.h"
+#include "server/package/render_mesh.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::uint32_t side = 9;  // vertices along one side of the test grid
+
+/// A bumpy grid in xy with a UV seam along its middle column, a triangle that hangs on one of its edges as a third (not
+/// manifold), a vertex no triangle uses, and a small loose triangle of another material.
+Model make_model() {
+  Model model;
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const auto fx = static_cast<float>(x);
+      const auto fy = static_cast<float>(y);
+      model.positions.emplace_back(fx, fy, std::sin(fx) * std::cos(fy));
+      model.uvs.emplace_back(fx / 16.0F, fy / 16.0F);
+    }
+  }
+  const auto at = [](std::uint32_t x, std::uint32_t y) { return y * side + x; };
+  // The right half has its own UVs, so that the middle column is a seam.
+  const auto right_uv = [&](std::uint32_t v) { return v + side * side; };
+  for (std::uint32_t v = 0; v < side * side; ++v) model.uvs.push_back(model.uvs[v] + glm::vec2(0.5F, 0.5F));
+  for (std::uint32_t y = 0; y + 1 < side; ++y) {
+    for (std::uint32_t x = 0; x + 1 < side; ++x) {
+      for (const Triangle& t :
+           {Triangle{at(x, y), at(x + 1, y), at(x + 1, y + 1)}, Triangle{at(x, y), at(x + 1, y + 1), at(x, y + 1)}}) {
+        model.triangles.push_back(t);
+        const bool right = x >= side / 2;
+        model.uv_triangles.push_back(right ? Triangle{right_uv(t[0]), right_uv(t[1]), right_uv(t[2])} : t);
+      }
+    }
+  }
+  model.positions.emplace_back(4.0F, 4.0F, 3.0F);  // the fin's tip
+  const auto fin = static_cast<std::uint32_t>(model.positions.size() - 1);
+  model.triangles.push_back({at(4, 4), at(5, 4), fin});
+  model.uv_triangles.push_back({0, 1, 2});
+  model.positions.emplace_back(100.0F, 100.0F, 100.0F);  // unused
+  model.primitives.push_back({"skin", -1, 0, static_cast<std::uint32_t>(model.triangles.size())});
+  const auto loose = static_cast<std::uint32_t>(model.positions.size());
+  for (const float x : {0.0F, 1.0F, 2.0F}) model.positions.emplace_back(x, -3.0F, x * x);
+  model.triangles.push_back({loose, loose + 1, loose + 2});
+  model.uv_triangles.push_back({Model::no_index, Model::no_index, Model::no_index});
+  Material green;
+  green.name = "green";
+  green.base_color = {0.1F, 0.5F, 0.1F, 1.0F};
+  model.materials.push_back(green);
+  model.primitives.push_back({"loose", 0, static_cast<std::uint32_t>(model.triangles.size() - 1), 1});
+  model.images.push_back({"image/png", {1, 2, 3}});
+  return model;
+}
+
+/// Influences that name their vertex: row of v is {fp v mod 5: 0.25 + v/1000, fp 5 + v mod 3: the rest to one}.
+Rig make_rig(const Model& model) {
+  Rig rig;
+  for (std::uint32_t v = 0; v < model.positions.size(); ++v) {
+    const float first = 0.25F + static_cast<float>(v) / 1000.0F;
+    rig.influence.push(FeaturePointId(static_cast<std::uint8_t>(v % 5)), first);
+    rig.influence.push(FeaturePointId(static_cast<std::uint8_t>(5 + v % 3)), 1.0F - first);
+    rig.influence.end_row();
+    rig.weights.end_row();
+    rig.rigid_of_vertex.push_back(v % 7 == 0 ? RigidMotion::left_eye : RigidMotion::none);
+    rig.part_of_vertex.emplace_back(0);
+  }
+  rig.points.push_back({*parse_feature_point("2.1"), VertexId(side + 2), model.positions[side + 2]});
+  rig.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(4.0F)});
+  rig.parts.push_back({"skin", PartRole::skin, false, 10, 10, {}, {}});
+  rig.fapu.value[static_cast<std::size_t>(FapuUnit::mns)] = 0.001;
+  rig.warnings.emplace_back("a warning");
+  return rig;
+}
+
+RenderMesh render(const Model& model, const Surface& surface) {
+  return make_render_mesh(model, surface, assign_materials(model, surface, {}).of_triangle);
+}
+
+TEST(RenderMesh, Corners_AtASeam_AreSplitOnce) {
+  const Model model = make_model();
+  const Surface surface = build_surface(model);
+  const RenderMesh mesh = render(model, surface);
+  // Each vertex once; the 9 of the seam column twice; the fin brings its tip and two corners with odd UVs; 3 loose.
+  EXPECT_EQ(mesh.positions.size(), side * side + side + 3 + 3);
+  ASSERT_EQ(mesh.triangles.size(), model.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(mesh.file_vertex[mesh.triangles[t][c]], model.triangles[t][c]);
+  }
+}
+
+TEST(RenderMesh, Normals_WhenTheFileHasNone_AreUnitAndSharedAcrossTheSeam) {
+  const Model model = make_model();
+  const RenderMesh mesh = render(model, build_surface(model));
+  std::map<std::uint32_t, glm::vec3> seen;
+  for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+    EXPECT_NEAR(glm::length(mesh.normals[v]), 1.0F, 1e-5F);
+    const auto [at, added] = seen.emplace(mesh.file_vertex[v], mesh.normals[v]);
+    EXPECT_EQ(at->second, mesh.normals[v]);
+  }
+}
+
+TEST(Materials, BlankOnes_AreChosenByNameThenByRole) {
+  Model model = make_model();
+  model.primitives[0].name = "EyeLashes_left";
+  const Surface surface = build_surface(model);
+  EXPECT_EQ(assign_materials(model, surface, {}).materials[0].name, "hair");
+  model.primitives[0].name = "";
+  std::vector<Part> parts(surface.part_count());
+  EXPECT_EQ(assign_materials(model, surface, parts).materials[0].name, "skin");
+  parts[0].role = PartRole::lower_teeth;
+  const MaterialAssignment assigned = assign_materials(model, surface, parts);
+  EXPECT_EQ(assigned.materials[0].name, "teeth");
+  EXPECT_EQ(assigned.materials[assigned.of_triangle.back()].name, "green") << "what the file says is kept";
+}
+
+TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {
+  const Model model = make_model();
+  const RenderMesh mesh = render(model, build_surface(model));
+  const auto encoded = encode_mesh(mesh);
+  ASSERT_TRUE(encoded.ok()) << encoded.error().message;
+  const auto decoded = decode_draco(encoded->bytes);
+  ASSERT_TRUE(decoded.ok());
+  ASSERT_EQ(decoded->point_count, encoded->file_vertex.size());
+  for (std::size_t v = 0; v < decoded->point_count; ++v) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      // 14 bits over a side of 11: half a step is 0.0003.
+      EXPECT_NEAR(decoded->positions[v * 3 + c], model.positions[encoded->file_vertex[v]][static_cast<int>(c)], 5e-4);
+    }
+  }
+  EXPECT_THAT(encoded->file_vertex, testing::Not(testing::Contains(side * side + 1))) << "the unused vertex is dropped";
+}
+
+TEST(EncodeMesh, NoTriangles_IsRefused) {
+  const auto encoded = encode_mesh(RenderMesh{});
+  ASSERT_FALSE(encoded.ok());
+  EXPECT_EQ(encoded.error().code, ErrorCode::empty);
+}
+
+TEST(DecodeDraco, EveryPrefixAndEveryFlippedByte_DoesNotCrash) {
+  const Model model = make_model();
+  const auto encoded = encode_mesh(render(model, build_surface(model)));
+  ASSERT_TRUE(encoded.ok());
+  int refused = 0;
+  for (std::size_t n = 0; n < encoded->bytes.size(); ++n) {
+    refused += decode_draco(std::span(encoded->bytes).first(n)).ok() ? 0 : 1;
+  }
+  for (std::size_t n = 0; n < encoded->bytes.size(); ++n) {
+    auto flipped = encoded->bytes;
+    flipped[n] ^= 0x40U;
+    const auto decoded = decode_draco(flipped);
+    if (!decoded) continue;
+    for (const Triangle& t : decoded->triangles) {
+      for (const std::uint32_t corner : t) ASSERT_LT(corner, decoded->point_count);
+    }
+  }
+  // Draco has no checksum: the last few bytes may be slack, nearly all prefixes must be noticed.
+  EXPECT_GT(refused, static_cast<int>(encoded->bytes.size()) * 9 / 10);
+}
+
+class PackageOfAGrid : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto built = build_package(model_, surface_, rig_, {"Grid", 12});
+    ASSERT_TRUE(built.ok()) << built.error().where << ": " << built.error().message;
+    package_ = std::move(*built);
+    auto rig =
+        read_rig({reinterpret_cast<const char*>(package_.rig_json.bytes.data()), package_.rig_json.bytes.size()});
+    ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;
+    document_ = std::move(*rig);
+  }
+
+  Model model_ = make_model();
+  Surface surface_ = build_surface(model_);
+  Rig rig_ = make_rig(model_);
+  FacePackage package_;
+  RigDocument document_;
+};
+
+TEST_F(PackageOfAGrid, Hashes_AreOfTheBytesAndBindTheThreeTogether) {
+  EXPECT_EQ(package_.mesh_drc.sha256, sha256(package_.mesh_drc.bytes));
+  EXPECT_EQ(document_.mesh.sha256, package_.mesh_drc.sha256);
+  EXPECT_EQ(document_.weights.sha256, package_.weights.sha256);
+  const auto table = decode_weights(package_.weights.bytes);
+  ASSERT_TRUE(table.ok());
+  EXPECT_EQ(table->mesh_sha256, package_.mesh_drc.sha256);
+}
+
+TEST_F(PackageOfAGrid, Rows_FollowTheDecodedOrder) {
+  const auto table = decode_weights(package_.weights.bytes);
+  const auto mesh = encode_mesh(render(model_, surface_));
+  ASSERT_TRUE(table.ok() && mesh.ok());
+  ASSERT_EQ(table->vertex_count, mesh->file_vertex.size());
+  for (std::size_t v = 0; v < mesh->file_vertex.size(); ++v) {
+    const std::uint32_t file = mesh->file_vertex[v];
+    ASSERT_EQ(table->rows.points_of(v).size(), 2U);
+    EXPECT_EQ(table->rows.points_of(v)[0].value(), file % 5);
+    EXPECT_NEAR(table->rows.weights_of(v)[0], 0.25 + file / 1000.0, document_.weights.max_error + 1e-7);
+    EXPECT_EQ(table->rigid[v], file % 7 == 0 ? 1 : 0);
+  }
+  EXPECT_LE(document_.weights.max_error, 1.0 / 4095) << "12 bits";
+}
+
+TEST_F(PackageOfAGrid, FeaturePoints_PointAtTheirDecodedVertex) {
+  const auto mesh = encode_mesh(render(model_, surface_));
+  ASSERT_EQ(document_.feature_points.size(), 2U);
+  ASSERT_TRUE(document_.feature_points[0].vertex.has_value());
+  EXPECT_EQ(mesh->file_vertex[*document_.feature_points[0].vertex], side + 2);
+  EXPECT_FALSE(document_.feature_points[1].vertex.has_value()) << "7.1 is a bare position";
+}
+
+TEST_F(PackageOfAGrid, Rig_ListsMaterialsImagesAndOnlyMovesMarkedPoints) {
+  EXPECT_EQ(document_.name, "Grid");
+  ASSERT_EQ(document_.images.size(), 1U);
+  EXPECT_EQ(document_.images[0].sha256, sha256(model_.images[0].bytes));
+  EXPECT_EQ(document_.materials.size(), 2U);
+  EXPECT_THAT(document_.warnings, testing::Contains("a warning"));
+  for (const auto& set : document_.visemes) {
+    for (const auto& displacement : set.displacements) EXPECT_EQ(to_string(displacement.id), "2.1");
+  }
+}
+
+TEST_F(PackageOfAGrid, Building_Twice_GivesTheSameBytes) {
+  const auto again = build_package(model_, surface_, rig_, {"Grid", 12});
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->mesh_drc.bytes, package_.mesh_drc.bytes);
+  EXPECT_EQ(again->weights.bytes, package_.weights.bytes);
+  EXPECT_EQ(again->rig_json.bytes, package_.rig_json.bytes);
+  EXPECT_EQ(again->face_glb.bytes, package_.face_glb.bytes);
+}
+
+}  // namespace
+}  // namespace semblante
