@@ -1,0 +1,111 @@
+/* The C SDK of Semblante: a face package in, moving vertices out.
+ *
+ * The caller fetches the package by its own means (HTTP), decodes mesh.drc by its own means (Draco) and hands the
+ * bytes over. From then on: frame in, positions out. No network, no files, no threads, no logging, no locale, no
+ * callbacks; no exception ever crosses this boundary. Options and structs are valid when zeroed.
+ *
+ *   semblante_package package = {0};
+ *   package.positions = positions;  package.vertex_count = n;   // decoded mesh.drc, in decoded order
+ *   package.weights = weights;      package.weights_size = ...; // bytes of `weights`
+ *   package.rig_json = rig;         package.rig_json_size = ...;// bytes of `rig.json`
+ *   semblante_head* head;
+ *   if (semblante_head_create(&package, NULL, &head, &error) != SEMBLANTE_OK) { puts(error.message); ... }
+ *   semblante_frame frame = {0};
+ *   frame.fap[3] = 300;                                         // open the jaw
+ *   semblante_head_set_frame(head, &frame);
+ *   semblante_head_positions(head, out, 3 * n);                 // draw these
+ *   semblante_head_destroy(head);
+ *
+ * Threads: functions that take a const head may run at the same time on one head; the others need it alone.
+ * Frames and poses are the kernel's own (semblante_kernel.h); its functions are exported as well.
+ */
+#ifndef SEMBLANTE_H
+#define SEMBLANTE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/kernel/semblante_kernel.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SEMBLANTE_SDK_VERSION 0x000100u /* 0.1.0: 8 bits each */
+
+/* What was wrong. Values never change; new ones are added at the end. */
+typedef enum semblante_result {
+  SEMBLANTE_OK = 0,
+  SEMBLANTE_INVALID_ARGUMENT = 1, /* a null that may not be, a number that is not finite, a value out of its range */
+  SEMBLANTE_MALFORMED = 2,        /* the bytes are not of the format they claim, or end early */
+  SEMBLANTE_UNSUPPORTED = 3,      /* a version this SDK does not read */
+  SEMBLANTE_MISMATCH = 4,         /* mesh, weights and rig are not of one package */
+  SEMBLANTE_TOO_LARGE = 5,        /* over a documented limit (4 million vertices, 48 million weights) */
+  SEMBLANTE_BUFFER_TOO_SMALL = 6, /* nothing was written */
+  SEMBLANTE_OUT_OF_MEMORY = 7,
+  SEMBLANTE_INTERNAL = 8
+} semblante_result;
+
+/* Words for people, zero-terminated UTF-8, cut to fit. `where` names the member or byte at fault; may be empty. */
+typedef struct semblante_error {
+  char where[96];
+  char message[256];
+} semblante_error;
+
+/* The decoded parts of a face package. Read during the call only; everything needed is copied. */
+typedef struct semblante_package {
+  const float* positions; /* #V by 3, model units: POSITION of mesh.drc in decoded order */
+  uint32_t vertex_count;  /* #V */
+  const uint8_t*
+      mesh_sha256;        /* 32 bytes: SHA-256 of the bytes of mesh.drc; null: the pairing is checked by count only */
+  const uint8_t* weights; /* bytes of the artefact `weights` */
+  size_t weights_size;
+  const char* rig_json; /* bytes of rig.json, UTF-8, need not end in zero */
+  size_t rig_json_size;
+} semblante_package;
+
+typedef struct semblante_head_options {
+  float viseme_share; /* share of the viseme where an expression acts too (Eq. 5); 0: what rig.json says */
+  uint32_t reserved[7];
+} semblante_head_options;
+
+/* One parametrized head and the pose it is in. */
+typedef struct semblante_head semblante_head;
+
+/* Version of the library that runs, to compare with SEMBLANTE_SDK_VERSION. */
+uint32_t semblante_sdk_version(void);
+/* "ok", "malformed", ...: a static string for logs. */
+const char* semblante_result_name(semblante_result result);
+
+/* Makes a head in the neutral pose. `options` and `error` may be null. On failure *head is null and, if given, *error
+ * says why. */
+semblante_result semblante_head_create(const semblante_package* package, const semblante_head_options* options,
+                                       semblante_head** head, semblante_error* error);
+/* Null is fine. */
+void semblante_head_destroy(semblante_head* head);
+
+/* 0 for null. */
+uint32_t semblante_head_vertex_count(const semblante_head* head);
+/* The displacement sets of FAPs 1 and 2, units and pivots of this head; valid until it is destroyed. Null for null. */
+const semblante_rig* semblante_head_rig(const semblante_head* head);
+/* Rest positions and influence table; valid until the head is destroyed. Null for null. */
+const semblante_face* semblante_head_face(const semblante_head* head);
+
+/* Frame -> pose of this head (Eq. 5, 6), kept in the head. FAPs that are not finite are refused. */
+semblante_result semblante_head_set_frame(semblante_head* head, const semblante_frame* frame);
+/* The pose t of the way between two frames, 0..1: what a display that is faster than the stream shows. */
+semblante_result semblante_head_set_interpolated(semblante_head* head, const semblante_frame* from,
+                                                 const semblante_frame* to, float t);
+/* The pose in use, and a pose of the caller's own making (a blend, a filter). */
+semblante_result semblante_head_get_pose(const semblante_head* head, semblante_pose* pose);
+semblante_result semblante_head_set_pose(semblante_head* head, const semblante_pose* pose);
+
+/* The vertices of the pose in use (Eq. 7, then eyes, then head): 3 * vertex_count floats, in decoded order.
+ * `capacity` is in floats. */
+semblante_result semblante_head_positions(const semblante_head* head, float* positions, size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

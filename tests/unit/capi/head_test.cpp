@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "clients/capi/semblante.h"
+#include "tests/unit/capi/sdk_from_c.h"
+#include "tests/unit/capi/small_package.h"
+
+namespace semblante::testing {
+namespace {
+
+/// Of a weight, by 16 bits, times the greatest displacement in these tests.
+constexpr float quantization = 2e-5F;
+
+struct Destroy {
+  void operator()(semblante_head* head) const { semblante_head_destroy(head); }
+};
+using OwnedHead = std::unique_ptr<semblante_head, Destroy>;
+
+OwnedHead make(const SmallPackage& small, const semblante_head_options* options = nullptr) {
+  const semblante_package package = small.view();
+  semblante_head* head = nullptr;
+  semblante_error error{};
+  EXPECT_EQ(semblante_head_create(&package, options, &head, &error), SEMBLANTE_OK) << error.where << error.message;
+  return OwnedHead(head);
+}
+
+std::array<float, 12> positions_of(const semblante_head* head) {
+  std::array<float, 12> positions{};
+  EXPECT_EQ(semblante_head_positions(head, positions.data(), positions.size()), SEMBLANTE_OK);
+  return positions;
+}
+
+semblante_result create_result(const semblante_package& package, semblante_error* error) {
+  semblante_head* head = nullptr;
+  const semblante_result result = semblante_head_create(&package, nullptr, &head, error);
+  EXPECT_EQ(head == nullptr, result != SEMBLANTE_OK);
+  semblante_head_destroy(head);
+  return result;
+}
+
+TEST(HeadCreate, InvalidInputs_EachIsNamed) {
+  SmallPackage small;
+  semblante_error error{};
+  {  // Nothing at all.
+    EXPECT_EQ(create_result(semblante_package{}, &error), SEMBLANTE_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.where, "package");
+  }
+  {  // A null package, and nowhere to put a head.
+    semblante_head* head = nullptr;
+    EXPECT_EQ(semblante_head_create(nullptr, nullptr, &head, nullptr), SEMBLANTE_INVALID_ARGUMENT);
+    const semblante_package package = small.view();
+    EXPECT_EQ(semblante_head_create(&package, nullptr, nullptr, &error), SEMBLANTE_INVALID_ARGUMENT);
+  }
+  {  // A position that is no number.
+    SmallPackage bad;
+    bad.positions[4] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(create_result(bad.view(), &error), SEMBLANTE_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.where, "package.positions");
+  }
+  {  // Too few positions for the table.
+    semblante_package package = small.view();
+    package.vertex_count = 3;
+    EXPECT_EQ(create_result(package, &error), SEMBLANTE_MISMATCH);
+  }
+  {  // Another mesh than the table's.
+    semblante_package package = small.view();
+    const std::array<std::uint8_t, 32> other{};
+    package.mesh_sha256 = other.data();
+    EXPECT_EQ(create_result(package, &error), SEMBLANTE_MISMATCH);
+    EXPECT_STREQ(error.where, "weights");
+  }
+  {  // A rig of another mesh.
+    SmallPackage bad;
+    bad.rig.mesh.sha256.fill(1);
+    bad.rig_json = write_rig(bad.rig);
+    EXPECT_EQ(create_result(bad.view(), &error), SEMBLANTE_MISMATCH);
+  }
+  {  // Every cut of the table, every cut of the rig.
+    for (std::size_t size = 0; size < small.weights.size(); ++size) {
+      semblante_package package = small.view();
+      package.weights_size = size;
+      EXPECT_NE(create_result(package, &error), SEMBLANTE_OK) << size;
+    }
+    for (std::size_t size = 0; size + 2 < small.rig_json.size(); size += 7) {
+      semblante_package package = small.view();
+      package.rig_json_size = size;
+      EXPECT_EQ(create_result(package, &error), SEMBLANTE_MALFORMED) << size;
+    }
+  }
+  {  // A share beyond one.
+    const semblante_package package = small.view();
+    semblante_head_options options{};
+    options.viseme_share = 1.5F;
+    semblante_head* head = nullptr;
+    EXPECT_EQ(semblante_head_create(&package, &options, &head, &error), SEMBLANTE_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.where, "options.viseme_share");
+  }
+}
+
+TEST(Head, NeutralPose_GivesRestBitForBit) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  EXPECT_EQ(semblante_head_vertex_count(head.get()), 4U);
+  const std::array<float, 12> positions = positions_of(head.get());
+  EXPECT_TRUE(std::equal(positions.begin(), positions.end(), small.positions.begin()));
+}
+
+TEST(Head, OpenJaw_MovesVerticesByTheirShare) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  semblante_frame frame{};
+  frame.fap[3] = 100;  // open_jaw: FP 2.1 down by 100 * MNS = 100 * 0.01 = 1
+  ASSERT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_OK);
+  const std::array<float, 12> positions = positions_of(head.get());
+  EXPECT_NEAR(positions[1], -1.0F, quantization);        // 0 + 1 * -1
+  EXPECT_NEAR(positions[4], 1.0F - 0.5F, quantization);  // 1 + 0.5 * -1
+  EXPECT_EQ(positions[7], 1.0F);
+  EXPECT_EQ(positions[10], 5.0F);
+}
+
+TEST(Head, Expression_MovesByItsSet) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  semblante_frame frame{};
+  frame.expression1 = 1;
+  frame.intensity1 = 63;
+  ASSERT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_OK);
+  EXPECT_NEAR(positions_of(head.get())[4], 1.0F + 0.5F * 0.4F, quantization);
+}
+
+TEST(Head, YawOfTheLeftEye_TurnsOnlyItsVertices) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  semblante_frame frame{};
+  // FAP 23, yaw of the left eye, a quarter turn to the left: pi/2 / 1e-5 AU. The vertex is one before the pivot (+Z)
+  // and comes to lie one to its left (+X): (1, 1, 0) + (1, 0, 0).
+  frame.fap[23] = 157079.63F;
+  ASSERT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_OK);
+  const std::array<float, 12> positions = positions_of(head.get());
+  EXPECT_NEAR(positions[6], 2.0F, 1e-5F);
+  EXPECT_NEAR(positions[7], 1.0F, 1e-5F);
+  EXPECT_NEAR(positions[8], 0.0F, 1e-5F);
+  EXPECT_EQ(positions[9], 5.0F);
+}
+
+TEST(Head, Interpolated_IsHalfWayAtHalf) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  const semblante_frame neutral{};
+  semblante_frame open{};
+  open.fap[3] = 100;
+  ASSERT_EQ(semblante_head_set_interpolated(head.get(), &neutral, &open, 0.5F), SEMBLANTE_OK);
+  EXPECT_NEAR(positions_of(head.get())[1], -0.5F, quantization);
+}
+
+TEST(Head, PoseOfTheCallers_IsWhatIsShown) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  semblante_pose pose{};
+  ASSERT_EQ(semblante_head_get_pose(head.get(), &pose), SEMBLANTE_OK);
+  pose.fp[0] = 0.25F;  // FP 2.1 is the first of the 84
+  ASSERT_EQ(semblante_head_set_pose(head.get(), &pose), SEMBLANTE_OK);
+  EXPECT_NEAR(positions_of(head.get())[0], 0.25F, quantization);
+}
+
+TEST(Head, BadArguments_AreRefusedAndChangeNothing) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  semblante_frame frame{};
+  frame.fap[3] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_head_set_frame(head.get(), nullptr), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_head_set_frame(nullptr, &frame), SEMBLANTE_INVALID_ARGUMENT);
+  semblante_pose pose{};
+  pose.head_rotation[2] = std::nanf("");
+  EXPECT_EQ(semblante_head_set_pose(head.get(), &pose), SEMBLANTE_INVALID_ARGUMENT);
+  std::array<float, 12> positions{};
+  positions.fill(7.0F);
+  EXPECT_EQ(semblante_head_positions(head.get(), positions.data(), 11), SEMBLANTE_BUFFER_TOO_SMALL);
+  EXPECT_EQ(positions[0], 7.0F);
+  EXPECT_EQ(positions_of(head.get())[0], small.positions[0]);
+  EXPECT_EQ(semblante_head_vertex_count(nullptr), 0U);
+  EXPECT_EQ(semblante_head_rig(nullptr), nullptr);
+}
+
+TEST(Head, VisemeShareOption_ReplacesTheRigs) {
+  const SmallPackage small;
+  EXPECT_FLOAT_EQ(semblante_head_rig(make(small).get())->viseme_share, 0.85F);
+  semblante_head_options options{};
+  options.viseme_share = 0.5F;
+  const OwnedHead head = make(small, &options);
+  EXPECT_FLOAT_EQ(semblante_head_rig(head.get())->viseme_share, 0.5F);
+}
+
+TEST(Sdk, UsedFromC_DeformsTheHead) {
+  const SmallPackage small;
+  const semblante_package package = small.view();
+  std::array<float, 12> positions{};
+  ASSERT_EQ(open_jaw_from_c(&package, positions.data(), positions.size()), SEMBLANTE_OK);
+  EXPECT_NEAR(positions[1], -1.0F, quantization);
+  EXPECT_EQ(open_jaw_from_c(&package, positions.data(), 3), SEMBLANTE_BUFFER_TOO_SMALL);
+}
+
+TEST(Sdk, ResultNames_AreDistinct) {
+  std::vector<std::string> names;
+  for (int result = SEMBLANTE_OK; result <= SEMBLANTE_INTERNAL; ++result) {
+    names.emplace_back(semblante_result_name(static_cast<semblante_result>(result)));
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
+  EXPECT_EQ(semblante_sdk_version(), SEMBLANTE_SDK_VERSION);
+}
+
+}  // namespace
+}  // namespace semblante::testing
