@@ -46,6 +46,24 @@ Status check_shape(std::string_view text, const JsonLimits& limits) {
   return Unit{};
 }
 
+/// An object or array being parsed, kept to notice members named twice and to say where they are.
+struct OpenValue {
+  bool is_array = false;
+  std::set<std::string> keys;
+  std::string key;           ///< of the member being read; empty before the first
+  std::size_t elements = 0;  ///< read so far
+};
+
+std::string pointer_to(const std::vector<OpenValue>& open) {
+  std::string pointer;
+  for (const OpenValue& value : open) {
+    if (!value.is_array && value.keys.empty()) break;
+    pointer.push_back('/');
+    pointer.append(value.is_array ? std::to_string(value.elements) : pointer_segment(value.key));
+  }
+  return pointer;
+}
+
 std::string_view kind_of(const json& value) {
   switch (value.type()) {
     case json::value_t::object:
@@ -67,26 +85,42 @@ std::string_view kind_of(const json& value) {
 
 Result<json> parse_json(std::string_view text, const JsonLimits& limits) {
   if (Status status = check_shape(text, limits); !status) return status.error();
-  std::vector<std::set<std::string>> keys;
-  std::optional<std::string> twice;
+  std::vector<OpenValue> open;
+  std::optional<Error> twice;
   const auto watch_keys = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.empty() && !twice) {
-      const auto& key = parsed.get_ref<const std::string&>();
-      if (!keys.back().insert(key).second) twice = key;
+    switch (event) {
+      case json::parse_event_t::object_start:
+        open.emplace_back();
+        break;
+      case json::parse_event_t::array_start:
+        open.emplace_back().is_array = true;
+        break;
+      case json::parse_event_t::object_end:
+      case json::parse_event_t::array_end:
+        open.pop_back();
+        [[fallthrough]];
+      case json::parse_event_t::value:
+        if (!open.empty()) ++open.back().elements;
+        break;
+      case json::parse_event_t::key: {
+        open.back().key = parsed.get<std::string>();
+        const bool is_new = open.back().keys.insert(open.back().key).second;
+        if (!is_new && !twice) twice = Error{ErrorCode::malformed, pointer_to(open), "is there twice"};
+        break;
+      }
     }
     return true;
   };
   try {
     json tree = json::parse(text.begin(), text.end(), watch_keys);
-    if (twice)
-      return Error{ErrorCode::malformed, "", "JSON names the member " + shown(*twice) + " twice in one object"};
+    if (twice) return *twice;
     return tree;
   } catch (const json::parse_error& fault) {
-    return Error{ErrorCode::malformed, "byte " + std::to_string(fault.byte), "not valid JSON"};
+    const std::string byte = "byte " + std::to_string(fault.byte);
+    const std::string pointer = pointer_to(open);
+    return Error{ErrorCode::malformed, pointer.empty() ? byte : pointer, "is not valid JSON (" + byte + ")"};
   } catch (const json::exception&) {
-    return Error{ErrorCode::out_of_range, "", "JSON has a number that is too large"};
+    return Error{ErrorCode::out_of_range, pointer_to(open), "is a number that is too large"};
   }
 }
 

@@ -17,7 +17,7 @@ struct JsonLimits {
 };
 
 /// A JSON text as a tree. Its shape is counted before any of it is built; a member named twice is an error, since one
-/// of the two would be lost without a word.
+/// of the two would be lost without a word. Errors name the member they are at, or the byte where there is none.
 Result<nlohmann::json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
 /// A place in a JSON tree that knows its own pointer. Reading something that is not there, or of the wrong kind, keeps

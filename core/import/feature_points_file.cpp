@@ -1,0 +1,101 @@
+#include "core/import/feature_points_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/matrix.hpp>
+
+#include "core/import/json.h"
+#include "core/import/text.h"
+
+namespace semblante {
+namespace {
+
+using import::JsonCursor;
+
+/// 84 points with a page of remarks each are far below this.
+constexpr std::size_t max_bytes = std::size_t{4} << 20;
+
+glm::dvec3 read_vector(const JsonCursor& array) {
+  glm::dvec3 value(0.0);
+  if (array.size() != 3) {
+    array.fail(ErrorCode::malformed, "must have 3 numbers");
+    return value;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const JsonCursor element = array.element(i);
+    value[static_cast<int>(i)] = element.number();
+    if (std::abs(value[static_cast<int>(i)]) > static_cast<double>(std::numeric_limits<float>::max())) {
+      element.fail(ErrorCode::out_of_range, "is too large");
+    }
+  }
+  return value;
+}
+
+MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
+  MarkedPoint marked{id, std::nullopt, std::nullopt};
+  point.must_be_object();
+  if (point.has("vertex")) {
+    marked.vertex = static_cast<std::uint32_t>(point["vertex"].integer(std::numeric_limits<std::uint32_t>::max()));
+  }
+  if (point.has("position")) marked.position = read_vector(point["position"]);
+  if (!marked.vertex && !marked.position) point.fail(ErrorCode::missing, "has neither a vertex nor a position");
+  return marked;
+}
+
+glm::dmat3 read_axes(const JsonCursor& rows) {
+  glm::dmat3 matrix(1.0);
+  if (rows.size() != 3) {
+    rows.fail(ErrorCode::malformed, "must have 3 rows of 3 numbers");
+    return matrix;
+  }
+  for (int row = 0; row < 3; ++row) {
+    const glm::dvec3 values = read_vector(rows.element(static_cast<std::size_t>(row)));
+    for (int column = 0; column < 3; ++column) matrix[column][row] = values[column];
+  }
+  // Relative to the size of its rows, so that a change of unit is fine and a flattening is not.
+  const double size = glm::length(matrix[0]) * glm::length(matrix[1]) * glm::length(matrix[2]);
+  if (!(std::abs(glm::determinant(matrix)) > 1e-6 * size) || !std::isfinite(size)) {
+    rows.fail(ErrorCode::invalid_argument, "has no inverse");
+  }
+  return matrix;
+}
+
+}  // namespace
+
+Result<FeaturePointsFile> parse_feature_points(std::string_view json) {
+  if (json.size() > max_bytes) {
+    return Error{ErrorCode::too_large, "",
+                 "the feature point file has more than " + std::to_string(max_bytes) + " bytes"};
+  }
+  const auto tree = import::parse_json(json);
+  if (!tree) return tree.error();
+  std::optional<Error> fault;
+  const JsonCursor root(*tree, fault);
+  root.must_be_object();
+  const JsonCursor points = root["points"];
+  points.must_be_object();
+  if (fault) return *fault;
+  if (root.integer_or("vertex_index_base", 0) != 0) {
+    root["vertex_index_base"].fail(ErrorCode::unsupported, "must be 0: vertices count from 0");
+  }
+  FeaturePointsFile file;
+  for (const auto& member : (*tree)["points"].items()) {
+    const auto id = parse_feature_point(member.key());
+    if (!id) {
+      return Error{ErrorCode::invalid_argument, "/points/" + import::pointer_segment(member.key()),
+                   import::shown(member.key()) + " is not a feature point of MPEG-4 (2.1 to 11.6)"};
+    }
+    file.points.push_back(read_point(*id, points[member.key().c_str()]));
+    if (fault) return *fault;
+  }
+  if (root.has("to_mpeg4_axes")) file.to_mpeg4_axes = read_axes(root["to_mpeg4_axes"]);
+  if (!fault && file.points.empty()) points.fail(ErrorCode::empty, "has no points");
+  if (fault) return *fault;
+  std::sort(file.points.begin(), file.points.end(),
+            [](const MarkedPoint& a, const MarkedPoint& b) { return a.id < b.id; });
+  return file;
+}
+
+}  // namespace semblante
