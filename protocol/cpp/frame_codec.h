@@ -10,13 +10,9 @@
 
 namespace semblante {
 
-/// The most a binary message may weigh; longer ones are refused unread.
-inline constexpr std::size_t max_binary_message_bytes = 256U << 10U;
-/// The most frames one message may hold.
-inline constexpr std::size_t max_frames_per_message = 1024;
-
 /// Writes the messages of ONE stream in the binary form. It remembers the last frame, because a `frames` message says
-/// only what changed: every message it makes must reach the decoder, in order, or a keyframe must follow.
+/// only what changed: every message it makes must reach the decoder, in order, or a keyframe must follow. A keyframe
+/// for one late reader comes from an encoder of its own, `FrameEncoder().encode(keyframe)`.
 class FrameEncoder {
  public:
   /// Asserts that the message is within the documented ranges, and that frames follow a keyframe without a gap.

@@ -10,9 +10,6 @@
 
 namespace semblante {
 
-/// The most a JSON message may weigh; longer ones are refused unread.
-inline constexpr std::size_t max_json_message_bytes = 1U << 20U;
-
 /// One message as text. FAPs are in FAP units, each frame is whole (there is no delta form in JSON).
 std::string encode_json(const Message& message, const QuantizerSteps& steps = standard_quantizers());
 

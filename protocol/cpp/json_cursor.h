@@ -30,6 +30,7 @@ class JsonCursor {
   }
   [[nodiscard]] bool failed() const { return report_->has_value(); }
   [[nodiscard]] bool is_null() const { return node_->is_null(); }
+  [[nodiscard]] bool is_empty_array() const { return node_->is_array() && node_->empty(); }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
   /// Reports `missing` when there is no such member.

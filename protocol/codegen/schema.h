@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+/// Small questions to the schema that every renderer asks.
+namespace semblante::codegen {
+
+using Json = nlohmann::ordered_json;
+
+inline std::string text(const Json& node, const char* key) { return node.value(key, std::string()); }
+inline bool required(const Json& field) { return field.value("required", false); }
+/// "ResumePoint" -> "resume_point".
+std::string snake_case(const std::string& name);
+/// A field's documentation with its unit in front: "ms, since 1970".
+std::string documentation(const Json& field);
+
+}  // namespace semblante::codegen

@@ -1,0 +1,287 @@
+// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
+// clang-format off
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "protocol/cpp/face_frame.h"
+
+namespace semblante {
+
+/// Whether a field may be left out: a JSON member absent, a binary message that ends before it.
+enum class Presence : std::uint8_t { required, defaulted };
+
+/// Texts of an enumeration by value. An open one reads values it does not know as its first.
+struct EnumNames {
+  std::span<const std::string_view> names;
+  bool open;
+};
+
+inline constexpr double max_real = std::numeric_limits<double>::max();
+
+inline constexpr std::uint32_t protocol_version = 1;
+inline constexpr std::string_view binary_subprotocol = "semblante.v1";
+inline constexpr std::string_view json_subprotocol = "semblante.v1.json";
+
+inline constexpr std::size_t max_binary_message_bytes = 262144;
+inline constexpr std::size_t max_json_message_bytes = 1048576;
+inline constexpr std::size_t max_frames_per_message = 1024;
+inline constexpr std::size_t max_frame_time = 86400000;
+inline constexpr std::size_t max_level = 32767;
+
+/// What a client wants of the stream.
+enum class StreamRole : std::uint8_t {
+  subscribe,  ///< to receive frames
+  publish,  ///< to send frames
+};
+inline constexpr std::array<std::string_view, 2> stream_role_value_names = {"subscribe", "publish"};
+inline constexpr EnumNames stream_role_names{stream_role_value_names, false};
+
+/// Why a stream or a connection ends.
+enum class EndReason : std::uint8_t {
+  other,  ///< any reason this version does not know
+  finished,  ///< the source has no more
+  deleted,  ///< the stream was deleted
+  shutdown,  ///< the server stops; reconnect later
+  replaced,  ///< another publisher took over
+  slow,  ///< the receiver does not keep up
+};
+inline constexpr std::array<std::string_view, 6> end_reason_value_names = {"other", "finished", "deleted", "shutdown", "replaced", "slow"};
+inline constexpr EnumNames end_reason_names{end_reason_value_names, true};
+
+/// What was wrong with a message.
+enum class StreamErrorCode : std::uint8_t {
+  other,  ///< anything this version does not know
+  malformed,  ///< not of the form it claims, or a value of the wrong kind
+  truncated,  ///< ends before what it announced
+  out_of_range,  ///< a number outside its bounds
+  not_finite,  ///< NaN or infinity where a number belongs
+  too_large,  ///< over a limit
+  unsupported,  ///< a version or message type that is not known
+  mismatch,  ///< does not fit what came before: frames without a keyframe, or after a gap
+  missing,  ///< a required member is absent
+  invalid_argument,  ///< a value that cannot mean anything here
+  not_found,  ///< no such stream
+  conflict,  ///< someone else publishes already
+  throttled,  ///< too much in too short a time
+  unauthorized,  ///< the role is not allowed to this client
+  internal,  ///< a fault of the server
+};
+inline constexpr std::array<std::string_view, 15> stream_error_code_value_names = {"other", "malformed", "truncated", "out_of_range", "not_finite", "too_large", "unsupported", "mismatch", "missing", "invalid_argument", "not_found", "conflict", "throttled", "unauthorized", "internal"};
+inline constexpr EnumNames stream_error_code_names{stream_error_code_value_names, true};
+
+/// Where a client that lost its connection stopped.
+struct ResumePoint {
+  std::uint64_t epoch = 0;  ///< of the header it had
+  std::uint64_t sequence = 0;  ///< of the last frame it has
+  friend bool operator==(const ResumePoint&, const ResumePoint&) = default;
+};
+
+/// The first message of a client.
+struct Hello {
+  std::uint32_t version = 1;  ///< highest protocol version the client knows
+  StreamRole role{};
+  std::optional<ResumePoint> resume;  ///< given after a lost connection
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+/// The first message of a server: what the stream is and how to read it.
+struct Header {
+  std::uint32_t version = 1;  ///< protocol version of everything that follows
+  std::string stream;  ///< id of the stream
+  std::string title;  ///< for people; may be empty
+  std::string model;  ///< id of the model the stream suggests; may be empty
+  std::uint64_t epoch = 0;  ///< sequence numbers are comparable within one epoch only
+  std::uint64_t sequence = 0;  ///< of the newest frame the stream has had; 0 before the first
+  std::uint64_t media_time = 0;  ///< ms; of the stream's clock now
+  double server_time = 0.0;  ///< ms; since 1970-01-01 UTC
+  double fps_hint = 0.0;  ///< 1/s; frames a second the stream means to have; 0: unknown
+  std::uint32_t batch_interval = 0;  ///< ms; between messages the server means to send; 0: unknown
+  std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
+  bool recovered = false;  ///< everything after the resume point follows: nothing was lost
+  friend bool operator==(const Header&, const Header&) = default;
+};
+
+/// The whole state at one moment: a reader can start here.
+struct Keyframe {
+  std::uint64_t sequence = 0;  ///< of the frame this is; 0: before the first
+  std::uint64_t media_time = 0;  ///< ms
+  FaceFrame state;  ///< as differences to the neutral face
+  friend bool operator==(const Keyframe&, const Keyframe&) = default;
+};
+
+/// A batch: frame i has the sequence number `sequence` + i and happens at `media_time` + its own time.
+struct Frames {
+  std::uint64_t sequence = 0;  ///< of the first frame; 0 (from a publisher): the next
+  std::uint64_t media_time = 0;  ///< ms; 0 (from a publisher): now
+  std::vector<TimedFrame> frames;  ///< 1 to 1024, each as differences to the one before
+  friend bool operator==(const Frames&, const Frames&) = default;
+};
+
+/// Nothing more comes.
+struct End {
+  EndReason reason{};
+  friend bool operator==(const End&, const End&) = default;
+};
+
+/// A message was refused; the connection goes on unless it is closed as well.
+struct StreamError {
+  StreamErrorCode code{};
+  std::string where;  ///< JSON pointer to what is wrong in the message, in both subprotocols
+  std::string message;  ///< for people
+  friend bool operator==(const StreamError&, const StreamError&) = default;
+};
+
+/// Asks for the clocks of server and stream.
+struct Ping {
+  std::uint32_t id = 0;  ///< comes back in the pong
+  double client_time = 0.0;  ///< ms; of the client's own clock, of any origin
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+
+/// The answer to a ping.
+struct Pong {
+  std::uint32_t id = 0;  ///< of the ping
+  double client_time = 0.0;  ///< ms; as it came in the ping
+  double server_time = 0.0;  ///< ms; since 1970-01-01 UTC, when the ping was read
+  std::uint64_t media_time = 0;  ///< ms; of the stream's clock at that moment
+  friend bool operator==(const Pong&, const Pong&) = default;
+};
+
+using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, Ping, Pong>;
+
+/// First byte of the binary form and `type` of the JSON form, for each message.
+template <class M>
+struct MessageTraits;
+template <>
+struct MessageTraits<Hello> {
+  static constexpr std::uint8_t type = 1;
+  static constexpr std::string_view name = "hello";
+};
+template <>
+struct MessageTraits<Header> {
+  static constexpr std::uint8_t type = 2;
+  static constexpr std::string_view name = "header";
+};
+template <>
+struct MessageTraits<Keyframe> {
+  static constexpr std::uint8_t type = 3;
+  static constexpr std::string_view name = "keyframe";
+};
+template <>
+struct MessageTraits<Frames> {
+  static constexpr std::uint8_t type = 4;
+  static constexpr std::string_view name = "frames";
+};
+template <>
+struct MessageTraits<End> {
+  static constexpr std::uint8_t type = 5;
+  static constexpr std::string_view name = "end";
+};
+template <>
+struct MessageTraits<StreamError> {
+  static constexpr std::uint8_t type = 6;
+  static constexpr std::string_view name = "error";
+};
+template <>
+struct MessageTraits<Ping> {
+  static constexpr std::uint8_t type = 7;
+  static constexpr std::string_view name = "ping";
+};
+template <>
+struct MessageTraits<Pong> {
+  static constexpr std::uint8_t type = 8;
+  static constexpr std::string_view name = "pong";
+};
+
+// visit_fields calls one method of `v` per field, in the order of the binary form.
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, ResumePoint>
+void visit_fields(M& m, V& v) {
+  v.uint("epoch", m.epoch, 9007199254740991U, Presence::required);
+  v.uint("sequence", m.sequence, 9007199254740991U, Presence::required);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Hello>
+void visit_fields(M& m, V& v) {
+  v.uint("version", m.version, 65535U, Presence::required);
+  v.enumeration("role", m.role, stream_role_names, Presence::defaulted);
+  v.optional("resume", m.resume);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Header>
+void visit_fields(M& m, V& v) {
+  v.uint("version", m.version, 65535U, Presence::required);
+  v.text("stream", m.stream, 256, Presence::required);
+  v.text("title", m.title, 1024, Presence::defaulted);
+  v.text("model", m.model, 256, Presence::defaulted);
+  v.uint("epoch", m.epoch, 9007199254740991U, Presence::required);
+  v.uint("sequence", m.sequence, 9007199254740991U, Presence::required);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::required);
+  v.real("server_time", m.server_time, -max_real, max_real, Presence::defaulted);
+  v.real("fps_hint", m.fps_hint, 0, 1000, Presence::defaulted);
+  v.uint("batch_interval", m.batch_interval, 60000U, Presence::defaulted);
+  v.reals("quantizers", m.quantizers, 66, 1e-06, 1000000.0, Presence::defaulted);
+  v.boolean("recovered", m.recovered, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Keyframe>
+void visit_fields(M& m, V& v) {
+  v.uint("sequence", m.sequence, 9007199254740991U, Presence::defaulted);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+  v.state("state", m.state);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Frames>
+void visit_fields(M& m, V& v) {
+  v.uint("sequence", m.sequence, 9007199254740991U, Presence::defaulted);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+  v.frames("frames", m.frames);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, End>
+void visit_fields(M& m, V& v) {
+  v.enumeration("reason", m.reason, end_reason_names, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, StreamError>
+void visit_fields(M& m, V& v) {
+  v.enumeration("code", m.code, stream_error_code_names, Presence::defaulted);
+  v.text("where", m.where, 1024, Presence::defaulted);
+  v.text("message", m.message, 4096, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Ping>
+void visit_fields(M& m, V& v) {
+  v.uint("id", m.id, 4294967295U, Presence::defaulted);
+  v.real("client_time", m.client_time, -max_real, max_real, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Pong>
+void visit_fields(M& m, V& v) {
+  v.uint("id", m.id, 4294967295U, Presence::defaulted);
+  v.real("client_time", m.client_time, -max_real, max_real, Presence::defaulted);
+  v.real("server_time", m.server_time, -max_real, max_real, Presence::defaulted);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+}
+
+}  // namespace semblante

@@ -1,0 +1,161 @@
+#include <algorithm>
+
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/json_cursor.h"
+#include "protocol/cpp/state_codec.h"
+
+namespace semblante {
+namespace {
+
+std::uint8_t small(const JsonCursor& at, std::uint8_t most) { return static_cast<std::uint8_t>(at.integer(0, most)); }
+
+std::uint8_t small_or(const JsonCursor& of, const char* name, std::uint8_t most, std::uint8_t otherwise) {
+  const auto at = of.optional_member(name);
+  return at ? small(*at, most) : otherwise;
+}
+
+/// "3".."68" -> the number; 0 for anything else.
+std::size_t low_level_fap(std::string_view name) {
+  if (name.empty() || name.size() > 2 || name[0] == '0') return 0;
+  std::size_t number = 0;
+  for (const char c : name) {
+    if (c < '0' || c > '9') return 0;
+    number = number * 10 + static_cast<std::size_t>(c - '0');
+  }
+  return number >= first_low_level_fap && number <= last_low_level_fap ? number : 0;
+}
+
+FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps) {
+  FaceFrame state;
+  if (const auto viseme = at.optional_member("viseme")) {
+    state.viseme.select1 = small(viseme->member("select1"), max_viseme);
+    state.viseme.select2 = small_or(*viseme, "select2", max_viseme, 0);
+    state.viseme.blend = small_or(*viseme, "blend", max_blend, max_blend);
+  }
+  if (const auto expression = at.optional_member("expression")) {
+    state.expression.select1 = small(expression->member("select1"), max_expression);
+    state.expression.intensity1 = small_or(*expression, "intensity1", max_blend, max_blend);
+    state.expression.select2 = small_or(*expression, "select2", max_expression, 0);
+    state.expression.intensity2 = small_or(*expression, "intensity2", max_blend, 0);
+  }
+  if (const auto faps = at.optional_member("faps")) {
+    for (const auto& [name, value] : faps->members()) {
+      const std::size_t fap = low_level_fap(name);
+      if (fap == 0) {
+        value.fail(ErrorCode::out_of_range, "low-level FAPs are 3 to 68; 1 and 2 are `viseme` and `expression`");
+        continue;
+      }
+      const double units = value.number();
+      if (value.failed()) continue;
+      const auto level = quantize(units, steps[fap]);
+      if (!level) value.fail(level.error().code, level.error().message);
+      state.level[fap] = level ? *level : std::int16_t{0};
+    }
+  }
+  return state;
+}
+
+std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps) {
+  std::vector<TimedFrame> frames;
+  std::uint32_t time = 0;
+  for (const auto& element : at.elements(1, max_frames_per_message)) {
+    if (const auto given = element.optional_member("time")) {
+      const auto read = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
+      if (read < time) given->fail(ErrorCode::out_of_range, "times must not fall");
+      time = read;
+    }
+    frames.push_back({time, read_frame(element, steps)});
+  }
+  return frames;
+}
+
+class FieldReader {
+ public:
+  FieldReader(const JsonCursor& at, const QuantizerSteps& steps) : at_(at), steps_(steps) {}
+
+  template <class Int>
+  void uint(const char* name, Int& value, std::uint64_t max, Presence presence) {
+    if (const auto at = find(name, presence)) value = static_cast<Int>(at->integer(0, max));
+  }
+  void real(const char* name, double& value, double min, double max, Presence presence) {
+    if (const auto at = find(name, presence)) value = at->number(min, max);
+  }
+  void boolean(const char* name, bool& value, Presence presence) {
+    if (const auto at = find(name, presence)) value = at->boolean();
+  }
+  void text(const char* name, std::string& value, std::size_t max, Presence presence) {
+    if (const auto at = find(name, presence)) value = at->text(max);
+  }
+  void reals(const char* name, std::vector<double>& values, std::size_t length, double min, double max,
+             Presence presence) {
+    const auto at = find(name, presence);
+    if (!at || at->is_empty_array()) return;
+    for (const auto& element : at->elements(length, length)) values.push_back(element.number(min, max));
+  }
+  template <class E>
+  void enumeration(const char* name, E& value, const EnumNames& names, Presence presence) {
+    const auto at = find(name, presence);
+    if (!at) return;
+    const std::string text = at->text(64);
+    const auto found = std::find(names.names.begin(), names.names.end(), text);
+    if (found == names.names.end() && !names.open) {
+      return at->fail(ErrorCode::invalid_argument, "\"" + text + "\" is not one of the known values");
+    }
+    value = static_cast<E>(found == names.names.end() ? 0 : found - names.names.begin());
+  }
+  template <class T>
+  void optional(const char* name, std::optional<T>& value) {
+    const auto at = at_.optional_member(name);
+    if (!at || at->is_null()) return;
+    FieldReader reader(*at, steps_);
+    visit_fields(value.emplace(), reader);
+  }
+  void state(const char* name, FaceFrame& state) { state = read_frame(at_.member(name), steps_); }
+  void frames(const char* name, std::vector<TimedFrame>& frames) { frames = read_frames(at_.member(name), steps_); }
+
+ private:
+  [[nodiscard]] std::optional<JsonCursor> find(const char* name, Presence presence) const {
+    return presence == Presence::required ? std::optional(at_.member(name)) : at_.optional_member(name);
+  }
+
+  const JsonCursor& at_;
+  const QuantizerSteps& steps_;
+};
+
+template <class... M>
+Message read_by_name(const JsonCursor& root, const QuantizerSteps& steps, const std::variant<M...>* /*types*/) {
+  const JsonCursor type = root.member("type");
+  const std::string name = type.text(64);
+  Message result;
+  const auto read = [&]<class T>(T message) {
+    FieldReader reader(root, steps);
+    visit_fields(message, reader);
+    result = std::move(message);
+    return true;
+  };
+  const bool known = ((MessageTraits<M>::name == name && read(M{})) || ...);
+  if (!known) type.fail(ErrorCode::unsupported, "no message has the type \"" + name + "\"");
+  return result;
+}
+
+}  // namespace
+
+Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) {
+  const auto tree = parse_json_object(text, max_json_message_bytes);
+  if (!tree) return tree.error();
+  JsonCursor::Report report;
+  Message message = read_by_name(JsonCursor(*tree, "", report), steps, static_cast<const Message*>(nullptr));
+  if (report) return *report;
+  return message;
+}
+
+Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const QuantizerSteps& steps) {
+  const auto tree = parse_json_object(text, max_json_message_bytes);
+  if (!tree) return tree.error();
+  JsonCursor::Report report;
+  auto frames = read_frames(JsonCursor(*tree, "", report).member("frames"), steps);
+  if (report) return *report;
+  return frames;
+}
+
+}  // namespace semblante

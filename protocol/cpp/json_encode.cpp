@@ -1,0 +1,99 @@
+#include <cassert>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/state_codec.h"
+
+namespace semblante {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// 200, not 200.0, where it is a whole number.
+Json number(double value) {
+  const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
+  return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+void write_state(Json& to, const FaceFrame& state, const QuantizerSteps& steps) {
+  assert(is_valid(state));
+  to["viseme"] = {{"select1", state.viseme.select1}, {"select2", state.viseme.select2}, {"blend", state.viseme.blend}};
+  to["expression"] = {{"select1", state.expression.select1},
+                      {"intensity1", state.expression.intensity1},
+                      {"select2", state.expression.select2},
+                      {"intensity2", state.expression.intensity2}};
+  Json faps = Json::object();
+  for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
+    if (state.level[fap] != 0) faps[std::to_string(fap)] = number(state.level[fap] * steps[fap]);
+  }
+  to["faps"] = std::move(faps);
+}
+
+class Writer {
+ public:
+  Writer(Json& to, const QuantizerSteps& steps) : to_(to), steps_(steps) {}
+
+  void uint(const char* name, std::uint64_t value, [[maybe_unused]] std::uint64_t max, Presence) {
+    assert(value <= max);
+    to_[name] = value;
+  }
+  void real(const char* name, double value, [[maybe_unused]] double min, [[maybe_unused]] double max, Presence) {
+    assert(value >= min && value <= max);
+    to_[name] = number(value);
+  }
+  void boolean(const char* name, bool value, Presence) { to_[name] = value; }
+  void text(const char* name, const std::string& value, [[maybe_unused]] std::size_t max, Presence) {
+    assert(value.size() <= max);
+    to_[name] = value;
+  }
+  void reals(const char* name, const std::vector<double>& values, [[maybe_unused]] std::size_t length, double, double,
+             Presence) {
+    assert(values.empty() || values.size() == length);
+    to_[name] = Json::array();
+    for (const double value : values) to_[name].push_back(number(value));
+  }
+  template <class E>
+  void enumeration(const char* name, E value, const EnumNames& names, Presence) {
+    to_[name] = names.names[static_cast<std::size_t>(value)];
+  }
+  template <class T>
+  void optional(const char* name, const std::optional<T>& value) {
+    if (!value.has_value()) return;
+    Json inner = Json::object();
+    Writer writer(inner, steps_);
+    visit_fields(*value, writer);
+    to_[name] = std::move(inner);
+  }
+  void state(const char* name, const FaceFrame& state) { write_state(to_[name] = Json::object(), state, steps_); }
+  void frames(const char* name, const std::vector<TimedFrame>& frames) {
+    Json list = Json::array();
+    for (const TimedFrame& frame : frames) {
+      Json item = {{"time", frame.time}};
+      write_state(item, frame.state, steps_);
+      list.push_back(std::move(item));
+    }
+    to_[name] = std::move(list);
+  }
+
+ private:
+  Json& to_;
+  const QuantizerSteps& steps_;
+};
+
+}  // namespace
+
+std::string encode_json(const Message& message, const QuantizerSteps& steps) {
+  Json json;
+  std::visit(
+      [&]<class M>(const M& m) {
+        json["type"] = MessageTraits<M>::name;
+        Writer writer(json, steps);
+        visit_fields(m, writer);
+      },
+      message);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace semblante
