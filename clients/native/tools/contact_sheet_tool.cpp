@@ -1,0 +1,165 @@
+// semblante-contact-sheet: every viseme and expression of a head on sheets, to look at.
+
+#include <algorithm>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/native/render/contact_sheet.h"
+#include "clients/native/render/renderer.h"
+#include "clients/native/tools/files.h"
+#include "clients/native/tools/posed_head.h"
+#include "clients/native/tools/shots.h"
+#include "core/expressions/library.h"
+
+namespace semblante::tools {
+namespace {
+
+struct Arguments {
+  std::filesystem::path model;
+  std::filesystem::path feature_points;
+  std::filesystem::path out;
+  std::vector<std::string> shots = {"front:face", "three-quarter:face"};
+  std::vector<std::string> faps;
+  std::string size = "340x400";
+  bool only_faps = false;
+};
+
+struct NamedFrame {
+  std::string name;
+  semblante_frame frame{};
+};
+
+struct Sheet {
+  std::string name;
+  int columns;
+  std::vector<NamedFrame> frames;
+};
+
+constexpr std::uint8_t full = SEMBLANTE_BLEND_MAX;
+
+Result<std::vector<Sheet>> sheets(const Arguments& arguments) {
+  std::vector<Sheet> list;
+  if (!arguments.only_faps) {
+    Sheet expressions{"expressions", 4, {{"neutral", {}}}};
+    for (std::uint8_t i = 1; i < expression_library().size(); ++i) {
+      NamedFrame named{std::string(expression_library()[i].name), {}};
+      named.frame.expression1 = i;
+      named.frame.intensity1 = full;
+      expressions.frames.push_back(named);
+    }
+    // Speech over an expression, as Eq. 5 mixes them.
+    NamedFrame both{"joy + a", {}};
+    both.frame.expression1 = 1;
+    both.frame.intensity1 = full;
+    both.frame.viseme1 = 10;
+    both.frame.viseme_blend = full;
+    expressions.frames.push_back(both);
+    list.push_back(std::move(expressions));
+    Sheet visemes{"visemes", 5, {}};
+    for (std::uint8_t i = 0; i < viseme_library().size(); ++i) {
+      NamedFrame named{std::string(viseme_library()[i].name), {}};
+      named.frame.viseme1 = i;
+      named.frame.viseme_blend = full;
+      visemes.frames.push_back(named);
+    }
+    list.push_back(std::move(visemes));
+  }
+  if (!arguments.faps.empty()) {
+    Sheet own{"faps", 0, {}};
+    for (const std::string& text : arguments.faps) {
+      auto frame = parse_faps(text);
+      if (!frame) {
+        return std::move(frame).error();
+      }
+      own.frames.push_back({text, *frame});
+    }
+    list.push_back(std::move(own));
+  }
+  return list;
+}
+
+std::string file_name(std::string text) {
+  std::replace(text.begin(), text.end(), ':', '-');
+  return text + ".png";
+}
+
+Status run(const Arguments& arguments) {
+  const auto size = parse_size(arguments.size);
+  if (!size) {
+    return size.error();
+  }
+  std::vector<Shot> shots;
+  for (const std::string& text : arguments.shots) {
+    auto shot = parse_shot(text);
+    if (!shot) {
+      return std::move(shot).error();
+    }
+    shots.push_back(*std::move(shot));
+  }
+  auto list = sheets(arguments);
+  if (!list) {
+    return std::move(list).error();
+  }
+  auto head = load_posed_head(arguments.model, arguments.feature_points);
+  if (!head) {
+    return std::move(head).error();
+  }
+  for (const std::string& warning : head->warnings) {
+    std::cerr << "semblante-contact-sheet: " << warning << '\n';
+  }
+  auto scene = render::build_scene(head->model, {.points = head->rig.points, .role_of_vertex = head->roles()});
+  if (!scene) {
+    return std::move(scene).error();
+  }
+  auto renderer = render::Renderer::create(*std::move(scene));
+  if (!renderer) {
+    return std::move(renderer).error();
+  }
+  std::filesystem::create_directories(arguments.out);
+  for (const Sheet& sheet : *list) {
+    std::vector<std::vector<render::LabelledPicture>> pictures(shots.size());
+    for (const NamedFrame& named : sheet.frames) {
+      if (auto set = renderer->set_positions(head->pose(named.frame)); !set) {
+        return set;
+      }
+      for (std::size_t s = 0; s < shots.size(); ++s) {
+        auto picture = renderer->draw(shots[s].view, shots[s].subject, *size);
+        if (!picture) {
+          return std::move(picture).error();
+        }
+        pictures[s].push_back({named.name, *std::move(picture)});
+      }
+    }
+    for (std::size_t s = 0; s < shots.size(); ++s) {
+      const std::string title = arguments.model.filename().string() + "  " + sheet.name + "  " + shots[s].name;
+      const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + shots[s].name);
+      if (auto written = write_png(contact_sheet(pictures[s], title, sheet.columns), path); !written) {
+        return written;
+      }
+      std::cout << path.string() << '\n';
+    }
+  }
+  return Unit{};
+}
+
+}  // namespace
+}  // namespace semblante::tools
+
+int main(int argc, char** argv) {
+  semblante::tools::Arguments arguments;
+  CLI::App app{"Parametrizes a head and draws its 15 visemes and 6 expressions on sheets.", "semblante-contact-sheet"};
+  app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
+  app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
+  app.add_option("-o,--out", arguments.out, "folder for the sheets, one a shot")->required();
+  app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();
+  app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
+  app.add_option("--frame", arguments.faps, "a face of one's own, NUMBER=VALUE,... in FAP units; repeatable");
+  app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
+  CLI11_PARSE(app, argc, argv);
+  if (const auto done = semblante::tools::run(arguments); !done) {
+    std::cerr << "semblante-contact-sheet: " << semblante::tools::to_text(done.error()) << '\n';
+    return 1;
+  }
+  return 0;
+}

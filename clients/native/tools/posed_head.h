@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/expressions/kernel_rig.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+
+namespace semblante::tools {
+
+/// A parametrized model that takes poses in this process: what a client should see, without the package between.
+struct PosedHead {
+  Model model;
+  Rig rig;
+  KernelRig kernel_rig;
+  std::vector<std::string> warnings;
+
+  /// #V by 3 in the MPEG-4 frame.
+  [[nodiscard]] std::vector<glm::vec3> pose(const semblante_frame& frame) const;
+  /// PartRole of each file vertex.
+  [[nodiscard]] std::vector<PartRole> roles() const;
+};
+
+/// Reads a model file and its feature points and parametrizes.
+Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points);
+
+/// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
+Result<semblante_frame> parse_faps(const std::string& text);
+
+}  // namespace semblante::tools
