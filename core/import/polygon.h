@@ -9,8 +9,9 @@
 
 namespace semblante::import {
 
-/// Splits polygons into triangles: the fan from the first corner wherever that turns no triangle over, which is what
-/// other programs do and so keeps our edges theirs; by ear clipping otherwise.
+/// Splits polygons into triangles: quads always as (0 1 2) (0 2 3), larger ones as the fan from the first corner
+/// wherever that turns no triangle over, which is what other programs do and so keeps our edges theirs; by ear clipping
+/// otherwise.
 class Triangulator {
  public:
   /// Corner numbers 0..n-1 by three, n - 2 triangles in the polygon's winding. `corners`: #n positions, n >= 3. The
