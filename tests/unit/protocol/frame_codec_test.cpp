@@ -1,0 +1,248 @@
+#include "protocol/cpp/frame_codec.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/state_codec.h"
+#include "tests/unit/protocol/messages_for_tests.h"
+
+namespace semblante {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+FrameDecoder decoder_after_neutral_keyframe() {
+  FrameDecoder decoder;
+  EXPECT_TRUE(decoder.decode(FrameEncoder().encode(Keyframe{})).ok());
+  return decoder;
+}
+
+void expect_refused(const Bytes& bytes, ErrorCode code, std::string_view where) {
+  FrameDecoder decoder = decoder_after_neutral_keyframe();
+  const auto result = decoder.decode(bytes);
+  ASSERT_FALSE(result.ok()) << where;
+  EXPECT_EQ(result.error().code, code) << where << ": " << result.error().message;
+  EXPECT_EQ(result.error().where, where) << result.error().message;
+}
+
+TEST(FrameDecoder, Decode_InvalidMessages_AreRefusedByField) {
+  expect_refused({}, ErrorCode::truncated, "/type");
+  expect_refused({0}, ErrorCode::unsupported, "/type");
+  expect_refused({9}, ErrorCode::unsupported, "/type");
+  expect_refused(Bytes(262145, 3), ErrorCode::too_large, "");
+  // hello: version, role, resume?
+  expect_refused({1}, ErrorCode::truncated, "/version");
+  expect_refused({1, 0x80}, ErrorCode::truncated, "/version");
+  expect_refused({1, 0x80, 0x80, 0x04, 0, 0}, ErrorCode::out_of_range, "/version");  // 65536
+  expect_refused({1, 1, 2, 0}, ErrorCode::out_of_range, "/role");
+  expect_refused({1, 1, 0, 2}, ErrorCode::malformed, "/resume");
+  expect_refused({1, 1, 0, 1, 5}, ErrorCode::truncated, "/sequence");
+  // a varint of 11 bytes, and one of 10 bytes that needs 65 bits
+  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}, ErrorCode::truncated, "/epoch");
+  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 2, 1}, ErrorCode::truncated, "/epoch");
+  // 2^53 is one too many
+  expect_refused({1, 1, 0, 1, 128, 128, 128, 128, 128, 128, 128, 16, 1}, ErrorCode::out_of_range, "/epoch");
+  // error: a text that is not UTF-8, one longer than its field, one longer than the message
+  expect_refused({6, 1, 1, 0xFF, 0}, ErrorCode::malformed, "/where");
+  expect_refused({6, 1, 0x81, 0x08}, ErrorCode::too_large, "/where");
+  expect_refused({6, 1, 5, 'a'}, ErrorCode::truncated, "/where");
+  // ping: time is not a number, is infinite
+  expect_refused({7, 1, 0, 0, 0, 0, 0, 0, 0xF8, 0x7F}, ErrorCode::not_finite, "/client_time");
+  expect_refused({7, 1, 0, 0, 0, 0, 0, 0, 0xF0, 0xFF}, ErrorCode::not_finite, "/client_time");
+}
+
+TEST(FrameDecoder, Decode_InvalidStates_AreRefusedByField) {
+  // keyframe: sequence, media time, bits, ...
+  expect_refused({3, 1, 0}, ErrorCode::truncated, "/state");
+  expect_refused({3, 1, 0, 0x80, 0x10}, ErrorCode::unsupported, "/state");  // bit 11
+  expect_refused({3, 1, 0, 1, 15, 0, 0}, ErrorCode::out_of_range, "/state/viseme/select1");
+  expect_refused({3, 1, 0, 1, 0, 15, 0}, ErrorCode::out_of_range, "/state/viseme/select2");
+  expect_refused({3, 1, 0, 1, 0, 0, 64}, ErrorCode::out_of_range, "/state/viseme/blend");
+  expect_refused({3, 1, 0, 1, 0, 0}, ErrorCode::truncated, "/state");
+  expect_refused({3, 1, 0, 2, 7, 0, 0, 0}, ErrorCode::out_of_range, "/state/expression/select1");
+  expect_refused({3, 1, 0, 2, 0, 64, 0, 0}, ErrorCode::out_of_range, "/state/expression/intensity1");
+  expect_refused({3, 1, 0, 2, 0, 0, 7, 0}, ErrorCode::out_of_range, "/state/expression/select2");
+  expect_refused({3, 1, 0, 2, 0, 0, 0, 64}, ErrorCode::out_of_range, "/state/expression/intensity2");
+  expect_refused({3, 1, 0, 4, 0}, ErrorCode::out_of_range, "/state/faps");              // an empty mask
+  expect_refused({3, 1, 0, 0x80, 8, 0x10, 2}, ErrorCode::out_of_range, "/state/faps");  // group 10 has four FAPs
+  expect_refused({3, 1, 0, 4, 1}, ErrorCode::truncated, "/state");
+  // 32768 = zigzag 65536 = 80 80 04; -32768 = zigzag 65535 = FF FF 03; and one of 40 bits
+  expect_refused({3, 1, 0, 4, 1, 0x80, 0x80, 0x04}, ErrorCode::out_of_range, "/state/faps/3");
+  expect_refused({3, 1, 0, 4, 2, 0xFF, 0xFF, 0x03}, ErrorCode::out_of_range, "/state/faps/4");
+  expect_refused({3, 1, 0, 4, 1, 0x80, 0x80, 0x80, 0x80, 0x80, 0x10}, ErrorCode::out_of_range, "/state/faps/3");
+}
+
+TEST(FrameDecoder, Decode_InvalidBatches_AreRefusedByField) {
+  // frames: sequence, media time, count, then per frame time and state
+  expect_refused({4, 1, 0, 0}, ErrorCode::out_of_range, "/frames");
+  expect_refused({4, 1, 0, 2, 0, 0}, ErrorCode::truncated, "/frames");
+  expect_refused({4, 1, 0, 0x81, 0x08}, ErrorCode::too_large, "/frames");  // 1025
+  expect_refused({4, 1, 0, 1, 0, 1, 99, 0, 0}, ErrorCode::out_of_range, "/frames/0/viseme/select1");
+  expect_refused({4, 1, 0, 1, 0x81, 0xB8, 0x99, 0x29, 0}, ErrorCode::out_of_range, "/frames/0/time");  // 86400001 ms
+  expect_refused({4, 2, 0, 1, 0, 0}, ErrorCode::mismatch, "/sequence");  // after frame 0 comes 1
+}
+
+TEST(FrameDecoder, Decode_FramesBeforeAKeyframe_AreRefused) {
+  FrameDecoder decoder;
+  const auto result = decoder.decode(Bytes{4, 1, 0, 1, 0, 0});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().code, ErrorCode::mismatch);
+}
+
+TEST(FrameDecoder, Decode_AfterAnError_GoesOnFromTheLastGoodState) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  const auto frames = talking_face(3);
+  ASSERT_TRUE(decoder.decode(encoder.encode(Keyframe{10, 0, frames[0].state})).ok());
+  const Bytes good = encoder.encode(Frames{11, 40, {{0, frames[1].state}, {40, frames[2].state}}});
+  ASSERT_FALSE(decoder.decode(std::span(good).first(good.size() - 1)).ok());
+  const auto result = decoder.decode(good);
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(std::get<Frames>(*result).frames[1].state, frames[2].state);
+}
+
+TEST(FrameDecoder, Decode_SequenceZero_MeansTheNextFrame) {
+  FrameDecoder decoder;
+  ASSERT_TRUE(decoder.decode(FrameEncoder().encode(Keyframe{10, 0, {}})).ok());
+  const auto result = decoder.decode(Bytes{4, 0, 0, 1, 0, 0});
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(std::get<Frames>(*result).sequence, 11U);
+}
+
+TEST(FrameDecoder, Decode_BytesOfALaterVersion_AreSkipped) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  for (const Message& message : one_of_each()) {
+    Bytes bytes = encoder.encode(message);
+    bytes.insert(bytes.end(), {1, 2, 3});
+    const auto result = decoder.decode(bytes);
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    EXPECT_EQ(*result, message);
+  }
+}
+
+TEST(FrameDecoder, Decode_UnknownValueOfAnOpenEnumeration_IsOther) {
+  FrameDecoder decoder;
+  const auto result = decoder.decode(Bytes{5, 200});
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(std::get<End>(*result).reason, EndReason::other);
+}
+
+TEST(FrameDecoder, Decode_EveryPrefix_IsRefusedAsTruncated) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  for (const Message& message : one_of_each()) {
+    const Bytes good = encoder.encode(message);
+    for (std::size_t size = 0; size < good.size(); ++size) {
+      const auto result = decoder.decode(std::span(good).first(size));
+      ASSERT_FALSE(result.ok()) << message.index() << " at " << size;
+      ASSERT_EQ(result.error().code, ErrorCode::truncated) << message.index() << " at " << size;
+    }
+    ASSERT_TRUE(decoder.decode(good).ok());
+  }
+}
+
+/// Whatever comes out of the decoder is within the documented ranges: the encoder, which asserts them, takes it.
+void expect_valid(const Result<Message>& result) {
+  if (!result) return;
+  if (const auto* frames = std::get_if<Frames>(&*result)) {
+    ASSERT_FALSE(frames->frames.empty());
+    for (const auto& frame : frames->frames) ASSERT_TRUE(is_valid(frame.state));
+  }
+  if (const auto* keyframe = std::get_if<Keyframe>(&*result)) {
+    ASSERT_TRUE(is_valid(keyframe->state));
+  }
+}
+
+TEST(FrameDecoder, Decode_EveryFlippedBit_IsRefusedOrValid) {
+  FrameEncoder encoder;
+  FrameDecoder before;
+  for (const Message& message : one_of_each()) {
+    const Bytes good = encoder.encode(message);
+    Bytes bytes = good;
+    for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
+      bytes[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+      FrameDecoder decoder = before;
+      expect_valid(decoder.decode(bytes));
+      bytes[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    }
+    ASSERT_TRUE(before.decode(good).ok());
+  }
+}
+
+TEST(FrameDecoder, Decode_RandomBytes_IsRefusedOrValid) {
+  std::mt19937 random(3);
+  FrameDecoder decoder = decoder_after_neutral_keyframe();
+  for (int round = 0; round < 20000; ++round) {
+    Bytes bytes(1 + random() % 60);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? random() : random() % 8);
+    expect_valid(decoder.decode(bytes));
+  }
+}
+
+TEST(FrameCodec, RoundTrip_OneOfEachMessage) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  for (const Message& message : one_of_each()) {
+    const auto result = decoder.decode(encoder.encode(message));
+    ASSERT_TRUE(result.ok()) << result.error().where << " " << result.error().message;
+    EXPECT_EQ(*result, message);
+  }
+}
+
+TEST(FrameCodec, RoundTrip_LongTalk_IsLossless) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  const auto talk = talking_face(5000);
+  ASSERT_TRUE(decoder.decode(encoder.encode(Keyframe{})).ok());
+  for (std::size_t i = 0; i < talk.size(); i += 5) {
+    Frames batch{i + 1, talk[i].time, {}};
+    for (std::size_t k = i; k < i + 5; ++k) batch.frames.push_back({talk[k].time - talk[i].time, talk[k].state});
+    const auto result = decoder.decode(encoder.encode(batch));
+    ASSERT_TRUE(result.ok());
+    ASSERT_EQ(std::get<Frames>(*result), batch);
+  }
+}
+
+TEST(FrameCodec, RoundTrip_LevelLimits) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  FaceFrame low;
+  FaceFrame high;
+  for (std::size_t fap = 3; fap <= 68; ++fap) {
+    low.level[fap] = -32767;
+    high.level[fap] = 32767;
+  }
+  ASSERT_TRUE(decoder.decode(encoder.encode(Keyframe{1, 0, low})).ok());
+  const auto result = decoder.decode(encoder.encode(Frames{2, 0, {{0, high}, {1, low}}}));
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  EXPECT_EQ(std::get<Frames>(*result).frames[0].state, high);
+  EXPECT_EQ(std::get<Frames>(*result).frames[1].state, low);
+}
+
+TEST(FrameCodec, Encode_UnchangedFrame_TakesTwoBytes) {
+  FrameEncoder encoder;
+  encoder.encode(Keyframe{0, 0, {}});
+  EXPECT_EQ(encoder.encode(Frames{1, 0, {{0, {}}}}), (Bytes{4, 1, 0, 1, 0, 0}));
+}
+
+TEST(FrameCodec, Encode_ByHand) {
+  // FAP 3 (group 2, its first) to level 50: zigzag 100 = 0x64. FAP 48 (group 7, its first) to -3: zigzag 5.
+  // Bits: group 2 and group 7 = 0x04 | 0x80 = 0x84, as a varint 84 01.
+  FaceFrame state;
+  state.level[3] = 50;
+  state.level[48] = -3;
+  EXPECT_EQ(FrameEncoder().encode(Keyframe{9, 200, state}), (Bytes{3, 9, 0xC8, 1, 0x84, 1, 1, 0x64, 1, 5}));
+}
+
+TEST(StreamErrors, FromError_KeepsWordsAndCutsLongOnes) {
+  const StreamError error = to_stream_error({ErrorCode::out_of_range, "/a", std::string(4095, 'x') + "\xC3\xA9"});
+  EXPECT_EQ(error.code, StreamErrorCode::out_of_range);
+  EXPECT_EQ(error.where, "/a");
+  EXPECT_EQ(error.message, std::string(4095, 'x'));
+}
+
+}  // namespace
+}  // namespace semblante
