@@ -1,0 +1,15 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace semblante {
+
+// One function a subcommand, each in a file of its own: declares the options (every option is also an environment
+// variable SEMBLANTE_...) and the callback that runs it. A callback that fails throws CommandFailure
+// (command_failure.h); one that returns has succeeded.
+
+void add_version_command(CLI::App& app);
+
+}  // namespace semblante

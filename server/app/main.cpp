@@ -1,0 +1,30 @@
+#include <exception>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "server/app/command_failure.h"
+#include "server/app/commands.h"
+
+int main(int argc, char** argv) {
+  using namespace semblante;
+  CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
+  add_version_command(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& fault) {
+    std::cerr << "semblante: " << fault.what() << "\n";
+    return CommandFailure::bad_input;
+  } catch (const CommandFailure& failure) {
+    std::cerr << "semblante: " << failure.what() << "\n";
+    return failure.exit_code();
+  } catch (const std::exception& fault) {
+    std::cerr << "semblante: internal error: " << fault.what() << "\n";
+    return CommandFailure::internal;
+  }
+}
