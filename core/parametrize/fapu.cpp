@@ -26,13 +26,13 @@ struct Definition {
 
 /// In the order of FapuUnit.
 constexpr std::array<Definition, fapu_unit_count> definitions = {{
-    {{{{"3.1", "3.3", y}, {"3.2", "3.4", y}}}, "eyelids and pupils (FAPs 19-22, 29, 30)"},
-    {{{{"3.5", "3.6", x}, {}}}, "eyeball thrust and sideways brows (FAPs 27, 28, 37-40)"},
-    {{{{"3.5", "9.15", y}, {}}}, "brows, cheeks, nose and ears (FAPs 31-36, 41, 42, 61-68)"},
+    {{{{"3.1", "3.3", y}, {"3.2", "3.4", y}}}, "FAPs of eyelids and pupils (19-22, 29, 30)"},
+    {{{{"3.5", "3.6", x}, {}}}, "FAPs of eyeball thrust and sideways brows (27, 28, 37-40)"},
+    {{{{"3.5", "9.15", y}, {}}}, "FAPs of brows, cheeks, nose and ears (31-36, 41, 42, 61-68)"},
     {{{{"9.15", "2.2", y}, {}}},
-     "the vertical and forward motion of mouth, jaw and tongue (FAPs 3-5, 8-14, 16-18, 44, "
+     "FAPs of mouth, jaw and tongue, vertical and forward (3-5, 8-14, 16-18, 44, "
      "46, 51, 52, 55-60)"},
-    {{{{"8.3", "8.4", x}, {}}}, "the sideways motion of mouth, jaw and tongue (FAPs 6, 7, 15, 43, 45, 53, 54)"},
+    {{{{"8.3", "8.4", x}, {}}}, "FAPs of mouth, jaw and tongue, sideways (6, 7, 15, 43, 45, 53, 54)"},
 }};
 
 /// A FAP value of 1024 moves a point by the whole distance (mpeg4/fapu.json, "divisor").
@@ -84,7 +84,7 @@ std::vector<std::string> explain_missing_fapu(const Fapu& fapu, const FeaturePoi
       }
       sentence += missing + (missing.find(' ') == std::string::npos ? " is not marked" : " are not marked");
     }
-    sentence += "; without it there is no motion of ";
+    sentence += "; without it these do nothing: ";
     sentence += definition.needed_for;
     sentences.push_back(std::move(sentence));
   }

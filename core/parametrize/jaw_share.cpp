@@ -36,18 +36,20 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
     low = std::min(low, t.x);
     high = std::max(high, t.x);
   }
-  // A millimetre or so: a row of teeth is some 60 mm wide.
-  const double touch = 0.03 * (high - low);
+  // Two millimetres or so: a row of teeth is some 60 mm wide.
+  const double touch = 0.04 * (high - low);
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
   for (const glm::dvec3& t : teeth) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
-  // A tongue touches teeth as well, with its tip and its rims; gums hold a good part of every tooth.
-  if (touching * 4 < teeth.size()) return {};
+  // Gums hold a good part of every tooth (a quarter of their vertices on the head this was tried on); a tongue at rest
+  // keeps off them but for its tip (one in fifty).
+  if (touching * 10 < teeth.size()) return {};
 
   const NearestPoint near_teeth(teeth);
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t m = 0; m < members.size(); ++m) {
-    if (near_teeth.nearest(positions[m]).distance < touch) sockets.push_back(members[m]);
+    // Half of it: the rims of the tongue lie along the teeth too.
+    if (near_teeth.nearest(positions[m]).distance < 0.5 * touch) sockets.push_back(members[m]);
   }
   return sockets;
 }
@@ -56,6 +58,9 @@ double smooth_step(double from, double to, double value) {
   const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
+
+/// Where on the way from a place `a` away to one `b` away: 0..1. Half way where it is at both.
+double part_of_way(double a, double b) { return a + b > 0.0 ? a / (a + b) : 0.5; }
 
 void share_joined_part(const Surface& surface, PartId part, const std::vector<SurfaceVertexId>& upper,
                        const std::vector<SurfaceVertexId>& lower, const std::vector<SurfaceVertexId>& tongue,
@@ -74,8 +79,12 @@ void share_joined_part(const Surface& surface, PartId part, const std::vector<Su
     const double jaw_side = std::min(to_lower[s], to_tongue[s]);
     const double gum_side = std::min(to_upper[s], to_lower[s]);
     MouthShare& share = shares[s];
-    share.jaw = smooth_step(0.35, 0.65, to_upper[s] / (to_upper[s] + jaw_side));
-    share.tongue = tongue.empty() ? 0.0 : smooth_step(0.2, 0.6, gum_side / (gum_side + to_tongue[s]));
+    if (to_tongue[s] == 0.0) {
+      share = {1.0, 1.0};  // a point's own vertex follows it exactly
+      continue;
+    }
+    share.jaw = smooth_step(0.35, 0.65, part_of_way(to_upper[s], jaw_side));
+    share.tongue = tongue.empty() ? 0.0 : smooth_step(0.2, 0.6, part_of_way(gum_side, to_tongue[s]));
   }
 }
 

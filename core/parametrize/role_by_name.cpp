@@ -40,12 +40,12 @@ std::optional<PartRole> role_of_name(const std::string& name, double x) {
   if (has_any(name, {"hair", "glass", "hat", "helmet", "eyewear", "outfit", "shirt", "cloth", "earring"})) {
     return PartRole::rest;
   }
+  if (has_any(name, {"tongue"})) return PartRole::tongue;  // with or without gums: see jaw_share.h
   if (names_teeth(name)) {
     if (has_any(name, {"upper", "top"})) return PartRole::upper_teeth;
     if (has_any(name, {"lower", "bottom"})) return PartRole::lower_teeth;
     return std::nullopt;
   }
-  if (has_any(name, {"tongue"})) return PartRole::tongue;
   if (has_any(name, {"iris", "sclera", "cornea", "pupil", "eyeball"}) ||
       (has_any(name, {"eye"}) && !has_any(name, {"lid", "socket", "shadow"}))) {
     if (has_side(name, "left", 'l')) return PartRole::left_eye;

@@ -114,11 +114,12 @@ class PlaceGuess {
     }
   }
 
-  /// Iris, pupil and cornea: within the eyeball or a little in front of it, and no wider than a cornea. What lies on
-  /// the eyeball from corner to corner (tears, occlusion) is wider and belongs to the lids.
+  /// Iris, pupil and cornea: within the eyeball, or a little outside but centred on its axis and no wider than a
+  /// cornea. What else lies on the eyeball (tears, occlusion, the blend to the lids) is wider or off to a side.
   void find_parts_of_eyes() {
     constexpr double bulge = 1.12;
     constexpr double widest = 1.5;
+    constexpr double off_axis = 0.3;  // a gaze to the side in the neutral face stays within
     for (std::size_t side = 0; side < 2; ++side) {
       const PartShape* const eye = largest(eye_roles[side]);
       if (eye == nullptr || !eye->sphere) continue;
@@ -129,8 +130,10 @@ class PlaceGuess {
         for (const glm::dvec3& v : shapes_[p].positions) {
           farthest = std::max(farthest, glm::distance(v, ball.center));
         }
+        const glm::dvec3 from = shapes_[p].box_center() - ball.center;
+        const bool on_axis = std::hypot(from.x, from.y) < off_axis * ball.radius;
         const bool inside = farthest < 0.99 * ball.radius;
-        const bool cornea = farthest < bulge * ball.radius && shapes_[p].extent().x < widest * ball.radius;
+        const bool cornea = farthest < bulge * ball.radius && on_axis && shapes_[p].extent().x < widest * ball.radius;
         if (inside || cornea) roles_[p] = eye_roles[side];
       }
     }

@@ -1,0 +1,124 @@
+// The fast parametrization against the literal oracle, on heads made by others.
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/influence_regions.h"
+#include "core/parametrize/parametrize.h"
+#include "core/parametrize/place_feature_points.h"
+#include "core/parametrize/point_distances.h"
+#include "tests/oracle/literal_weights.h"
+#include "tests/oracle/real_heads.h"
+
+namespace semblante {
+namespace {
+
+constexpr double weight_tolerance = 1e-9;
+
+oracle::Mesh as_oracle_mesh(const Model& model) {
+  oracle::Mesh mesh;
+  for (const glm::vec3& p : model.positions) mesh.positions.push_back({p.x, p.y, p.z});
+  mesh.triangles.assign(model.triangles.begin(), model.triangles.end());
+  return mesh;
+}
+
+oracle::PointName as_oracle_name(FeaturePointId id) { return {group_of(id), number_of(id)}; }
+
+struct HeadFile {
+  const char* folder;
+  const char* model;
+  const char* points;
+  const char* triangles;  ///< the file that has the triangles, where `model` holds only vertices
+};
+
+std::ostream& operator<<(std::ostream& out, const HeadFile& head) { return out << head.folder << "/" << head.model; }
+
+class RealHeads : public ::testing::TestWithParam<HeadFile> {
+ protected:
+  void SetUp() override {
+    const auto folder = oracle::faces_folder();
+    if (!folder) GTEST_SKIP() << "no folder of real heads";
+    const auto& [name, model_file, points_file, triangles_file] = GetParam();
+    model_ = oracle::read_trusted_obj(*folder / name / triangles_file);
+    model_.positions = oracle::read_trusted_obj(*folder / name / model_file).positions;
+    const auto before = std::chrono::steady_clock::now();
+    surface_ = build_surface(model_);
+    auto placed =
+        place_feature_points(model_, surface_, oracle::read_trusted_points(*folder / name / points_file), nullptr);
+    ASSERT_TRUE(placed) << placed.error().message;
+    points_ = *std::move(placed);
+    auto rig = parametrize(model_, surface_, points_);
+    ASSERT_TRUE(rig);
+    rig_ = *std::move(rig);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
+    seconds_ = taken.count();
+    for (const FeaturePoint& p : points_) {
+      if (p.vertex) marked_[as_oracle_name(p.id)] = p.vertex->value();
+    }
+  }
+
+  Model model_;
+  Surface surface_;
+  FeaturePointSet points_;
+  Rig rig_;
+  double seconds_ = 0.0;
+  std::map<oracle::PointName, std::uint32_t> marked_;
+};
+
+TEST_P(RealHeads, WeightsEqualTheLiteralOracle) {
+  const oracle::LiteralResult expected = oracle::literal_weights(as_oracle_mesh(model_), marked_);
+
+  for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+    ASSERT_EQ(surface_.file_vertex_of[surface_.surface_of[v].value()], VertexId(expected.surface_of[v]));
+  }
+
+  EdgePathSearch search(surface_);
+  std::vector<std::set<oracle::PointName>> regions(surface_.vertex_count());
+  for (std::uint32_t p = 0; p < surface_.part_count(); ++p) {
+    const PointDistances distances = measure_distances(surface_, PartId(p), surface_points(surface_, points_), search);
+    const std::vector<SlotSet> sets = influence_regions(surface_, distances);
+    for (std::size_t m = 0; m < sets.size(); ++m) {
+      sets[m].for_each([&](std::size_t slot) {
+        regions[distances.members[m].value()].insert(as_oracle_name(distances.points[slot].id));
+      });
+    }
+  }
+
+  double largest_error = 0.0;
+  for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+    ASSERT_EQ(regions[surface_.surface_of[v].value()], expected.regions[v]) << "region of vertex " << v;
+    const auto ids = rig_.weights.points_of(v);
+    const auto weights = rig_.weights.weights_of(v);
+    ASSERT_EQ(ids.size(), expected.weights[v].size()) << "influencers of vertex " << v;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const auto found = expected.weights[v].find(as_oracle_name(ids[k]));
+      ASSERT_NE(found, expected.weights[v].end()) << "vertex " << v << ", point " << to_string(ids[k]);
+      largest_error = std::max(largest_error, std::abs(weights[k] - found->second));
+    }
+  }
+  EXPECT_LE(largest_error, weight_tolerance);
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // The promise is two seconds on one core; a tenth of that is usual.
+  EXPECT_LT(seconds_, 2.0);
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faces, RealHeads,
+    ::testing::Values(HeadFile{"ict-facekit", "neutral.obj", "ict-facekit.fps.json", "neutral.obj"},
+                      HeadFile{"ict-facekit", "identity-sample.obj", "ict-facekit.fps.json", "neutral.obj"},
+                      HeadFile{"makehuman", "head.obj", "makehuman.fps.json", "head.obj"},
+                      HeadFile{"mediapipe-canonical", "face_model_with_iris.obj", "mediapipe-canonical.fps.json",
+                               "face_model_with_iris.obj"}),
+    [](const auto& info) {
+      std::string name = std::string(info.param.folder) + "_" + info.param.model;
+      for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+      return name;
+    });
+
+}  // namespace
+}  // namespace semblante
