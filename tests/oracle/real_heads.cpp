@@ -2,11 +2,14 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include <nlohmann/json.hpp>
+
+#include "core/import/import.h"
 
 namespace semblante::oracle {
 
@@ -47,6 +50,16 @@ Model read_trusted_obj(const std::filesystem::path& file) {
     }
   }
   return model;
+}
+
+Model import_head(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto format = detect_format(bytes, file.filename().string());
+  if (!format) throw std::runtime_error("cannot tell the format of " + file.string());
+  Result<Model> model = import_model(bytes, *format);
+  if (!model) throw std::runtime_error(file.string() + ": " + model.error().message);
+  return *std::move(model);
 }
 
 std::vector<MarkedPoint> read_trusted_points(const std::filesystem::path& file) {

@@ -17,6 +17,9 @@ std::optional<std::filesystem::path> faces_folder();
 /// through float32.
 Model read_trusted_obj(const std::filesystem::path& file);
 
+/// Any model file, by core/import; throws when it is refused.
+Model import_head(const std::filesystem::path& file);
+
 /// The points of a trusted *.fps.json.
 std::vector<MarkedPoint> read_trusted_points(const std::filesystem::path& file);
 

@@ -43,8 +43,13 @@ class RealHeads : public ::testing::TestWithParam<HeadFile> {
     const auto folder = oracle::faces_folder();
     if (!folder) GTEST_SKIP() << "no folder of real heads";
     const auto& [name, model_file, points_file, triangles_file] = GetParam();
-    model_ = oracle::read_trusted_obj(*folder / name / triangles_file);
-    model_.positions = oracle::read_trusted_obj(*folder / name / model_file).positions;
+    const Model trusted = oracle::read_trusted_obj(*folder / name / triangles_file);
+    model_ = oracle::import_head(*folder / name / triangles_file);
+    ASSERT_EQ(model_.triangles, trusted.triangles);  // else our edges would not be those of other programs
+    ASSERT_EQ(model_.positions, trusted.positions);
+    if (std::string_view(model_file) != triangles_file) {
+      model_.positions = oracle::read_trusted_obj(*folder / name / model_file).positions;
+    }
     const auto before = std::chrono::steady_clock::now();
     surface_ = build_surface(model_);
     auto placed =
@@ -119,6 +124,49 @@ INSTANTIATE_TEST_SUITE_P(
       for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
       return name;
     });
+
+struct ParametrizedHead {
+  Model model;
+  Rig rig;
+};
+
+ParametrizedHead parametrize_head(const std::filesystem::path& model_file, const std::filesystem::path& points_file) {
+  ParametrizedHead head;
+  head.model = oracle::import_head(model_file);
+  const Surface surface = build_surface(head.model);
+  const auto points = place_feature_points(head.model, surface, oracle::read_trusted_points(points_file), nullptr);
+  EXPECT_TRUE(points);
+  auto rig = parametrize(head.model, surface, *points);
+  EXPECT_TRUE(rig);
+  head.rig = *std::move(rig);
+  return head;
+}
+
+TEST(RealHeadFormats, GlbAndObjOfOneHeadGiveTheSameWeightsAtTheSamePositions) {
+  const auto folder = oracle::faces_folder();
+  if (!folder) GTEST_SKIP() << "no folder of real heads";
+  const std::filesystem::path points = *folder / "makehuman/makehuman.fps.json";
+  const ParametrizedHead obj = parametrize_head(*folder / "makehuman/head.obj", points);
+  const ParametrizedHead glb = parametrize_head(*folder / "makehuman/head.glb", points);
+  EXPECT_EQ(glb.rig.parts.size(), 10U);  // the seams that split the skin into five are stitched
+
+  std::map<std::array<float, 3>, std::uint32_t> at;
+  for (std::uint32_t v = 0; v < obj.model.positions.size(); ++v) {
+    const glm::vec3& p = obj.model.positions[v];
+    ASSERT_TRUE(at.emplace(std::array{p.x, p.y, p.z}, v).second) << "two vertices at one place: not told apart here";
+  }
+  for (std::uint32_t v = 0; v < glb.model.positions.size(); ++v) {
+    const glm::vec3& p = glb.model.positions[v];
+    const auto same = at.find({p.x, p.y, p.z});
+    ASSERT_NE(same, at.end());
+    const auto ids = glb.rig.weights.points_of(v);
+    const auto expected_ids = obj.rig.weights.points_of(same->second);
+    ASSERT_TRUE(std::equal(ids.begin(), ids.end(), expected_ids.begin(), expected_ids.end())) << "vertex " << v;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      ASSERT_NEAR(glb.rig.weights.weights_of(v)[k], obj.rig.weights.weights_of(same->second)[k], weight_tolerance);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace semblante
