@@ -5,7 +5,10 @@
 #include <string>
 
 #include "core/import/gltf_reader.h"
+#include "core/import/gltf_zip.h"
 #include "core/import/obj_reader.h"
+#include "core/import/ply_reader.h"
+#include "core/import/stl_reader.h"
 #include "core/import/text.h"
 
 namespace semblante {
@@ -102,11 +105,16 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
         return import::read_glb(bytes, limits);
       case ModelFormat::gltf:
         return import::read_gltf(as_text(bytes), import::refuse_resource, limits);
+      case ModelFormat::gltf_zip:
+        return import::read_gltf_zip(bytes, limits);
       case ModelFormat::obj:
         return import::read_obj(bytes, limits);
-      default:
-        return Error{ErrorCode::unsupported, "", std::string(to_string(format)) + " is not read yet"};
+      case ModelFormat::ply:
+        return import::read_ply(bytes, limits);
+      case ModelFormat::stl:
+        return import::read_stl(bytes, limits);
     }
+    return Error{ErrorCode::invalid_argument, "", "no such format"};
   } catch (const std::bad_alloc&) {
     // Within the limits, and still more than this machine has: the file's problem, not the end of the server.
     return Error{ErrorCode::too_large, "", "the model wants more memory than there is"};

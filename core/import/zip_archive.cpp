@@ -1,0 +1,133 @@
+#include "core/import/zip_archive.h"
+
+#include <zip.h>
+
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+constexpr std::size_t max_entries = 4096;
+
+std::size_t count_of(std::string_view text, std::string_view what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + what.size())) ++count;
+  return count;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::optional<std::string> percent_decoded(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      text += uri[i];
+      continue;
+    }
+    if (i + 2 >= uri.size()) return std::nullopt;
+    const int high = hex_digit(uri[i + 1]);
+    const int low = hex_digit(uri[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    text += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return text;
+}
+
+struct CloseFile {
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+
+}  // namespace
+
+void ZipArchive::Close::operator()(zip* archive) const { zip_discard(archive); }
+
+Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes) {
+  // Each entry has one of these in the directory; libzip would make a record of about 200 bytes for each.
+  if (count_of(as_text(bytes), "PK\x01\x02") > max_entries) {
+    return Error{ErrorCode::too_large, "", "the zip has more than " + std::to_string(max_entries) + " entries"};
+  }
+  zip_error_t fault;
+  zip_error_init(&fault);
+  zip_source_t* const source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &fault);
+  zip_t* const archive = source == nullptr ? nullptr : zip_open_from_source(source, ZIP_RDONLY, &fault);
+  if (archive == nullptr) {
+    const std::string reason = zip_error_strerror(&fault);
+    zip_error_fini(&fault);
+    if (source != nullptr) zip_source_free(source);
+    return Error{ErrorCode::malformed, "", "the zip cannot be read: " + printable(reason)};
+  }
+  zip_error_fini(&fault);
+  return ZipArchive(archive);
+}
+
+std::vector<std::string> ZipArchive::names() const {
+  std::vector<std::string> names;
+  const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const char* const name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), ZIP_FL_ENC_GUESS);
+    if (name == nullptr || *name == '\0') continue;
+    std::string text(name);
+    if (text.back() != '/') names.push_back(std::move(text));
+  }
+  return names;
+}
+
+Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std::size_t max_bytes) const {
+  const zip_int64_t index = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_ENC_GUESS);
+  if (index < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name)};
+  const std::unique_ptr<zip_file_t, CloseFile> file(
+      zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(index), 0));
+  if (file == nullptr) {
+    return Error{ErrorCode::unsupported, "",
+                 "the zip's entry " + shown(name) + " cannot be opened: " + printable(zip_strerror(archive_.get()))};
+  }
+  // What the entry announces as its size is not believed; the buffer grows with what really comes.
+  std::vector<std::uint8_t> bytes;
+  constexpr std::size_t step = std::size_t{1} << 16;
+  while (true) {
+    const std::size_t size = bytes.size();
+    if (size > max_bytes) {
+      return Error{ErrorCode::too_large, "",
+                   "the zip's entry " + shown(name) + " inflates to more than " + std::to_string(max_bytes) + " bytes"};
+    }
+    bytes.resize(size + step);
+    const zip_int64_t got = zip_fread(file.get(), bytes.data() + size, step);
+    if (got < 0) return Error{ErrorCode::malformed, "", "the zip's entry " + shown(name) + " is damaged"};
+    bytes.resize(size + static_cast<std::size_t>(got));
+    if (got == 0) return bytes;
+  }
+}
+
+std::optional<std::string> resolve_in_zip(std::string_view folder, std::string_view uri) {
+  const auto decoded = percent_decoded(uri);
+  if (!decoded || decoded->empty() || decoded->front() == '/') return std::nullopt;
+  if (decoded->find_first_of(std::string_view("\\:\0", 3)) != std::string::npos) return std::nullopt;
+  std::vector<std::string_view> segments;
+  const std::string path = std::string(folder) + *decoded;
+  std::string_view rest = path;
+  while (!rest.empty()) {
+    const std::size_t slash = rest.find('/');
+    const std::string_view segment = rest.substr(0, slash);
+    rest = slash == std::string_view::npos ? std::string_view{} : rest.substr(slash + 1);
+    if (segment == "..") {
+      if (segments.empty()) return std::nullopt;
+      segments.pop_back();
+    } else if (!segment.empty() && segment != ".") {
+      segments.push_back(segment);
+    }
+  }
+  std::string name;
+  for (const std::string_view segment : segments) {
+    if (!name.empty()) name += '/';
+    name += segment;
+  }
+  return name.empty() ? std::nullopt : std::optional(name);
+}
+
+}  // namespace semblante::import
