@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+/// One primitive of the sample head: indexed triangles, arrays of equal length #V. Metres, MPEG-4 frame.
+struct SampleHeadMesh {
+  std::string name;
+  std::size_t material = 0;  ///< index into SampleHead::materials
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> uvs;  ///< origin top left
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct SampleHeadImage {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< height by width by 3, sRGB
+};
+
+struct SampleHeadMaterial {
+  std::string name;
+  glm::vec4 base_color{1.0F};  ///< linear
+  float roughness = 0.6F;
+  std::optional<std::size_t> image;  ///< index into SampleHead::images
+  bool double_sided = false;
+};
+
+struct SampleHeadPoint {
+  FeaturePointId id;
+  std::optional<std::uint32_t> vertex;  ///< counted over all meshes in order, as a reader of the GLB counts them
+  glm::vec3 position{0.0F};
+};
+
+/// Our own head: a neutral face after algorithm.md section 0 with all 84 feature points.
+struct SampleHead {
+  std::vector<SampleHeadMesh> meshes;
+  std::vector<SampleHeadMaterial> materials;
+  std::vector<SampleHeadImage> images;
+  std::vector<SampleHeadPoint> points;  ///< all 84, rising ids
+};
+
+/// Builds it from tables and formulas: no input, the same result every time, exactly symmetric in x.
+SampleHead make_sample_head();
+
+}  // namespace semblante

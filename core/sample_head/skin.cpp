@@ -1,0 +1,73 @@
+#include "core/sample_head/skin.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/sample_head/ear.h"
+#include "core/sample_head/eyelids.h"
+#include "core/sample_head/feature_points.h"
+#include "core/sample_head/lips.h"
+#include "core/sample_head/nostrils.h"
+#include "core/sample_head/sculpt.h"
+#include "core/sample_head/skin_cage.h"
+#include "core/sample_head/subdivide.h"
+
+namespace semblante::sample_head_detail {
+namespace {
+
+/// Evens out the mesh along the surface: every free vertex goes part of the way to the mean of its neighbours, then
+/// back onto the sculpt. Border loops stay.
+void relax(HalfMesh& mesh, int rounds) {
+  const auto neighbours = neighbours_of(mesh);
+  std::vector<int> uses(mesh.positions.size(), 0);
+  for (const auto& face : mesh.faces) {
+    for (const int v : face.corner) ++uses[static_cast<std::size_t>(v)];
+  }
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vec3> next = mesh.positions;
+    for (std::size_t v = 0; v < next.size(); ++v) {
+      // Around an inner vertex there are as many faces as edges; around a border vertex one fewer.
+      const bool mirror = mesh.on_mirror(static_cast<int>(v));
+      const int edges = static_cast<int>(neighbours[v].size());
+      if (uses[v] < (mirror ? edges - 1 : edges)) continue;
+      Vec3 sum(0.0);
+      double weight = 0.0;
+      for (const int n : neighbours[v]) {
+        const Vec3 p = mesh.positions[static_cast<std::size_t>(n)];
+        const double w = mirror && !mesh.on_mirror(n) ? 2.0 : 1.0;
+        sum += (mirror ? Vec3(0.0, p.y, p.z) : p) * w;
+        weight += w;
+      }
+      // The nose keeps its lines: its cage follows the crease of the wing.
+      const Vec3 p = mesh.positions[v];
+      const double near_nose = glm::smoothstep(2.6, 1.2, glm::length(p - Vec3(0.7, -3.9, 10.0)));
+      next[v] = p + (sum / weight - p) * (0.5 * (1.0 - near_nose));
+    }
+    for (std::size_t v = 0; v < next.size(); ++v) mesh.positions[v] = project_to_head(next[v]);
+  }
+}
+
+}  // namespace
+
+Skin make_skin() {
+  SkinCage cage = make_skin_cage();
+  Skin skin;
+  skin.mesh = subdivide(subdivide(cage.mesh));
+  for (auto& p : skin.mesh.positions) p = project_to_head(p);
+  relax(skin.mesh, 4);
+  // Holes first, then their fillings: a filling must not change another hole's border.
+  const Loop orbit = boundary_loop(skin.mesh, cage["E0"], {0.0, 1.0, 0.0});
+  const Loop around_mouth = boundary_loop(skin.mesh, cage["M5_0"], {1.0, 0.0, 0.0});
+  const Loop nostril = boundary_loop(skin.mesh, cage["h0"], {1.0, 0.0, 0.0});
+  const Loop ear = boundary_loop(skin.mesh, cage["Y7"], {0.0, 1.0, 0.0});
+  add_eyelids(skin, orbit);
+  add_lips(skin, around_mouth);
+  add_nostril(skin, nostril);
+  add_ear(skin, ear);
+  skin.marks["9.15"] = around_mouth[0];
+  mark_skin_points(skin);
+  orient(skin.mesh, {0.0, 0.0, 1.0});
+  return skin;
+}
+
+}  // namespace semblante::sample_head_detail

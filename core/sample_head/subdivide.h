@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/sample_head/half_mesh.h"
+
+namespace semblante::sample_head_detail {
+
+/// One Catmull-Clark step of the half mesh. Edges on the mirror plane behave as if the other half were there; other
+/// boundary edges follow the cubic B-spline rule. Old vertices keep their numbers.
+HalfMesh subdivide(const HalfMesh& mesh);
+
+/// The boundary loop that starts at `start`, runs through `via` (a neighbour on the boundary) and ends back at `start`
+/// or where it meets the mirror plane.
+Loop boundary_loop(const HalfMesh& mesh, int start, const Vec3& towards);
+
+}  // namespace semblante::sample_head_detail

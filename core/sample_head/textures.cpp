@@ -1,0 +1,230 @@
+#include "core/sample_head/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/sample_head/emit.h"
+#include "core/sample_head/hair.h"
+#include "core/sample_head/sculpt.h"
+
+namespace semblante::sample_head_detail {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+using Colour = Vec3;  ///< sRGB, 0..1
+
+constexpr int skin_size = 512;
+constexpr int eye_size = 256;
+
+/// Repeatable noise in [0, 1) of a grid point.
+double hash_noise(int x, int y) {
+  auto h = static_cast<std::uint32_t>(x) * 374761393U + static_cast<std::uint32_t>(y) * 668265263U;
+  h = (h ^ (h >> 13U)) * 1274126177U;
+  return static_cast<double>((h ^ (h >> 16U)) & 0xFFFFU) / 65536.0;
+}
+
+double spot(const Vec3& p, const Vec3& centre, const Vec3& size) {
+  const Vec3 q = (Vec3(std::abs(p.x), p.y, p.z) - centre) / size;
+  return std::exp(-glm::dot(q, q));
+}
+
+Colour skin_colour(const Vec3& p, const Paint& paint) {
+  const Colour base(0.905, 0.735, 0.640);
+  const Colour warm(0.885, 0.560, 0.490);
+  const Colour shade(0.780, 0.590, 0.500);
+  Colour c = base;
+  const double cheek = spot(p, {4.1, -2.7, 7.0}, {2.2, 1.6, 3.0});
+  const double nose = spot(p, {0.4, -3.7, 11.0}, {1.3, 0.9, 1.6});
+  const double chin = spot(p, {0.0, -9.8, 9.4}, {1.6, 1.0, 1.5});
+  const double lid = spot(p, eye_centre + Vec3(0.0, 0.9, 1.5), {1.7, 0.55, 1.0});
+  c = glm::mix(c, warm, std::min(0.42 * cheek + 0.36 * nose + 0.14 * chin + 0.45 * paint.flush, 0.8));
+  c = glm::mix(c, shade, 0.30 * lid);
+  // Soft shade where brow and hair grow.
+  for (int i = 0; i <= 12; ++i) {
+    const double t = i / 12.0;
+    const Vec2 b = brow_line(t);
+    const Vec2 d = (Vec2(std::abs(p.x), p.y) - b) / Vec2(0.35, 0.05 + 0.9 * brow_half_height(t));
+    if (p.z > 3.0) c = glm::mix(c, Colour(0.42, 0.28, 0.21), 0.10 * std::exp(-glm::dot(d, d)));
+  }
+  const Vec3 from_centre = p - hair_centre;
+  const double azimuth = std::atan2(std::abs(from_centre.x), from_centre.z);
+  const double elevation = std::atan2(from_centre.y, std::hypot(from_centre.x, from_centre.z));
+  const double over = elevation - hairline(azimuth);
+  c = glm::mix(c, Colour(0.24, 0.15, 0.11), 0.9 * glm::smoothstep(-0.06, 0.05, over) * (paint.flush > 0.0 ? 0.0 : 1.0));
+  c = glm::mix(c, Colour(0.800, 0.470, 0.435), 0.9 * paint.lip);
+  return glm::mix(c, Colour(0.62, 0.38, 0.34), 0.75 * paint.lid);
+}
+
+Colour lining_colour(int kind, double depth) {
+  constexpr double soft[3] = {0.28, 0.5, 0.4};
+  const Colour rim[3] = {{0.66, 0.30, 0.29}, {0.80, 0.52, 0.48}, {0.60, 0.36, 0.31}};
+  const Colour deep[3] = {{0.20, 0.05, 0.06}, {0.40, 0.18, 0.17}, {0.16, 0.07, 0.06}};
+  return glm::mix(rim[kind], deep[kind], glm::smoothstep(0.0, soft[kind] * 2.0, depth));
+}
+
+void put(SampleHeadImage& image, int x, int y, const Colour& c) {
+  for (int k = 0; k < 3; ++k) {
+    image.rgb[static_cast<std::size_t>(3 * (y * image.width + x) + k)] =
+        static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(c[k], 0.0, 1.0)));
+  }
+}
+
+SampleHeadImage blank(const char* name, int width, int height) {
+  return {name, width, height,
+          std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 0)};
+}
+
+/// Colours of the right half of the image (the left of the face), by texel; `reach` says how far out of the head the
+/// painted surface lay, so that the ear's front wins over the scalp behind it.
+struct Canvas {
+  std::vector<Colour> colour;
+  std::vector<double> reach;
+};
+
+void paint_triangle(Canvas& canvas, const std::array<Vec2, 3>& uv, const std::array<Vec3, 3>& p,
+                    const std::array<Paint, 3>& about) {
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
+  const double area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+  if (std::abs(area) < 1e-12) return;
+  const auto range = [&](int axis) {
+    const auto [lo, hi] = std::minmax({uv[0][axis], uv[1][axis], uv[2][axis]});
+    return std::pair(std::max(static_cast<int>(lo * skin_size) - 1, 0),
+                     std::min(static_cast<int>(hi * skin_size) + 1, skin_size - 1));
+  };
+  const auto [x0, x1] = range(0);
+  const auto [y0, y1] = range(1);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const Vec2 at((x + 0.5) / skin_size, (y + 0.5) / skin_size);
+      const double a = cross(uv[1] - at, uv[2] - at) / area;
+      const double b = cross(uv[2] - at, uv[0] - at) / area;
+      const double c = 1.0 - a - b;
+      if (std::min({a, b, c}) < -1e-9) continue;
+      const Vec3 place = p[0] * a + p[1] * b + p[2] * c;
+      const double reach = glm::length(Vec2(place.x, place.z + 1.0));
+      const auto i = static_cast<std::size_t>(y * skin_size + x);
+      if (reach <= canvas.reach[i]) continue;
+      canvas.reach[i] = reach;
+      Paint mixed;
+      mixed.lip = about[0].lip * a + about[1].lip * b + about[2].lip * c;
+      mixed.lid = about[0].lid * a + about[1].lid * b + about[2].lid * c;
+      mixed.flush = about[0].flush * a + about[1].flush * b + about[2].flush * c;
+      canvas.colour[i] = skin_colour(place, mixed);
+    }
+  }
+}
+
+/// Fills texels that no triangle covers from painted neighbours, so that filtering finds no black rims.
+void bleed(Canvas& canvas) {
+  for (int round = 0; round < 12; ++round) {
+    const Canvas before = canvas;
+    for (int y = 0; y < skin_size; ++y) {
+      for (int x = skin_size / 2; x < skin_size; ++x) {
+        const auto i = static_cast<std::size_t>(y * skin_size + x);
+        if (before.reach[i] >= 0.0) continue;
+        Colour sum(0.0);
+        int count = 0;
+        for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+          const int nx = x + dx;
+          const int ny = y + dy;
+          if (nx < skin_size / 2 || ny < 0 || nx >= skin_size || ny >= skin_size) continue;
+          const auto j = static_cast<std::size_t>(ny * skin_size + nx);
+          if (before.reach[j] < 0.0) continue;
+          sum += before.colour[j];
+          ++count;
+        }
+        if (count == 0) continue;
+        canvas.colour[i] = sum / static_cast<double>(count);
+        canvas.reach[i] = 0.0;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+SampleHeadImage paint_skin(const HalfMesh& skin) {
+  constexpr std::size_t texels = static_cast<std::size_t>(skin_size) * skin_size;
+  Canvas canvas{std::vector<Colour>(texels, Colour(0.905, 0.735, 0.640)), std::vector<double>(texels, -1.0)};
+  for (const auto& face : skin.faces) {
+    if (face.chart != Chart::outer) continue;
+    const std::size_t triangles = face.corner[3] < 0 ? 1 : 2;
+    for (std::size_t t = 0; t < triangles; ++t) {
+      std::array<Vec2, 3> uv;
+      std::array<Vec3, 3> p;
+      std::array<Paint, 3> about;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto v = static_cast<std::size_t>(face.corner[i == 0 ? 0 : i + t]);
+        p[i] = skin.positions[v];
+        uv[i] = outer_uv(p[i]);
+        about[i] = skin.paint[v];
+      }
+      paint_triangle(canvas, uv, p, about);
+    }
+  }
+  bleed(canvas);
+  SampleHeadImage image = blank("skin", skin_size, skin_size);
+  for (int y = 0; y < skin_size; ++y) {
+    for (int x = skin_size / 2; x < skin_size; ++x) {
+      Colour c = canvas.colour[static_cast<std::size_t>(y * skin_size + x)];
+      const double v = (y + 0.5) / skin_size;
+      const double grain = 0.012 * (hash_noise(x, y) - 0.5);
+      c += Colour(grain);
+      put(image, x, y, c);
+      put(image, skin_size - 1 - x, y, c);
+      if (v < 0.95) continue;
+      // The lining's strip is not mirrored: three ramps from the opening to the deep, side by side.
+      for (const int column : {x, skin_size - 1 - x}) {
+        const double u = 3.0 * (column + 0.5) / skin_size;
+        const int kind = std::min(static_cast<int>(u), 2);
+        put(image, column, y, lining_colour(kind, (u - kind - 0.04) / 0.92));
+      }
+    }
+  }
+  return image;
+}
+
+SampleHeadImage paint_eye() {
+  SampleHeadImage image = blank("eye", eye_size, eye_size);
+  const double iris = std::asin(iris_radius / eye_radius) / pi;  // as a share of the image's half width
+  for (int y = 0; y < eye_size; ++y) {
+    for (int x = 0; x < eye_size; ++x) {
+      const Vec2 q((x + 0.5) / eye_size * 2.0 - 1.0, (y + 0.5) / eye_size * 2.0 - 1.0);
+      const double r = glm::length(q) / iris;  // 1 at the rim of the iris
+      const double angle = std::atan2(q.y, q.x);
+      Colour c = glm::mix(Colour(0.95, 0.94, 0.925), Colour(0.86, 0.68, 0.64), glm::smoothstep(1.5, 4.0, r));
+      // Fibres: a few sine waves whose sum looks irregular, the same on left and right.
+      const double a = std::abs(std::abs(angle) - 0.5 * pi);
+      const double fibre =
+          0.5 + 0.2 * std::sin(23.0 * a) + 0.18 * std::sin(41.0 * a + 1.0) + 0.12 * std::sin(67.0 * a + 2.0);
+      Colour blue = glm::mix(Colour(0.20, 0.36, 0.44), Colour(0.45, 0.62, 0.66), fibre * glm::smoothstep(1.0, 0.45, r));
+      blue = glm::mix(blue, Colour(0.62, 0.52, 0.34), 0.55 * glm::smoothstep(0.62, 0.36, r) * (0.5 + fibre * 0.5));
+      blue = glm::mix(blue, Colour(0.08, 0.14, 0.18), glm::smoothstep(0.80, 0.98, r));
+      // The lid's shade on the upper part.
+      blue *= 1.0 - 0.30 * glm::smoothstep(0.1, -0.9, q.y / iris);
+      c *= 1.0 - 0.16 * glm::smoothstep(0.2, -1.2, q.y / iris) * (r < 2.5 ? 1.0 : 0.0);
+      c = glm::mix(blue, c, glm::smoothstep(0.96, 1.06, r));
+      c = glm::mix(Colour(0.02, 0.02, 0.025), c, glm::smoothstep(0.30, 0.36, r));
+      // A painted glint keeps the eye alive under any light.
+      const Vec2 glint = q / iris - Vec2(0.0, -0.42);
+      c = glm::mix(Colour(1.0), c, glm::smoothstep(0.09, 0.16, glm::length(glint)));
+      put(image, x, y, c);
+    }
+  }
+  return image;
+}
+
+SampleHeadImage paint_teeth() {
+  SampleHeadImage image = blank("teeth", 8, 32);
+  for (int y = 0; y < 32; ++y) {
+    const double t = (y + 0.5) / 32.0;
+    const Colour c = glm::mix(Colour(0.80, 0.45, 0.44), Colour(0.955, 0.945, 0.91), glm::smoothstep(0.42, 0.58, t));
+    for (int x = 0; x < 8; ++x) put(image, x, y, c);
+  }
+  return image;
+}
+
+}  // namespace semblante::sample_head_detail

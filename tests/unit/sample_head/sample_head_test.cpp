@@ -1,0 +1,339 @@
+#include "core/sample_head/sample_head.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/sample_head/write_sample_head.h"
+
+namespace semblante {
+namespace {
+
+using testing::UnorderedElementsAre;
+
+const SampleHead& head() {
+  static const SampleHead the_head = make_sample_head();
+  return the_head;
+}
+
+const SampleHeadMesh& part(const std::string& name) {
+  for (const auto& mesh : head().meshes) {
+    if (mesh.name == name) return mesh;
+  }
+  throw std::runtime_error("no part " + name);
+}
+
+const SampleHeadPoint& point(const std::string& id) {
+  for (const auto& p : head().points) {
+    if (p.id == parse_feature_point(id)) return p;
+  }
+  throw std::runtime_error("no point " + id);
+}
+
+glm::dvec3 at(const std::string& id) { return point(id).position; }
+
+/// One mesh with its seams closed by position: every vertex number to that of the first one at its place.
+std::vector<std::uint32_t> welded(const SampleHeadMesh& mesh) {
+  std::map<std::tuple<float, float, float>, std::uint32_t> first;
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const auto& p = mesh.positions[v];
+    result.push_back(first.try_emplace({p.x + 0.0F, p.y + 0.0F, p.z + 0.0F}, v).first->second);
+  }
+  return result;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Triangles per edge, directed: (a, b) counts triangles that run from a to b.
+std::map<Edge, int> directed_edges(const SampleHeadMesh& mesh) {
+  const auto weld = welded(mesh);
+  std::map<Edge, int> edges;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{weld[t[i]], weld[t[(i + 1) % 3]]}];
+  }
+  return edges;
+}
+
+/// The part an FP lies on and its vertex there.
+std::pair<const SampleHeadMesh*, std::uint32_t> place_of(const SampleHeadPoint& p) {
+  std::uint32_t v = *p.vertex;
+  for (const auto& mesh : head().meshes) {
+    if (v < mesh.positions.size()) return {&mesh, v};
+    v -= static_cast<std::uint32_t>(mesh.positions.size());
+  }
+  return {nullptr, 0};
+}
+
+/// Lengths of the shortest edge paths over the stitched part from one vertex: plain Dijkstra.
+std::vector<double> distances(const SampleHeadMesh& mesh, std::uint32_t from) {
+  const auto weld = welded(mesh);
+  std::vector<std::set<std::uint32_t>> neighbours(mesh.positions.size());
+  for (const auto& [edge, count] : directed_edges(mesh)) {
+    neighbours[edge.first].insert(edge.second);
+    neighbours[edge.second].insert(edge.first);
+  }
+  std::vector<double> best(mesh.positions.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  queue.emplace(0.0, weld[from]);
+  best[weld[from]] = 0.0;
+  while (!queue.empty()) {
+    const auto [d, v] = queue.top();
+    queue.pop();
+    if (d > best[v]) continue;
+    for (const std::uint32_t n : neighbours[v]) {
+      const double through = d + glm::distance(glm::dvec3(mesh.positions[v]), glm::dvec3(mesh.positions[n]));
+      if (through < best[n]) {
+        best[n] = through;
+        queue.emplace(through, n);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < best.size(); ++v) best[v] = best[weld[v]];
+  return best;
+}
+
+TEST(SampleHead, IsDeterministic_WhenMadeTwice) {
+  const auto first = sample_head_glb(head());
+  const auto second = sample_head_glb(make_sample_head());
+  ASSERT_TRUE(first.ok());
+  ASSERT_TRUE(second.ok());
+  EXPECT_EQ(first.value(), second.value());
+  EXPECT_EQ(sample_head_feature_points_json(head()), sample_head_feature_points_json(make_sample_head()));
+}
+
+TEST(SampleHead, StaysSmall_AsAFile) {
+  std::size_t vertices = 0;
+  for (const auto& mesh : head().meshes) vertices += mesh.positions.size();
+  EXPECT_GE(vertices, 5000U);
+  EXPECT_LE(vertices, 15000U);
+  const auto glb = sample_head_glb(head());
+  ASSERT_TRUE(glb.ok());
+  EXPECT_LT(glb.value().size(), 1'500'000U);
+  for (const auto& image : head().images) {
+    EXPECT_LE(image.width, 512);
+    EXPECT_LE(image.height, 512);
+  }
+}
+
+TEST(SampleHead, ArraysFit_InEveryPart) {
+  for (const auto& mesh : head().meshes) {
+    SCOPED_TRACE(mesh.name);
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    ASSERT_LT(mesh.material, head().materials.size());
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t v : t) {
+        ASSERT_LT(v, mesh.positions.size());
+        used[v] = true;
+      }
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      for (int i = 0; i < 3; ++i) ASSERT_TRUE(std::isfinite(mesh.positions[v][i]));
+      ASSERT_NEAR(glm::length(mesh.normals[v]), 1.0F, 1e-4F);
+      for (int i = 0; i < 2; ++i) {
+        ASSERT_GE(mesh.uvs[v][i], 0.0F);
+        ASSERT_LE(mesh.uvs[v][i], 1.0F);
+      }
+    }
+  }
+}
+
+TEST(SampleHead, HasNoDegenerateTriangles) {
+  for (const auto& mesh : head().meshes) {
+    std::size_t degenerate = 0;
+    for (const auto& t : mesh.triangles) {
+      const glm::dvec3 a = mesh.positions[t[0]];
+      const glm::dvec3 across = glm::cross(glm::dvec3(mesh.positions[t[1]]) - a, glm::dvec3(mesh.positions[t[2]]) - a);
+      if (glm::length(across) < 1e-11) ++degenerate;  // 1e-11 m^2 of doubled area: a tenth of a 10 um square
+    }
+    EXPECT_EQ(degenerate, 0U) << mesh.name;
+  }
+}
+
+TEST(SampleHead, IsSymmetric_Exactly) {
+  std::multiset<std::tuple<float, float, float>> left;
+  std::multiset<std::tuple<float, float, float>> right;
+  for (const auto& mesh : head().meshes) {
+    for (const auto& p : mesh.positions) {
+      if (p.x > 0.0F) left.insert({p.x, p.y, p.z});
+      if (p.x < 0.0F) right.insert({-p.x, p.y, p.z});
+    }
+  }
+  EXPECT_EQ(left, right);
+}
+
+TEST(SampleHead, SkinIsOneOrientedSurface_OpenOnlyAtTheNeck) {
+  const auto edges = directed_edges(part("skin"));
+  std::set<std::uint32_t> border;
+  for (const auto& [edge, count] : edges) {
+    ASSERT_EQ(count, 1) << "an edge used twice in one direction";
+    if (edges.find({edge.second, edge.first}) == edges.end()) {
+      border.insert(edge.first);
+      border.insert(edge.second);
+    }
+  }
+  ASSERT_FALSE(border.empty());
+  const float bottom =
+      part("skin")
+          .positions[*std::min_element(
+              border.begin(), border.end(),
+              [](auto a, auto b) { return part("skin").positions[a].y < part("skin").positions[b].y; })]
+          .y;
+  for (const std::uint32_t v : border) EXPECT_LT(part("skin").positions[v].y, bottom + 0.02F);
+  const auto reach = distances(part("skin"), 0);
+  EXPECT_EQ(std::count(reach.begin(), reach.end(), std::numeric_limits<double>::infinity()), 0);
+}
+
+TEST(SampleHead, Has84Points_EachOnItsPart) {
+  ASSERT_EQ(head().points.size(), feature_point_count);
+  std::map<std::string, std::set<std::string>> points_of;
+  for (std::size_t i = 0; i < feature_point_count; ++i) {
+    const auto& p = head().points[i];
+    ASSERT_EQ(p.id.value(), i);
+    if (!p.vertex) {
+      EXPECT_EQ(to_string(p.id), "7.1");
+      continue;
+    }
+    const auto [mesh, v] = place_of(p);
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->positions[v], p.position);
+    points_of[mesh->name].insert(to_string(p.id));
+  }
+  EXPECT_THAT(points_of["left eye"], UnorderedElementsAre("3.5"));
+  EXPECT_THAT(points_of["right eye"], UnorderedElementsAre("3.6"));
+  EXPECT_THAT(points_of["tongue"], UnorderedElementsAre("6.1", "6.2", "6.3", "6.4"));
+  EXPECT_THAT(points_of["upper teeth"], UnorderedElementsAre("9.8", "9.10"));
+  EXPECT_THAT(points_of["lower teeth"], UnorderedElementsAre("9.9", "9.11"));
+  EXPECT_THAT(points_of["hair"], UnorderedElementsAre("11.5"));
+  EXPECT_EQ(points_of["skin"].size(), 84U - 1 - 2 - 4 - 4 - 1);
+}
+
+TEST(SampleHead, PointsMirror_AsTheStandardPairsThem) {
+  const std::vector<std::pair<std::string, std::string>> pairs = {
+      {"2.4", "2.5"},    {"2.6", "2.7"},   {"2.8", "2.9"},   {"2.11", "2.12"}, {"2.13", "2.14"}, {"3.1", "3.2"},
+      {"3.3", "3.4"},    {"3.5", "3.6"},   {"3.7", "3.12"},  {"3.8", "3.11"},  {"3.9", "3.10"},  {"3.13", "3.14"},
+      {"4.1", "4.2"},    {"4.3", "4.4"},   {"4.5", "4.6"},   {"5.1", "5.2"},   {"5.3", "5.4"},   {"6.3", "6.4"},
+      {"8.3", "8.4"},    {"8.5", "8.6"},   {"8.7", "8.8"},   {"8.10", "8.9"},  {"9.1", "9.2"},   {"9.5", "9.4"},
+      {"9.7", "9.6"},    {"9.13", "9.14"}, {"10.1", "10.2"}, {"10.3", "10.4"}, {"10.5", "10.6"}, {"10.7", "10.8"},
+      {"10.9", "10.10"}, {"11.3", "11.2"}};
+  std::set<std::string> paired;
+  for (const auto& [left, right] : pairs) {
+    // 3.8 is the left corner of the RIGHT eye.
+    EXPECT_EQ(at(left).x > 0.0, left != "3.8") << left;
+    EXPECT_EQ(at(left), at(right) * glm::dvec3(-1.0, 1.0, 1.0)) << left;
+    paired.insert({left, right});
+  }
+  for (const auto& p : head().points) {
+    const bool alone = !paired.contains(to_string(p.id));
+    EXPECT_EQ(alone, p.position.x == 0.0F) << to_string(p.id);
+  }
+}
+
+TEST(SampleHead, PointsKeepTheRelations_OfTheStandard) {
+  constexpr double hair_breadth = 1e-4;
+  EXPECT_NEAR(at("2.6").x, 0.5 * (at("2.2").x + at("2.4").x), hair_breadth);
+  EXPECT_NEAR(at("2.8").x, 0.5 * (at("2.3").x + at("2.4").x), hair_breadth);
+  EXPECT_NEAR(at("8.5").x, 0.5 * (at("8.1").x + at("8.3").x), hair_breadth);
+  EXPECT_NEAR(at("8.7").x, 0.5 * (at("8.2").x + at("8.3").x), hair_breadth);
+  for (const char* id : {"3.1", "3.3", "3.9", "3.13"}) {
+    EXPECT_NEAR(at(id).x, 0.5 * (at("3.7").x + at("3.11").x), 5e-4) << id;
+  }
+  EXPECT_NEAR(at("4.3").x, 0.5 * (at("4.1").x + at("4.5").x), hair_breadth);
+  EXPECT_NEAR(at("5.1").y, at("8.3").y, hair_breadth);
+  EXPECT_GT(at("5.3").x, at("3.5").x);
+  EXPECT_LT(at("5.3").x, at("3.7").x);
+  EXPECT_GT(at("5.3").y, at("9.15").y);
+  EXPECT_LT(at("5.3").y, at("9.12").y);
+  EXPECT_GT(at("2.11").x, at("8.7").x);
+  EXPECT_LT(at("2.11").x, at("8.3").x);
+  EXPECT_NEAR(at("9.12").y, 0.5 * (at("9.7").y + at("9.3").y), hair_breadth);
+  EXPECT_NEAR(at("9.13").y, at("9.12").y, hair_breadth);
+  EXPECT_NEAR(at("6.3").z, at("6.2").z, hair_breadth);
+  EXPECT_NEAR(at("10.3").y, 0.5 * (at("10.1").y + at("10.5").y), hair_breadth);
+  EXPECT_GT(at("11.3").x, at("4.3").x);
+  EXPECT_GT(at("11.5").y, at("11.4").y);
+  EXPECT_GT(at("8.10").y, at("8.1").y);
+}
+
+TEST(SampleHead, FaceUnits_AreThoseOfAGrownPerson) {
+  const double irisd = at("3.1").y - at("3.3").y;
+  const double es = at("3.5").x - at("3.6").x;
+  const double ens = at("3.5").y - at("9.15").y;
+  const double mns = at("9.15").y - at("2.2").y;
+  const double mw = at("8.3").x - at("8.4").x;
+  EXPECT_NEAR(irisd, 0.012, 0.001);  // the iris of a person measures 11 to 12.5 mm
+  EXPECT_NEAR(es, 0.064, 0.004);     // eyes of grown people stand 60 to 68 mm apart
+  EXPECT_NEAR(ens / es, 0.74, 0.08);
+  EXPECT_NEAR(mns / es, 0.31, 0.06);
+  EXPECT_NEAR(mw / es, 0.78, 0.08);
+  const double height = at("11.4").y - at("2.1").y;
+  EXPECT_NEAR(height, 0.225, 0.015);
+  EXPECT_NEAR((at("11.4").y + at("2.1").y) / 2.0, at("3.5").y, 0.006);  // eyes half way up the head
+}
+
+TEST(SampleHead, LipsAreFarApartOnTheSurface_ThoughTheyTouch) {
+  const auto& skin = part("skin");
+  const auto [mesh, upper] = place_of(point("2.2"));
+  const auto [other, lower] = place_of(point("2.3"));
+  ASSERT_EQ(mesh, &skin);
+  ASSERT_EQ(other, &skin);
+  EXPECT_LT(glm::distance(at("2.2"), at("2.3")), 0.0005);
+  EXPECT_GT(at("2.2").y, at("2.3").y);
+  const double half_width = at("8.3").x;
+  EXPECT_GE(distances(skin, upper)[lower], half_width);
+}
+
+TEST(SampleHead, LidsCanClose_InFrontOfTheBall) {
+  const auto& eye = part("left eye");
+  glm::dvec3 low(1e9);
+  glm::dvec3 high(-1e9);
+  for (const auto& p : eye.positions) {
+    low = glm::min(low, glm::dvec3(p));
+    high = glm::max(high, glm::dvec3(p));
+  }
+  const glm::dvec3 centre = 0.5 * (low + high);
+  const double radius = 0.5 * (high.z - low.z);
+  for (const auto& p : eye.positions) ASSERT_NEAR(glm::distance(glm::dvec3(p), centre), radius, 1e-6);
+  EXPECT_NEAR(at("3.5").z, centre.z + radius, 1e-6);
+
+  // All along its way down by IRISD0 the middle of the upper edge stays in front of the ball and ends on the lower.
+  const double irisd = at("3.1").y - at("3.3").y;
+  for (int step = 0; step <= 16; ++step) {
+    const glm::dvec3 p = at("3.1") - glm::dvec3(0.0, irisd * step / 16.0, 0.0);
+    EXPECT_GT(glm::distance(p, centre), radius) << step;
+  }
+  // The iris reaches from lid to lid.
+  EXPECT_NEAR(at("3.1").y, 0.5 * irisd, 2e-4);
+}
+
+TEST(SampleHead, TeethAndTongue_StandInsideTheMouth) {
+  // The bag lies behind the lips; its back wall is its rearmost vertex on the middle line below the nose.
+  for (const char* name : {"upper teeth", "lower teeth", "tongue"}) {
+    for (const auto& p : part(name).positions) {
+      EXPECT_LT(p.z, static_cast<float>(at("2.2").z)) << name;
+      EXPECT_LT(p.y, static_cast<float>(at("9.15").y)) << name;
+      EXPECT_GT(p.y, static_cast<float>(at("2.10").y)) << name;
+    }
+  }
+  EXPECT_NEAR(at("9.10").y, at("9.11").y, 0.001);  // teeth touch
+  EXPECT_NEAR(at("6.1").y, at("9.11").y, 0.003);   // tip of the tongue between them
+}
+
+}  // namespace
+}  // namespace semblante
