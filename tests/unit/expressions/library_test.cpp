@@ -197,15 +197,20 @@ TEST(Expressions_Six, DoWhatTheStandardSays) {
 }
 
 TEST(Expressions_Six, AreFarFromEachOther) {
+  Fapu head;  // about an adult's, in centimetres
+  head.value = {1.0 / 1024, 6.3 / 1024, 4.6 / 1024, 2.1 / 1024, 5.0 / 1024};
+  const auto on_head = [&](std::size_t i) {
+    return to_dense(to_model_units(expression_library()[i], head).displacements);
+  };
   for (std::size_t a = 1; a < 7; ++a) {
     for (std::size_t b = a + 1; b < 7; ++b) {
-      const auto p = to_dense(expression_library()[a].displacements);
-      const auto q = to_dense(expression_library()[b].displacements);
+      const auto p = on_head(a);
+      const auto q = on_head(b);
       double pp = 0;
       double qq = 0;
       double pq = 0;
       for (std::size_t i = 0; i < p.size(); ++i) pp += p[i] * p[i], qq += q[i] * q[i], pq += p[i] * q[i];
-      EXPECT_LT(pq / std::sqrt(pp * qq), 0.8)
+      EXPECT_LT(pq / std::sqrt(pp * qq), 0.7)
           << expression_library()[a].name << " and " << expression_library()[b].name;
     }
   }
