@@ -65,7 +65,11 @@ class FieldReader {
   }
   template <class T>
   void optional(const char* name, std::optional<T>& value) {
-    if (flag(name)) visit_fields(value.emplace(), *this);
+    if (!flag(name)) return;
+    const std::string outer = prefix_;
+    prefix_ = pointer(name);
+    visit_fields(value.emplace(), *this);
+    prefix_ = outer;
   }
   void state(const char* name, FaceFrame& state) {
     if (error_) return;
@@ -101,7 +105,7 @@ class FieldReader {
   }
 
  private:
-  static std::string pointer(const char* name) { return std::string("/") + name; }
+  [[nodiscard]] std::string pointer(const char* name) const { return prefix_ + "/" + name; }
   void fail(ErrorCode code, const char* name, std::string message) {
     if (!error_) error_ = Error{code, pointer(name), std::move(message)};
   }
@@ -119,6 +123,7 @@ class FieldReader {
   byte_io::Reader in_;
   const std::optional<FaceFrame>& last_;
   std::optional<Error> error_;
+  std::string prefix_;  ///< pointer of the structure being read
 };
 
 template <class M>

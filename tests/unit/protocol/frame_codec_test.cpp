@@ -38,12 +38,14 @@ TEST(FrameDecoder, Decode_InvalidMessages_AreRefusedByField) {
   expect_refused({1, 0x80, 0x80, 0x04, 0, 0}, ErrorCode::out_of_range, "/version");  // 65536
   expect_refused({1, 1, 2, 0}, ErrorCode::out_of_range, "/role");
   expect_refused({1, 1, 0, 2}, ErrorCode::malformed, "/resume");
-  expect_refused({1, 1, 0, 1, 5}, ErrorCode::truncated, "/sequence");
+  expect_refused({1, 1, 0, 1, 5}, ErrorCode::truncated, "/resume/sequence");
   // a varint of 11 bytes, and one of 10 bytes that needs 65 bits
-  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}, ErrorCode::truncated, "/epoch");
-  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 2, 1}, ErrorCode::truncated, "/epoch");
+  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}, ErrorCode::truncated,
+                 "/resume/epoch");
+  expect_refused({1, 1, 0, 1, 255, 255, 255, 255, 255, 255, 255, 255, 255, 2, 1}, ErrorCode::truncated,
+                 "/resume/epoch");
   // 2^53 is one too many
-  expect_refused({1, 1, 0, 1, 128, 128, 128, 128, 128, 128, 128, 16, 1}, ErrorCode::out_of_range, "/epoch");
+  expect_refused({1, 1, 0, 1, 128, 128, 128, 128, 128, 128, 128, 16, 1}, ErrorCode::out_of_range, "/resume/epoch");
   // error: a text that is not UTF-8, one longer than its field, one longer than the message
   expect_refused({6, 1, 1, 0xFF, 0}, ErrorCode::malformed, "/where");
   expect_refused({6, 1, 0x81, 0x08}, ErrorCode::too_large, "/where");

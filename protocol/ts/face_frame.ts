@@ -1,0 +1,59 @@
+/** FAP 1: viseme(select1) * blend/63 + viseme(select2) * (1 - blend/63). Selects 0..14 (0 is silence), blend 0..63. */
+export interface VisemeBlend {
+  select1: number;
+  select2: number;
+  blend: number;
+}
+
+/** FAP 2: the sum of expression(select) * intensity/63. Selects 0..6 (0 is none), intensities 0..63. */
+export interface ExpressionBlend {
+  select1: number;
+  intensity1: number;
+  select2: number;
+  intensity2: number;
+}
+
+/** The whole state of a face at one moment: never a change, never an event. */
+export interface FaceFrame {
+  viseme: VisemeBlend;
+  expression: ExpressionBlend;
+  /**
+   * By FAP number (entries 0..2 unused): quantized level, -32767..32767; FAP units = level * the stream's step for that
+   * FAP. Level 0 is "absent": the FAP does not override visemes and expressions.
+   */
+  levels: Int16Array;
+}
+
+/** A frame with its place in time: whole milliseconds after the media time of its message. */
+export interface TimedFrame {
+  time: number;
+  state: FaceFrame;
+}
+
+export const firstLowLevelFap = 3;
+export const lastLowLevelFap = 68;
+export const maxViseme = 14;
+export const maxExpression = 6;
+export const maxBlend = 63;
+
+export function neutralFrame(): FaceFrame {
+  return {
+    viseme: { select1: 0, select2: 0, blend: 0 },
+    expression: { select1: 0, intensity1: 0, select2: 0, intensity2: 0 },
+    levels: new Int16Array(lastLowLevelFap + 1),
+  };
+}
+
+export function copyFrame(frame: FaceFrame): FaceFrame {
+  return { viseme: { ...frame.viseme }, expression: { ...frame.expression }, levels: frame.levels.slice() };
+}
+
+export function sameViseme(a: VisemeBlend, b: VisemeBlend): boolean {
+  return a.select1 === b.select1 && a.select2 === b.select2 && a.blend === b.blend;
+}
+
+export function sameExpression(a: ExpressionBlend, b: ExpressionBlend): boolean {
+  return (
+    a.select1 === b.select1 && a.intensity1 === b.intensity1 && a.select2 === b.select2 && a.intensity2 === b.intensity2
+  );
+}

@@ -1,0 +1,240 @@
+import { JsonCursor, parseJsonObject } from './json_cursor.ts';
+import { featurePoints, type FapUnit } from './generated/mpeg4.ts';
+
+/** rig.json: what a client needs to know beside the vertices. All lengths in model units, MPEG-4 frame. */
+export interface RigDocument {
+  name: string;
+  mesh: {
+    sha256: string;
+    vertices: number;
+    triangles: number;
+    bytes: number;
+    /** Draco unique ids; null: the mesh has none. */
+    attributes: { position: number } & Record<'normal' | 'uv' | 'material' | 'file_vertex', number | null>;
+  };
+  weights: {
+    sha256: string;
+    bytes: number;
+    bits: number;
+    max_influences: number;
+    mean_influences: number;
+    max_error: number;
+  };
+  /** Already divided by 1024; null where the points that give one are not marked. */
+  fapu: Record<RigFapu, number | null>;
+  feature_points: RigFeaturePoint[];
+  /** Left, right. */
+  eye_pivots: [Vec3, Vec3];
+  head_pivot: Vec3;
+  parts: RigPart[];
+  /** Of Eq. 5. */
+  viseme_share: number;
+  /** 15; entry 0 is silence. */
+  visemes: DisplacementSet[];
+  /** 7; entry 0 is none. */
+  expressions: DisplacementSet[];
+  bounds: { min: Vec3; max: Vec3 };
+  materials: RigMaterial[];
+  images: RigImage[];
+  warnings: string[];
+}
+
+export type Vec3 = [number, number, number];
+export type RigFapu = Exclude<FapUnit, 'AU'>;
+
+export interface RigFeaturePoint {
+  id: string;
+  /** Of the decoded mesh; null for a bare position. */
+  vertex: number | null;
+  position: Vec3;
+}
+
+export interface DisplacementSet {
+  name: string;
+  /** By feature point id, at full intensity. */
+  displacements: Record<string, Vec3>;
+}
+
+export const partRoles = [
+  'skin',
+  'left_eye',
+  'right_eye',
+  'upper_teeth',
+  'lower_teeth',
+  'tongue',
+  'attached',
+  'rest',
+] as const;
+export type PartRole = (typeof partRoles)[number];
+
+export interface RigPart {
+  name: string;
+  role: PartRole;
+  vertices: number;
+  triangles: number;
+}
+
+export const alphaModes = ['opaque', 'mask', 'blend'] as const;
+
+export interface RigMaterial {
+  name: string;
+  /** Linear RGBA. */
+  base_color: [number, number, number, number];
+  metallic: number;
+  roughness: number;
+  alpha_mode: (typeof alphaModes)[number];
+  alpha_cutoff: number;
+  double_sided: boolean;
+  /** SHA-256 of an image, at /v1/artefacts/{sha256}. */
+  base_color_image: string | null;
+  normal_image: string | null;
+}
+
+export interface RigImage {
+  sha256: string;
+  mime_type: string;
+  bytes: number;
+}
+
+export const rigFapus: readonly RigFapu[] = ['IRISD', 'ES', 'ENS', 'MNS', 'MW'];
+export const visemeCount = 15;
+export const expressionCount = 7;
+
+const maxRigBytes = 16 << 20;
+const maxText = 4096;
+const maxList = 100_000;
+const maxFloat = 3.4028234663852886e38;
+const indexOfPoint = new Map(featurePoints.map((point, index) => [point.id, index]));
+
+/** "2.1" -> its dense index 0..83; undefined for anything that is not one of the 84. */
+export function featurePointIndex(id: string): number | undefined {
+  return indexOfPoint.get(id);
+}
+
+const real = (at: JsonCursor): number => at.number(-maxFloat, maxFloat);
+const natural = (at: JsonCursor): number => at.integer(0, 0xffff_ffff);
+const size = (at: JsonCursor): number => at.integer(0, Number.MAX_SAFE_INTEGER);
+const text = (at: JsonCursor): string => at.text(maxText);
+const orNull = <T>(at: JsonCursor, read: (at: JsonCursor) => T): T | null => (at.isNull ? null : read(at));
+const vec3 = (at: JsonCursor): Vec3 => at.elements(3, 3).map(real) as Vec3;
+
+function hash(at: JsonCursor): string {
+  const value = at.text(64);
+  if (!/^[0-9a-fA-F]{64}$/.test(value)) at.fail('malformed', 'must be a SHA-256 as 64 hexadecimal digits');
+  return value.toLowerCase();
+}
+
+function oneOf<T extends string>(at: JsonCursor, values: readonly T[]): T {
+  const value = text(at);
+  return values.find((known) => known === value) ?? at.fail('invalid_argument', `"${value}" is not a known value`);
+}
+
+function pointId(at: JsonCursor, id: string): string {
+  if (!indexOfPoint.has(id)) at.fail('invalid_argument', `no feature point is called "${id}"`);
+  return id;
+}
+
+/** Reads and checks one. Throws ProtocolError with the pointer of the member at fault. Unknown members are skipped. */
+export function readRig(json: string): RigDocument {
+  const root = parseJsonObject(json, maxRigBytes);
+  if (text(root.member('format')) !== 'semblante.rig') {
+    root.member('format').fail('malformed', 'must be "semblante.rig"');
+  }
+  if (natural(root.member('version')) !== 1) root.member('version').fail('unsupported', 'only version 1 is known');
+  const mesh = root.member('mesh');
+  const attributes = mesh.member('attributes');
+  const weights = root.member('weights');
+  const vertices = mesh.member('vertices').integer(1, 4_000_000);
+  const list = <T>(name: string, most: number, read: (at: JsonCursor) => T): T[] =>
+    root.member(name).elements(0, most).map(read);
+  return {
+    name: text(root.member('name')),
+    mesh: {
+      sha256: hash(mesh.member('sha256')),
+      vertices,
+      triangles: natural(mesh.member('triangles')),
+      bytes: size(mesh.member('bytes')),
+      attributes: {
+        position: natural(attributes.member('position')),
+        normal: orNull(attributes.member('normal'), natural),
+        uv: orNull(attributes.member('uv'), natural),
+        material: orNull(attributes.member('material'), natural),
+        file_vertex: orNull(attributes.member('file_vertex'), natural),
+      },
+    },
+    weights: {
+      sha256: hash(weights.member('sha256')),
+      bytes: size(weights.member('bytes')),
+      bits: weights.member('bits').integer(8, 16),
+      max_influences: weights.member('max_influences').integer(0, featurePoints.length),
+      mean_influences: weights.member('mean_influences').number(0, featurePoints.length),
+      max_error: weights.member('max_error').number(0, 1),
+    },
+    fapu: Object.fromEntries(
+      rigFapus.map((unit) => [unit, orNull(root.member('fapu').member(unit), real)]),
+    ) as RigDocument['fapu'],
+    feature_points: readFeaturePoints(root.member('feature_points'), vertices),
+    eye_pivots: root.member('eye_pivots').elements(2, 2).map(vec3) as [Vec3, Vec3],
+    head_pivot: vec3(root.member('head_pivot')),
+    parts: list('parts', maxList, readPart),
+    viseme_share: root.member('viseme_share').number(0, 1),
+    visemes: root.member('visemes').elements(visemeCount, visemeCount).map(readSet),
+    expressions: root.member('expressions').elements(expressionCount, expressionCount).map(readSet),
+    bounds: { min: vec3(root.member('bounds').member('min')), max: vec3(root.member('bounds').member('max')) },
+    materials: root.member('materials').elements(1, 256).map(readMaterial),
+    images: list('images', maxList, readImage),
+    warnings: list('warnings', maxList, text),
+  };
+}
+
+function readFeaturePoints(at: JsonCursor, vertices: number): RigFeaturePoint[] {
+  let last = -1;
+  return at.elements(0, featurePoints.length).map((point) => {
+    const id = pointId(point.member('id'), text(point.member('id')));
+    const index = indexOfPoint.get(id)!;
+    if (index <= last) point.member('id').fail('malformed', 'ids must rise');
+    last = index;
+    return {
+      id,
+      vertex: orNull(point.member('vertex'), (vertex) => vertex.integer(0, vertices - 1)),
+      position: vec3(point.member('position')),
+    };
+  });
+}
+
+function readSet(at: JsonCursor): DisplacementSet {
+  const displacements: Record<string, Vec3> = {};
+  for (const [id, value] of at.member('displacements').members()) displacements[pointId(value, id)] = vec3(value);
+  return { name: text(at.member('name')), displacements };
+}
+
+function readPart(at: JsonCursor): RigPart {
+  return {
+    name: text(at.member('name')),
+    role: oneOf(at.member('role'), partRoles),
+    vertices: natural(at.member('vertices')),
+    triangles: natural(at.member('triangles')),
+  };
+}
+
+function readMaterial(at: JsonCursor): RigMaterial {
+  return {
+    name: text(at.member('name')),
+    base_color: at.member('base_color').elements(4, 4).map(real) as RigMaterial['base_color'],
+    metallic: real(at.member('metallic')),
+    roughness: real(at.member('roughness')),
+    alpha_mode: oneOf(at.member('alpha_mode'), alphaModes),
+    alpha_cutoff: real(at.member('alpha_cutoff')),
+    double_sided: at.member('double_sided').boolean(),
+    base_color_image: orNull(at.member('base_color_image'), hash),
+    normal_image: orNull(at.member('normal_image'), hash),
+  };
+}
+
+function readImage(at: JsonCursor): RigImage {
+  return {
+    sha256: hash(at.member('sha256')),
+    mime_type: text(at.member('mime_type')),
+    bytes: size(at.member('bytes')),
+  };
+}

@@ -1,0 +1,223 @@
+import { ByteReader, EndOfBytes, VarintTooLarge } from './byte_io.ts';
+import { crc32 } from './crc32.ts';
+import { ProtocolError } from './protocol_error.ts';
+
+/** The `weights` artefact in memory, as the kernel takes it: Eq. 7 per vertex of the mesh it belongs to. */
+export interface InfluenceTable {
+  vertexCount: number;
+  bits: number;
+  /** SHA-256, lower-case hexadecimal, of the bytes of mesh.drc whose decoded vertex order this is. */
+  meshSha256: string;
+  /** vertexCount + 1 */
+  rowOffsets: Uint32Array;
+  /** Per entry: dense index of the feature point, rising within a row. */
+  rowPoints: Uint8Array;
+  /** Per entry: 0..1 */
+  rowWeights: Float32Array;
+  /** Per vertex: 0 none, 1 left eye, 2 right eye. */
+  rigid: Uint8Array;
+}
+
+const headerBytes = 64;
+const maxVertices = 4_000_000;
+const maxEntries = 48_000_000;
+const maxSets = 2 ** 24;
+const maxInflation = 1032; // deflate cannot make more of one byte
+const featurePointCount = 84;
+const rigidMotionCount = 3;
+
+interface WeightsHeader {
+  bits: number;
+  vertexCount: number;
+  setCount: number;
+  entryCount: number;
+  rawBytes: number;
+}
+
+interface InfluenceSet {
+  points: Uint8Array;
+  unitSum: boolean;
+  /** The weights of the last vertex that had this set, which foretell those of the next. */
+  last: Uint32Array;
+}
+
+function fail(code: ProtocolError['code'], where: string, message: string): never {
+  throw new ProtocolError(code, where, `weights: ${message}`);
+}
+
+/** Takes any bytes: everything announced is checked against limits before memory is asked for. Throws ProtocolError. */
+export async function decodeWeights(bytes: Uint8Array): Promise<InfluenceTable> {
+  const header = readHeader(bytes);
+  const payload = await inflate(bytes.subarray(headerBytes), header.rawBytes);
+  const meshSha256 = Array.from(bytes.subarray(32, 64), (byte) => byte.toString(16).padStart(2, '0')).join('');
+  return { vertexCount: header.vertexCount, bits: header.bits, meshSha256, ...readPayload(payload, header) };
+}
+
+function readHeader(bytes: Uint8Array): WeightsHeader {
+  if (bytes.length < headerBytes) fail('truncated', 'header', 'shorter than its header of 64 bytes');
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (view.getUint32(0, false) !== 0x53425754) fail('malformed', 'magic', 'not SBWT');
+  const version = view.getUint16(4, true);
+  if (version !== 1) fail('unsupported', 'version', `version ${version}, only 1 is known`);
+  const header = {
+    bits: view.getUint8(6),
+    vertexCount: view.getUint32(12, true),
+    setCount: view.getUint32(16, true),
+    entryCount: view.getUint32(20, true),
+    rawBytes: view.getUint32(24, true),
+  };
+  const packedBytes = view.getUint32(28, true);
+  if (header.bits < 8 || header.bits > 16) fail('out_of_range', 'bits', 'not 8..16');
+  if (view.getUint8(7) !== 0) fail('malformed', 'reserved', 'not zero');
+  if (header.vertexCount === 0) fail('missing', 'vertex_count', 'no vertices');
+  if (header.vertexCount > maxVertices) fail('too_large', 'vertex_count', `over ${maxVertices}`);
+  if (header.entryCount > maxEntries) fail('too_large', 'entry_count', `over ${maxEntries}`);
+  if (header.setCount === 0 || header.setCount > Math.min(header.vertexCount, maxSets)) {
+    fail('out_of_range', 'set_count', 'not between 1 and the number of vertices');
+  }
+  if (packedBytes > bytes.length - headerBytes) fail('truncated', 'payload', 'ends before the announced size');
+  if (packedBytes < bytes.length - headerBytes) fail('malformed', 'payload', 'bytes after the announced size');
+  if (header.rawBytes > maxInflation * packedBytes) {
+    fail('malformed', 'raw_bytes', 'more than the packed bytes can hold');
+  }
+  // The checksum covers the whole file with its own four bytes taken as zero.
+  const crc = crc32(bytes.subarray(12), crc32(new Uint8Array(4), crc32(bytes.subarray(0, 8))));
+  if (crc !== view.getUint32(8, true)) fail('mismatch', 'crc', 'checksum differs');
+  return header;
+}
+
+/** Exactly `size` bytes, or an error: never more memory than announced. */
+async function inflate(packed: Uint8Array, size: number): Promise<Uint8Array> {
+  const raw = new Uint8Array(size);
+  let filled = 0;
+  try {
+    const stream = new Blob([packed.slice()]).stream().pipeThrough(new DecompressionStream('deflate'));
+    const reader = stream.getReader();
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      if (filled + value.length > size) {
+        await reader.cancel();
+        filled = -1;
+        break;
+      }
+      raw.set(value, filled);
+      filled += value.length;
+    }
+  } catch {
+    filled = -1;
+  }
+  if (filled !== size) fail('malformed', 'payload', 'not the announced zlib stream');
+  return raw;
+}
+
+type Rows = Pick<InfluenceTable, 'rowOffsets' | 'rowPoints' | 'rowWeights' | 'rigid'>;
+
+function readPayload(payload: Uint8Array, header: WeightsHeader): Rows {
+  const from = new ByteReader(payload);
+  let field = 'dictionary';
+  try {
+    const sets = readDictionary(from, header.setCount);
+    field = 'set_ids';
+    const ids = readSetIds(from, header, sets);
+    field = 'weights';
+    const rows = readRows(from, header, sets, ids);
+    field = 'rigid';
+    const rigid = readRigid(from, header.vertexCount);
+    if (from.remaining !== 0) fail('malformed', 'payload', 'bytes after the last field');
+    return { ...rows, rigid };
+  } catch (error) {
+    if (error instanceof EndOfBytes || error instanceof VarintTooLarge) fail('truncated', field, 'ends early');
+    throw error;
+  }
+}
+
+function readDictionary(from: ByteReader, count: number): InfluenceSet[] {
+  if (count > from.remaining) fail('truncated', 'set_count', 'more sets than bytes');
+  const sets: InfluenceSet[] = [];
+  for (let i = 0; i < count; ++i) {
+    const first = from.u8();
+    const unitSum = (first & 0x80) !== 0;
+    const points = from.take(first & 0x7f);
+    if (unitSum && points.length === 0) fail('malformed', 'dictionary', 'nothing sums to one');
+    points.forEach((point, k) => {
+      if (point >= featurePointCount) fail('out_of_range', 'dictionary', `no feature point ${point}`);
+      if (k > 0 && point <= points[k - 1]!) fail('malformed', 'dictionary', 'the points of a set do not rise');
+    });
+    sets.push({ points, unitSum, last: new Uint32Array(points.length - (unitSum ? 1 : 0)) });
+  }
+  return sets;
+}
+
+function readSetIds(from: ByteReader, header: WeightsHeader, sets: InfluenceSet[]): Uint32Array {
+  const planes = header.setCount <= 0x100 ? 1 : header.setCount <= 0x10000 ? 2 : 3;
+  const ids = fromPlanes(from.take(header.vertexCount * planes), header.vertexCount);
+  let entries = 0;
+  ids.forEach((id, v) => {
+    const set = sets[id] ?? fail('out_of_range', 'set_ids', `vertex ${v}`);
+    entries += set.points.length;
+  });
+  if (entries !== header.entryCount) fail('mismatch', 'entry_count', `the sets hold ${entries}`);
+  return ids;
+}
+
+function fromPlanes(planes: Uint8Array, count: number): Uint32Array {
+  const values = new Uint32Array(count);
+  for (let i = 0; i < planes.length; ++i) {
+    const at = i % count;
+    values[at] = values[at]! + planes[i]! * 256 ** Math.floor(i / count);
+  }
+  return values;
+}
+
+function readRows(
+  from: ByteReader,
+  header: WeightsHeader,
+  sets: InfluenceSet[],
+  ids: Uint32Array,
+): Omit<Rows, 'rigid'> {
+  let stored = 0;
+  for (const id of ids) stored += sets[id]!.last.length;
+  const residuals = fromPlanes(from.take(stored * (header.bits <= 8 ? 1 : 2)), stored);
+
+  const total = 2 ** header.bits - 1;
+  const rowOffsets = new Uint32Array(header.vertexCount + 1);
+  const rowPoints = new Uint8Array(header.entryCount);
+  const rowWeights = new Float32Array(header.entryCount);
+  let entry = 0;
+  let at = 0;
+  for (let v = 0; v < ids.length; ++v) {
+    const { points, unitSum, last } = sets[ids[v]!]!;
+    let sum = 0;
+    for (let i = 0; i < points.length; ++i, ++entry) {
+      let level = total - sum;
+      if (i < last.length) {
+        const folded = residuals[at++]!;
+        if (folded > total) fail('out_of_range', 'weights', `vertex ${v}`);
+        // Undo the folding of signs, then the difference modulo 2^bits.
+        const difference = folded % 2 === 1 ? total - (folded >>> 1) : folded >>> 1;
+        level = (last[i]! + difference) & total;
+        last[i] = level;
+      }
+      sum += level;
+      if (unitSum && sum > total) fail('out_of_range', 'weights', `vertex ${v} sums to more than one`);
+      rowPoints[entry] = points[i]!;
+      rowWeights[entry] = level / total;
+    }
+    rowOffsets[v + 1] = entry;
+  }
+  return { rowOffsets, rowPoints, rowWeights };
+}
+
+function readRigid(from: ByteReader, vertexCount: number): Uint8Array {
+  const rigid = new Uint8Array(vertexCount);
+  for (let v = 0; v < vertexCount; ) {
+    const motion = from.u8();
+    const run = from.varint();
+    if (motion >= rigidMotionCount) fail('out_of_range', 'rigid', 'unknown rigid motion');
+    if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'length of a run');
+    rigid.fill(motion, v, v + run);
+    v += run;
+  }
+  return rigid;
+}

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/rig_document.h"
+#include "protocol/cpp/weights_format.h"
+
+/// The golden files of protocol/vectors, which the TypeScript tests read too.
+namespace semblante {
+namespace {
+
+using nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+std::string read(const std::string& name) {
+  std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + "/protocol/vectors/v1/" + name, std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Bytes from_hex(const std::string& hex) {
+  Bytes bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(hex.substr(i, 2), nullptr, 16)));
+  }
+  return bytes;
+}
+
+TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
+  const json vectors = json::parse(read("messages.json"));
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  ASSERT_FALSE(vectors.at("messages").empty());
+  for (const json& vector : vectors.at("messages")) {
+    const std::string name = vector.at("name");
+    const Bytes bytes = from_hex(vector.at("binary"));
+    const auto from_text = decode_json(vector.at("json").dump());
+    ASSERT_TRUE(from_text.ok()) << name << ": " << from_text.error().message;
+    const auto from_bytes = decoder.decode(bytes);
+    ASSERT_TRUE(from_bytes.ok()) << name << ": " << from_bytes.error().message;
+    EXPECT_EQ(*from_bytes, *from_text) << name;
+    EXPECT_EQ(encoder.encode(*from_text), bytes) << name;
+    EXPECT_EQ(json::parse(encode_json(*from_text)), vector.at("json")) << name;
+  }
+}
+
+TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
+  const json vectors = json::parse(read("refused.json"));
+  ASSERT_FALSE(vectors.at("refused").empty());
+  for (const json& vector : vectors.at("refused")) {
+    const std::string name = vector.at("name");
+    FrameDecoder decoder;
+    ASSERT_TRUE(decoder.decode(FrameEncoder().encode(Keyframe{})).ok());
+    const auto result = vector.contains("binary") ? decoder.decode(from_hex(vector.at("binary")))
+                                                  : decode_json(vector.at("json").get<std::string>());
+    ASSERT_FALSE(result.ok()) << name;
+    const StreamError error = to_stream_error(result.error());
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
+    EXPECT_EQ(error.where, vector.at("where")) << name;
+  }
+}
+
+TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
+  for (const char* name : {"weights-8", "weights-12", "weights-16"}) {
+    const std::string file = read(std::string(name) + ".bin");
+    const json meaning = json::parse(read(std::string(name) + ".json"));
+    const auto table = decode_weights(Bytes(file.begin(), file.end()));
+    ASSERT_TRUE(table.ok()) << name << ": " << table.error().message;
+    EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256"));
+    EXPECT_EQ(json(table->rigid), meaning.at("rigid"));
+    const double total = std::pow(2.0, meaning.at("bits").get<int>()) - 1;
+    json rows = json::array();
+    for (std::size_t v = 0; v < table->vertex_count; ++v) {
+      json row = json::array();
+      for (std::size_t i = 0; i < table->rows.points_of(v).size(); ++i) {
+        row.push_back({table->rows.points_of(v)[i].value(), std::lround(table->rows.weights_of(v)[i] * total)});
+      }
+      rows.push_back(row);
+    }
+    EXPECT_EQ(rows, meaning.at("rows")) << name;
+  }
+}
+
+TEST(Vectors, Rig_ReadAndWritten_IsTheSame) {
+  const std::string text = read("rig.json");
+  const auto rig = read_rig(text);
+  ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;
+  EXPECT_EQ(write_rig(*rig) + "\n", text);
+}
+
+}  // namespace
+}  // namespace semblante

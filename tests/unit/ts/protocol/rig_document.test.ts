@@ -1,0 +1,72 @@
+import { describe, expect, it } from 'vitest';
+import { featurePointIndex, ProtocolError, readRig } from '../../../../protocol/ts/index.ts';
+import { vectorJson } from './vectors.ts';
+
+type Json = Record<string, never>;
+const good = vectorJson('rig.json') as Json;
+
+function errorOf(change: (json: Json) => void): { code: string; where: string } {
+  const json = structuredClone(good);
+  change(json);
+  try {
+    readRig(JSON.stringify(json));
+  } catch (error) {
+    if (error instanceof ProtocolError) return { code: error.code, where: error.where };
+    throw error;
+  }
+  throw new Error('was not refused');
+}
+
+function set(path: string, value: unknown): (json: Json) => void {
+  return (json) => {
+    const keys = path.split('/').slice(1);
+    let node = json as Record<string, unknown>;
+    for (const key of keys.slice(0, -1)) node = node[key] as Record<string, unknown>;
+    node[keys.at(-1)!] = value;
+  };
+}
+
+describe('readRig', () => {
+  it.each([
+    ['/format', 'malformed', 'other'],
+    ['/version', 'unsupported', 2],
+    ['/name', 'malformed', 3],
+    ['/mesh', 'malformed', 1],
+    ['/mesh/sha256', 'malformed', 'abc'],
+    ['/mesh/vertices', 'out_of_range', 4_000_001],
+    ['/mesh/attributes/position', 'malformed', null],
+    ['/weights/bits', 'out_of_range', 17],
+    ['/fapu/MW', 'malformed', 'wide'],
+    ['/feature_points/0/vertex', 'out_of_range', 100],
+    ['/feature_points/0/id', 'invalid_argument', '2.99'],
+    ['/feature_points/1/id', 'malformed', '2.1'],
+    ['/parts/1/role', 'invalid_argument', 'hat'],
+    ['/viseme_share', 'out_of_range', 1.5],
+    ['/visemes', 'out_of_range', []],
+    ['/visemes/3/displacements/99.1', 'invalid_argument', [0, 0, 0]],
+    ['/materials', 'out_of_range', []],
+    ['/images/0/sha256', 'malformed', 'g'.repeat(64)],
+    ['/warnings/0', 'malformed', 1],
+  ])('Read_Invalid_IsNamedByItsPointer: %s %s', (where, code, value) => {
+    expect(errorOf(set(where, value))).toEqual({ where, code });
+  });
+
+  it('Read_EveryMemberRemoved_IsRefusedByName', () => {
+    for (const name of Object.keys(good)) {
+      expect(errorOf((json) => delete json[name])).toEqual({ where: `/${name}`, code: 'missing' });
+    }
+  });
+
+  it('Read_Golden_GivesItsMembers', () => {
+    const rig = readRig(JSON.stringify(good));
+    const { format, version, ...members } = good as Record<string, unknown>;
+    expect([format, version]).toEqual(['semblante.rig', 1]);
+    expect(rig).toEqual(members);
+  });
+});
+
+describe('featurePointIndex', () => {
+  it('KnowsThe84', () => {
+    expect(['2.1', '2.2', '11.6', '2.99', ''].map(featurePointIndex)).toEqual([0, 1, 83, undefined, undefined]);
+  });
+});
