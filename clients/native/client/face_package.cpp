@@ -1,0 +1,236 @@
+#include "clients/native/client/face_package.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include <openssl/evp.h>
+
+#include "clients/native/client/draco_decode.h"
+
+namespace semblante::client {
+namespace {
+
+constexpr std::uint64_t max_rig_bytes = 16U << 20U;
+constexpr std::uint64_t max_mesh_bytes = 128U << 20U;
+constexpr std::uint64_t max_image_bytes = 64U << 20U;
+
+Sha256 hash_of(std::string_view bytes) {
+  Sha256 hash{};
+  unsigned size = 0;
+  EVP_Digest(bytes.data(), bytes.size(), hash.data(), &size, EVP_sha256(), nullptr);
+  return hash;
+}
+
+std::span<const std::uint8_t> as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+Material to_material(const RigDocument::MaterialInfo& info, const std::vector<RigDocument::ImageInfo>& images) {
+  Material material;
+  material.name = info.name;
+  material.base_color = info.base_color;
+  material.metallic = info.metallic;
+  material.roughness = info.roughness;
+  material.alpha_cutoff = info.alpha_cutoff;
+  material.double_sided = info.double_sided;
+  switch (info.alpha_mode) {
+    case RigDocument::MaterialInfo::AlphaMode::opaque:
+      material.alpha_mode = Material::AlphaMode::opaque;
+      break;
+    case RigDocument::MaterialInfo::AlphaMode::mask:
+      material.alpha_mode = Material::AlphaMode::mask;
+      break;
+    case RigDocument::MaterialInfo::AlphaMode::blend:
+      material.alpha_mode = Material::AlphaMode::blend;
+      break;
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (info.base_color_image == images[i].sha256) {
+      material.base_color_image = static_cast<int>(i);
+    }
+    if (info.normal_image == images[i].sha256) {
+      material.normal_image = static_cast<int>(i);
+    }
+  }
+  return material;
+}
+
+/// Triangles in runs of one material each; vertices keep their numbers.
+Result<Model> to_model(DecodedMesh&& mesh, const RigDocument& rig) {
+  Model model;
+  model.format = "drc";
+  for (const RigDocument::MaterialInfo& info : rig.materials) {
+    model.materials.push_back(to_material(info, rig.images));
+  }
+  model.images.resize(rig.images.size());
+  const auto material_of = [&](const Triangle& t) {
+    return mesh.materials.empty() ? std::uint8_t{0} : mesh.materials[t[0]];
+  };
+  std::stable_sort(mesh.triangles.begin(), mesh.triangles.end(),
+                   [&](const Triangle& a, const Triangle& b) { return material_of(a) < material_of(b); });
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint8_t material = material_of(mesh.triangles[t]);
+    if (material >= model.materials.size() && !model.materials.empty()) {
+      return Error{ErrorCode::out_of_range, "mesh.drc", "a vertex names a material that rig.json does not have"};
+    }
+    const int index = model.materials.empty() ? -1 : int{material};
+    if (model.primitives.empty() || model.primitives.back().material != index) {
+      model.primitives.push_back(
+          {index < 0 ? std::string() : model.materials[material].name, index, static_cast<std::uint32_t>(t), 0});
+    }
+    ++model.primitives.back().triangle_count;
+  }
+  model.positions = std::move(mesh.positions);
+  model.triangles = std::move(mesh.triangles);
+  model.uvs = std::move(mesh.uvs);
+  if (!model.uvs.empty()) {
+    model.uv_triangles = model.triangles;
+  }
+  return model;
+}
+
+ErrorCode code_of(semblante_result result) {
+  switch (result) {
+    case SEMBLANTE_MISMATCH:
+      return ErrorCode::mismatch;
+    case SEMBLANTE_UNSUPPORTED:
+      return ErrorCode::unsupported;
+    case SEMBLANTE_TOO_LARGE:
+      return ErrorCode::too_large;
+    case SEMBLANTE_INTERNAL:
+    case SEMBLANTE_OUT_OF_MEMORY:
+      return ErrorCode::internal;
+    default:
+      return ErrorCode::malformed;
+  }
+}
+
+}  // namespace
+
+Result<Face> Face::create(const PackageBytes& bytes) {
+  auto rig = read_rig(bytes.rig_json);
+  if (!rig) {
+    Error error = std::move(rig).error();
+    error.where = "rig.json" + error.where;
+    return error;
+  }
+  const Sha256 mesh_hash = hash_of(bytes.mesh_drc);
+  if (mesh_hash != rig->mesh.sha256) {
+    return Error{ErrorCode::mismatch, "mesh.drc", "its SHA-256 is not the one in rig.json"};
+  }
+  if (hash_of(bytes.weights) != rig->weights.sha256) {
+    return Error{ErrorCode::mismatch, "weights", "its SHA-256 is not the one in rig.json"};
+  }
+  auto mesh = decode_mesh(as_bytes(bytes.mesh_drc), rig->mesh);
+  if (!mesh) {
+    return std::move(mesh).error();
+  }
+  semblante_package package{};
+  package.positions = &mesh->positions[0].x;
+  package.vertex_count = static_cast<std::uint32_t>(mesh->positions.size());
+  package.mesh_sha256 = mesh_hash.data();
+  package.weights = as_bytes(bytes.weights).data();
+  package.weights_size = bytes.weights.size();
+  package.rig_json = bytes.rig_json.data();
+  package.rig_json_size = bytes.rig_json.size();
+  semblante_head* head = nullptr;
+  semblante_error error{};
+  const semblante_result result = semblante_head_create(&package, nullptr, &head, &error);
+  if (result != SEMBLANTE_OK) {
+    return Error{code_of(result), error.where, error.message};
+  }
+  Face face;
+  face.head_.reset(head);
+  auto model = to_model(*std::move(mesh), *rig);
+  if (!model) {
+    return std::move(model).error();
+  }
+  face.model_ = *std::move(model);
+  face.rig_ = *std::move(rig);
+  const semblante_face* table = semblante_head_face(head);
+  face.roles_.assign(face.model_.positions.size(), PartRole::rest);
+  for (std::size_t v = 0; v < face.roles_.size(); ++v) {
+    face.roles_[v] = table->rigid[v] == SEMBLANTE_RIGID_LEFT_EYE    ? PartRole::left_eye
+                     : table->rigid[v] == SEMBLANTE_RIGID_RIGHT_EYE ? PartRole::right_eye
+                                                                    : PartRole::rest;
+  }
+  return face;
+}
+
+FeaturePointSet Face::feature_points() const {
+  FeaturePointSet points;
+  for (const RigDocument::Point& point : rig_.feature_points) {
+    FeaturePoint to{point.id, std::nullopt, point.position};
+    if (point.vertex) {
+      to.vertex = VertexId(*point.vertex);
+    }
+    points.push_back(to);
+  }
+  return points;
+}
+
+std::vector<glm::vec3> Face::positions() const {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  std::vector<glm::vec3> positions(model_.positions.size());
+  // Cannot fail: the buffer has the head's size.
+  static_cast<void>(semblante_head_positions(head_.get(), &positions[0].x, positions.size() * 3));
+  return positions;
+}
+
+Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model) {
+  const std::string base = "/v1/models/" + escape_segment(model);
+  PackageBytes bytes;
+  auto rig_json = http.fetch(base + "/rig.json", max_rig_bytes);
+  if (!rig_json) {
+    return std::move(rig_json).error();
+  }
+  bytes.rig_json = *std::move(rig_json);
+  const auto rig = read_rig(bytes.rig_json);
+  if (!rig) {
+    return Error{rig.error().code, "rig.json" + rig.error().where, rig.error().message};
+  }
+  if (rig->mesh.bytes > max_mesh_bytes || rig->weights.bytes > max_mesh_bytes) {
+    return Error{ErrorCode::too_large, "rig.json", "it announces a mesh or weights of more than 128 MiB"};
+  }
+  auto mesh_drc = http.fetch(base + "/mesh.drc", rig->mesh.bytes);
+  if (!mesh_drc) {
+    return std::move(mesh_drc).error();
+  }
+  auto weights = http.fetch(base + "/weights", rig->weights.bytes);
+  if (!weights) {
+    return std::move(weights).error();
+  }
+  bytes.mesh_drc = *std::move(mesh_drc);
+  bytes.weights = *std::move(weights);
+  return bytes;
+}
+
+std::vector<std::string> fetch_images(const HttpClient& http, Face& face) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < face.rig().images.size(); ++i) {
+    const RigDocument::ImageInfo& info = face.rig().images[i];
+    auto bytes = http.fetch("/v1/artefacts/" + to_hex(info.sha256), std::min(info.bytes, max_image_bytes));
+    if (!bytes) {
+      warnings.push_back("image " + std::to_string(i) + ": " + bytes.error().message);
+    } else if (hash_of(*bytes) != info.sha256) {
+      warnings.push_back("image " + std::to_string(i) + ": its SHA-256 is not the one in rig.json");
+    } else {
+      face.model().images[i] = {info.mime_type, {bytes->begin(), bytes->end()}};
+    }
+  }
+  return warnings;
+}
+
+Result<Face> load_face(const HttpClient& http, std::string_view model) {
+  for (bool again : {true, false}) {
+    auto bytes = fetch_package(http, model);
+    auto face = bytes ? Face::create(*bytes) : Result<Face>(bytes.error());
+    if (face || !again || face.error().code != ErrorCode::mismatch) {
+      return face;
+    }
+  }
+  return Error{ErrorCode::mismatch, std::string(model), "the package does not hold together"};
+}
+
+}  // namespace semblante::client

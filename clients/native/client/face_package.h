@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "clients/capi/semblante.h"
+#include "clients/native/client/http_client.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+#include "protocol/cpp/rig_document.h"
+
+namespace semblante::client {
+
+/// The artefacts as they came.
+struct PackageBytes {
+  std::string mesh_drc;
+  std::string weights;
+  std::string rig_json;
+};
+
+/// A face that takes frames. Owns the head of the C SDK.
+class Face {
+ public:
+  /// Checks hashes and counts of the three against each other, decodes, and makes a head in the neutral pose.
+  /// Errors: mismatch (not of one package), and whatever is wrong with one of the three, named in `where`.
+  static Result<Face> create(const PackageBytes& bytes);
+
+  [[nodiscard]] const RigDocument& rig() const { return rig_; }
+  /// The neutral mesh with its materials, vertices in decoded order; images come from fetch_images.
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] Model& model() { return model_; }
+  /// PartRole of each vertex as far as the package tells: eyes by their rigid motion, `rest` for all else.
+  [[nodiscard]] const std::vector<PartRole>& roles() const { return roles_; }
+  /// For close-ups; vertices are those of the model.
+  [[nodiscard]] FeaturePointSet feature_points() const;
+  [[nodiscard]] semblante_head* head() const { return head_.get(); }
+
+  /// The vertices in the head's present pose, #V.
+  [[nodiscard]] std::vector<glm::vec3> positions() const;
+
+ private:
+  struct Destroy {
+    void operator()(semblante_head* head) const { semblante_head_destroy(head); }
+  };
+  Face() = default;
+  RigDocument rig_;
+  Model model_;
+  std::vector<PartRole> roles_;
+  std::unique_ptr<semblante_head, Destroy> head_;
+};
+
+/// The three artefacts of a model's newest package. Sizes are bounded by what rig.json announces. Errors as
+/// HttpClient::fetch; too_large when the announced sizes are beyond reason.
+Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model);
+
+/// Fetches the images that the face's materials use. What cannot be had is left out; the words say so.
+std::vector<std::string> fetch_images(const HttpClient& http, Face& face);
+
+/// fetch_package and Face::create; once more from the start when a new package replaced the old one in between.
+Result<Face> load_face(const HttpClient& http, std::string_view model);
+
+}  // namespace semblante::client

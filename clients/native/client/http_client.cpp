@@ -1,0 +1,169 @@
+#include "clients/native/client/http_client.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <nlohmann/json.hpp>
+
+namespace semblante::client {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
+
+Error failed(const Url& url, const char* step, const error_code& problem) {
+  const ErrorCode code = problem == http::error::body_limit || problem == http::error::header_limit
+                             ? ErrorCode::too_large
+                         : problem.category() == http::make_error_code(http::error::end_of_stream).category() &&
+                                 problem != http::error::end_of_stream && problem != http::error::partial_message
+                             ? ErrorCode::malformed
+                             : ErrorCode::io;
+  return {code, url.host + ":" + url.port, std::string(step) + ": " + problem.message()};
+}
+
+http::request<http::string_body> to_beast(const Url& url, const HttpRequest& request) {
+  http::request<http::string_body> message;
+  message.version(11);
+  message.method_string(request.method);
+  message.target(url.path + request.target);
+  message.set(http::field::host, url.host + ":" + url.port);
+  message.set(http::field::user_agent, "semblante-client");
+  message.set(http::field::connection, "close");
+  if (!request.content_type.empty()) {
+    message.set(http::field::content_type, request.content_type);
+  }
+  for (const auto& [name, value] : request.headers) {
+    message.set(name, value);
+  }
+  message.body() = request.body;
+  message.prepare_payload();
+  return message;
+}
+
+HttpResponse from_beast(http::response<http::string_body>&& message) {
+  HttpResponse response;
+  response.status = static_cast<int>(message.result_int());
+  for (const auto& field : message) {
+    std::string name(field.name_string());
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    response.headers.emplace_back(std::move(name), std::string(field.value()));
+  }
+  response.body = std::move(message.body());
+  return response;
+}
+
+asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const HttpRequest& request,
+                               std::optional<Result<HttpResponse>>& outcome) {
+  const auto executor = co_await asio::this_coro::executor;
+  error_code problem;
+  auto token = asio::redirect_error(asio::use_awaitable, problem);
+  asio::ip::tcp::resolver resolver(executor);
+  const auto endpoints = co_await resolver.async_resolve(url.host, url.port, token);
+  if (problem) {
+    outcome = failed(url, "cannot find the host", problem);
+    co_return;
+  }
+  beast::tcp_stream stream(executor);
+  co_await stream.async_connect(endpoints, token);
+  if (problem) {
+    outcome = failed(url, "cannot connect", problem);
+    co_return;
+  }
+  auto message = to_beast(url, request);
+  co_await http::async_write(stream, message, token);
+  // A server may answer and close before it has read all of a body it refuses: the answer is what counts.
+  const error_code write_problem = problem;
+  beast::flat_buffer buffer;
+  http::response_parser<http::string_body> parser;
+  parser.body_limit(limits.max_body);
+  parser.header_limit(
+      static_cast<std::uint32_t>(std::min<std::size_t>(limits.max_header, std::numeric_limits<std::uint32_t>::max())));
+  parser.skip(request.method == "HEAD");
+  co_await http::async_read(stream, buffer, parser, token);
+  if (problem) {
+    outcome =
+        write_problem ? failed(url, "cannot send", write_problem) : failed(url, "cannot read the answer", problem);
+    co_return;
+  }
+  outcome = from_beast(parser.release());
+}
+
+/// What a problem document (RFC 9457) says, for people.
+std::string words_of(const HttpResponse& response) {
+  const auto document = nlohmann::json::parse(response.body, nullptr, false);
+  std::string words = "the server answered " + std::to_string(response.status);
+  if (document.is_object()) {
+    for (const char* member : {"title", "detail", "pointer"}) {
+      const auto found = document.find(member);
+      if (found != document.end() && found->is_string()) {
+        words += ": " + found->get<std::string>().substr(0, 500);
+      }
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string_view HttpResponse::header(std::string_view name) const {
+  const auto found = std::find_if(headers.begin(), headers.end(), [&](const auto& h) { return h.first == name; });
+  return found == headers.end() ? std::string_view() : std::string_view(found->second);
+}
+
+Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
+  asio::io_context io(1);
+  std::optional<Result<HttpResponse>> outcome;
+  std::exception_ptr fault;
+  asio::co_spawn(io, exchange(url_, limits_, request, outcome), [&](std::exception_ptr f) { fault = std::move(f); });
+  io.run_for(limits_.timeout);
+  if (outcome) {
+    return *std::move(outcome);
+  }
+  const std::string where = url_.host + ":" + url_.port + request.target;
+  if (fault) {
+    return Error{ErrorCode::internal, where, "the exchange failed unexpectedly"};
+  }
+  return Error{ErrorCode::io, where, "no complete answer within " + std::to_string(limits_.timeout.count()) + " ms"};
+}
+
+Result<HttpResponse> HttpClient::get(std::string_view target) const {
+  HttpRequest request;
+  request.target = target;
+  return send(request);
+}
+
+Result<HttpResponse> HttpClient::post(std::string_view target, std::string body, std::string content_type) const {
+  HttpRequest request;
+  request.method = "POST";
+  request.target = target;
+  request.body = std::move(body);
+  request.content_type = std::move(content_type);
+  return send(request);
+}
+
+Result<std::string> HttpClient::fetch(std::string_view target, std::optional<std::size_t> max_body) const {
+  HttpClient bounded = *this;
+  bounded.limits_.max_body = std::min(limits_.max_body, max_body.value_or(limits_.max_body));
+  auto response = bounded.get(target);
+  if (!response) {
+    return std::move(response).error();
+  }
+  if (response->status != 200) {
+    const ErrorCode code = response->status == 404 ? ErrorCode::missing : ErrorCode::io;
+    return Error{code, std::string(target), words_of(*response)};
+  }
+  return std::move(response->body);
+}
+
+}  // namespace semblante::client

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/native/client/url.h"
+#include "core/types/result.h"
+
+namespace semblante::client {
+
+struct HttpRequest {
+  std::string method = "GET";
+  std::string target;  ///< "/v1/models?limit=2"; the address' own path goes before it
+  std::string body;
+  std::string content_type;  ///< sent when not empty
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+struct HttpResponse {
+  int status = 0;
+  std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
+  std::string body;
+
+  /// First header of that name (lower case); empty when there is none.
+  [[nodiscard]] std::string_view header(std::string_view name) const;
+};
+
+struct HttpLimits {
+  std::size_t max_body = std::size_t{256} << 20U;  ///< of a response
+  std::size_t max_header = std::size_t{64} << 10U;
+  std::chrono::milliseconds timeout{30'000};  ///< of one whole exchange
+};
+
+/// Plain HTTP/1.1, one connection a request, blocking. Trusts nothing a server sends: sizes and times are bounded.
+/// Copies freely; a copy may be used on another thread.
+class HttpClient {
+ public:
+  explicit HttpClient(Url url, HttpLimits limits = {}) : url_(std::move(url)), limits_(limits) {}
+
+  [[nodiscard]] const Url& url() const { return url_; }
+
+  /// Any complete response, whatever its status. Errors: io (no connection, cut off, late), too_large, malformed.
+  [[nodiscard]] Result<HttpResponse> send(const HttpRequest& request) const;
+  [[nodiscard]] Result<HttpResponse> get(std::string_view target) const;
+  [[nodiscard]] Result<HttpResponse> post(std::string_view target, std::string body, std::string content_type) const;
+
+  /// The body of a 200; anything else is an error made of the problem document in it: missing for 404, else io.
+  /// `max_body`: of this response alone, when it is known.
+  [[nodiscard]] Result<std::string> fetch(std::string_view target, std::optional<std::size_t> max_body = {}) const;
+
+ private:
+  Url url_;
+  HttpLimits limits_;
+};
+
+}  // namespace semblante::client

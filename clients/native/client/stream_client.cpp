@@ -1,0 +1,214 @@
+#include "clients/native/client/stream_client.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/quantizers.h"
+
+namespace semblante::client {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+/// Everything runs inside run_until, on the caller's thread; a read stays pending between calls.
+struct StreamClient::Impl {
+  asio::io_context io{1};
+  websocket::stream<beast::tcp_stream> socket{io};
+  beast::flat_buffer buffer;
+  std::string where;
+  StreamOptions options;
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  QuantizerSteps steps = standard_quantizers();
+  bool reading = false;
+  std::optional<error_code> read_result;
+
+  /// Lets things happen until `done` or the time is up.
+  template <class Done>
+  bool run_until(Clock::time_point deadline, Done done) {
+    io.restart();
+    while (!done()) {
+      if (io.run_one_until(deadline) == 0) {
+        return done();
+      }
+    }
+    return true;
+  }
+
+  /// Starts an operation and waits for its end. `start` gets a handler that takes an error_code (and more).
+  template <class Start>
+  Status wait(const char* step, Start start) {
+    std::optional<error_code> result;
+    start([&result](const error_code& problem, auto&&...) { result = problem; });
+    if (!run_until(Clock::now() + options.timeout, [&] { return result.has_value(); })) {
+      // The handler refers to this frame, so the operation must end with it.
+      beast::get_lowest_layer(socket).cancel();
+      run_until(Clock::now() + options.timeout, [&] { return result.has_value(); });
+      return Error{ErrorCode::io, where, std::string(step) + ": no answer in time"};
+    }
+    if (*result) {
+      return Error{ErrorCode::io, where, std::string(step) + ": " + result->message()};
+    }
+    return Unit{};
+  }
+
+  Status open(const Url& url, const std::string& target) {
+    asio::ip::tcp::resolver resolver(io);
+    asio::ip::tcp::resolver::results_type endpoints;
+    std::optional<error_code> resolved;
+    resolver.async_resolve(url.host, url.port, [&](const error_code& problem, auto results) {
+      endpoints = std::move(results);
+      resolved = problem;
+    });
+    if (!run_until(Clock::now() + options.timeout, [&] { return resolved.has_value(); }) || *resolved) {
+      return Error{ErrorCode::io, where, "cannot find the host"};
+    }
+    auto connected = wait("cannot connect", [&](auto done) {
+      beast::get_lowest_layer(socket).async_connect(endpoints, std::move(done));
+    });
+    if (!connected) {
+      return connected;
+    }
+    beast::get_lowest_layer(socket).socket().set_option(asio::ip::tcp::no_delay(true));
+    const std::string_view protocol = options.json ? json_subprotocol : binary_subprotocol;
+    socket.set_option(websocket::stream_base::decorator([protocol](websocket::request_type& request) {
+      request.set(http::field::sec_websocket_protocol, std::string(protocol));
+      request.set(http::field::user_agent, "semblante-client");
+    }));
+    socket.read_message_max(options.json ? max_json_message_bytes : max_binary_message_bytes);
+    websocket::response_type response;
+    auto shaken = wait("the stream refuses the connection", [&](auto done) {
+      socket.async_handshake(response, url.host + ":" + url.port, target, std::move(done));
+    });
+    if (!shaken) {
+      if (response.result() == http::status::not_found) {
+        return Error{ErrorCode::missing, where, "there is no such stream"};
+      }
+      return shaken;
+    }
+    if (response[http::field::sec_websocket_protocol] != protocol) {
+      return Error{ErrorCode::mismatch, where, "the server does not speak " + std::string(protocol)};
+    }
+    return Unit{};
+  }
+
+  Status write(std::span<const std::uint8_t> bytes, bool as_text) {
+    socket.text(as_text);
+    return wait("cannot send",
+                [&](auto done) { socket.async_write(asio::buffer(bytes.data(), bytes.size()), std::move(done)); });
+  }
+
+  Result<Message> decode() {
+    const auto data = buffer.cdata();
+    const std::span bytes(static_cast<const std::uint8_t*>(data.data()), data.size());
+    // The kind of each message counts, not the subprotocol: a server that mixes them up is told so by the decoder.
+    auto message = socket.got_text() ? decode_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, steps)
+                                     : decoder.decode(bytes);
+    if (message) {
+      if (const auto* header = std::get_if<Header>(&*message)) {
+        steps = quantizers_of(*header);
+      }
+    }
+    buffer.clear();
+    return message;
+  }
+};
+
+StreamClient::StreamClient(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+StreamClient::~StreamClient() = default;
+StreamClient::StreamClient(StreamClient&&) noexcept = default;
+StreamClient& StreamClient::operator=(StreamClient&&) noexcept = default;
+
+Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stream, const StreamOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  const std::string target = url.path + "/v1/streams/" + escape_segment(stream);
+  impl->where = url.host + ":" + url.port + target;
+  impl->options = options;
+  if (auto opened = impl->open(url, target); !opened) {
+    return std::move(opened).error();
+  }
+  StreamClient client(std::move(impl));
+  Hello hello;
+  hello.role = options.role;
+  hello.resume = options.resume;
+  if (auto said = client.send(hello); !said) {
+    return std::move(said).error();
+  }
+  return client;
+}
+
+Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds timeout) {
+  Impl& impl = *impl_;
+  const Clock::time_point deadline = Clock::now() + timeout;
+  while (true) {
+    if (!impl.reading) {
+      impl.reading = true;
+      impl.read_result.reset();
+      impl.socket.async_read(impl.buffer, [&impl](const error_code& problem, std::size_t) {
+        impl.read_result = problem;
+        impl.reading = false;
+      });
+    }
+    if (!impl.run_until(deadline, [&] { return impl.read_result.has_value(); })) {
+      return std::optional<Message>();
+    }
+    if (*impl.read_result) {
+      const bool large = *impl.read_result == websocket::error::message_too_big;
+      return Error{large ? ErrorCode::too_large : ErrorCode::io, impl.where,
+                   "the stream ended: " + impl.read_result->message()};
+    }
+    auto message = impl.decode();
+    if (message) {
+      return std::optional<Message>(*std::move(message));
+    }
+    if (message.error().code != ErrorCode::unsupported) {
+      return std::move(message).error();
+    }
+  }
+}
+
+Status StreamClient::send(const Message& message) {
+  if (impl_->options.json) {
+    return send_raw(encode_json(message, impl_->steps), true);
+  }
+  const std::vector<std::uint8_t> bytes = impl_->encoder.encode(message);
+  return impl_->write(bytes, false);
+}
+
+Status StreamClient::send_raw(std::string_view bytes, bool as_text) {
+  return impl_->write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, as_text);
+}
+
+void StreamClient::close() {
+  if (!impl_->socket.is_open()) {
+    return;
+  }
+  // What it says makes no difference any more.
+  static_cast<void>(impl_->wait(
+      "cannot close", [&](auto done) { impl_->socket.async_close(websocket::close_code::normal, std::move(done)); }));
+}
+
+std::uint16_t StreamClient::close_code() const { return impl_->socket.reason().code; }
+
+std::string StreamClient::close_reason() const {
+  const auto& reason = impl_->socket.reason().reason;
+  return {reason.data(), reason.size()};
+}
+
+}  // namespace semblante::client

@@ -1,0 +1,64 @@
+#include "clients/native/client/url.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace semblante::client {
+
+Result<Url> parse_url(std::string_view text) {
+  const std::string whole(text);
+  if (text.starts_with("https://")) {
+    return Error{ErrorCode::unsupported, whole, "https is not spoken here; put a TLS proxy in front"};
+  }
+  if (text.starts_with("http://")) {
+    text.remove_prefix(7);
+  }
+  Url url;
+  const std::size_t slash = text.find('/');
+  std::string_view authority = text.substr(0, slash);
+  if (slash != std::string_view::npos) {
+    url.path = text.substr(slash);
+    while (!url.path.empty() && url.path.back() == '/') {
+      url.path.pop_back();
+    }
+  }
+  const std::size_t bracket = authority.rfind(']');
+  const std::size_t colon = authority.rfind(':');
+  if (colon != std::string_view::npos && (bracket == std::string_view::npos || colon > bracket)) {
+    url.port = authority.substr(colon + 1);
+    authority = authority.substr(0, colon);
+  }
+  if (authority.size() > 2 && authority.front() == '[' && authority.back() == ']') {
+    authority = authority.substr(1, authority.size() - 2);
+  }
+  url.host = authority;
+  unsigned port = 0;
+  const auto [end, problem] = std::from_chars(url.port.data(), url.port.data() + url.port.size(), port);
+  if (problem != std::errc{} || end != url.port.data() + url.port.size() || port == 0 || port > 65535) {
+    return Error{ErrorCode::invalid_argument, whole, "the port is a number from 1 to 65535"};
+  }
+  const auto is_bad = [](unsigned char c) { return c <= ' ' || c == '@' || c == '?' || c == '#' || c > '~'; };
+  if (url.host.empty() || std::any_of(whole.begin(), whole.end(), is_bad)) {
+    return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH]"};
+  }
+  return url;
+}
+
+std::string escape_segment(std::string_view segment) {
+  static constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string escaped;
+  for (const char c : segment) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || std::string_view("-._~").find(c) != std::string_view::npos) {
+      escaped += c;
+    } else {
+      escaped += '%';
+      escaped += digits[byte >> 4U];
+      escaped += digits[byte & 15U];
+    }
+  }
+  return escaped;
+}
+
+}  // namespace semblante::client

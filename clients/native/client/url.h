@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/types/result.h"
+
+namespace semblante::client {
+
+/// A server's address: "http://127.0.0.1:8080" or with a path in front of /v1.
+struct Url {
+  std::string host;
+  std::string port = "80";
+  std::string path;  ///< without a slash at its end; empty or "/base"
+};
+
+/// Errors: invalid_argument (no host, a port that is none), unsupported (https: a TLS proxy's work).
+Result<Url> parse_url(std::string_view text);
+
+/// A path segment with everything but letters, digits and -._~ percent-encoded.
+std::string escape_segment(std::string_view segment);
+
+}  // namespace semblante::client

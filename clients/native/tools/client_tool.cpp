@@ -1,0 +1,195 @@
+// semblante-client: fetches a face, follows a stream, writes what it sees; or publishes to one.
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/native/client/frame_player.h"
+#include "clients/native/tools/files.h"
+#include "clients/native/tools/frame_output.h"
+#include "clients/native/tools/publish.h"
+
+namespace semblante::tools {
+namespace {
+
+struct Arguments {
+  std::string url;
+  std::string stream = "demo";
+  std::string model;
+  std::string role = "subscribe";
+  std::filesystem::path frames_file;
+  std::size_t frames = 25;
+  double fps = 0;
+  double timeout = 10;
+  bool json = false;
+  OutputOptions output;
+};
+
+client::StreamOptions stream_options(const Arguments& arguments, StreamRole role) {
+  client::StreamOptions options;
+  options.json = arguments.json;
+  options.role = role;
+  options.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
+  return options;
+}
+
+Status publish(const client::Url& url, const Arguments& arguments) {
+  const auto bytes = read_file(arguments.frames_file);
+  if (!bytes) {
+    return bytes.error();
+  }
+  auto stream = client::StreamClient::connect(url, arguments.stream, stream_options(arguments, StreamRole::publish));
+  if (!stream) {
+    return std::move(stream).error();
+  }
+  const auto sent = publish_frames(*stream, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  stream->close();
+  if (!sent) {
+    return sent.error();
+  }
+  std::cout << *sent << " frames published to " << arguments.stream << '\n';
+  return Unit{};
+}
+
+/// The faces to write: one state after another as they come, or at a display's own rate, where between two states lies
+/// a straight way (algorithm.md section 7). All are read before the first is written, since writing is slower than a
+/// stream and a subscriber that reads late gets the newest state instead of every state.
+Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player, std::size_t count, double fps) {
+  std::vector<client::DisplayedFrame> collected;
+  double start = 0;
+  while (collected.size() < count) {
+    std::optional<client::DisplayedFrame> shown;
+    if (fps > 0) {
+      auto frame = player.at(start + static_cast<double>(collected.size()) * 1000.0 / fps);
+      if (!frame) {
+        return std::move(frame).error();
+      }
+      shown = *frame;
+      if (shown && collected.empty()) {
+        start = shown->from.media_time;
+      }
+    } else {
+      auto frame = player.next_received();
+      if (!frame) {
+        return std::move(frame).error();
+      }
+      if (*frame) {
+        shown = client::DisplayedFrame{**frame, **frame, 0.0F, (*frame)->media_time};
+      }
+    }
+    if (!shown) {
+      return Error{ErrorCode::io, "stream", "it ended after " + std::to_string(collected.size()) + " frames"};
+    }
+    collected.push_back(*shown);
+  }
+  return collected;
+}
+
+Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face& face, FrameOutput& output) {
+  for (const client::DisplayedFrame& frame : frames) {
+    if (semblante_head_set_interpolated(face.head(), &frame.from.frame, &frame.to.frame, frame.t) != SEMBLANTE_OK) {
+      return Error{ErrorCode::not_finite, "stream", "a frame holds a number that is not finite"};
+    }
+    if (auto written = output.write(frame.from.sequence, frame.media_time); !written) {
+      return written;
+    }
+  }
+  return output.finish();
+}
+
+Status subscribe(const client::Url& url, const Arguments& arguments) {
+  client::HttpLimits limits;
+  limits.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
+  const client::HttpClient http(url, limits);
+  auto stream = client::StreamClient::connect(url, arguments.stream, stream_options(arguments, StreamRole::subscribe));
+  if (!stream) {
+    return std::move(stream).error();
+  }
+  client::FramePlayer player(*stream, limits.timeout);
+  if (auto header = player.wait_for_header(); !header) {
+    return header;
+  }
+  const std::string model = arguments.model.empty() ? player.header()->model : arguments.model;
+  if (model.empty()) {
+    return Error{ErrorCode::missing, arguments.stream, "the stream suggests no model; name one with --model"};
+  }
+  auto face = client::load_face(http, model);
+  if (!face) {
+    return std::move(face).error();
+  }
+  const auto& formats = arguments.output.formats;
+  if (std::find(formats.begin(), formats.end(), "png") != formats.end()) {
+    for (const std::string& warning : client::fetch_images(http, *face)) {
+      std::cerr << "semblante-client: " << warning << '\n';
+    }
+  }
+  auto output = FrameOutput::create(*face, arguments.output);
+  if (!output) {
+    return std::move(output).error();
+  }
+  const auto frames = collect(player, arguments.frames, arguments.fps);
+  if (!frames) {
+    return frames.error();
+  }
+  stream->close();
+  if (auto written = write_all(*frames, *face, *output); !written) {
+    return written;
+  }
+  std::cout << frames->size() << " frames of " << face->rig().name << " (" << face->rig().mesh.vertices
+            << " vertices) in " << arguments.output.folder.string() << '\n';
+  return Unit{};
+}
+
+Status run(const Arguments& arguments) {
+  auto url = client::parse_url(arguments.url);
+  if (!url) {
+    return std::move(url).error();
+  }
+  return arguments.role == "publish" ? publish(*url, arguments) : subscribe(*url, arguments);
+}
+
+}  // namespace
+}  // namespace semblante::tools
+
+int main(int argc, char** argv) {
+  semblante::tools::Arguments arguments;
+  CLI::App app{"Follows a stream with a face of a Semblante server and writes what it sees, or publishes to a stream.",
+               "semblante-client"};
+  app.add_option("url", arguments.url, "http://HOST:PORT of the server")->required();
+  app.add_option("-s,--stream", arguments.stream, "id of the stream")->capture_default_str();
+  app.add_option("-m,--model", arguments.model, "id of the model; without it the one the stream suggests");
+  app.add_option("-n,--frames", arguments.frames, "how many frames to write")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app.add_option("--fps", arguments.fps, "frames a second of stream time, interpolated; 0: each frame as it comes")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("-o,--out", arguments.output.folder, "folder for frame-00000.* and frames.csv");
+  app.add_option("-f,--format", arguments.output.formats, "obj, ply, png, table; repeatable")->capture_default_str();
+  app.add_option("--shot", arguments.output.shot, "VIEW or VIEW:SUBJECT of the png")->capture_default_str();
+  app.add_option("--size", arguments.output.size, "of the png, pixels")->capture_default_str();
+  app.add_option("--role", arguments.role, "subscribe or publish")
+      ->check(CLI::IsMember({"subscribe", "publish"}))
+      ->capture_default_str();
+  app.add_option("--frames-file", arguments.frames_file, "with --role publish: JSON {\"frames\": [...]}");
+  app.add_option("--timeout", arguments.timeout, "seconds to wait for the server")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--json", arguments.json, "speak the JSON subprotocol instead of the binary one");
+  app.callback([&] {
+    if (arguments.role == "publish" && arguments.frames_file.empty()) {
+      throw CLI::RequiredError("--frames-file");
+    }
+    if (arguments.role == "subscribe" && arguments.output.folder.empty()) {
+      throw CLI::RequiredError("--out");
+    }
+  });
+  CLI11_PARSE(app, argc, argv);
+  if (const auto done = semblante::tools::run(arguments); !done) {
+    std::cerr << "semblante-client: " << semblante::tools::to_text(done.error()) << '\n';
+    return 1;
+  }
+  return 0;
+}

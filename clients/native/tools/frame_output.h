@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clients/native/client/face_package.h"
+#include "clients/native/tools/shots.h"
+#include "core/types/result.h"
+
+namespace semblante::tools {
+
+struct OutputOptions {
+  std::filesystem::path folder;
+  std::vector<std::string> formats = {"obj"};  ///< of obj, ply, png, table
+  std::string shot = "front:face";             ///< of the png
+  std::string size = "512x512";                ///< of the png
+};
+
+/// Writes the face as it stands, a numbered file a frame and format, and an index of them.
+class FrameOutput {
+ public:
+  /// Makes the folder, and the renderer when pictures are asked for. `face` must outlive the output.
+  /// Errors: invalid_argument (a format, shot or size that is none), io, unsupported (no EGL).
+  static Result<FrameOutput> create(const client::Face& face, const OutputOptions& options);
+  FrameOutput(FrameOutput&&) noexcept;
+  FrameOutput& operator=(FrameOutput&&) noexcept;
+  ~FrameOutput();
+
+  Status write(std::uint64_t sequence, double media_time);
+  /// frames.csv: "frame,sequence,media_time_ms".
+  Status finish();
+
+ private:
+  struct Impl;
+  explicit FrameOutput(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace semblante::tools
