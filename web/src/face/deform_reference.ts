@@ -1,0 +1,73 @@
+import type { FaceMesh } from './mesh.ts';
+import type { Pose } from './pose.ts';
+import { tangentFrame, type TangentTable } from './tangent_table.ts';
+
+/**
+ * Normals of the deformed face, by the tangent table: what the shader does, on the CPU. Used when the WASM kernel moves
+ * the vertices, and by the test that holds the shader to it. `out`: #V by 3, unit length.
+ */
+export function deformNormals(mesh: FaceMesh, table: TangentTable, pose: Pose, out: Float32Array): void {
+  const { normals, rigid, vertexCount } = mesh;
+  const { offsets, entries } = table;
+  for (let v = 0; v < vertexCount; v += 1) {
+    let x = normals[v * 3]!;
+    let y = normals[v * 3 + 1]!;
+    let z = normals[v * 3 + 2]!;
+    const first = offsets[v]!;
+    const last = offsets[v + 1]!;
+    if (first < last) {
+      tangentFrame(x, y, z, frame);
+      for (let k = first; k < last; k += 1) {
+        const point = entries[k * 4]! * 3;
+        const s1 = entries[k * 4 + 2]!;
+        const s2 = entries[k * 4 + 3]!;
+        const dx = pose.points[point]!;
+        const dy = pose.points[point + 1]!;
+        const dz = pose.points[point + 2]!;
+        frame[0]! += s1 * dx;
+        frame[1]! += s1 * dy;
+        frame[2]! += s1 * dz;
+        frame[3]! += s2 * dx;
+        frame[4]! += s2 * dy;
+        frame[5]! += s2 * dz;
+      }
+      const nx = frame[1]! * frame[5]! - frame[2]! * frame[4]!;
+      const ny = frame[2]! * frame[3]! - frame[0]! * frame[5]!;
+      const nz = frame[0]! * frame[4]! - frame[1]! * frame[3]!;
+      const length = Math.hypot(nx, ny, nz);
+      if (length > 1e-12) {
+        x = nx / length;
+        y = ny / length;
+        z = nz / length;
+      }
+    }
+    turned[0] = x;
+    turned[1] = y;
+    turned[2] = z;
+    if (rigid[v]! > 0) rotate(turned, pose.eyeRotation, (rigid[v]! - 1) * 4);
+    rotate(turned, pose.headRotation, 0);
+    out[v * 3] = turned[0]!;
+    out[v * 3 + 1] = turned[1]!;
+    out[v * 3 + 2] = turned[2]!;
+  }
+}
+
+const frame = new Float64Array(6);
+const turned = new Float64Array(3);
+
+/** v + 2 q × (q × v + w v), in place. */
+function rotate(v: Float64Array, quaternions: Float32Array, at: number): void {
+  const qx = quaternions[at]!;
+  const qy = quaternions[at + 1]!;
+  const qz = quaternions[at + 2]!;
+  const qw = quaternions[at + 3]!;
+  const tx = qy * v[2]! - qz * v[1]! + qw * v[0]!;
+  const ty = qz * v[0]! - qx * v[2]! + qw * v[1]!;
+  const tz = qx * v[1]! - qy * v[0]! + qw * v[2]!;
+  const x = v[0]! + 2 * (qy * tz - qz * ty);
+  const y = v[1]! + 2 * (qz * tx - qx * tz);
+  const z = v[2]! + 2 * (qx * ty - qy * tx);
+  v[0] = x;
+  v[1] = y;
+  v[2] = z;
+}

@@ -1,0 +1,90 @@
+/** Triangles that share a material: indices `start` .. `start + count - 1` of `FaceMesh.indices`. */
+export interface MaterialGroup {
+  start: number;
+  count: number;
+  material: number;
+}
+
+/**
+ * A parametrized face as the view draws it. Row v of the influence table is entries rowOffsets[v] ..
+ * rowOffsets[v + 1] - 1; an entry is the index of a feature point (0..83) and its share of Eq. 7.
+ */
+export interface FaceMesh {
+  vertexCount: number;
+  /** #V by 3 */
+  positions: Float32Array;
+  /** #V by 3, unit length */
+  normals: Float32Array;
+  /** #V by 2, or null */
+  uvs: Float32Array | null;
+  indices: Uint32Array;
+  groups: MaterialGroup[];
+  rowOffsets: Uint32Array;
+  rowPoints: Uint8Array;
+  rowWeights: Float32Array;
+  /** #V: 0 none, 1 left eye, 2 right eye */
+  rigid: Uint8Array;
+}
+
+export const featurePointCount = 84;
+
+/** Area-weighted vertex normals over vertices joined by position; for meshes that bring none. */
+export function smoothNormals(positions: Float32Array, indices: Uint32Array, group: Uint32Array): Float32Array {
+  const count = positions.length / 3;
+  const sums = new Float64Array(count * 3);
+  for (let i = 0; i + 2 < indices.length; i += 3) {
+    const a = indices[i]! * 3;
+    const b = indices[i + 1]! * 3;
+    const c = indices[i + 2]! * 3;
+    const ux = positions[b]! - positions[a]!;
+    const uy = positions[b + 1]! - positions[a + 1]!;
+    const uz = positions[b + 2]! - positions[a + 2]!;
+    const vx = positions[c]! - positions[a]!;
+    const vy = positions[c + 1]! - positions[a + 1]!;
+    const vz = positions[c + 2]! - positions[a + 2]!;
+    const nx = uy * vz - uz * vy;
+    const ny = uz * vx - ux * vz;
+    const nz = ux * vy - uy * vx;
+    for (const corner of [a, b, c]) {
+      const g = group[corner / 3]! * 3;
+      sums[g] = sums[g]! + nx;
+      sums[g + 1] = sums[g + 1]! + ny;
+      sums[g + 2] = sums[g + 2]! + nz;
+    }
+  }
+  const normals = new Float32Array(count * 3);
+  for (let v = 0; v < count; v += 1) {
+    const g = group[v]! * 3;
+    const length = Math.hypot(sums[g]!, sums[g + 1]!, sums[g + 2]!);
+    if (length > 0) for (let k = 0; k < 3; k += 1) normals[v * 3 + k] = sums[g + k]! / length;
+    else normals[v * 3 + 2] = 1;
+  }
+  return normals;
+}
+
+/**
+ * Joins the copies that UV seams make of a vertex: same position and, where normals are given, facing the same way (so
+ * that lips that touch stay two). Returns for each vertex the first vertex of its group.
+ */
+export function joinSeams(positions: Float32Array, normals: Float32Array | null): Uint32Array {
+  const count = positions.length / 3;
+  const group = new Uint32Array(count);
+  const bits = new Uint32Array(positions.buffer, positions.byteOffset, positions.length);
+  const seen = new Map<string, number[]>();
+  for (let v = 0; v < count; v += 1) {
+    const key = `${bits[v * 3]! | 0},${bits[v * 3 + 1]! | 0},${bits[v * 3 + 2]! | 0}`;
+    const candidates = seen.get(key);
+    group[v] = v;
+    if (!candidates) {
+      seen.set(key, [v]);
+      continue;
+    }
+    const twin = candidates.find((w) => normals === null || dot(normals, v, w) > 0.3);
+    if (twin === undefined) candidates.push(v);
+    else group[v] = twin;
+  }
+  return group;
+}
+
+const dot = (values: Float32Array, a: number, b: number): number =>
+  values[a * 3]! * values[b * 3]! + values[a * 3 + 1]! * values[b * 3 + 1]! + values[a * 3 + 2]! * values[b * 3 + 2]!;

@@ -1,0 +1,103 @@
+import { requestBytes, requestJson, type Answer } from './http.ts';
+import { mediaTypeOf, upload } from './upload.ts';
+import type { ArtefactName, FeaturePointSet, Job, Model, ModelAndJob, ModelPage, StreamInfo, VersionInfo } from './types.ts';
+
+const segment = encodeURIComponent;
+
+/** The REST interface as functions. Every one throws ApiError with the server's problem document. */
+export class Api {
+  constructor(readonly base = '') {}
+
+  /** All models, newest page first as the server orders them. */
+  async listModels(): Promise<Model[]> {
+    const models: Model[] = [];
+    let after: string | null = null;
+    do {
+      const query: string = after === null ? '' : `&after=${segment(after)}`;
+      const page: ModelPage = (await requestJson<ModelPage>(`${this.base}/v1/models?limit=100${query}`)).value;
+      models.push(...page.models);
+      after = page.next;
+    } while (after !== null);
+    return models;
+  }
+
+  async getModel(id: string): Promise<Model> {
+    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`)).value;
+  }
+
+  uploadModel(file: File, onProgress: (fraction: number) => void, signal?: AbortSignal): Promise<ModelAndJob> {
+    const name = file.name.replace(/\.[a-z0-9]+$/i, '');
+    const url = `${this.base}/v1/models?name=${segment(name)}&filename=${segment(file.name)}`;
+    return upload<ModelAndJob>(url, file, mediaTypeOf(file.name), onProgress, signal);
+  }
+
+  async renameModel(id: string, name: string): Promise<Model> {
+    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { name } })).value;
+  }
+
+  async deleteModel(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/models/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  previewUrl(id: string): string {
+    return `${this.base}/v1/models/${segment(id)}/preview.glb`;
+  }
+
+  preview(id: string, signal?: AbortSignal): Promise<Uint8Array> {
+    return requestBytes(this.previewUrl(id), signal);
+  }
+
+  artefact(id: string, name: ArtefactName, signal?: AbortSignal): Promise<Uint8Array> {
+    return requestBytes(`${this.base}/v1/models/${segment(id)}/${name}`, signal);
+  }
+
+  getFeaturePoints(id: string): Promise<Answer<FeaturePointSet>> {
+    return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points`);
+  }
+
+  /** Replaces the whole set. `etag` of the set it was made from guards against overwriting someone else's work. */
+  putFeaturePoints(id: string, body: unknown, options: { etag?: string | null; mirror?: boolean } = {}): Promise<Answer<FeaturePointSet>> {
+    const query = options.mirror ? '?fill=mirror' : '';
+    const headers: Record<string, string> = options.etag ? { 'If-Match': options.etag } : {};
+    return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points${query}`, { method: 'PUT', json: body, headers });
+  }
+
+  async parametrize(id: string): Promise<Job> {
+    return (await requestJson<Job>(`${this.base}/v1/models/${segment(id)}/parametrizations`, { method: 'POST', json: {} })).value;
+  }
+
+  async getJob(id: string): Promise<Job> {
+    return (await requestJson<Job>(`${this.base}/v1/jobs/${segment(id)}`)).value;
+  }
+
+  async cancelJob(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/jobs/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  jobEventsUrl(id: string): string {
+    return `${this.base}/v1/jobs/${segment(id)}/events`;
+  }
+
+  async listStreams(): Promise<StreamInfo[]> {
+    return (await requestJson<{ streams: StreamInfo[] }>(`${this.base}/v1/streams`)).value.streams;
+  }
+
+  async createStream(title: string, model: string | null): Promise<StreamInfo> {
+    const json = model === null ? { title } : { title, model };
+    return (await requestJson<StreamInfo>(`${this.base}/v1/streams`, { method: 'POST', json })).value;
+  }
+
+  async deleteStream(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  streamUrl(id: string): string {
+    const base = new URL(this.base === '' ? location.href : this.base, location.href);
+    base.protocol = base.protocol === 'https:' ? 'wss:' : 'ws:';
+    return new URL(`/v1/streams/${segment(id)}`, base).href;
+  }
+
+  async version(): Promise<VersionInfo> {
+    return (await requestJson<VersionInfo>(`${this.base}/version`)).value;
+  }
+}

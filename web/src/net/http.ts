@@ -1,0 +1,60 @@
+import { ApiError, problemFrom, unreachable } from './problem.ts';
+
+export interface Answer<T> {
+  value: T;
+  etag: string | null;
+  location: string | null;
+}
+
+export interface RequestOptions {
+  method?: string;
+  json?: unknown;
+  body?: BodyInit;
+  contentType?: string;
+  headers?: Record<string, string>;
+  signal?: AbortSignal;
+}
+
+async function send(path: string, options: RequestOptions): Promise<Response> {
+  const headers = new Headers(options.headers);
+  const init: RequestInit = { method: options.method ?? 'GET', headers };
+  if (options.json !== undefined) {
+    headers.set('Content-Type', 'application/json');
+    init.body = JSON.stringify(options.json);
+  } else if (options.body !== undefined) {
+    headers.set('Content-Type', options.contentType ?? 'application/octet-stream');
+    init.body = options.body;
+  }
+  if (options.signal) init.signal = options.signal;
+  let response: Response;
+  try {
+    response = await fetch(path, init);
+  } catch (error) {
+    if (error instanceof DOMException && error.name === 'AbortError') throw error;
+    throw new ApiError(unreachable(`${init.method} ${path} got no answer.`));
+  }
+  if (!response.ok) {
+    const body = await response.text().catch(() => '');
+    throw new ApiError(problemFrom(response.status, response.statusText, response.headers.get('Content-Type') ?? '', body));
+  }
+  return response;
+}
+
+/** A request whose answer is JSON, or nothing (`204`, then `value` is undefined). Throws ApiError. */
+export async function requestJson<T>(path: string, options: RequestOptions = {}): Promise<Answer<T>> {
+  const response = await send(path, { ...options, headers: { Accept: 'application/json', ...options.headers } });
+  const text = await response.text();
+  const etag = response.headers.get('ETag');
+  const location = response.headers.get('Location');
+  if (text === '') return { value: undefined as T, etag, location };
+  try {
+    return { value: JSON.parse(text) as T, etag, location };
+  } catch {
+    throw new ApiError({ type: 'about:blank', title: 'The server sent an answer that is not JSON', status: response.status, detail: path });
+  }
+}
+
+export async function requestBytes(path: string, signal?: AbortSignal): Promise<Uint8Array> {
+  const response = await send(path, signal ? { signal } : {});
+  return new Uint8Array(await response.arrayBuffer());
+}

@@ -1,0 +1,69 @@
+import type { FieldProblem, Problem } from './types.ts';
+
+/** A request that did not come back with what was asked for. `problem.status` is 0 when there was no answer at all. */
+export class ApiError extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.detail ?? problem.title);
+    this.name = 'ApiError';
+  }
+}
+
+export const unreachable = (detail: string): Problem => ({
+  type: '/problems/unreachable',
+  title: 'The server does not answer',
+  status: 0,
+  detail,
+});
+
+/** Reads an error body; a body that is no problem document still becomes one, so that callers have one case. */
+export function problemFrom(status: number, statusText: string, contentType: string, body: string): Problem {
+  if (/^application\/(problem\+)?json\b/.test(contentType)) {
+    try {
+      const value: unknown = JSON.parse(body);
+      if (isProblem(value)) return { ...value, status: value.status || status };
+    } catch {
+      // Not JSON after all: fall through to the plain form.
+    }
+  }
+  const problem: Problem = { type: 'about:blank', title: statusText || `HTTP ${status}`, status };
+  const text = body.trim();
+  if (text !== '' && text.length < 300 && !text.startsWith('<')) problem.detail = text;
+  return problem;
+}
+
+function isProblem(value: unknown): value is Problem {
+  return typeof value === 'object' && value !== null && typeof (value as Problem).title === 'string';
+}
+
+/** Every place a problem names, as (pointer, reason). A problem without a pointer gives one entry with none. */
+export function fieldProblems(problem: Problem): FieldProblem[] {
+  if (problem.errors && problem.errors.length > 0) return problem.errors;
+  const detail = problem.detail ?? problem.title;
+  return [problem.pointer === undefined ? { detail } : { pointer: problem.pointer, detail }];
+}
+
+/** The feature point that a pointer such as `/points/2.1/vertex` lies in, or null. */
+export function featurePointOf(pointer: string | undefined): string | null {
+  const match = /^\/points\/(\d{1,2}\.\d{1,2})(?:\/|$)/.exec(pointer ?? '');
+  return match ? match[1]! : null;
+}
+
+/** What a person can do about it, in one sentence, where we know better than "try again". */
+export function adviceFor(problem: Problem): string | null {
+  const slug = problem.type.split('/').pop() ?? '';
+  if (problem.status === 0) return 'Check that the server is running, then try again.';
+  if (slug === 'malformed-model') return 'Export the head again as GLB, glTF (zipped), OBJ, PLY or STL.';
+  if (slug === 'unsupported-media-type') return 'Use a GLB, a zipped glTF, an OBJ, a PLY or an STL file.';
+  if (problem.status === 413 || slug === 'limit-exceeded') return 'Reduce the mesh or its textures and upload it again.';
+  if (problem.status === 412 || problem.status === 428) return 'Someone else changed it meanwhile: reload, then make the change again.';
+  if (slug === 'invalid-feature-point') return 'Move or remove the points marked in red, then save again.';
+  if (problem.status === 404) return 'It may have been deleted: reload the page.';
+  if (problem.status === 429 || problem.status === 503) return 'The server is busy: wait a moment and try again.';
+  return null;
+}
+
+export function problemOf(error: unknown): Problem {
+  if (error instanceof ApiError) return error.problem;
+  const detail = error instanceof Error ? error.message : String(error);
+  return { type: 'about:blank', title: 'Something went wrong on this page', status: -1, detail };
+}

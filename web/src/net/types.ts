@@ -1,0 +1,106 @@
+/** The shapes of the REST interface (`/openapi.json`) that the studio uses. */
+
+export interface FieldProblem {
+  pointer?: string;
+  detail: string;
+}
+
+/** RFC 9457, with the JSON pointer to what is wrong. */
+export interface Problem {
+  type: string;
+  title: string;
+  status: number;
+  detail?: string;
+  pointer?: string;
+  errors?: FieldProblem[];
+}
+
+export type ModelState = 'importing' | 'ready' | 'parametrized' | 'failed';
+
+export interface ModelPart {
+  index: number;
+  name: string;
+  role: string;
+  role_by_user: boolean;
+  vertices: number;
+  triangles: number;
+}
+
+export interface Artefact {
+  href: string;
+  sha256: string;
+  bytes: number;
+  content_type: string;
+}
+
+export type ArtefactName = 'mesh.drc' | 'weights' | 'rig.json' | 'face.glb';
+
+export interface FacePackage {
+  parametrization: string;
+  created: string;
+  metric: string;
+  weights: string;
+  artefacts: Partial<Record<ArtefactName, Artefact>>;
+}
+
+export interface Model {
+  id: string;
+  name: string;
+  state: ModelState;
+  problem: Problem | null;
+  created: string;
+  updated: string;
+  source?: { format: string; bytes: number; sha256: string } | null;
+  counts?: { vertices: number; triangles: number; parts: number } | null;
+  parts?: ModelPart[];
+  warnings?: string[];
+  feature_point_count?: number;
+  package: FacePackage | null;
+}
+
+export interface ModelPage {
+  models: Model[];
+  next: string | null;
+}
+
+export type JobState = 'queued' | 'running' | 'done' | 'failed' | 'cancelled';
+
+export interface Job {
+  id: string;
+  kind: 'import' | 'parametrize';
+  model: string;
+  state: JobState;
+  progress: number;
+  stage: string;
+  problem: Problem | null;
+}
+
+export interface ModelAndJob {
+  model: Model;
+  job: Job;
+}
+
+export interface FeaturePointValue {
+  vertex?: number | null;
+  position?: [number, number, number];
+}
+
+export interface FeaturePointSet {
+  points: Record<string, FeaturePointValue>;
+  warnings?: string[];
+}
+
+export interface StreamInfo {
+  id: string;
+  title: string;
+  model?: string | null;
+  epoch?: string | number;
+  sequence?: number;
+  subscribers: number;
+  publishers: number;
+  source?: string;
+}
+
+export interface VersionInfo {
+  version: string;
+}

@@ -1,0 +1,37 @@
+import { ApiError, problemFrom, unreachable } from './problem.ts';
+
+/** Sends a file and reports how much has left, which fetch cannot do. `fraction` is 0..1. */
+export function upload<T>(url: string, file: Blob, contentType: string, onProgress: (fraction: number) => void, signal?: AbortSignal): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    request.open('POST', url);
+    request.setRequestHeader('Content-Type', contentType);
+    request.setRequestHeader('Accept', 'application/json');
+    request.upload.onprogress = (event) => {
+      if (event.lengthComputable) onProgress(event.loaded / Math.max(event.total, 1));
+    };
+    request.onload = () => {
+      const type = request.getResponseHeader('Content-Type') ?? '';
+      if (request.status < 200 || request.status > 299) {
+        reject(new ApiError(problemFrom(request.status, request.statusText, type, request.responseText)));
+        return;
+      }
+      try {
+        resolve(JSON.parse(request.responseText) as T);
+      } catch {
+        reject(new ApiError({ type: 'about:blank', title: 'The server sent an answer that is not JSON', status: request.status }));
+      }
+    };
+    request.onerror = () => reject(new ApiError(unreachable('The connection broke during the upload.')));
+    request.onabort = () => reject(new DOMException('Upload cancelled', 'AbortError'));
+    signal?.addEventListener('abort', () => request.abort(), { once: true });
+    request.send(file);
+  });
+}
+
+/** By the name's ending; the server looks at the content anyway. */
+export function mediaTypeOf(fileName: string): string {
+  const ending = fileName.toLowerCase().split('.').pop() ?? '';
+  const types: Record<string, string> = { glb: 'model/gltf-binary', zip: 'application/zip', obj: 'model/obj', stl: 'model/stl' };
+  return types[ending] ?? 'application/octet-stream';
+}

@@ -1,0 +1,98 @@
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshDepthMaterial, RGBADepthPacking, Uint32BufferAttribute, type Material } from 'three';
+import { deformNormals } from '../face/deform_reference.ts';
+import type { FaceMesh } from '../face/mesh.ts';
+import type { Pose } from '../face/pose.ts';
+import { makeTangentTable, type TangentTable } from '../face/tangent_table.ts';
+import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
+
+export type DeformPath = 'gpu' | 'wasm';
+
+/** Moves the vertices on the CPU: positions (#V by 3) of a pose. The result is only read until the next call. */
+export type CpuDeform = (pose: Pose) => Float32Array;
+
+/** A face that moves. Both paths draw the same picture; the GPU's is the default. */
+export class FaceView {
+  readonly object: Mesh;
+  readonly uniforms: DeformUniforms;
+  private readonly table: TangentTable;
+  private readonly depthMaterial = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
+  private path: DeformPath = 'gpu';
+
+  constructor(
+    readonly mesh: FaceMesh,
+    readonly materials: Material[],
+    private readonly cpuDeform: CpuDeform,
+  ) {
+    this.table = makeTangentTable(mesh);
+    this.uniforms = makeDeformUniforms(this.table);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(mesh.positions.slice(), 3).setUsage(DynamicDrawUsage));
+    geometry.setAttribute('normal', new BufferAttribute(mesh.normals.slice(), 3).setUsage(DynamicDrawUsage));
+    if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
+    geometry.setAttribute('faceRow', rowAttribute(mesh, this.table));
+    geometry.setIndex(new BufferAttribute(mesh.indices, 1));
+    for (const group of mesh.groups) geometry.addGroup(group.start, group.count, group.material);
+    geometry.computeBoundingSphere();
+    this.object = new Mesh(geometry, materials);
+    // The head turns and the jaw drops out of the box of the rest pose.
+    this.object.frustumCulled = false;
+    this.object.castShadow = true;
+    this.object.receiveShadow = true;
+    this.object.customDepthMaterial = this.depthMaterial;
+    this.usePath('gpu');
+  }
+
+  usePath(path: DeformPath): void {
+    this.path = path;
+    for (const material of [...this.materials, this.depthMaterial]) {
+      if (path === 'gpu') deformByShader(material, this.uniforms);
+      else deformByCpu(material);
+    }
+    if (path === 'gpu') this.write(this.mesh.positions, this.mesh.normals);
+  }
+
+  /** No allocation: runs once per displayed frame. */
+  setPose(pose: Pose): void {
+    if (this.path === 'gpu') {
+      setPose(this.uniforms, pose);
+      return;
+    }
+    const normal = this.object.geometry.getAttribute('normal') as BufferAttribute;
+    this.writePositions(this.cpuDeform(pose));
+    deformNormals(this.mesh, this.table, pose, normal.array as Float32Array);
+    normal.needsUpdate = true;
+  }
+
+  set wireframe(on: boolean) {
+    for (const material of this.materials) if ('wireframe' in material) material.wireframe = on;
+  }
+
+  dispose(): void {
+    this.object.geometry.dispose();
+    this.uniforms.faceEntries.value.dispose();
+    this.depthMaterial.dispose();
+    this.object.removeFromParent();
+  }
+
+  private write(positions: Float32Array, normals: Float32Array): void {
+    this.writePositions(positions);
+    const normal = this.object.geometry.getAttribute('normal') as BufferAttribute;
+    (normal.array as Float32Array).set(normals);
+    normal.needsUpdate = true;
+  }
+
+  private writePositions(positions: Float32Array): void {
+    const position = this.object.geometry.getAttribute('position') as BufferAttribute;
+    (position.array as Float32Array).set(positions);
+    position.needsUpdate = true;
+  }
+}
+
+function rowAttribute(mesh: FaceMesh, table: TangentTable): Uint32BufferAttribute {
+  const rows = new Uint32Array(mesh.vertexCount * 2);
+  for (let v = 0; v < mesh.vertexCount; v += 1) {
+    rows[v * 2] = table.offsets[v]!;
+    rows[v * 2 + 1] = (table.offsets[v + 1]! - table.offsets[v]!) | (mesh.rigid[v]! << 16);
+  }
+  return new Uint32BufferAttribute(rows, 2);
+}

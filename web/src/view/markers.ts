@@ -1,0 +1,111 @@
+import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera } from 'three';
+
+export type MarkerTone = 'placed' | 'changed' | 'wrong' | 'selected';
+
+export interface Marker {
+  id: string;
+  position: readonly [number, number, number];
+  tone: MarkerTone;
+}
+
+const tones: Record<MarkerTone, { color: string; size: number }> = {
+  placed: { color: '#2f7df6', size: 9 },
+  changed: { color: '#f0a020', size: 10 },
+  wrong: { color: '#e5322d', size: 12 },
+  selected: { color: '#ff5a2c', size: 15 },
+};
+
+/**
+ * Feature points as round marks of constant size on the screen: solid where they can be seen, faint where the head
+ * hides them (teeth, tongue, back of the head).
+ */
+export class Markers {
+  readonly object = new Group();
+  private readonly geometry = new BufferGeometry();
+  private markers: Marker[] = [];
+
+  constructor(pixelRatio: number) {
+    const seen = material(pixelRatio, 1, true);
+    const hidden = material(pixelRatio, 0.22, false);
+    for (const [order, one] of [hidden, seen].entries()) {
+      const points = new Points(this.geometry, one);
+      points.frustumCulled = false;
+      points.renderOrder = 10 + order;
+      this.object.add(points);
+    }
+  }
+
+  set(markers: Marker[]): void {
+    this.markers = markers;
+    const positions = new Float32Array(markers.length * 3);
+    const colors = new Float32Array(markers.length * 3);
+    const sizes = new Float32Array(markers.length);
+    const color = new Color();
+    markers.forEach((marker, i) => {
+      positions.set(marker.position, i * 3);
+      color.set(tones[marker.tone].color).toArray(colors, i * 3);
+      sizes[i] = tones[marker.tone].size;
+    });
+    this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    this.geometry.setAttribute('color', new BufferAttribute(colors, 3));
+    this.geometry.setAttribute('size', new BufferAttribute(sizes, 1));
+  }
+
+  /** The marker drawn within `reach` pixels of a place on the canvas, nearest first. */
+  at(x: number, y: number, camera: Camera, width: number, height: number, reach: number): Marker | null {
+    let best: Marker | null = null;
+    let bestDistance = reach;
+    for (const marker of this.markers) {
+      const place = this.project(marker.position, camera, width, height);
+      const distance = Math.hypot(place.x - x, place.y - y);
+      if (distance < bestDistance) {
+        best = marker;
+        bestDistance = distance;
+      }
+    }
+    return best;
+  }
+
+  project(position: readonly [number, number, number], camera: Camera, width: number, height: number): { x: number; y: number } {
+    projected.set(...position).project(camera);
+    return { x: ((projected.x + 1) / 2) * width, y: ((1 - projected.y) / 2) * height };
+  }
+}
+
+const projected = new Vector3();
+
+function material(pixelRatio: number, opacity: number, depthTest: boolean): ShaderMaterial {
+  return new ShaderMaterial({
+    uniforms: { ratio: { value: pixelRatio }, opacity: { value: opacity } },
+    vertexShader: /* glsl */ `
+      attribute vec3 color;
+      attribute float size;
+      uniform float ratio;
+      varying vec3 tint;
+      varying float rim;
+      void main() {
+        tint = color;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        // A little towards the eye, so that the skin a point lies on does not cover it.
+        gl_Position.z -= 0.0025 * gl_Position.w;
+        gl_PointSize = size * ratio;
+        rim = 1.6 / size;
+      }`,
+    fragmentShader: /* glsl */ `
+      uniform float opacity;
+      varying vec3 tint;
+      varying float rim;
+      void main() {
+        float r = length(gl_PointCoord - 0.5);
+        float edge = fwidth(r);
+        float inside = 1.0 - smoothstep(0.5 - edge, 0.5, r);
+        float core = 1.0 - smoothstep(0.5 - rim - edge, 0.5 - rim, r);
+        if (inside * opacity < 0.01) discard;
+        gl_FragColor = vec4(mix(vec3(1.0), tint, core), inside * opacity);
+        #include <colorspace_fragment>
+      }`,
+    transparent: true,
+    depthWrite: false,
+    depthTest,
+  });
+}

@@ -1,0 +1,217 @@
+import {
+  Box3,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  NeutralToneMapping,
+  PCFShadowMap,
+  PMREMGenerator,
+  PerspectiveCamera,
+  Scene,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+  type Object3D,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+
+export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
+
+const directions: Record<ViewName, [number, number, number]> = {
+  front: [0, 0, 1],
+  left: [1, 0, 0.02],
+  right: [-1, 0, 0.02],
+  'three-quarter': [0.55, 0.06, 0.83],
+};
+
+/** Something that moves: called once per frame before drawing; returns whether the picture changed. */
+export type FrameHook = (deltaSeconds: number) => boolean;
+
+/**
+ * The canvas: camera, light and the frame loop. Draws only when something changed. Owned by the page; all calls on the
+ * main thread.
+ */
+export class Stage {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(26, 1, 0.01, 1000);
+  readonly renderer: WebGLRenderer;
+  readonly controls: OrbitControls;
+  /** Frames drawn in the last full second. */
+  framesPerSecond = 0;
+
+  private readonly hooks: FrameHook[] = [];
+  private readonly center = new Vector3();
+  private readonly flightFrom = new Vector3();
+  private readonly flightTo = new Vector3();
+  private flightTime = 1;
+  private radius = 1;
+  private dirty = true;
+  private lastTime = 0;
+  private secondStart = 0;
+  private framesInSecond = 0;
+  private readonly key = new DirectionalLight(0xfff1e2, 2.1);
+  private readonly rim = new DirectionalLight(0xbfd4ff, 1.5);
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.setClearColor(new Color(0), 0);
+
+    const generator = new PMREMGenerator(this.renderer);
+    const room = new RoomEnvironment();
+    this.scene.environment = generator.fromScene(room, 0.04).texture;
+    this.scene.environmentIntensity = 0.42;
+    room.dispose();
+    generator.dispose();
+
+    this.scene.add(new HemisphereLight(0xffffff, 0x6b5a4e, 0.35), this.key, this.key.target, this.rim, this.rim.target);
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.12;
+    this.controls.addEventListener('change', () => this.invalidate());
+    this.controls.addEventListener('start', () => {
+      this.flightTime = 1;
+    });
+
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
+    this.resize();
+    this.renderer.setAnimationLoop(this.frame);
+  }
+
+  /** Asks for one more picture. */
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  onFrame(hook: FrameHook): void {
+    this.hooks.push(hook);
+  }
+
+  /** Fits camera and lights to an object and looks at its front. */
+  frameObject(object: Object3D): void {
+    const box = new Box3().setFromObject(object);
+    if (box.isEmpty()) return;
+    const size = box.getSize(new Vector3());
+    box.getCenter(this.center);
+    this.radius = Math.max(size.x, size.y, size.z * 0.8) / 2;
+    this.camera.near = this.radius / 50;
+    this.camera.far = this.radius * 60;
+    this.controls.minDistance = this.radius * 0.6;
+    this.controls.maxDistance = this.radius * 14;
+    this.placeLights();
+    this.look('front', true);
+  }
+
+  look(view: ViewName, atOnce = false): void {
+    const [x, y, z] = directions[view];
+    const half = (this.camera.fov * Math.PI) / 360;
+    const narrow = Math.min(1, this.camera.aspect * 1.18);
+    const distance = (this.radius * 1.16) / Math.tan(half) / narrow;
+    this.flightTo.set(x, y, z).normalize().multiplyScalar(distance).add(this.center);
+    this.controls.target.copy(this.center);
+    if (atOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
+      this.flightTime = 1;
+      this.camera.position.copy(this.flightTo);
+      this.camera.updateProjectionMatrix();
+      this.controls.update();
+    } else {
+      this.flightFrom.copy(this.camera.position);
+      this.flightTime = 0;
+    }
+    this.invalidate();
+  }
+
+  /** Turns the camera around the head, for the keyboard. Angles in radians. */
+  orbit(yaw: number, pitch: number): void {
+    this.flightTime = 1;
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    arm.applyAxisAngle(new Vector3(0, 1, 0), yaw);
+    const side = new Vector3().crossVectors(this.camera.up, arm).normalize();
+    const tilted = arm.clone().applyAxisAngle(side, pitch);
+    if (Math.abs(tilted.clone().normalize().y) < 0.97) arm.copy(tilted);
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** The picture as it is now, small: for the shelf. */
+  thumbnail(size: number): string {
+    this.renderer.render(this.scene, this.camera);
+    const from = this.renderer.domElement;
+    const side = Math.min(from.width, from.height);
+    const to = document.createElement('canvas');
+    to.width = size;
+    to.height = size;
+    to.getContext('2d')?.drawImage(from, (from.width - side) / 2, (from.height - side) / 2, side, side, 0, 0, size, size);
+    return to.toDataURL('image/webp', 0.8);
+  }
+
+  private placeLights(): void {
+    const { center: c, radius: r } = this;
+    this.key.position.set(c.x - r * 1.6, c.y + r * 1.9, c.z + r * 2.8);
+    this.rim.position.set(c.x + r * 2.4, c.y + r * 1.2, c.z - r * 2.2);
+    this.key.target.position.copy(c);
+    this.rim.target.position.copy(c);
+    this.key.castShadow = true;
+    const shadow = this.key.shadow;
+    shadow.mapSize.set(1024, 1024);
+    shadow.radius = 5;
+    shadow.bias = -0.0006;
+    shadow.normalBias = r * 0.012;
+    const camera = shadow.camera;
+    camera.left = camera.bottom = -r * 1.3;
+    camera.right = camera.top = r * 1.3;
+    camera.near = r * 0.5;
+    camera.far = r * 7;
+    camera.updateProjectionMatrix();
+  }
+
+  private resize(): void {
+    const holder = this.canvas.parentElement ?? this.canvas;
+    const width = Math.max(1, holder.clientWidth);
+    const height = Math.max(1, holder.clientHeight);
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+
+  private readonly frame = (time: number): void => {
+    const delta = Math.min(0.1, (time - this.lastTime) / 1000);
+    this.lastTime = time;
+    if (this.flightTime < 1) {
+      this.flightTime = Math.min(1, this.flightTime + delta / 0.45);
+      const ease = 1 - (1 - this.flightTime) ** 3;
+      this.camera.position.lerpVectors(this.flightFrom, this.flightTo, ease);
+      // Around the head, not through it.
+      const reach = this.flightFrom.distanceTo(this.center) * (1 - ease) + this.flightTo.distanceTo(this.center) * ease;
+      this.camera.position.sub(this.center).setLength(reach).add(this.center);
+      this.dirty = true;
+    }
+    this.controls.update();
+    for (const hook of this.hooks) if (hook(delta)) this.dirty = true;
+    if (this.dirty) {
+      this.dirty = false;
+      this.renderer.render(this.scene, this.camera);
+      this.framesInSecond += 1;
+    }
+    if (time - this.secondStart >= 1000) {
+      this.framesPerSecond = Math.round((this.framesInSecond * 1000) / (time - this.secondStart));
+      this.framesInSecond = 0;
+      this.secondStart = time;
+    }
+  };
+}
