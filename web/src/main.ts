@@ -1,2 +1,122 @@
+import './ui/styles/index.css';
+import { neutralFrame } from './face/frame.ts';
+import { loadFace } from './face/package.ts';
+import { Api } from './net/api.ts';
+import { AnimatePanel } from './ui/animate_panel.ts';
+import { h } from './ui/dom.ts';
+import { makeDriverChip } from './ui/driver_chip.ts';
+import { makeLayout } from './ui/layout.ts';
+import { LiveModel } from './ui/live_model.ts';
+import { LivePanel } from './ui/live_panel.ts';
+import { PointsModel } from './ui/points_model.ts';
+import { PointsPanel } from './ui/points_panel.ts';
+import { SceneView } from './ui/scene.ts';
+import { acceptDrops, Shelf } from './ui/shelf.ts';
+import { StagePanel } from './ui/stage_panel.ts';
+import { Studio } from './ui/studio.ts';
+import { themeButton } from './ui/theme.ts';
+import { Toasts } from './ui/toast.ts';
+import type { Marker } from './view/markers.ts';
+
+const demo = { id: 'demo', title: 'Demo' };
+
+/** Puts the page together; the only place that knows everyone. */
+function main(root: HTMLElement): void {
+  const toasts = new Toasts();
+  const theme = themeButton();
+  const api = new Api();
+  const studio = new Studio(api, toasts);
+  const live = new LiveModel(studio);
+  const points = new PointsModel(studio);
+  const frame = neutralFrame();
+  const streamed = neutralFrame();
+  const canvas = h('canvas', { class: 'canvas' });
+  const scene = new SceneView(canvas, {
+    preview: (model, signal) => api.preview(model.id, signal),
+    face: (model, signal) => loadFace(api, model, signal),
+  });
+
+  const animate = new AnimatePanel({
+    frame,
+    onChange: () => {
+      live.driving.set(false);
+      scene.performer.value?.follow(frame);
+      live.publish(frame);
+    },
+  });
+  const thumbnails = new Map<string, string>();
+  const shelf = new Shelf(studio, thumbnails);
+  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, demo));
+  const livePanel = new LivePanel(studio, live);
+  const layout = makeLayout(
+    studio,
+    { heads: shelf.element, points: new PointsPanel(studio, points).element, animate: animate.element, live: livePanel.element },
+    stagePanel.element,
+    theme,
+  );
+  root.replaceChildren(layout, toasts.element);
+  acceptDrops(layout, (files) => void studio.upload(files));
+
+  scene.drive = (performer) => {
+    if (!live.driving.value || !live.reader?.read(streamed, performance.now())) return false;
+    performer.show(streamed);
+    return true;
+  };
+  live.driving.watch((driving) => {
+    if (!driving) scene.performer.value?.follow(frame);
+  });
+  scene.performer.watch((performer) => performer?.follow(frame));
+
+  studio.tab.watch((tab) => scene.show(tab === 'points' ? 'preview' : 'face'));
+  let opened = '';
+  studio.selected.watch((model) => {
+    void scene.open(model);
+    const key = model ? `${model.id}:${model.state === 'importing' || model.state === 'failed'}` : '';
+    if (key === opened) return;
+    opened = key;
+    void points.open(model);
+  });
+  points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
+  const markers = (): void => scene.setMarkers(makeMarkers(points));
+  points.changed.watch(markers);
+  points.chosen.watch(markers);
+
+  scene.state.watch((state) => {
+    const model = studio.selected.value;
+    if (state.kind !== 'ready' || !model || thumbnails.has(model.id)) return;
+    requestAnimationFrame(() => {
+      thumbnails.set(model.id, scene.stage.thumbnail(112));
+      shelf.draw();
+    });
+  });
+
+  setInterval(() => livePanel.refreshFigures(), 500);
+  setInterval(() => {
+    if (studio.tab.value === 'live' && document.visibilityState === 'visible') void live.refresh();
+  }, 3000);
+  studio.tab.watch((tab) => {
+    if (tab === 'live') void live.refresh();
+  });
+
+  void studio.start().then(() => {
+    if (studio.selected.value?.state === 'parametrized') live.subscribe(demo.id, demo.title);
+  });
+  exposeForTests(scene, studio);
+}
+
+function makeMarkers(points: PointsModel): Marker[] {
+  const markers: Marker[] = [];
+  for (const [id, point] of points.draft.points) {
+    const tone = points.chosen.value === id ? 'selected' : points.problems.has(id) ? 'wrong' : points.draft.isChanged(id) ? 'changed' : 'placed';
+    markers.push({ id, position: point.position, tone });
+  }
+  return markers;
+}
+
+/** The browser tests look inside: pose by pose, GPU against WASM. Nothing on the page uses this. */
+function exposeForTests(scene: SceneView, studio: Studio): void {
+  Object.assign(window, { semblante: { scene, studio } });
+}
+
 const root = document.querySelector<HTMLElement>('#studio');
-if (root) root.textContent = 'Semblante';
+if (root) main(root);

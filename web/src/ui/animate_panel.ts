@@ -1,0 +1,112 @@
+import { expressions, visemes } from '@protocol/generated/mpeg4.ts';
+import { blendMax, clearFrame, expressionIntensity, isNeutral, setExpression, setViseme, type FaceFrame } from '../face/frame.ts';
+import { h } from './dom.ts';
+import { expressionFace } from './expression_face.ts';
+import { FapSliders } from './fap_sliders.ts';
+import { icon } from './icons.ts';
+import { capital } from './names.ts';
+import { Slider } from './slider.ts';
+import { VisemeGrid } from './viseme_grid.ts';
+
+export interface AnimatePanelOptions {
+  frame: FaceFrame;
+  /** The frame was changed by hand. */
+  onChange: () => void;
+}
+
+/** Drives the face by hand: visemes, expressions and every low-level FAP. */
+export class AnimatePanel {
+  readonly element: HTMLElement;
+  private readonly grid: VisemeGrid;
+  private readonly strength: Slider;
+  private readonly second: HTMLSelectElement;
+  private readonly feelings: { slider: Slider; row: HTMLElement; button: HTMLButtonElement }[] = [];
+  private readonly faps: FapSliders;
+  private readonly resetAll: HTMLButtonElement;
+  private viseme = 0;
+
+  constructor(private readonly options: AnimatePanelOptions) {
+    this.grid = new VisemeGrid({ onChoose: (viseme) => this.chooseViseme(viseme) });
+    this.strength = new Slider({ label: 'Strength', note: '%', min: 0, max: 100, value: 100, onInput: () => this.applyViseme() });
+    this.second = h('select', { id: 'second-viseme', on: { change: () => this.applyViseme() } }, ...visemes.map((viseme, number) => h('option', { value: number }, number === 0 ? 'Silence' : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`)));
+    this.faps = new FapSliders({ frame: options.frame, onChange: () => this.changed() });
+    this.resetAll = h('button', { type: 'button', class: 'quiet', on: { click: () => this.reset() } }, icon('reset', 16), 'Neutral face');
+    this.element = h(
+      'div',
+      { class: 'panel animate' },
+      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Visemes'), this.resetAll), this.grid.element, h('div', { class: 'blend' }, this.strength.element, h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, 'Blend with'), this.second))),
+      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Expressions'), h('span', { class: 'muted small' }, 'two at a time')), h('div', { class: 'feelings' }, ...this.makeFeelings())),
+      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Face parameters')), this.faps.element),
+    );
+    this.refresh();
+  }
+
+  /** Shows the frame as it is now, after someone else changed it. */
+  refresh(): void {
+    const { frame } = this.options;
+    this.grid.show(frame.viseme.select1 === 0 && frame.viseme.blend === 0 ? 0 : frame.viseme.select1);
+    for (const [i, feeling] of this.feelings.entries()) {
+      const intensity = expressionIntensity(frame, i + 1);
+      // 64 steps against 100: a slider that already stands on the step keeps its place under the finger.
+      if (Math.round((feeling.slider.value / 100) * blendMax) !== intensity) feeling.slider.set(Math.round((intensity / blendMax) * 100));
+      feeling.row.classList.toggle('on', intensity > 0);
+      feeling.button.setAttribute('aria-pressed', String(intensity > 0));
+    }
+    this.faps.refresh();
+    this.resetAll.disabled = isNeutral(frame);
+  }
+
+  reset(): void {
+    clearFrame(this.options.frame);
+    this.viseme = 0;
+    this.strength.set(100);
+    this.second.value = '0';
+    this.changed();
+  }
+
+  private chooseViseme(viseme: number): void {
+    this.viseme = this.viseme === viseme ? 0 : viseme;
+    this.applyViseme();
+  }
+
+  private applyViseme(): void {
+    const strength = this.strength.value / 100;
+    setViseme(this.options.frame, this.viseme, strength);
+    const second = Number(this.second.value);
+    if (second > 0) {
+      this.options.frame.viseme.select1 = this.viseme;
+      this.options.frame.viseme.select2 = second;
+      this.options.frame.viseme.blend = Math.round(strength * blendMax);
+      if (this.viseme === 0) this.options.frame.viseme.blend = Math.round((1 - strength) * blendMax);
+    }
+    this.changed();
+  }
+
+  private makeFeelings(): HTMLElement[] {
+    return expressions.slice(1).map((expression, i) => {
+      const number = i + 1;
+      const slider = new Slider({
+        label: capital(expression.name),
+        note: '%',
+        title: expression.description,
+        min: 0,
+        max: 100,
+        onInput: (value) => this.setFeeling(number, value),
+      });
+      const button = h('button', { type: 'button', class: 'feeling-button', 'data-expression': number, 'aria-pressed': 'false', 'aria-label': `${capital(expression.name)} on or off`, title: expression.description, on: { click: () => this.setFeeling(number, expressionIntensity(this.options.frame, number) > 0 ? 0 : 100) } }, expressionFace(number));
+      const row = h('div', { class: 'feeling-row' }, button, slider.element);
+      this.feelings.push({ slider, row, button });
+      return row;
+    });
+  }
+
+  private setFeeling(expression: number, percent: number): void {
+    setExpression(this.options.frame, expression, Math.round((percent / 100) * blendMax));
+    this.changed();
+  }
+
+  private changed(): void {
+    this.refresh();
+    this.options.onChange();
+  }
+}

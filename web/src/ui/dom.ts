@@ -1,0 +1,48 @@
+export type Child = Node | string | number | null | undefined | false | readonly Child[];
+
+type Handlers = { [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void };
+export interface Props {
+  class?: string;
+  on?: Handlers;
+  [attribute: string]: string | number | boolean | null | undefined | Handlers;
+}
+
+/** An element with attributes, listeners and children. `true` sets an empty attribute, `false` and null leave it out. */
+export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(props)) {
+    if (name === 'on') {
+      for (const [event, handler] of Object.entries(value as Handlers)) element.addEventListener(event, handler as EventListener);
+    } else if (value !== false && value !== null && value !== undefined) {
+      element.setAttribute(name, value === true ? '' : String(value));
+    }
+  }
+  append(element, children);
+  return element;
+}
+
+export function append(parent: Node, children: readonly Child[]): void {
+  for (const child of children) {
+    if (child === null || child === undefined || child === false) continue;
+    if (Array.isArray(child)) append(parent, child as readonly Child[]);
+    else parent.appendChild(child instanceof Node ? child : document.createTextNode(String(child)));
+  }
+}
+
+export function replace(parent: Element, ...children: Child[]): void {
+  parent.replaceChildren();
+  append(parent, children);
+}
+
+/** Changes a text only when it differs: cheap enough for the frame loop. */
+export function setText(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+const svgNamespace = 'http://www.w3.org/2000/svg';
+export function svg(tag: string, attributes: Record<string, string | number> = {}, ...children: (Element | string)[]): SVGElement {
+  const element = document.createElementNS(svgNamespace, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}

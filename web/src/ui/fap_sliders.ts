@@ -1,0 +1,84 @@
+import { fapGroups, faps, type Fap } from '@protocol/generated/mpeg4.ts';
+import { setFap, type FaceFrame } from '../face/frame.ts';
+import { h, setText } from './dom.ts';
+import { icon } from './icons.ts';
+import { fapGroupTitles, fapTitle } from './names.ts';
+import { Slider } from './slider.ts';
+
+export interface FapSlidersOptions {
+  frame: FaceFrame;
+  onChange: () => void;
+}
+
+// The kernel moves no vertices for these (pupil size, tongue roll): a slider that does nothing would be a lie.
+const withoutEffect = new Set([29, 30, 47]);
+
+/** Low-level FAPs in the standard's groups, folded away until opened. */
+export class FapSliders {
+  readonly element = h('div', { class: 'fap-groups' });
+  private readonly sliders = new Map<number, Slider>();
+  private readonly counts = new Map<number, HTMLElement>();
+  private both = true;
+
+  constructor(private readonly options: FapSlidersOptions) {
+    const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
+    this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
+    for (const group of fapGroups) if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
+  }
+
+  /** Shows the frame's values. */
+  refresh(): void {
+    for (const [number, slider] of this.sliders) slider.set(this.options.frame.faps[number]!);
+    for (const [group, count] of this.counts) {
+      const moved = faps.filter((fap) => fap.group === group && this.options.frame.faps[fap.number] !== 0).length;
+      setText(count, moved === 0 ? '' : `${moved} moved`);
+    }
+  }
+
+  private makeGroup(group: number, list: readonly Fap[]): HTMLElement {
+    const count = h('span', { class: 'badge quiet-badge' });
+    this.counts.set(group, count);
+    const title = fapGroupTitles[group] ?? `Group ${group}`;
+    const reset = h('button', {
+      type: 'button', class: 'quiet square small', 'aria-label': `Reset ${title}`, title: `Reset ${title}`,
+      on: {
+        click: (event) => {
+          event.preventDefault();
+          for (const fap of list) this.options.frame.faps[fap.number] = 0;
+          this.changed();
+        },
+      },
+    }, icon('reset', 15));
+    const body = h('div', { class: 'fap-list' });
+    const details = h('details', { class: 'fap-group', 'data-group': group }, h('summary', {}, icon('chevron', 14), h('span', { class: 'grow' }, title), count, h('span', { class: 'muted small' }, String(list.length)), reset), body);
+    // Built when first opened: 65 sliders at once are felt on a phone.
+    details.addEventListener('toggle', () => {
+      if (details.open && body.childElementCount === 0) {
+        for (const fap of list) if (!withoutEffect.has(fap.number)) body.append(this.makeSlider(fap).element);
+        this.refresh();
+      }
+    });
+    return details;
+  }
+
+  private makeSlider(fap: Fap): Slider {
+    const slider = new Slider({
+      label: fapTitle(fap.name, fap.group),
+      note: `FAP ${fap.number}`,
+      title: `${fap.description}. ${fap.name}, unit ${fap.unit ?? ''}`,
+      min: fap.usualMin,
+      max: fap.usualMax,
+      onInput: (value) => {
+        setFap(this.options.frame, fap.number, value, this.both);
+        this.changed();
+      },
+    });
+    this.sliders.set(fap.number, slider);
+    return slider;
+  }
+
+  private changed(): void {
+    this.refresh();
+    this.options.onChange();
+  }
+}

@@ -1,0 +1,176 @@
+import type { LoadedFace } from '../face/loaded_face.ts';
+import { Performer } from '../face/performer.ts';
+import type { Model } from '../net/types.ts';
+import { problemOf } from '../net/problem.ts';
+import type { Problem } from '../net/types.ts';
+import { makeMaterials } from '../view/face_materials.ts';
+import { FaceView, type DeformPath } from '../view/face_view.ts';
+import { Markers, type Marker } from '../view/markers.ts';
+import { PreviewView } from '../view/preview_view.ts';
+import { Stage } from '../view/stage.ts';
+import { Signal } from './signal.ts';
+
+export type SceneState = { kind: 'empty' } | { kind: 'loading'; title: string } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
+
+export interface SceneSources {
+  preview: (model: Model, signal: AbortSignal) => Promise<Uint8Array>;
+  face: (model: Model, signal: AbortSignal) => Promise<LoadedFace>;
+}
+
+/** What stands on the stage: the still preview with its markers, or the face that moves. */
+export class SceneView {
+  readonly stage: Stage;
+  readonly markers: Markers;
+  readonly state = new Signal<SceneState>({ kind: 'empty' });
+  /** Of the face that moves; null while there is none. */
+  readonly performer = new Signal<Performer | null>(null);
+  readonly packageBytes = new Signal(0);
+  preview: PreviewView | null = null;
+  face: FaceView | null = null;
+  private wanted: 'preview' | 'face' = 'face';
+  private path: DeformPath = 'gpu';
+  private wire = false;
+  private opening: AbortController | null = null;
+  private shown = '';
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly sources: SceneSources,
+  ) {
+    this.stage = new Stage(canvas);
+    this.markers = new Markers(this.stage.renderer.getPixelRatio());
+    this.markers.object.visible = false;
+    this.stage.scene.add(this.markers.object);
+    this.stage.onFrame((delta) => this.step(delta));
+  }
+
+  /** Before each frame: whoever drives the face writes it now. */
+  drive: (performer: Performer, deltaSeconds: number) => boolean = () => false;
+
+  /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
+  async open(model: Model | null): Promise<void> {
+    const key = model ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${model.source?.sha256 ?? ''}` : '';
+    if (key === this.shown) return;
+    const sameModel = key.split(':')[0] === this.shown.split(':')[0];
+    this.shown = key;
+    this.opening?.abort();
+    const opening = new AbortController();
+    this.opening = opening;
+    if (!model) {
+      this.clear();
+      this.state.set({ kind: 'empty' });
+      return;
+    }
+    if (model.state === 'importing') {
+      if (!sameModel) this.clear();
+      this.state.set({ kind: 'loading', title: 'Reading the file' });
+      return;
+    }
+    if (model.state === 'failed') {
+      this.clear();
+      this.state.set({ kind: 'failed', problem: model.problem ?? { type: 'about:blank', title: 'The file could not be read', status: 422 } });
+      return;
+    }
+    this.state.set({ kind: 'loading', title: 'Opening the head' });
+    try {
+      const parts = { preview: this.openPreview(model, opening.signal, sameModel), face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null) };
+      const [preview, face] = await Promise.all([parts.preview, parts.face]);
+      if (opening.signal.aborted) return;
+      this.install(preview, face, !sameModel);
+      this.state.set({ kind: 'ready' });
+    } catch (error) {
+      if (opening.signal.aborted) return;
+      this.clear();
+      this.shown = '';
+      this.state.set({ kind: 'failed', problem: problemOf(error) });
+    }
+  }
+
+  /** The still model with points on it, or the face that moves (where there is one). */
+  show(what: 'preview' | 'face'): void {
+    this.wanted = what;
+    const face = what === 'face' && this.face !== null;
+    if (this.preview) this.preview.object.visible = !face;
+    if (this.face) this.face.object.visible = face;
+    this.markers.object.visible = what === 'preview' && this.preview !== null;
+    this.stage.invalidate();
+  }
+
+  setMarkers(markers: Marker[]): void {
+    this.markers.set(markers);
+    this.stage.invalidate();
+  }
+
+  set wireframe(on: boolean) {
+    this.wire = on;
+    if (this.preview) this.preview.wireframe = on;
+    if (this.face) this.face.wireframe = on;
+    this.stage.invalidate();
+  }
+
+  get deformPath(): DeformPath {
+    return this.path;
+  }
+
+  set deformPath(path: DeformPath) {
+    this.path = path;
+    this.face?.usePath(path);
+    const performer = this.performer.value;
+    if (performer) this.face?.setPose(performer.pose);
+    this.stage.invalidate();
+  }
+
+  private step(delta: number): boolean {
+    const { face } = this;
+    const performer = this.performer.value;
+    if (!face || !performer || !face.object.visible) return false;
+    const driven = this.drive(performer, delta);
+    if (!performer.step(delta) && !driven) return false;
+    face.setPose(performer.pose);
+    return true;
+  }
+
+  private async openPreview(model: Model, signal: AbortSignal, keep: boolean): Promise<PreviewView> {
+    if (keep && this.preview) return this.preview;
+    return PreviewView.load(await this.sources.preview(model, signal));
+  }
+
+  private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
+    const loaded = await this.sources.face(model, signal);
+    const materials = await makeMaterials(loaded.materials);
+    return { view: new FaceView(loaded.mesh, materials, (pose) => loaded.deform(pose)), loaded };
+  }
+
+  private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null, reframe: boolean): void {
+    if (preview !== this.preview) {
+      this.preview?.dispose();
+      this.preview = preview;
+      this.stage.scene.add(preview.object);
+    }
+    this.face?.dispose();
+    this.face = face?.view ?? null;
+    this.packageBytes.set(face?.loaded.packageBytes ?? 0);
+    if (face) {
+      this.stage.scene.add(face.view.object);
+      face.view.usePath(this.path);
+      const performer = new Performer(face.loaded);
+      face.view.setPose(performer.pose);
+      this.performer.set(performer);
+    } else {
+      this.performer.set(null);
+    }
+    this.wireframe = this.wire;
+    if (reframe) this.stage.frameObject(preview.object);
+    this.show(this.wanted);
+  }
+
+  private clear(): void {
+    this.preview?.dispose();
+    this.face?.dispose();
+    this.preview = null;
+    this.face = null;
+    this.packageBytes.set(0);
+    this.performer.set(null);
+    this.show(this.wanted);
+  }
+}

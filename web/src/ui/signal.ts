@@ -1,0 +1,28 @@
+/** A value that tells when it changes. */
+export class Signal<T> {
+  private readonly listeners = new Set<(value: T) => void>();
+
+  constructor(private current: T) {}
+
+  get value(): T {
+    return this.current;
+  }
+
+  set(value: T): void {
+    if (Object.is(value, this.current)) return;
+    this.current = value;
+    this.notify();
+  }
+
+  /** For values changed in place. */
+  notify(): void {
+    for (const listener of [...this.listeners]) listener(this.current);
+  }
+
+  /** Calls at once and on every change. */
+  watch(listener: (value: T) => void): () => void {
+    this.listeners.add(listener);
+    listener(this.current);
+    return () => this.listeners.delete(listener);
+  }
+}

@@ -1,0 +1,51 @@
+import { h } from './dom.ts';
+
+export interface SliderOptions {
+  label: string;
+  /** Shown small after the label. */
+  note?: string;
+  title?: string;
+  min: number;
+  max: number;
+  step?: number;
+  value?: number;
+  onInput: (value: number) => void;
+}
+
+/** A range with its number beside it. The fill starts at zero; a double click goes back there. */
+export class Slider {
+  readonly element: HTMLElement;
+  private readonly range: HTMLInputElement;
+  private readonly number: HTMLInputElement;
+
+  constructor(private readonly options: SliderOptions) {
+    const { label, note, title, min, max, step = 1 } = options;
+    this.range = h('input', { type: 'range', min, max, step, 'aria-label': label, on: { input: () => this.take(Number(this.range.value)), dblclick: () => this.take(0) } });
+    this.number = h('input', { type: 'number', min, max, step, 'aria-label': `${label}, value`, on: { change: () => this.take(Number(this.number.value) || 0) } });
+    this.element = h('div', { class: 'slider', title: title ?? null }, h('span', { class: 'slider-label' }, label, note ? h('small', {}, note) : null), this.number, this.range);
+    this.set(options.value ?? 0);
+  }
+
+  get value(): number {
+    return Number(this.range.value);
+  }
+
+  /** Shows a value without telling anyone. */
+  set(value: number): void {
+    const { min, max } = this.options;
+    const shown = Math.round(value * 100) / 100;
+    if (document.activeElement !== this.number) this.number.value = String(shown);
+    this.range.value = String(value);
+    const place = (at: number): number => Math.min(100, Math.max(0, ((at - min) / (max - min)) * 100));
+    const zero = place(Math.min(Math.max(0, min), max));
+    this.range.style.setProperty('--from', `${Math.min(zero, place(value))}%`);
+    this.range.style.setProperty('--to', `${Math.max(zero, place(value))}%`);
+    this.element.classList.toggle('moved', value !== 0);
+  }
+
+  private take(value: number): void {
+    const bounded = Math.min(this.options.max, Math.max(this.options.min, value));
+    this.set(bounded);
+    this.options.onInput(bounded);
+  }
+}

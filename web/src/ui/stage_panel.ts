@@ -1,0 +1,178 @@
+import { adviceFor } from '../net/problem.ts';
+import type { ViewName } from '../view/stage.ts';
+import { h, replace, setText } from './dom.ts';
+import { icon, type IconName } from './icons.ts';
+import { pointById } from '../face/feature_points.ts';
+import type { PointsModel } from './points_model.ts';
+import type { SceneView } from './scene.ts';
+import type { Studio } from './studio.ts';
+
+const views: { name: ViewName; label: string; key: string }[] = [
+  { name: 'front', label: 'Front', key: '1' },
+  { name: 'three-quarter', label: 'Three-quarter', key: '2' },
+  { name: 'left', label: 'Left', key: '3' },
+  { name: 'right', label: 'Right', key: '4' },
+];
+
+/** The picture with its tools: views, wireframe, deformation path, and placing feature points with the pointer. */
+export class StagePanel {
+  readonly element: HTMLElement;
+  private readonly overlay = h('div', { class: 'stage-overlay' });
+  private readonly label = h('div', { class: 'marker-label', hidden: true });
+  private readonly hint = h('div', { class: 'stage-hint', hidden: true });
+  private readonly figures = h('output', { class: 'figures', 'aria-label': 'Display rate' });
+  private down: { x: number; y: number; time: number } | null = null;
+  private lastFigures = 0;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly scene: SceneView,
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+    driver: HTMLElement,
+  ) {
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'application');
+    canvas.setAttribute('aria-label', 'The head. Arrow keys turn it, plus and minus zoom, 1 to 4 choose a view.');
+    this.element = h('div', { class: 'stage-holder' }, canvas, this.label, h('div', { class: 'stage-top' }, driver, this.hint), this.overlay, this.makeTools(), this.figures);
+    canvas.addEventListener('pointerdown', (event) => (this.down = { x: event.clientX, y: event.clientY, time: event.timeStamp }));
+    canvas.addEventListener('pointerup', (event) => this.click(event));
+    canvas.addEventListener('pointermove', (event) => this.hover(event));
+    canvas.addEventListener('pointerleave', () => (this.label.hidden = true));
+    canvas.addEventListener('keydown', (event) => this.key(event));
+    scene.state.watch(() => this.drawOverlay());
+    studio.activities.watch(() => this.drawOverlay());
+    const hint = (): void => this.drawHint();
+    studio.tab.watch(hint);
+    points.chosen.watch(hint);
+    scene.stage.onFrame(() => {
+      this.drawFigures();
+      return false;
+    });
+  }
+
+  private makeTools(): HTMLElement {
+    const wire = toggle('Wireframe', 'wire', (on) => (this.scene.wireframe = on));
+    const path = h('button', { type: 'button', class: 'tool path', title: 'Where the vertices are moved: by the graphics card or by the WebAssembly kernel', 'aria-label': 'Deform on the GPU', on: {} }, 'GPU');
+    path.addEventListener('click', () => {
+      this.scene.deformPath = this.scene.deformPath === 'gpu' ? 'wasm' : 'gpu';
+      const gpu = this.scene.deformPath === 'gpu';
+      path.textContent = gpu ? 'GPU' : 'WASM';
+      path.setAttribute('aria-label', gpu ? 'Deform on the GPU' : 'Deform with WebAssembly');
+    });
+    return h(
+      'div',
+      { class: 'tools', role: 'toolbar', 'aria-label': 'View' },
+      views.map(({ name, label, key }) => h('button', { type: 'button', class: 'tool', title: `${label} view (${key})`, on: { click: () => this.scene.stage.look(name) } }, name === 'three-quarter' ? '3/4' : label)),
+      h('span', { class: 'divider' }),
+      wire,
+      path,
+    );
+  }
+
+  private click(event: PointerEvent): void {
+    const { down } = this;
+    this.down = null;
+    if (!down || event.button !== 0 || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 5 || event.timeStamp - down.time > 600) return;
+    if (this.studio.tab.value !== 'points' || !this.scene.preview) return;
+    const { x, y, width, height } = this.place(event);
+    if (this.points.chosen.value === null) {
+      const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 14);
+      if (marker) this.points.chosen.set(marker.id);
+      return;
+    }
+    const pick = this.scene.preview.pick((x / width) * 2 - 1, 1 - (y / height) * 2, this.scene.stage.camera);
+    if (pick) this.points.place(pick.fileVertex, pick.position);
+  }
+
+  private hover(event: PointerEvent): void {
+    if (this.studio.tab.value !== 'points' || event.buttons !== 0) {
+      this.label.hidden = true;
+      return;
+    }
+    const { x, y, width, height } = this.place(event);
+    const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 12);
+    this.label.hidden = marker === null;
+    this.canvas.classList.toggle('placing', this.points.chosen.value !== null);
+    if (!marker) return;
+    setText(this.label, `${marker.id}  ${pointById(marker.id)?.name ?? ''}`);
+    const at = this.scene.markers.project(marker.position, this.scene.stage.camera, width, height);
+    this.label.style.translate = `${Math.min(Math.max(at.x, 90), width - 90)}px ${at.y}px`;
+  }
+
+  private place(event: PointerEvent): { x: number; y: number; width: number; height: number } {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
+  }
+
+  private key(event: KeyboardEvent): void {
+    const { stage } = this.scene;
+    const turn = 0.12;
+    const chosen = this.points.chosen.value;
+    const actions: Record<string, () => void> = {
+      ArrowLeft: () => stage.orbit(-turn, 0),
+      ArrowRight: () => stage.orbit(turn, 0),
+      ArrowUp: () => stage.orbit(0, -turn),
+      ArrowDown: () => stage.orbit(0, turn),
+      '+': () => stage.zoom(0.9),
+      '=': () => stage.zoom(0.9),
+      '-': () => stage.zoom(1.1),
+      Escape: () => this.points.chosen.set(null),
+    };
+    if (chosen !== null) actions['Delete'] = actions['Backspace'] = () => this.points.remove(chosen);
+    views.forEach(({ name, key }) => (actions[key] = () => stage.look(name)));
+    const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  private drawHint(): void {
+    const id = this.points.chosen.value;
+    this.hint.hidden = this.studio.tab.value !== 'points' || this.scene.preview === null;
+    this.canvas.classList.toggle('placing', !this.hint.hidden && id !== null);
+    if (this.hint.hidden) return;
+    const name = id === null ? '' : (pointById(id)?.name ?? '');
+    replace(this.hint, icon('point', 16), h('span', {}, id === null ? 'Choose a point, then click on the head.' : `Click where ${id} lies: ${name}`));
+  }
+
+  private drawOverlay(): void {
+    this.drawHint();
+    const state = this.scene.state.value;
+    const model = this.studio.selected.value;
+    const activity = model ? this.studio.activities.value.get(model.id) : undefined;
+    this.overlay.hidden = state.kind === 'ready';
+    if (state.kind === 'ready') return;
+    if (state.kind === 'empty') replace(this.overlay, h('div', { class: 'stage-card' }, icon('head', 40), h('h2', {}, 'No head on the stage'), h('p', {}, 'Choose one from the list, or drop a GLB, OBJ, PLY or STL file anywhere on this page.')));
+    if (state.kind === 'loading') {
+      const percent = activity?.progress === null || activity?.progress === undefined ? '' : ` ${Math.round(activity.progress * 100)} %`;
+      replace(this.overlay, h('div', { class: 'stage-card', role: 'status' }, h('div', { class: 'spinner', 'aria-hidden': 'true' }), h('p', {}, `${activity?.title ?? state.title}…${percent}`)));
+    }
+    if (state.kind === 'failed') {
+      const { problem } = state;
+      const advice = adviceFor(problem);
+      replace(
+        this.overlay,
+        h('div', { class: 'stage-card error', role: 'alert' }, icon('warning', 32), h('h2', {}, problem.title), problem.detail ? h('p', {}, problem.detail) : null, problem.pointer ? h('code', {}, problem.pointer) : null, advice ? h('p', { class: 'advice' }, advice) : null, model && model.state !== 'failed' ? h('button', { type: 'button', on: { click: () => void this.scene.open(model) } }, 'Try again') : null),
+      );
+    }
+  }
+
+  private drawFigures(): void {
+    const now = performance.now();
+    if (now - this.lastFigures < 500) return;
+    this.lastFigures = now;
+    const rate = this.scene.stage.framesPerSecond;
+    setText(this.figures, rate > 0 ? `${rate} fps` : '');
+  }
+}
+
+function toggle(label: string, name: IconName, change: (on: boolean) => void): HTMLElement {
+  const button = h('button', { type: 'button', class: 'tool', 'aria-label': label, title: label, 'aria-pressed': 'false' }, icon(name));
+  button.addEventListener('click', () => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    button.setAttribute('aria-pressed', String(on));
+    change(on);
+  });
+  return button;
+}

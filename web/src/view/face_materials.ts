@@ -1,0 +1,51 @@
+import { Color, LinearSRGBColorSpace, MeshStandardMaterial, SRGBColorSpace, Texture, Vector2, RepeatWrapping, type Material } from 'three';
+import { studioMaterial } from './materials.ts';
+
+/** What the view needs to know of a material; images as encoded files. */
+export interface MaterialFacts {
+  name: string;
+  baseColor: readonly [number, number, number, number];
+  metallic: number;
+  roughness: number;
+  alphaMode: 'opaque' | 'mask' | 'blend';
+  alphaCutoff: number;
+  doubleSided: boolean;
+  baseColorImage: Blob | null;
+  normalImage: Blob | null;
+}
+
+export function makeMaterials(facts: readonly MaterialFacts[]): Promise<Material[]> {
+  return Promise.all(facts.map(makeMaterial));
+}
+
+async function makeMaterial(facts: MaterialFacts): Promise<Material> {
+  const [r, g, b, a] = facts.baseColor;
+  const material = new MeshStandardMaterial({
+    name: facts.name,
+    color: new Color().setRGB(r, g, b, LinearSRGBColorSpace),
+    metalness: facts.metallic,
+    roughness: facts.roughness,
+    opacity: facts.alphaMode === 'blend' ? a : 1,
+    transparent: facts.alphaMode === 'blend',
+    alphaTest: facts.alphaMode === 'mask' ? facts.alphaCutoff : 0,
+  });
+  if (facts.baseColorImage) material.map = await makeTexture(facts.baseColorImage, true);
+  if (facts.normalImage) {
+    material.normalMap = await makeTexture(facts.normalImage, false);
+    // Without tangents three.js derives the frame from the picture; glTF's green points up.
+    material.normalScale = new Vector2(1, -1);
+  }
+  return studioMaterial(material);
+}
+
+async function makeTexture(image: Blob, color: boolean): Promise<Texture> {
+  const bitmap = await createImageBitmap(image, { colorSpaceConversion: 'none' });
+  const texture = new Texture(bitmap);
+  texture.flipY = false;
+  texture.wrapS = RepeatWrapping;
+  texture.wrapT = RepeatWrapping;
+  texture.anisotropy = 4;
+  texture.colorSpace = color ? SRGBColorSpace : '';
+  texture.needsUpdate = true;
+  return texture;
+}
