@@ -2,6 +2,7 @@ import './ui/styles/index.css';
 import { neutralFrame } from './face/frame.ts';
 import { loadFace } from './face/package.ts';
 import { Api } from './net/api.ts';
+import { requestBytes } from './net/http.ts';
 import { AnimatePanel } from './ui/animate_panel.ts';
 import { h } from './ui/dom.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
@@ -33,7 +34,8 @@ function main(root: HTMLElement): void {
   const canvas = h('canvas', { class: 'canvas' });
   const scene = new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
-    face: (model, signal) => loadFace(api, model, signal),
+    face: (model, signal) =>
+      loadFace({ artefact: (name) => api.artefact(model.id, name, signal), image: (sha256) => api.content(sha256, signal), kernel: kernelModule }),
   });
 
   const animate = new AnimatePanel({
@@ -111,6 +113,15 @@ function makeMarkers(points: PointsModel): Marker[] {
     markers.push({ id, position: point.position, tone });
   }
   return markers;
+}
+
+let compiledKernel: Promise<WebAssembly.Module> | null = null;
+
+/** The WebAssembly kernel, fetched and compiled once. */
+function kernelModule(): Promise<WebAssembly.Module> {
+  compiledKernel ??= requestBytes('./kernel.wasm').then((bytes) => WebAssembly.compile(bytes as Uint8Array<ArrayBuffer>));
+  compiledKernel.catch(() => (compiledKernel = null));
+  return compiledKernel;
 }
 
 /** The browser tests look inside: pose by pose, GPU against WASM. Nothing on the page uses this. */

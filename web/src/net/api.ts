@@ -51,6 +51,11 @@ export class Api {
     return requestBytes(`${this.base}/v1/models/${segment(id)}/${name}`, signal);
   }
 
+  /** Bytes by their SHA-256: images of a package. */
+  content(sha256: string, signal?: AbortSignal): Promise<Uint8Array> {
+    return requestBytes(`${this.base}/v1/artefacts/${segment(sha256)}`, signal);
+  }
+
   getFeaturePoints(id: string): Promise<Answer<FeaturePointSet>> {
     return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points`);
   }
