@@ -36,7 +36,7 @@ let draco: Promise<DracoModule> | null = null;
 function loadDraco(base: string): Promise<DracoModule> {
   const scope = self as unknown as { importScripts(url: string): void; DracoDecoderModule(options: object): Promise<DracoModule> };
   scope.importScripts(`${base}draco_wasm_wrapper.js`);
-  return scope.DracoDecoderModule({ locateFile: (name: string) => base + name });
+  return scope.DracoDecoderModule({ locateFile: () => `${base}draco_decoder.wasm` });
 }
 
 function decodeDraco(module: DracoModule, { bytes, attributes }: DracoRequest): Record<string, Float32Array | Uint32Array | Uint8Array | null> {
