@@ -30,7 +30,7 @@ function main(root: HTMLElement): void {
   const live = new LiveModel(studio);
   const points = new PointsModel(studio);
   const frame = neutralFrame();
-  const streamed = neutralFrame();
+  const between = { from: frame, to: frame, share: 0 };
   const canvas = h('canvas', { class: 'canvas' });
   const scene = new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
@@ -60,8 +60,8 @@ function main(root: HTMLElement): void {
   acceptDrops(layout, (files) => void studio.upload(files));
 
   scene.drive = (performer) => {
-    if (!live.driving.value || !live.reader?.read(streamed, performance.now())) return false;
-    performer.show(streamed);
+    if (!live.driving.value || !live.subscriber?.sample(performance.now(), between)) return false;
+    performer.showBetween(between.from, between.to, between.share);
     return true;
   };
   live.driving.watch((driving) => {

@@ -1,5 +1,5 @@
 import { problemOf } from '../net/problem.ts';
-import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveFrameReader, type LiveStats } from '../net/live.ts';
+import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveStats } from '../net/live.ts';
 import type { Problem, StreamInfo } from '../net/types.ts';
 import type { FaceFrame } from '../face/frame.ts';
 import { Signal } from './signal.ts';
@@ -19,18 +19,14 @@ export class LiveModel {
   readonly sendStatus = new Signal<LinkStatus>(off);
   /** Whether the face shows the stream (or what is done by hand, while the stream goes on underneath). */
   readonly driving = new Signal(false);
-  private subscriber: LiveSubscriber | null = null;
+  /** What the stream says now, to be sampled once per displayed frame. */
+  subscriber: LiveSubscriber | null = null;
   private publisher: LivePublisher | null = null;
 
   constructor(private readonly studio: Studio) {}
 
   get stats(): LiveStats {
     return this.subscriber?.stats ?? noStats;
-  }
-
-  /** What to show now, or null while nothing has come. */
-  get reader(): LiveFrameReader | null {
-    return this.subscriber;
   }
 
   async refresh(): Promise<void> {

@@ -163,7 +163,8 @@ export class StagePanel {
     if (now - this.lastFigures < 500) return;
     this.lastFigures = now;
     const rate = this.scene.stage.framesPerSecond;
-    setText(this.figures, rate > 0 ? `${rate} fps` : '');
+    // At rest the stage draws only on demand: a rate would say nothing.
+    setText(this.figures, rate > 4 ? `${rate} fps` : '');
   }
 }
 

@@ -51,7 +51,7 @@ export class Stage {
   private secondStart = 0;
   private framesInSecond = 0;
   private readonly key = new DirectionalLight(0xfff1e2, 2.1);
-  private readonly rim = new DirectionalLight(0xbfd4ff, 1.5);
+  private readonly rim = new DirectionalLight(0xdfe6ff, 0.9);
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
@@ -112,7 +112,7 @@ export class Stage {
     const [x, y, z] = directions[view];
     const half = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(1, this.camera.aspect * 1.18);
-    const distance = (this.radius * 1.16) / Math.tan(half) / narrow;
+    const distance = (this.radius * 1.3) / Math.tan(half) / narrow;
     this.flightTo.set(x, y, z).normalize().multiplyScalar(distance).add(this.center);
     this.controls.target.copy(this.center);
     if (atOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
@@ -167,7 +167,8 @@ export class Stage {
     this.key.castShadow = true;
     const shadow = this.key.shadow;
     shadow.mapSize.set(1024, 1024);
-    shadow.radius = 5;
+    shadow.radius = 7;
+    shadow.intensity = 0.75;
     shadow.bias = -0.0006;
     shadow.normalBias = r * 0.012;
     const camera = shadow.camera;
