@@ -1,0 +1,139 @@
+// What holds for every format: the quad comes out whole, and no damage to a file gets past the readers.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/import/test_files.h"
+
+namespace semblante::test {
+namespace {
+
+/// The promises of Model, checked from outside.
+void expect_sound(const Model& model, const std::string& what) {
+  ASSERT_FALSE(model.triangles.empty()) << what;
+  for (const glm::vec3& p : model.positions) {
+    ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << what;
+  }
+  for (const Triangle& t : model.triangles) {
+    ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) << what;
+    for (const std::uint32_t index : t) ASSERT_LT(index, model.positions.size()) << what;
+  }
+  const auto expect_corners = [&](const std::vector<Triangle>& corners, std::size_t count) {
+    ASSERT_TRUE(corners.empty() || corners.size() == model.triangles.size()) << what;
+    ASSERT_EQ(corners.empty(), count == 0) << what;
+    for (const Triangle& t : corners) {
+      for (const std::uint32_t index : t) ASSERT_TRUE(index == Model::no_index || index < count) << what;
+    }
+  };
+  expect_corners(model.uv_triangles, model.uvs.size());
+  expect_corners(model.normal_triangles, model.normals.size());
+  for (const Triangle& t : model.normal_triangles) {
+    for (const std::uint32_t index : t) {
+      if (index == Model::no_index) continue;
+      const glm::vec3& n = model.normals[index];
+      ASSERT_NEAR(std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z), 1.0F, 1e-5F) << what;
+    }
+  }
+  std::uint32_t covered = 0;
+  for (const Primitive& primitive : model.primitives) {
+    ASSERT_EQ(primitive.first_triangle, covered) << what;
+    ASSERT_LT(primitive.material, static_cast<int>(model.materials.size())) << what;
+    covered += primitive.triangle_count;
+  }
+  ASSERT_EQ(covered, model.triangles.size()) << what;
+  for (const Material& material : model.materials) {
+    ASSERT_LT(material.base_color_image, static_cast<int>(model.images.size())) << what;
+    ASSERT_LT(material.normal_image, static_cast<int>(model.images.size())) << what;
+  }
+}
+
+TEST(AnyFormat, Quad_HasFourVerticesAndTwoTriangles_InEveryFormat) {
+  for (const NamedFile& file : all_quads()) {
+    const auto model = import_model(file.bytes, file.format);
+    ASSERT_TRUE(model) << file.name << ": " << model.error().where << ": " << model.error().message;
+    expect_sound(*model, file.name);
+    EXPECT_EQ(model->positions.size(), 4U) << file.name;
+    EXPECT_EQ(model->triangles.size(), 2U) << file.name;
+    glm::vec3 sum(0.0F);
+    for (const glm::vec3& p : model->positions) sum += p;
+    // Draco quantizes to 11 bits or so of the box; the others are exact.
+    EXPECT_NEAR(sum.x, 2.0F, 1e-3F) << file.name;
+    EXPECT_NEAR(sum.y, 2.0F, 1e-3F) << file.name;
+    EXPECT_NEAR(sum.z, 0.0F, 1e-3F) << file.name;
+  }
+}
+
+TEST(AnyFormat, Detection_NeedsNoName_WhereTheBytesSpeak) {
+  for (const NamedFile& file : all_quads()) {
+    EXPECT_EQ(detect_format(file.bytes, ""), file.format) << file.name;
+    EXPECT_EQ(detect_format(file.bytes, "wrong.txt"), file.format) << file.name;
+  }
+  EXPECT_EQ(detect_format(to_bytes(quad_gltf_json()), "x"), ModelFormat::gltf);
+  EXPECT_EQ(detect_format(to_bytes("\xEF\xBB\xBF\n  { }"), ""), ModelFormat::gltf);
+  EXPECT_EQ(detect_format(to_bytes("hello"), "head.OBJ"), ModelFormat::obj);
+  EXPECT_EQ(detect_format(to_bytes("hello"), "head.txt"), std::nullopt);
+  EXPECT_EQ(detect_format({}, ""), std::nullopt);
+  EXPECT_EQ(detect_format({}, "head.glb"), ModelFormat::glb);
+}
+
+TEST(AnyFormat, EmptyFile_IsRefused_InEveryFormat) {
+  for (const ModelFormat format : {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip, ModelFormat::obj,
+                                   ModelFormat::ply, ModelFormat::stl}) {
+    EXPECT_FALSE(import_model({}, format)) << to_string(format);
+    EXPECT_FALSE(import_model(Bytes{0}, format)) << to_string(format);
+    EXPECT_FALSE(import_model(Bytes(1000, 0xFF), format)) << to_string(format);
+  }
+}
+
+TEST(AnyFormat, Limits_AreKept_InEveryFormat) {
+  for (const NamedFile& file : all_quads()) {
+    ImportLimits limits;
+    limits.max_vertices = 3;
+    auto model = import_model(file.bytes, file.format, limits);
+    EXPECT_FALSE(model) << file.name;
+    limits = {};
+    limits.max_triangles = 1;
+    model = import_model(file.bytes, file.format, limits);
+    ASSERT_FALSE(model) << file.name;
+    EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::too_large)) << file.name;
+    limits = {};
+    limits.max_file_bytes = file.bytes.size() - 1;
+    model = import_model(file.bytes, file.format, limits);
+    ASSERT_FALSE(model) << file.name;
+    EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::too_large)) << file.name;
+  }
+}
+
+TEST(AnyFormat, EveryPrefix_IsAModelOrAnError_NeverACrash) {
+  for (const NamedFile& file : all_quads()) {
+    for (std::size_t size = 0; size < file.bytes.size(); ++size) {
+      // A copy of exactly this size, so that a read past its end is one past an allocation.
+      const Bytes prefix(file.bytes.begin(), file.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      const auto model = import_model(prefix, file.format);
+      if (model) expect_sound(*model, file.name + " cut at " + std::to_string(size));
+      const bool is_text = file.format == ModelFormat::obj || file.name == "ply_text" || file.name == "stl_text";
+      // A text may lose its last line end, or the tail of a number, and say something else that is valid.
+      if (!is_text) {
+        EXPECT_FALSE(model) << file.name << " cut at " << size;
+      }
+    }
+  }
+}
+
+TEST(AnyFormat, EveryChangedByte_IsAModelOrAnError_NeverACrash) {
+  for (const NamedFile& file : all_quads()) {
+    Bytes bytes = file.bytes;
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      const std::uint8_t kept = bytes[at];
+      for (const unsigned flip : {0x01U, 0x02U, 0x04U, 0x08U, 0x10U, 0x20U, 0x40U, 0x80U, 0xFFU}) {
+        bytes[at] = static_cast<std::uint8_t>(kept ^ flip);
+        const auto model = import_model(bytes, file.format);
+        if (model) expect_sound(*model, file.name + " changed at " + std::to_string(at));
+      }
+      bytes[at] = kept;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace semblante::test
