@@ -1,0 +1,235 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/import/zip_archive.h"
+#include "tests/unit/import/test_files.h"
+
+namespace semblante::test {
+namespace {
+
+struct Invalid {
+  const char* name;
+  const char* what;  ///< what to change in the valid text
+  const char* with;
+  ErrorCode code;
+  const char* where;
+};
+void PrintTo(const Invalid& invalid, std::ostream* out) { *out << invalid.name; }
+
+std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+void expect_refused(const Result<Model>& model, const Invalid& invalid) {
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(invalid.code)) << model.error().message;
+  EXPECT_EQ(model.error().where, invalid.where) << model.error().message;
+}
+
+class InvalidPly : public ::testing::TestWithParam<Invalid> {};
+
+TEST_P(InvalidPly, IsRefused_NamingThePlace) {
+  const std::string text = replaced(text_of(quad_ply_text()), GetParam().what, GetParam().with);
+  expect_refused(import_model(to_bytes(text), ModelFormat::ply), GetParam());
+}
+
+const Invalid invalid_plys[] = {
+    {"NoMagic", "ply\n", "plx\n", ErrorCode::malformed, "line 1"},
+    {"UnknownFormat", "ascii", "ebcdic", ErrorCode::unsupported, "line 2"},
+    {"NoFormat", "format ascii 1.0", "comment", ErrorCode::missing, "line 12"},
+    {"NoEndOfHeader", "end_header", "comment", ErrorCode::malformed, "line 13"},
+    {"UnknownHeaderLine", "comment", "remark", ErrorCode::malformed, "line 3"},
+    {"CountIsText", "vertex 4", "vertex four", ErrorCode::malformed, "line 4"},
+    {"CountIsNegative", "vertex 4", "vertex -4", ErrorCode::malformed, "line 4"},
+    {"CountBeyond64Bits", "vertex 4", "vertex 99999999999999999999", ErrorCode::malformed, "line 4"},
+    {"CountOfBillions", "vertex 4", "vertex 4000000000", ErrorCode::truncated, "line 12"},
+    {"TooManyVertices", "vertex 4", "vertex 5", ErrorCode::truncated, "line 17"},
+    {"TooManyFaces", "face 1", "face 2", ErrorCode::truncated, "line 17"},
+    {"FacesOfBillions", "face 1", "face 18446744073709551615", ErrorCode::truncated, "line 16"},
+    {"UnknownType", "float x", "quad x", ErrorCode::malformed, "line 5"},
+    {"ListOfFloatCount", "list uchar", "list float", ErrorCode::malformed, "line 11"},
+    {"PropertyBeforeElement", "comment a quad", "property int a", ErrorCode::malformed, "line 3"},
+    {"NoX", "float x", "float w", ErrorCode::missing, ""},
+    {"NoVertices", "element vertex", "element point", ErrorCode::missing, ""},
+    {"VerticesTwice", "element face", "element vertex", ErrorCode::malformed, ""},
+    {"NoFaceList", "vertex_indices", "corners", ErrorCode::missing, ""},
+    {"NoFaces", "face 1", "edge 1", ErrorCode::empty, ""},
+    {"CoordinateIsText", "1 1 0 1 1", "1 one 0 1 1", ErrorCode::malformed, "line 15"},
+    {"CoordinateIsNaN", "1 1 0 1 1", "1 nan 0 1 1", ErrorCode::not_finite, "line 15"},
+    {"CoordinateIsBeyondFloat", "1 1 0 1 1", "1 1e39 0 1 1", ErrorCode::not_finite, "line 15"},
+    {"CoordinateIsBeyondDouble", "1 1 0 1 1", "1 1e999 0 1 1", ErrorCode::not_finite, "line 15"},
+    {"ListTooLong", "4 0 1 2 3", "255 0 1 2 3", ErrorCode::out_of_range, "line 17"},
+    {"ListNegative", "4 0 1 2 3", "-4 0 1 2 3", ErrorCode::out_of_range, "line 17"},
+    {"ListOfFraction", "4 0 1 2 3", "3.5 0 1 2 3", ErrorCode::out_of_range, "line 17"},
+    {"IndexNegative", "4 0 1 2 3", "4 0 1 2 -1", ErrorCode::out_of_range, "line 17"},
+    {"IndexTooLarge", "4 0 1 2 3", "4 0 1 2 4", ErrorCode::out_of_range, "face 0"},
+    {"IndexHuge", "4 0 1 2 3", "4 0 1 2 4e18", ErrorCode::out_of_range, "line 17"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Ply, InvalidPly, ::testing::ValuesIn(invalid_plys),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(Ply, EverythingWeRead_ComesOutAsWritten) {
+  const auto model = import_model(
+      to_bytes("ply\r\nformat ascii 1.0\r\nelement material 1\r\nproperty int shade\r\nelement vertex 4\r\n"
+               "property double z\r\nproperty float y\r\nproperty float x\r\nproperty uchar red\r\n"
+               "property float nx\r\nproperty float ny\r\nproperty float nz\r\n"
+               "property list uchar float extra\r\nproperty float u\r\nproperty float v\r\n"
+               "element face 3\r\nproperty float quality\r\nproperty list int uint vertex_index\r\n"
+               "property list uchar float texcoord\r\nelement edge 0\r\nproperty int a\r\nend_header\r\n"
+               "7\r\n"
+               "0 0 0 255  0 0 3  2 1 1  0.25 0.25\r\n"
+               "0 0 1 255  0 0 1  0      1 0\r\n"
+               "0 1 1 255  0 0 1  1 5    1 1\r\n"
+               "1e-400 1 0 255  0 0 1  0    0 1\r\n"
+               "0.5 3 0 1 2  2 9 9\r\n0.5 2 0 1  0\r\n0.5 3 0 2 3  0\r\n"),
+      ModelFormat::ply);
+  ASSERT_TRUE(model) << model.error().where << ": " << model.error().message;
+  EXPECT_EQ(model->positions[2], glm::vec3(1, 1, 0));
+  EXPECT_EQ(model->positions[3], glm::vec3(0, 1, 0));
+  EXPECT_EQ(model->normals[0], glm::vec3(0, 0, 1));
+  EXPECT_EQ(model->uvs[0], glm::vec2(0.25F, 0.75F));
+  EXPECT_EQ(model->triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(model->uv_triangles, model->triangles);
+  EXPECT_EQ(model->warnings.size(), 1U);  // the face of two corners
+}
+
+TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
+  Packer nan;
+  nan.put(std::bit_cast<float>(0x7FC00000U));
+  Bytes bytes = quad_ply_binary(std::endian::little);
+  // The first vertex begins behind the header: a double x, then y.
+  const std::size_t at = text_of(bytes).find("end_header\n") + 11 + 8;
+  std::copy(nan.bytes.begin(), nan.bytes.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  const auto model = import_model(bytes, ModelFormat::ply);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::not_finite));
+}
+
+class InvalidStl : public ::testing::TestWithParam<Invalid> {};
+
+TEST_P(InvalidStl, IsRefused_NamingTheLine) {
+  const std::string text = replaced(
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+      "a\n",
+      GetParam().what, GetParam().with);
+  expect_refused(import_model(to_bytes(text), ModelFormat::stl), GetParam());
+}
+
+const Invalid invalid_stls[] = {
+    {"NoEnd", "endsolid a\n", "", ErrorCode::truncated, "line 8"},
+    {"FacetOfTwo", "vertex 1 0 0\n", "", ErrorCode::malformed, "line 7"},
+    {"FacetOfFour", "vertex 1 0 0\n", "vertex 1 0 0\nvertex 1 1 0\n", ErrorCode::malformed, "line 7"},
+    {"CoordinateIsText", "vertex 1 0 0", "vertex 1 O 0", ErrorCode::malformed, "line 5"},
+    {"CoordinateIsMissing", "vertex 1 0 0", "vertex 1 0", ErrorCode::malformed, "line 5"},
+    {"CoordinateIsNaN", "vertex 1 0 0", "vertex nan 0 0", ErrorCode::not_finite, "line 5"},
+    {"UnknownWord", "endloop", "end loop", ErrorCode::malformed, "line 7"},
+    {"OnlyDegenerate", "vertex 1 0 0", "vertex 0 0 0", ErrorCode::empty, ""},
+};
+
+INSTANTIATE_TEST_SUITE_P(Stl, InvalidStl, ::testing::ValuesIn(invalid_stls),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(Stl, BinaryCount_BeyondItsBytes_IsRefused_BeforeAllocating) {
+  for (const std::uint32_t count : {3U, 0x7FFFFFFFU, 0xFFFFFFFFU}) {
+    Bytes bytes = quad_stl_binary();
+    std::memcpy(bytes.data() + 80, &count, 4);
+    const auto model = import_model(bytes, ModelFormat::stl);
+    ASSERT_FALSE(model);
+    EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::truncated));
+    EXPECT_EQ(model.error().where, "byte 80");
+  }
+}
+
+TEST(Stl, BinaryPosition_ThatIsInfinite_IsRefused_ByItsFacet) {
+  Bytes bytes = quad_stl_binary();
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::memcpy(bytes.data() + 84 + 50 + 12, &infinity, 4);
+  const auto model = import_model(bytes, ModelFormat::stl);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::not_finite));
+  EXPECT_EQ(model.error().where, "facet 1");
+}
+
+TEST(Stl, CornersAtOnePosition_AreOneVertex_InOrderOfAppearance) {
+  // 0 1 2 / 0 2 3 of the quad; -0 in the second facet is the same place as +0.
+  Bytes bytes = quad_stl_binary();
+  const float minus_zero = -0.0F;
+  std::memcpy(bytes.data() + 84 + 50 + 12, &minus_zero, 4);
+  const auto model = import_model(bytes, ModelFormat::stl);
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(model->triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_FALSE(std::signbit(model->positions[0].x));
+}
+
+TEST(Stl, BinaryFile_ThatBeginsWithSolid_IsBinary) {
+  Bytes bytes = quad_stl_binary();
+  std::copy_n("solid facet", 11, bytes.begin());
+  const auto model = import_model(bytes, ModelFormat::stl);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->triangles.size(), 2U);
+}
+
+TEST(Zip, Paths_NeverLeaveTheZip) {
+  using import::resolve_in_zip;
+  EXPECT_EQ(resolve_in_zip("", "a.bin"), "a.bin");
+  EXPECT_EQ(resolve_in_zip("head/", "a.bin"), "head/a.bin");
+  EXPECT_EQ(resolve_in_zip("head/", "../textures/skin%20a.png"), "textures/skin a.png");
+  EXPECT_EQ(resolve_in_zip("head/", "./b//c/../a.bin"), "head/b/a.bin");
+  for (const char* const uri : {"", "/etc/passwd", "../../a", "http://x/a", "file:a", "C:\\a", "a\\b", "%2e%2e/../a",
+                                "%2fetc", "a%00b", "%zz", "%2", "..", "."}) {
+    EXPECT_EQ(resolve_in_zip("", uri), std::nullopt) << uri;
+  }
+}
+
+TEST(Zip, Quad_InAFolder_FindsItsBuffer) {
+  const auto model = import_model(quad_zip(), ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().where << model.error().message;
+  EXPECT_EQ(model->positions.size(), 4U);
+  EXPECT_EQ(model->format, "gltf");
+}
+
+TEST(Zip, Glb_Alone_IsRead) {
+  const auto model =
+      import_model(make_zip({{"readme.txt", to_bytes("x")}, {"Head.GLB", quad_glb()}}), ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().where << model.error().message;
+}
+
+TEST(Zip, InvalidArchives_AreRefused) {
+  const auto code_of = [](const Bytes& bytes, const ImportLimits& limits = {}) {
+    const auto model = import_model(bytes, ModelFormat::gltf_zip, limits);
+    return model ? -1 : static_cast<int>(model.error().code);
+  };
+  const Bytes json =
+      to_bytes(replaced(quad_gltf_json(), "[{\"byteLength\":92}]", "[{\"byteLength\":92,\"uri\":\"quad.bin\"}]"));
+  EXPECT_EQ(code_of(to_bytes("PK\x03\x04 and no more")), static_cast<int>(ErrorCode::malformed));
+  EXPECT_EQ(code_of(make_zip({{"a.txt", to_bytes("x")}})), static_cast<int>(ErrorCode::missing)) << "no model";
+  EXPECT_EQ(code_of(make_zip({{"a.gltf", json}, {"b.gltf", json}})), static_cast<int>(ErrorCode::invalid_argument))
+      << "two models";
+  EXPECT_EQ(code_of(make_zip({{"a.gltf", json}})), static_cast<int>(ErrorCode::missing)) << "no buffer";
+  EXPECT_EQ(code_of(make_zip({{"a.gltf", to_bytes("{")}})), static_cast<int>(ErrorCode::malformed)) << "bad JSON";
+
+  // 40 MB of zeros deflate to 40 kB: refused at the limit, not inflated to the end.
+  ImportLimits small;
+  small.max_file_bytes = 1 << 20;
+  const Bytes bomb = make_zip({{"a.gltf", json}, {"quad.bin", Bytes(40 << 20, 0)}});
+  ASSERT_LT(bomb.size(), small.max_file_bytes);
+  EXPECT_EQ(code_of(bomb, small), static_cast<int>(ErrorCode::too_large)) << "bomb";
+
+  std::vector<std::pair<std::string, Bytes>> many;
+  for (int i = 0; i < 5000; ++i) many.emplace_back(std::to_string(i), Bytes{});
+  EXPECT_EQ(code_of(make_zip(many)), static_cast<int>(ErrorCode::too_large)) << "entries";
+}
+
+TEST(Zip, DamagedEntry_IsRefused_ByItsChecksum) {
+  Bytes bytes = quad_zip();
+  const std::string text = text_of(bytes);
+  // In the first local header: the CRC of the entry, 14 bytes in; and its copy in the directory.
+  bytes[text.find("PK\x01\x02") + 16] ^= 0xFF;
+  EXPECT_FALSE(import_model(bytes, ModelFormat::gltf_zip));
+}
+
+}  // namespace
+}  // namespace semblante::test
