@@ -1,0 +1,8 @@
+export * from './face.ts';
+export * from './face_error.ts';
+export type { DracoModule, FaceMesh } from './draco_mesh.ts';
+export * from './kernel.ts';
+export * from './stream_client.ts';
+export * from './player.ts';
+export { neutralFrame, type FaceFrame, type TimedFrame } from '../../protocol/ts/face_frame.ts';
+export type { RigDocument } from '../../protocol/ts/rig_document.ts';

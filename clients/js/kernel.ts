@@ -1,0 +1,195 @@
+import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
+import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import { featurePointIndex, rigFapus, type DisplacementSet, type RigDocument } from '../../protocol/ts/rig_document.ts';
+import type { Face } from './face.ts';
+import { FaceError } from './face_error.ts';
+
+// Layout of the structures of core/kernel/semblante_kernel.h with 4-byte pointers.
+const featurePointCount = 84;
+const fapCount = 68;
+const frameBytes = 8 + (fapCount + 1) * 4;
+const rigBytes = 68;
+const faceBytes = 24;
+const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3;
+
+interface KernelExports {
+  memory: WebAssembly.Memory;
+  semblante_alloc(bytes: number): number;
+  semblante_evaluate(rig: number, frame: number, pose: number): void;
+  semblante_interpolate(a: number, b: number, t: number, out: number): void;
+  semblante_deform(face: number, pose: number, positions: number): void;
+}
+
+/** A frame on one model: where the feature points went and how the rigid parts turned. Views of the kernel's memory. */
+export interface Pose {
+  /** 84 by 3: displacement of each feature point, model units */
+  readonly featurePoints: Float32Array;
+  /** left, right; unit quaternions x, y, z, w */
+  readonly eyeRotations: Float32Array;
+  readonly eyeTranslations: Float32Array;
+  readonly headRotation: Float32Array;
+  readonly eyePivots: Float32Array;
+  readonly headPivot: Float32Array;
+}
+
+/** Compiles the kernel once; each face is an instance of its own. `source`: bytes or the response of a fetch. */
+export async function compileKernel(source: BufferSource | Response | Promise<Response>): Promise<WebAssembly.Module> {
+  const given = await source;
+  return WebAssembly.compile(given instanceof Response ? await given.arrayBuffer() : given);
+}
+
+/**
+ * One face in the kernel (core/kernel, as WebAssembly): frames become poses (Eq. 5, 6), poses become vertices (Eq. 7).
+ * Holds `poseCount` poses, by number. Everything lives in one allocation that is made here, so that nothing is
+ * allocated afterwards and the views stay valid.
+ */
+export class Kernel {
+  /** #V by 3: what `deform` wrote. */
+  readonly positions: Float32Array;
+  readonly poses: readonly Pose[];
+
+  private readonly exports: KernelExports;
+  private readonly frameNumbers: Uint8Array;
+  private readonly frameFaps: Float32Array;
+  private readonly at: { frame: number; rig: number; face: number; positions: number; poses: number[] };
+
+  /**
+   * `withVertices: false` leaves the influence table out (the GPU moves the vertices): `deform` must not be called and
+   * `positions` is empty. Throws FaceError `memory` when there is none.
+   */
+  static async create(
+    module: WebAssembly.Module,
+    face: Face,
+    options: { poseCount?: number; withVertices?: boolean } = {},
+  ): Promise<Kernel> {
+    const instance = await WebAssembly.instantiate(module, {});
+    return new Kernel(instance.exports as unknown as KernelExports, face, options);
+  }
+
+  private constructor(exports: KernelExports, face: Face, options: { poseCount?: number; withVertices?: boolean }) {
+    this.exports = exports;
+    const { influence, mesh, rig } = face;
+    const vertices = (options.withVertices ?? true) ? influence.vertexCount : 0;
+    const entries = vertices === 0 ? 0 : influence.rowPoints.length;
+    let size = 0;
+    const place = (bytes: number): number => {
+      const offset = size;
+      size = Math.ceil((size + bytes) / 16) * 16;
+      return offset;
+    };
+    const frame = place(frameBytes);
+    const rigAt = place(rigBytes);
+    const faceAt = place(faceBytes);
+    const visemes = place(rig.visemes.length * featurePointCount * 12);
+    const expressions = place(rig.expressions.length * featurePointCount * 12);
+    const poses = Array.from({ length: options.poseCount ?? 3 }, () => place(poseFloats * 4));
+    const rest = place(vertices * 12);
+    const positions = place(vertices * 12);
+    const rowOffsets = place((vertices + 1) * 4);
+    const rowPoints = place(entries);
+    const rowWeights = place(entries * 4);
+    const rigid = place(vertices);
+
+    const base = exports.semblante_alloc(size);
+    if (base === 0) throw new FaceError('memory', `no ${size} bytes of memory for the kernel`);
+    const memory = exports.memory.buffer; // after the only growth: views from here on stay valid
+    new Uint8Array(memory, base, size).fill(0);
+    const floats = (offset: number, count: number): Float32Array => new Float32Array(memory, base + offset, count);
+
+    floats(visemes, rig.visemes.length * featurePointCount * 3).set(flatten(rig.visemes));
+    floats(expressions, rig.expressions.length * featurePointCount * 3).set(flatten(rig.expressions));
+    new Uint32Array(memory, base + rigAt, 2).set([base + visemes, base + expressions]);
+    floats(rigAt + 8, 15).set(rigNumbers(rig));
+    if (vertices > 0) {
+      floats(rest, vertices * 3).set(mesh.positions);
+      floats(positions, vertices * 3).set(mesh.positions);
+      new Uint32Array(memory, base + rowOffsets, vertices + 1).set(influence.rowOffsets);
+      new Uint8Array(memory, base + rowPoints, entries).set(influence.rowPoints);
+      floats(rowWeights, entries).set(influence.rowWeights);
+      new Uint8Array(memory, base + rigid, vertices).set(influence.rigid);
+      new Uint32Array(memory, base + faceAt, 6).set([
+        vertices,
+        base + rest,
+        base + rowOffsets,
+        base + rowPoints,
+        base + rowWeights,
+        base + rigid,
+      ]);
+    }
+
+    this.at = {
+      frame: base + frame,
+      rig: base + rigAt,
+      face: base + faceAt,
+      positions: base + positions,
+      poses: poses.map((offset) => base + offset),
+    };
+    this.frameNumbers = new Uint8Array(memory, base + frame, 7);
+    this.frameFaps = floats(frame + 8, fapCount + 1);
+    this.positions = floats(positions, vertices * 3);
+    this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
+    for (const pose of this.at.poses) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
+  }
+
+  /** Eq. 5 and 6. `steps`: FAP units per level, of the stream the frame came from. */
+  evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps = standardQuantizers): void {
+    const { viseme, expression, levels } = frame;
+    const numbers = this.frameNumbers;
+    numbers[0] = viseme.select1;
+    numbers[1] = viseme.select2;
+    numbers[2] = viseme.blend;
+    numbers[3] = expression.select1;
+    numbers[4] = expression.intensity1;
+    numbers[5] = expression.select2;
+    numbers[6] = expression.intensity2;
+    for (let fap = 3; fap <= fapCount; ++fap) this.frameFaps[fap] = levels[fap]! * steps[fap]!;
+    this.exports.semblante_evaluate(this.at.rig, this.at.frame, this.poseAt(pose));
+  }
+
+  /** The pose t of the way from a to b, 0..1. `out` may be a or b. */
+  interpolate(a: number, b: number, t: number, out: number): void {
+    this.exports.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
+  }
+
+  /** Eq. 7, then eyes, then head, into `positions`. */
+  deform(pose: number): void {
+    if (this.positions.length === 0) throw new RangeError('this kernel was made without vertices');
+    this.exports.semblante_deform(this.at.face, this.poseAt(pose), this.at.positions);
+  }
+
+  private poseAt(pose: number): number {
+    const at = this.at.poses[pose];
+    if (at === undefined) throw new RangeError(`no pose ${pose}`);
+    return at;
+  }
+}
+
+/** #sets by 84 by 3 */
+export function flatten(sets: readonly DisplacementSet[]): Float32Array {
+  const flat = new Float32Array(sets.length * featurePointCount * 3);
+  sets.forEach((set, i) => {
+    for (const [id, by] of Object.entries(set.displacements)) {
+      flat.set(by, (i * featurePointCount + featurePointIndex(id)!) * 3);
+    }
+  });
+  return flat;
+}
+
+/** The float members of semblante_rig, in order. An unknown FAPU is 0. */
+function rigNumbers(rig: RigDocument): number[] {
+  const fapu = rigFapus.map((unit) => rig.fapu[unit] ?? 0);
+  return [...fapu, ...rig.eye_pivots[0], ...rig.eye_pivots[1], ...rig.head_pivot, rig.viseme_share];
+}
+
+function poseViews(floats: Float32Array): Pose {
+  let at = 0;
+  const next = (count: number): Float32Array => floats.subarray(at, (at += count));
+  return {
+    featurePoints: next(featurePointCount * 3),
+    eyeRotations: next(8),
+    eyeTranslations: next(6),
+    headRotation: next(4),
+    eyePivots: next(6),
+    headPivot: next(3),
+  };
+}

@@ -1,0 +1,193 @@
+import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
+import type { Frames, Header, Keyframe } from '../../protocol/ts/messages.ts';
+import { quantizersOf, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import type { StreamClient } from './stream_client.ts';
+
+/** What the player needs of the kernel: poses by number. */
+export interface PoseMaker {
+  evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps): void;
+  interpolate(a: number, b: number, t: number, out: number): void;
+}
+
+export interface PlayerOptions {
+  /** ms; default performance.now() */
+  now?: () => number;
+  /** How far behind the newest frame to play, ms; default two send intervals, at least 60. */
+  delay?: number;
+}
+
+/** The player writes the pose to show into this number; it uses 1 and 2 for itself. */
+export const shownPose = 0;
+const fromPose = 1;
+const toPose = 2;
+
+const maxSpeedChange = 0.05;
+/** Further than this from where it should be, the playhead jumps (ms). */
+const snapThreshold = 500;
+/** Seconds in which a small error is played away. */
+const correctionTime = 1;
+/** Sooner or later arrivals are compared within this time (ms): drifting clocks and changed routes are forgotten. */
+const arrivalWindow = 10_000;
+const leastDelay = 60;
+const maxHeldFrames = 2048;
+
+/**
+ * Plays the frames of a stream at the display's rate: about two send intervals behind the newest, the feature points
+ * interpolated linearly, so that every vertex is interpolated as the paper does. Adapts its speed by at most 5 %, jumps
+ * beyond half a second, never goes back.
+ */
+export class Player {
+  /** Media time that is shown, ms; NaN before the first frame. */
+  playhead = NaN;
+
+  private readonly poses: PoseMaker;
+  private readonly now: () => number;
+  private readonly fixedDelay: number | undefined;
+  private steps: QuantizerSteps = standardQuantizers;
+  private epoch = -1;
+
+  // Frames not yet over; the first is the last one at or before the playhead.
+  private times: number[] = [];
+  private states: FaceFrame[] = [];
+  private announcedInterval = 0;
+  private measuredInterval = 0;
+  private lastBatchEnd = NaN;
+
+  // Media time minus local time of the arrival that came earliest for its media time: the least delayed one.
+  private bestOffset = -Infinity;
+  private bestAge = 0;
+
+  // Which frames are in the poses `fromPose` and `toPose`, by media time.
+  private fromTime = NaN;
+  private toTime = NaN;
+  private shownT = NaN;
+
+  constructor(poses: PoseMaker, options: PlayerOptions = {}) {
+    this.poses = poses;
+    this.now = options.now ?? (() => performance.now());
+    this.fixedDelay = options.delay;
+  }
+
+  /** Plays what a client receives. Returns the function that stops listening. */
+  follow(client: StreamClient): () => void {
+    if (client.header) this.begin(client.header);
+    const stops = [
+      client.on('header', (header) => this.begin(header)),
+      client.on('keyframe', (keyframe) => this.pushKeyframe(keyframe)),
+      client.on('frames', (frames) => this.pushFrames(frames)),
+    ];
+    return () => stops.forEach((stop) => stop());
+  }
+
+  /** A header came: another epoch is another time line. */
+  begin(header: Header): void {
+    this.steps = quantizersOf(header);
+    this.announcedInterval = header.batch_interval > 0 ? header.batch_interval : 0;
+    if (this.announcedInterval === 0 && header.fps_hint > 0) this.announcedInterval = 1000 / header.fps_hint;
+    if (header.epoch !== this.epoch) this.clear();
+    this.epoch = header.epoch;
+  }
+
+  pushKeyframe(keyframe: Keyframe): void {
+    this.push(keyframe.media_time, keyframe.state);
+    this.arrived(keyframe.media_time);
+  }
+
+  pushFrames(frames: Frames): void {
+    for (const { time, state } of frames.frames) this.push(frames.media_time + time, state);
+    const end = frames.media_time + frames.frames[frames.frames.length - 1]!.time;
+    const interval = end - this.lastBatchEnd;
+    if (interval > 0 && interval < 1000) {
+      this.measuredInterval = this.measuredInterval === 0 ? interval : this.measuredInterval * 0.9 + interval * 0.1;
+    }
+    this.lastBatchEnd = end;
+    this.arrived(end);
+  }
+
+  /** Forgets the frames, not the pose that is shown. */
+  clear(): void {
+    this.times = [];
+    this.states = [];
+    this.playhead = NaN;
+    this.lastBatchEnd = NaN;
+    this.bestOffset = -Infinity;
+    this.fromTime = this.toTime = this.shownT = NaN;
+  }
+
+  /** ms behind the newest frame */
+  get delay(): number {
+    return this.fixedDelay ?? Math.max(leastDelay, 2 * (this.announcedInterval || this.measuredInterval));
+  }
+
+  /**
+   * Moves on by a display frame and writes the pose `shownPose`. Allocates nothing. Returns whether the pose changed:
+   * a page may skip drawing when it did not.
+   */
+  update(deltaSeconds: number): boolean {
+    if (this.times.length === 0) return false;
+    this.advance(deltaSeconds * 1000);
+    while (this.times.length > 1 && this.times[1]! <= this.playhead) {
+      this.times.shift();
+      this.states.shift();
+    }
+    return this.show();
+  }
+
+  private push(time: number, state: FaceFrame): void {
+    const last = this.times.at(-1);
+    if (last !== undefined && time <= last) return; // known already: sent again after a lost connection
+    this.times.push(time);
+    this.states.push(state);
+    // A hidden page gets no display frames: only the newest frames matter when it is seen again.
+    if (this.times.length > maxHeldFrames) {
+      this.times.splice(0, maxHeldFrames / 2);
+      this.states.splice(0, maxHeldFrames / 2);
+    }
+  }
+
+  private arrived(mediaTime: number): void {
+    const now = this.now();
+    const offset = mediaTime - now;
+    if (offset >= this.bestOffset || now - this.bestAge > arrivalWindow) {
+      this.bestOffset = offset;
+      this.bestAge = now;
+    }
+    if (Number.isNaN(this.playhead)) this.playhead = mediaTime - this.delay;
+  }
+
+  private advance(elapsed: number): void {
+    const wanted = this.now() + this.bestOffset - this.delay;
+    const error = wanted - this.playhead - elapsed;
+    let next: number;
+    if (Math.abs(error) > snapThreshold) {
+      next = wanted;
+    } else {
+      const change = Math.max(-maxSpeedChange, Math.min(maxSpeedChange, error / (correctionTime * 1000)));
+      next = this.playhead + elapsed * (1 + change);
+    }
+    // Not past the newest frame, and never back.
+    this.playhead = Math.max(this.playhead, Math.min(next, this.times.at(-1)!));
+  }
+
+  private show(): boolean {
+    const from = this.times[0]!;
+    const to = this.times.length > 1 ? this.times[1]! : from;
+    if (this.fromTime !== from) {
+      this.poses.evaluate(this.states[0]!, fromPose, this.steps);
+      this.fromTime = from;
+      this.shownT = NaN;
+    }
+    if (this.toTime !== to) {
+      this.poses.evaluate(this.states[to === from ? 0 : 1]!, toPose, this.steps);
+      this.toTime = to;
+      this.shownT = NaN;
+    }
+    // After a silence the face rests and then moves as fast as between two messages, not slowly through the silence.
+    const span = Math.min(to - from, Math.max(this.delay, 100));
+    const t = span > 0 ? Math.max(0, Math.min(1, (this.playhead - (to - span)) / span)) : 0;
+    if (t === this.shownT) return false;
+    this.poses.interpolate(fromPose, toPose, t, shownPose);
+    this.shownT = t;
+    return true;
+  }
+}

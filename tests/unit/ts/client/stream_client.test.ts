@@ -1,0 +1,197 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { StreamClient, streamUrl, type StreamOptions } from '../../../../clients/js/index.ts';
+import { neutralFrame, type FaceFrame, type Header, type Message } from '../../../../protocol/ts/index.ts';
+import { FakeSocket } from './fake_socket.ts';
+
+const header: Header = {
+  type: 'header',
+  version: 1,
+  stream: 'demo',
+  title: '',
+  model: '',
+  epoch: 9,
+  sequence: 41,
+  media_time: 1000,
+  server_time: 1.7e12,
+  fps_hint: 25,
+  batch_interval: 40,
+  quantizers: [],
+  recovered: false,
+};
+const state = (level: number): FaceFrame => {
+  const frame = neutralFrame();
+  frame.levels[3] = level;
+  return frame;
+};
+const keyframe = (sequence: number): Message => ({ type: 'keyframe', sequence, media_time: 1000, state: state(1) });
+const frames = (sequence: number, count = 1): Message => ({
+  type: 'frames',
+  sequence,
+  media_time: 1040,
+  frames: Array.from({ length: count }, (_, i) => ({ time: i, state: state(i) })),
+});
+
+function client(options: StreamOptions = {}): { stream: StreamClient; events: [string, unknown][] } {
+  const stream = new StreamClient('ws://x/v1/streams/demo', {
+    WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
+    ...options,
+  });
+  const events: [string, unknown][] = [];
+  for (const name of ['state', 'header', 'keyframe', 'frames', 'end', 'error', 'fault', 'clock'] as const) {
+    stream.on(name, (event) => events.push([name, event]));
+  }
+  return { stream, events };
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  FakeSocket.sockets = [];
+});
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+describe.each(['binary', 'json'] as const)('StreamClient %s', (subprotocol) => {
+  it('Connect_OffersItsSubprotocolAndSaysHello', () => {
+    const { stream, events } = client({ subprotocol });
+    stream.connect();
+    FakeSocket.last.accept();
+    expect(FakeSocket.last.protocols).toEqual([subprotocol === 'json' ? 'semblante.v1.json' : 'semblante.v1']);
+    expect(FakeSocket.last.sent).toEqual([{ type: 'hello', version: 1, role: 'subscribe', resume: null }]);
+    FakeSocket.last.give(header);
+    expect(stream.state).toBe('open');
+    expect(events.map(([name]) => name)).toEqual(['state', 'header', 'state']);
+  });
+
+  it('Receive_KeyframeAndFrames_EmitsThem', () => {
+    const { stream, events } = client({ subprotocol });
+    stream.connect();
+    FakeSocket.last.accept();
+    for (const message of [header, keyframe(41), frames(42, 2)]) FakeSocket.last.give(message);
+    expect(events.filter(([name]) => name === 'keyframe' || name === 'frames')).toEqual([
+      ['keyframe', keyframe(41)],
+      ['frames', frames(42, 2)],
+    ]);
+  });
+
+  it('Drop_AfterFrames_ComesBackAndResumes', () => {
+    const { stream } = client({ subprotocol });
+    stream.connect();
+    FakeSocket.last.accept();
+    for (const message of [header, keyframe(41), frames(42, 2)]) FakeSocket.last.give(message);
+    FakeSocket.last.drop();
+    expect(stream.state).toBe('waiting');
+    vi.advanceTimersByTime(250);
+    expect(FakeSocket.sockets.length).toBe(2);
+    FakeSocket.last.accept();
+    expect(FakeSocket.last.sent[0]).toMatchObject({ type: 'hello', resume: { epoch: 9, sequence: 43 } });
+    for (const message of [{ ...header, recovered: true }, keyframe(43), frames(44)]) FakeSocket.last.give(message);
+    expect(stream.state).toBe('open');
+  });
+
+  it('Publish_SendsAWholeStateFirst', () => {
+    const { stream } = client({ subprotocol, role: 'publish' });
+    expect(stream.publish([{ time: 0, state: state(1) }])).toBe(false);
+    stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give(header);
+    expect(stream.publish([{ time: 0, state: state(1) }], 5)).toBe(true);
+    expect(stream.publish([{ time: 0, state: state(2) }], 45)).toBe(true);
+    const types = FakeSocket.last.sent.map((message) => message.type).filter((type) => type !== 'ping');
+    expect(types).toEqual(['hello', 'keyframe', 'frames', 'frames']);
+    FakeSocket.last.bufferedAmount = 1e6;
+    expect(stream.publish([{ time: 0, state: state(3) }])).toBe(false);
+  });
+});
+
+describe('StreamClient', () => {
+  it('Drop_AgainAndAgain_WaitsLongerEachTimeUpToALimit', () => {
+    vi.spyOn(Math, 'random').mockReturnValue(1);
+    const { stream } = client({ backoff: { first: 100, longest: 1000 } });
+    stream.connect();
+    for (const pause of [100, 200, 400, 800, 1000, 1000]) {
+      const before = FakeSocket.sockets.length;
+      FakeSocket.last.drop();
+      vi.advanceTimersByTime(pause - 1);
+      expect(FakeSocket.sockets.length).toBe(before);
+      vi.advanceTimersByTime(1);
+      expect(FakeSocket.sockets.length).toBe(before + 1);
+    }
+    vi.restoreAllMocks();
+  });
+
+  it('Receive_UnreadableBytes_FaultsAndStartsAnew', () => {
+    const { stream, events } = client();
+    stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give(header);
+    FakeSocket.last.giveRaw(Uint8Array.from([3, 1]).buffer);
+    expect(events.at(-2)).toMatchObject(['fault', { code: 'truncated' }]);
+    expect(stream.state).toBe('waiting');
+  });
+
+  it('Receive_AGapInTheFrames_FaultsAndStartsAnew', () => {
+    const { stream, events } = client();
+    stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give(header);
+    FakeSocket.last.give(keyframe(41));
+    FakeSocket.last.giveRaw(Uint8Array.from([4, 50, 0, 1, 0, 0]).buffer);
+    expect(events.find(([name]) => name === 'fault')).toMatchObject(['fault', { code: 'mismatch' }]);
+    expect(stream.state).toBe('waiting');
+  });
+
+  it('Receive_MessageOfALaterVersion_IsSkipped', () => {
+    const { stream } = client();
+    stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give(header);
+    FakeSocket.last.giveRaw(Uint8Array.from([77, 1, 2]).buffer);
+    expect(stream.state).toBe('open');
+  });
+
+  it('Receive_End_ClosesForGoodOnlyWhenTheStreamIsOver', () => {
+    const over = client();
+    over.stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give({ type: 'end', reason: 'deleted' });
+    expect(over.stream.state).toBe('closed');
+    vi.advanceTimersByTime(60_000);
+    expect(FakeSocket.sockets.length).toBe(1);
+
+    const restarted = client();
+    restarted.stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give({ type: 'end', reason: 'shutdown' });
+    FakeSocket.last.drop();
+    expect(restarted.stream.state).toBe('waiting');
+  });
+
+  it('Close_WhileWaiting_DoesNotComeBack', () => {
+    const { stream } = client();
+    stream.connect();
+    FakeSocket.last.drop();
+    stream.close();
+    vi.advanceTimersByTime(60_000);
+    expect(FakeSocket.sockets.length).toBe(1);
+    expect(stream.state).toBe('closed');
+  });
+
+  it('Ping_Answered_GivesTheClock', () => {
+    let now = 100;
+    const { stream, events } = client({ now: () => now });
+    stream.connect();
+    FakeSocket.last.accept();
+    FakeSocket.last.give(header);
+    expect(FakeSocket.last.sent.at(-1)).toEqual({ type: 'ping', id: 1, client_time: 100 });
+    now = 120;
+    FakeSocket.last.give({ type: 'pong', id: 1, client_time: 100, server_time: 5000, media_time: 700 });
+    // Half of the 20 ms of the way is the answer's: the server's clock shows 5010 now.
+    expect(events.at(-1)).toEqual(['clock', { roundTrip: 20, offset: 5010 - 120, mediaTime: 710 }]);
+  });
+
+  it('StreamUrl_OfHttpAndHttps', () => {
+    expect(streamUrl('http://127.0.0.1:8080/', 'a b')).toBe('ws://127.0.0.1:8080/v1/streams/a%20b');
+    expect(streamUrl('https://x', 'demo')).toBe('wss://x/v1/streams/demo');
+  });
+});
