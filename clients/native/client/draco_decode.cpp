@@ -44,6 +44,43 @@ std::vector<Vector> read(const draco::Mesh& mesh, std::optional<std::uint32_t> i
   return values;
 }
 
+/// Draco allocates by the counts its bytes begin with, so those are read first (bitstream 2.x: magic, version, mesh,
+/// method, flags, then for edgebreaker a traversal byte; vertices and faces as varints, the other way round when the
+/// method is sequential).
+Status check_announced(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh) {
+  constexpr std::size_t header_size = 11;
+  constexpr std::uint8_t mesh_type = 1;
+  constexpr std::uint8_t edgebreaker = 1;
+  constexpr std::uint8_t metadata_flag = 0x80;
+  if (bytes.size() < header_size + 1 || !std::equal(bytes.begin(), bytes.begin() + 5, "DRACO")) {
+    return refused(ErrorCode::malformed, "not a Draco file");
+  }
+  if (bytes[5] != 2 || bytes[7] != mesh_type || bytes[8] > edgebreaker || (bytes[10] & metadata_flag) != 0) {
+    return refused(ErrorCode::unsupported, "not a mesh of Draco's bitstream 2 without metadata");
+  }
+  std::size_t at = header_size + (bytes[8] == edgebreaker ? 1 : 0);
+  const auto varint = [&]() {
+    std::uint64_t value = 0;
+    for (unsigned shift = 0; shift < 35 && at < bytes.size(); shift += 7) {
+      const std::uint8_t byte = bytes[at++];
+      value |= std::uint64_t{byte & 0x7FU} << shift;
+      if (byte < 0x80) {
+        return value;
+      }
+    }
+    return ~std::uint64_t{0};
+  };
+  const std::uint64_t first = varint();
+  const std::uint64_t second = varint();
+  const std::uint64_t vertices = bytes[8] == edgebreaker ? first : second;
+  const std::uint64_t faces = bytes[8] == edgebreaker ? second : first;
+  // Edgebreaker counts vertices before seams split them into points.
+  if (faces != mesh.triangles || vertices > mesh.vertices) {
+    return refused(ErrorCode::mismatch, "another number of vertices or triangles than rig.json says");
+  }
+  return Unit{};
+}
+
 Result<DecodedMesh> decode(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& announced) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -90,7 +127,10 @@ Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDo
   if (mesh.vertices > max_weights_vertices || mesh.triangles > 2U * max_weights_vertices) {
     return refused(ErrorCode::too_large, "more than 4 million vertices or 8 million triangles");
   }
-  // Draco allocates by the counts that its own header announces.
+  if (auto fine = check_announced(bytes, mesh); !fine) {
+    return std::move(fine).error();
+  }
+  // What is announced further inside may still be too much.
   try {
     return decode(bytes, mesh);
   } catch (const std::bad_alloc&) {

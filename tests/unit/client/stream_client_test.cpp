@@ -1,0 +1,258 @@
+#include "clients/native/client/stream_client.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <thread>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <gtest/gtest.h>
+
+#include "clients/native/client/frame_player.h"
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/json_codec.h"
+#include "tests/unit/client/canned_server.h"
+
+namespace semblante::testing {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using client::FramePlayer;
+using client::StreamClient;
+using client::StreamOptions;
+using Socket = websocket::stream<asio::ip::tcp::socket>;
+
+constexpr std::chrono::milliseconds patience{3000};
+
+/// A server for one connection that says what a test wants it to say.
+class ScriptedServer {
+ public:
+  ScriptedServer(std::string protocol, std::function<void(Socket&)> script)
+      : acceptor_(io_, {asio::ip::make_address("127.0.0.1"), 0}),
+        thread_([this, protocol = std::move(protocol), script = std::move(script)] {
+          beast::error_code problem;
+          Socket socket(acceptor_.accept());
+          socket.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
+            if (!protocol.empty()) {
+              response.set(beast::http::field::sec_websocket_protocol, protocol);
+            }
+          }));
+          socket.accept(problem);
+          beast::flat_buffer hello;
+          if (!problem) {
+            socket.read(hello, problem);
+          }
+          if (!problem) {
+            hello_ = beast::buffers_to_string(hello.data());
+            script(socket);
+            socket.read(hello, problem);  // until the client goes
+          }
+        }) {}
+  ~ScriptedServer() { thread_.join(); }
+  ScriptedServer(const ScriptedServer&) = delete;
+  ScriptedServer& operator=(const ScriptedServer&) = delete;
+
+  [[nodiscard]] client::Url url() const { return {"127.0.0.1", std::to_string(acceptor_.local_endpoint().port()), ""}; }
+  [[nodiscard]] const std::string& hello() const { return hello_; }
+
+ private:
+  asio::io_context io_;
+  asio::ip::tcp::acceptor acceptor_;
+  std::string hello_;
+  std::thread thread_;
+};
+
+void say(Socket& socket, FrameEncoder& encoder, const Message& message) {
+  const std::vector<std::uint8_t> bytes = encoder.encode(message);
+  beast::error_code problem;
+  socket.binary(true);
+  socket.write(asio::buffer(bytes), problem);
+}
+
+FaceFrame with_jaw(std::int16_t level) {
+  FaceFrame frame;
+  frame.level[3] = level;
+  return frame;
+}
+
+Header named_header() {
+  Header header;
+  header.stream = "show";
+  header.model = "sample";
+  header.quantizers.assign(low_level_fap_count, 1.0);
+  header.quantizers[0] = 4.0;  // FAP 3
+  return header;
+}
+
+TEST(StreamClient, HostileServer_IsAnError) {
+  {  // Nobody there.
+    const auto stream = StreamClient::connect({"127.0.0.1", "1", ""}, "s");
+    ASSERT_FALSE(stream);
+    EXPECT_EQ(stream.error().code, ErrorCode::io);
+  }
+  {  // No such stream.
+    const CannedServer server("HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n");
+    const auto stream = StreamClient::connect(*client::parse_url(server.url()), "s");
+    ASSERT_FALSE(stream);
+    EXPECT_EQ(stream.error().code, ErrorCode::missing);
+  }
+  {  // Silence.
+    const CannedServer server("");
+    StreamOptions options;
+    options.timeout = std::chrono::milliseconds(100);
+    const auto stream = StreamClient::connect(*client::parse_url(server.url()), "s", options);
+    ASSERT_FALSE(stream);
+    EXPECT_EQ(stream.error().code, ErrorCode::io);
+  }
+  {  // Another subprotocol, and none.
+    for (const char* protocol : {"semblante.v9", ""}) {
+      const ScriptedServer server(protocol, [](Socket&) {});
+      const auto stream = StreamClient::connect(server.url(), "s");
+      ASSERT_FALSE(stream);
+      EXPECT_EQ(stream.error().code, ErrorCode::mismatch);
+    }
+  }
+  {  // A message that is none.
+    const ScriptedServer server("semblante.v1", [](Socket& socket) {
+      beast::error_code problem;
+      socket.binary(true);
+      socket.write(asio::buffer("\x03\xFF\xFF\xFF", 4), problem);
+    });
+    auto stream = StreamClient::connect(server.url(), "s");
+    ASSERT_TRUE(stream) << stream.error().message;
+    EXPECT_FALSE(stream->next(patience));
+  }
+  {  // A message larger than any.
+    const ScriptedServer server("semblante.v1", [](Socket& socket) {
+      beast::error_code problem;
+      socket.binary(true);
+      socket.write(asio::buffer(std::string(max_binary_message_bytes + 1, 'x')), problem);
+    });
+    auto stream = StreamClient::connect(server.url(), "s");
+    ASSERT_TRUE(stream);
+    const auto message = stream->next(patience);
+    ASSERT_FALSE(message);
+    EXPECT_EQ(message.error().code, ErrorCode::too_large);
+  }
+}
+
+TEST(StreamClient, Next_WaitsNoLongerThanAsked) {
+  const ScriptedServer server("semblante.v1", [](Socket&) {});
+  auto stream = StreamClient::connect(server.url(), "s");
+  ASSERT_TRUE(stream);
+  for (int i = 0; i < 2; ++i) {
+    const auto message = stream->next(std::chrono::milliseconds(30));
+    ASSERT_TRUE(message);
+    EXPECT_FALSE(message->has_value());
+  }
+}
+
+TEST(StreamClient, Close_TellsTheReason) {
+  const ScriptedServer server("semblante.v1", [](Socket& socket) {
+    beast::error_code problem;
+    socket.close({websocket::close_code::try_again_later, "slow"}, problem);
+  });
+  auto stream = StreamClient::connect(server.url(), "s");
+  ASSERT_TRUE(stream);
+  EXPECT_FALSE(stream->next(patience));
+  EXPECT_EQ(stream->close_code(), 1013);
+  EXPECT_EQ(stream->close_reason(), "slow");
+}
+
+TEST(StreamClient, JsonSubprotocol_SpeaksText) {
+  const ScriptedServer server("semblante.v1.json", [](Socket& socket) {
+    beast::error_code problem;
+    socket.text(true);
+    socket.write(asio::buffer(encode_json(Message(named_header()))), problem);
+  });
+  StreamOptions options;
+  options.json = true;
+  options.role = StreamRole::publish;
+  auto stream = StreamClient::connect(server.url(), "s", options);
+  ASSERT_TRUE(stream);
+  const auto message = stream->next(patience);
+  ASSERT_TRUE(message) << message.error().message;
+  ASSERT_TRUE(message->has_value());
+  EXPECT_EQ(std::get<Header>(**message).model, "sample");
+  EXPECT_NE(server.hello().find("publish"), std::string::npos) << server.hello();
+}
+
+/// 100 ms: jaw 0, 200 ms: jaw 10 levels of 4 units, 300 ms: jaw 20 levels, then the end.
+void three_frames(Socket& socket) {
+  FrameEncoder encoder;
+  say(socket, encoder, named_header());
+  say(socket, encoder, Keyframe{1, 100, with_jaw(0)});
+  say(socket, encoder, Frames{2, 200, {{0, with_jaw(10)}, {100, with_jaw(20)}}});
+  say(socket, encoder, End{EndReason::finished});
+}
+
+TEST(FramePlayer, NextReceived_GivesEachFrameInFapUnits) {
+  const ScriptedServer server("semblante.v1", three_frames);
+  auto stream = StreamClient::connect(server.url(), "s");
+  ASSERT_TRUE(stream);
+  FramePlayer player(*stream, patience);
+  const std::array<float, 3> jaws = {0, 40, 80};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto frame = player.next_received();
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_TRUE(frame->has_value());
+    EXPECT_EQ((*frame)->sequence, i + 1);
+    EXPECT_EQ((*frame)->media_time, 100.0 * static_cast<double>(i + 1));
+    EXPECT_EQ((*frame)->frame.fap[3], jaws[i]);
+  }
+  const auto end = player.next_received();
+  ASSERT_TRUE(end);
+  EXPECT_FALSE(end->has_value());
+}
+
+TEST(FramePlayer, At_GivesTheTwoFramesAroundAndTheShare) {
+  const ScriptedServer server("semblante.v1", three_frames);
+  auto stream = StreamClient::connect(server.url(), "s");
+  ASSERT_TRUE(stream);
+  FramePlayer player(*stream, patience);
+  {
+    const auto before = player.at(50);
+    ASSERT_TRUE(before && before->has_value());
+    EXPECT_EQ((*before)->from.sequence, 1U);
+    EXPECT_EQ((*before)->to.sequence, 1U);
+  }
+  {
+    // A quarter of the way from 100 to 200.
+    const auto between = player.at(125);
+    ASSERT_TRUE(between && between->has_value());
+    EXPECT_EQ((*between)->from.sequence, 1U);
+    EXPECT_EQ((*between)->to.sequence, 2U);
+    EXPECT_FLOAT_EQ((*between)->t, 0.25F);
+  }
+  {
+    const auto later = player.at(290);
+    ASSERT_TRUE(later && later->has_value());
+    EXPECT_EQ((*later)->to.sequence, 3U);
+    EXPECT_FLOAT_EQ((*later)->t, 0.9F);
+  }
+  const auto after = player.at(400);
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_FALSE(after->has_value());
+}
+
+TEST(FramePlayer, ServersError_IsPassedOn) {
+  const ScriptedServer server("semblante.v1", [](Socket& socket) {
+    FrameEncoder encoder;
+    say(socket, encoder, StreamError{StreamErrorCode::not_found, "/role", "nothing here"});
+  });
+  auto stream = StreamClient::connect(server.url(), "s");
+  ASSERT_TRUE(stream);
+  FramePlayer player(*stream, patience);
+  const Status header = player.wait_for_header();
+  ASSERT_FALSE(header);
+  EXPECT_EQ(header.error().code, ErrorCode::missing);
+  EXPECT_EQ(header.error().where, "stream/role");
+}
+
+}  // namespace
+}  // namespace semblante::testing
