@@ -85,9 +85,10 @@ ModelDisplacements to_model_units(const DisplacementSet& set, const Fapu& fapu) 
 std::array<float, feature_point_count * 3> to_dense(std::span<const Displacement> displacements) {
   std::array<float, feature_point_count * 3> dense{};
   for (const Displacement& displacement : displacements) {
-    for (int axis = 0; axis < 3; ++axis) {
-      dense[displacement.point.value() * 3U + static_cast<std::size_t>(axis)] = displacement.value[axis];
-    }
+    const std::size_t first = std::size_t{displacement.point.value()} * 3;
+    dense[first] = displacement.value.x;
+    dense[first + 1] = displacement.value.y;
+    dense[first + 2] = displacement.value.z;
   }
   return dense;
 }

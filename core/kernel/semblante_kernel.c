@@ -171,7 +171,7 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
       /* Eq. 6. An eyeball is thrust as a whole; every other FAP moves its point. */
       const float displacement = (float)fap->sign * value * rig->fapu[fap->unit];
       const int eye = fap->fp == SEMBLANTE_FP_LEFT_PUPIL || fap->fp == SEMBLANTE_FP_RIGHT_PUPIL;
-      float* const target = eye ? pose->eye_translation[rigid_part_of(fap->fp)] : &pose->fp[fap->fp * 3];
+      float* const target = eye ? pose->eye_translation[rigid_part_of(fap->fp)] : &pose->fp[(size_t)fap->fp * 3];
       target[fap->axis] = displacement;
     }
   }
@@ -238,23 +238,27 @@ void semblante_deform(const semblante_face* face, const semblante_pose* pose, fl
                           motion_of(pose->eye_rotation[1], pose->eye_pivot[1], pose->eye_translation[1])};
   lanes displacement[SEMBLANTE_FP_COUNT];
   for (uint32_t i = 0; i < SEMBLANTE_FP_COUNT; ++i) {
-    displacement[i] = (lanes){pose->fp[i * 3], pose->fp[i * 3 + 1], pose->fp[i * 3 + 2], 0.0F};
+    const float* const d = &pose->fp[(size_t)i * 3];
+    displacement[i] = (lanes){d[0], d[1], d[2], 0.0F};
   }
 
   uint32_t entry = face->row_offsets[0];
+  const float* rest = face->rest;
   for (uint32_t v = 0; v < face->vertex_count; ++v) {
     /* Eq. 7: D_P = sum of (W_iP / sum of W) D_i; an empty row stays where it is. */
     lanes d = {0.0F, 0.0F, 0.0F, 0.0F};
     for (const uint32_t end = face->row_offsets[v + 1]; entry < end; ++entry) {
       d += face->row_weights[entry] * displacement[face->row_points[entry]];
     }
-    float p[3] = {face->rest[v * 3] + d[0], face->rest[v * 3 + 1] + d[1], face->rest[v * 3 + 2] + d[2]};
+    float p[3] = {rest[0] + d[0], rest[1] + d[1], rest[2] + d[2]};
     if (face->rigid != NULL && face->rigid[v] != SEMBLANTE_RIGID_NONE) {
       move(&eyes[face->rigid[v] - SEMBLANTE_RIGID_LEFT_EYE], p);
     }
     move(&head, p);
-    positions[v * 3] = p[0];
-    positions[v * 3 + 1] = p[1];
-    positions[v * 3 + 2] = p[2];
+    positions[0] = p[0];
+    positions[1] = p[1];
+    positions[2] = p[2];
+    rest += 3;
+    positions += 3;
   }
 }

@@ -4,7 +4,8 @@
 
 #include "core/kernel/semblante_kernel.h"
 
-extern unsigned char __heap_base; /* set by the linker: the first byte after data and stack */
+/* Set by the linker, which chose the name: the first byte after data and stack. */
+extern unsigned char __heap_base; /* NOLINT(bugprone-reserved-identifier) */
 
 #define PAGE_BYTES 65536U
 
@@ -22,7 +23,7 @@ __attribute__((export_name("semblante_alloc"))) void* semblante_alloc(uint32_t b
     }
   }
   used = (uint32_t)(end - base);
-  return (void*)(uintptr_t)start;
+  return &__heap_base + (start - base);
 }
 
 __attribute__((export_name("semblante_free_all"))) void semblante_free_all(void) { used = 0; }

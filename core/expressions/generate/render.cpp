@@ -53,7 +53,7 @@ std::map<std::string, Displacements> read_actions(const std::string& path) {
   for (const json& action : file.at("actions")) {
     const std::string name = action.at("name");
     if (!actions.insert({name, read_displacements(action.at("displacements"))}).second) {
-      throw std::runtime_error(path + ": action " + name + " twice");
+      throw std::runtime_error(std::string(path).append(": action ").append(name).append(" twice"));
     }
   }
   return actions;

@@ -187,7 +187,7 @@ TEST(Expressions_Six, DoWhatTheStandardSays) {
   EXPECT_TRUE(moved(sadness, "4.1").y > moved(sadness, "4.5").y + 100 && moved(sadness, "2.4").y < -100);
   EXPECT_LT(moved(sadness, "3.1").y, -100);
   const auto& anger = expression("anger");
-  EXPECT_TRUE(moved(anger, "4.1").y < -100 && moved(anger, "4.1").x < -40 && opening(anger) <= 0);
+  EXPECT_TRUE(moved(anger, "4.1").y < -100 && moved(anger, "4.1").x < -30 && opening(anger) <= 0);
   const auto& fear = expression("fear");
   EXPECT_TRUE(moved(fear, "4.1").y > 100 && moved(fear, "4.1").x < -20 && moved(fear, "3.1").y > 100);
   const auto& disgust = expression("disgust");
