@@ -1,0 +1,109 @@
+#include "clients/native/render/scene.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/unit/render/ball.h"
+
+namespace semblante::testing {
+namespace {
+
+using render::build_scene;
+using render::Substance;
+
+TEST(Scene, InvalidModels_AreRefusedByName) {
+  EXPECT_EQ(build_scene(Model{}).error().code, ErrorCode::empty);
+  {
+    Model model = seamed_ball();
+    model.positions[3].y = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(build_scene(model).error().code, ErrorCode::not_finite);
+  }
+  {
+    Model model = seamed_ball();
+    model.triangles[0][1] = static_cast<std::uint32_t>(model.positions.size());
+    EXPECT_EQ(build_scene(model).error().where, "triangles");
+  }
+  {
+    Model model = seamed_ball();
+    model.primitives[0].triangle_count += 1;
+    EXPECT_EQ(build_scene(model).error().where, "primitives");
+  }
+  {
+    Model model = seamed_ball();
+    model.uv_triangles.pop_back();
+    EXPECT_EQ(build_scene(model).error().where, "uv_triangles");
+  }
+}
+
+TEST(Scene, BrokenImage_IsLeftOutWithAWarning) {
+  Model model = seamed_ball();
+  model.images.push_back({"image/png", {1, 2, 3}});
+  model.materials.emplace_back();
+  model.materials[0].base_color_image = 0;
+  model.primitives[0].material = 0;
+  const auto scene = build_scene(model);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->runs[0].texture, -1);
+  EXPECT_EQ(scene->warnings.size(), 1U);
+}
+
+TEST(SmoothNormals, OverASeam_AreTheSameOnBothSides) {
+  const Model model = seamed_ball();
+  const auto scene = build_scene(model);
+  ASSERT_TRUE(scene);
+  const std::vector<glm::vec3> normals = scene->normals.compute(model.positions);
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    // A ball's normal is its position; a coarse one is a little off.
+    EXPECT_GT(glm::dot(normals[v], model.positions[v]), 0.99F) << v;
+    EXPECT_NEAR(glm::length(normals[v]), 1.0F, 1e-5F);
+  }
+  for (std::size_t ring = 0; ring <= 16; ++ring) {
+    EXPECT_EQ(normals[ring * 25], normals[ring * 25 + 24]) << ring;
+  }
+}
+
+TEST(SmoothNormals, WithoutArea_AreStillUnit) {
+  const std::vector<glm::vec3> positions(3, glm::vec3(1, 2, 3));
+  const std::vector<Triangle> triangles = {{0, 1, 2}};
+  const std::vector<std::uint8_t> groups = {0};
+  const render::SmoothNormals normals(positions, triangles, groups);
+  for (const glm::vec3& normal : normals.compute(positions)) {
+    EXPECT_EQ(normal, glm::vec3(0, 0, 1));
+  }
+}
+
+TEST(Look, Names_TellTheSubstance) {
+  EXPECT_EQ(render::substance_by_name("M_EyeLashes"), Substance::lashes);
+  EXPECT_EQ(render::substance_by_name("M_ScleraLeft"), Substance::eyeball);
+  EXPECT_EQ(render::substance_by_name("M_EyeOcclusion"), Substance::film);
+  EXPECT_EQ(render::substance_by_name("GumsTongue"), Substance::gums);
+  EXPECT_EQ(render::substance_by_name("teeth-upper"), Substance::teeth);
+  EXPECT_EQ(render::substance_by_name("eye-left"), Substance::eyeball);
+  EXPECT_EQ(render::substance_by_name("Object_7"), std::nullopt);
+}
+
+TEST(Look, MaterialWithAColour_KeepsIt) {
+  Model model = seamed_ball();
+  model.materials.emplace_back();
+  model.materials[0].name = "eye";
+  model.materials[0].base_color = {0.1F, 0.5F, 0.2F, 1.0F};
+  model.primitives[0].material = 0;
+  const render::Look look = render::look_of(model, model.primitives[0], PartRole::left_eye);
+  EXPECT_EQ(look.color, glm::vec3(0.1F, 0.5F, 0.2F));
+  EXPECT_NE(look.substance, Substance::eyeball) << "nothing may be painted over a chosen colour";
+  model.materials[0].base_color = glm::vec4(0.8F, 0.8F, 0.8F, 1.0F);
+  EXPECT_EQ(render::look_of(model, model.primitives[0], std::nullopt).substance, Substance::eyeball);
+}
+
+TEST(Look, RoleOfANamelessPart_TellsTheSubstance) {
+  Model model = seamed_ball();
+  model.primitives[0].name = "";
+  EXPECT_EQ(render::look_of(model, model.primitives[0], PartRole::upper_teeth).substance, Substance::teeth);
+  EXPECT_EQ(render::look_of(model, model.primitives[0], std::nullopt).substance, Substance::skin);
+}
+
+}  // namespace
+}  // namespace semblante::testing
