@@ -1,0 +1,181 @@
+import { describe, expect, it } from 'vitest';
+import { Player, shownPose, type PoseMaker } from '../../../../clients/js/player.ts';
+import { neutralFrame, type FaceFrame, type Frames, type Header, type Keyframe } from '../../../../protocol/ts/index.ts';
+
+/** Poses of one number, the level of FAP 3, so that what is shown can be read. */
+class NumberPoses implements PoseMaker {
+  values = [0, 0, 0];
+  evaluations = 0;
+  evaluate(frame: FaceFrame, pose: number): void {
+    this.values[pose] = frame.levels[3]!;
+    this.evaluations += 1;
+  }
+  interpolate(a: number, b: number, t: number, out: number): void {
+    this.values[out] = this.values[a]! * (1 - t) + this.values[b]! * t;
+  }
+  get shown(): number {
+    return this.values[shownPose]!;
+  }
+}
+
+const state = (level: number): FaceFrame => {
+  const frame = neutralFrame();
+  frame.levels[3] = level;
+  return frame;
+};
+/** Levels are media times in steps of 4 ms, so that they fit. */
+const levelAt = (mediaTime: number): number => Math.round(mediaTime / 4);
+const keyframe = (mediaTime: number, level = levelAt(mediaTime)): Keyframe => ({
+  type: 'keyframe',
+  sequence: 1,
+  media_time: mediaTime,
+  state: state(level),
+});
+const batch = (...mediaTimes: number[]): Frames => ({
+  type: 'frames',
+  sequence: 1,
+  media_time: mediaTimes[0]!,
+  frames: mediaTimes.map((time) => ({ time: time - mediaTimes[0]!, state: state(levelAt(time)) })),
+});
+const header = (epoch: number): Header => ({
+  type: 'header',
+  version: 1,
+  stream: 's',
+  title: '',
+  model: '',
+  epoch,
+  sequence: 0,
+  media_time: 0,
+  server_time: 0,
+  fps_hint: 0,
+  batch_interval: 40,
+  quantizers: [],
+  recovered: false,
+});
+
+interface Playing {
+  poses: NumberPoses;
+  player: Player;
+  clock: { now: number };
+  step(ms: number): boolean;
+}
+
+function playing(): Playing {
+  const clock = { now: 5000 };
+  const poses = new NumberPoses();
+  const player = new Player(poses, { now: () => clock.now });
+  player.begin(header(1));
+  const step = (ms: number): boolean => {
+    clock.now += ms;
+    return player.update(ms / 1000);
+  };
+  return { poses, player, step, clock };
+}
+
+describe('Player', () => {
+  it('Update_BeforeTheFirstFrame_ShowsNothing', () => {
+    const { player, step, poses } = playing();
+    expect(step(16)).toBe(false);
+    expect(poses.evaluations).toBe(0);
+    expect(player.playhead).toBeNaN();
+  });
+
+  it('Update_SteadyStream_PlaysTwoIntervalsBehindAndInterpolates', () => {
+    const { player, step, poses } = playing();
+    player.pushKeyframe(keyframe(0));
+    for (let media = 40; media <= 4000; media += 40) {
+      for (const part of [16, 16, 8]) step(part);
+      player.pushFrames(batch(media));
+    }
+    // The newest is 4000; two intervals of 40 ms behind it is 3920.
+    expect(player.playhead).toBeCloseTo(3920, 0);
+    step(10);
+    expect(poses.shown * 4).toBeCloseTo(3930, 0); // between the frames of 3920 and 3960
+  });
+
+  it('Update_ArrivalsThatJitter_NeverGoesBackAndChangesSpeedByFivePercent', () => {
+    const { player, step, clock } = playing();
+    player.pushKeyframe(keyframe(0));
+    let seed = 3;
+    const pending: { at: number; media: number }[] = [];
+    for (let media = 40; media <= 20_000; media += 40) {
+      seed = (seed * 48271) % 0x7fffffff;
+      pending.push({ at: 5000 + media + (seed % 60), media });
+    }
+    let arrived = 0;
+    let slowest = Infinity;
+    let fastest = 0;
+    for (let i = 0; i < 1900; ++i) {
+      // In order, as a socket delivers: one late message holds those behind it.
+      while (pending.length > 0 && pending[0]!.at <= clock.now + 10) {
+        arrived = pending.shift()!.media;
+        player.pushFrames(batch(arrived));
+      }
+      const before = player.playhead;
+      step(10);
+      const moved = player.playhead - before;
+      expect(moved).toBeGreaterThanOrEqual(0);
+      if (i > 10 && player.playhead < arrived) {
+        slowest = Math.min(slowest, moved);
+        fastest = Math.max(fastest, moved);
+      }
+    }
+    expect(slowest).toBeGreaterThanOrEqual(9.5 - 1e-6);
+    expect(fastest).toBeLessThanOrEqual(10.5 + 1e-6);
+  });
+
+  it('Update_NoNewFrames_HoldsTheLastOne', () => {
+    const { player, step, poses } = playing();
+    player.pushKeyframe(keyframe(0));
+    player.pushFrames(batch(40, 80, 120));
+    for (let i = 0; i < 50; ++i) step(16);
+    expect(player.playhead).toBe(120);
+    expect(poses.shown).toBe(levelAt(120));
+    expect(step(16)).toBe(false); // nothing changed: nothing to draw
+  });
+
+  it('Update_AfterALongSilence_JumpsAndMovesAtTheUsualPace', () => {
+    const { player, step, poses, clock } = playing();
+    player.pushKeyframe(keyframe(0));
+    for (let i = 0; i < 100; ++i) step(16);
+    clock.now = 5000 + 60_000;
+    player.pushFrames(batch(60_000));
+    step(16);
+    expect(player.playhead).toBeGreaterThan(59_900);
+    expect(poses.shown).toBeLessThan(levelAt(30_000)); // begins from the old face, not half way through the silence
+    for (let i = 0; i < 20; ++i) step(16);
+    expect(poses.shown).toBe(levelAt(60_000));
+  });
+
+  it('Push_FramesSentAgain_AreIgnored', () => {
+    const { player, step, poses } = playing();
+    player.pushKeyframe(keyframe(0));
+    player.pushFrames(batch(40, 80));
+    player.pushKeyframe(keyframe(40, -1000));
+    player.pushFrames(batch(80, 120));
+    for (let i = 0; i < 50; ++i) {
+      step(16);
+      expect(poses.shown).toBeGreaterThanOrEqual(0);
+    }
+    expect(poses.shown).toBe(levelAt(120));
+  });
+
+  it('Begin_AnotherEpoch_StartsANewTimeLine', () => {
+    const { player, step, poses } = playing();
+    player.pushKeyframe(keyframe(100_000));
+    step(16);
+    player.begin(header(2));
+    player.pushKeyframe(keyframe(12));
+    step(200);
+    expect(poses.shown).toBe(levelAt(12));
+  });
+
+  it('Push_WithoutUpdates_HoldsABoundedNumberOfFrames', () => {
+    const { player, step, poses, clock } = playing();
+    for (let media = 40; media <= 120_000; media += 40) player.pushFrames(batch(media));
+    clock.now += 120_000;
+    expect((player as unknown as { times: number[] }).times.length).toBeLessThanOrEqual(2048);
+    for (let i = 0; i < 100; ++i) step(16);
+    expect(poses.shown).toBe(levelAt(120_000));
+  });
+});
