@@ -95,7 +95,7 @@ struct RigDocument {
   std::vector<std::string> warnings;
 };
 
-/// The document as JSON text.
+/// The document as JSON text. Displacements are rounded to five significant digits; every other float is exact.
 std::string write_rig(const RigDocument& rig);
 
 /// Reads and checks one: errors carry the JSON pointer of the member at fault. Unknown members are skipped.

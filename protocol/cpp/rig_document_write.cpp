@@ -18,6 +18,18 @@ double shortest(float value) {
   return status == std::errc() ? result : static_cast<double>(value);
 }
 
+/// Five significant digits: a displacement moves vertices through weights of 12 bits, and most of rig.json is these.
+double five_digits(float value) {
+  char digits[32];
+  const auto [end, status] = std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::general, 5);
+  double result = 0.0;
+  std::from_chars(std::begin(digits), end, result);
+  return status == std::errc() ? result : static_cast<double>(value);
+}
+
+/// 0, not 0.0 or -0.0: a third of the components.
+ordered_json component(float value) { return value == 0.0F ? ordered_json(0) : ordered_json(five_digits(value)); }
+
 ordered_json vector_of(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
 template <class T>
@@ -35,7 +47,8 @@ ordered_json sets_of(const std::array<RigDocument::DisplacementSet, N>& sets) {
   for (const auto& set : sets) {
     ordered_json displacements = ordered_json::object();
     for (const auto& displacement : set.displacements)
-      displacements[to_string(displacement.id)] = vector_of(displacement.by);
+      displacements[to_string(displacement.id)] = {component(displacement.by.x), component(displacement.by.y),
+                                                   component(displacement.by.z)};
     result.push_back({{"name", set.name}, {"displacements", std::move(displacements)}});
   }
   return result;
