@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/import/json.h"
+#include "core/import/json_vector.h"
 #include "core/import/text.h"
 
 namespace semblante {
@@ -17,29 +18,13 @@ using import::JsonCursor;
 /// 84 points with a page of remarks each are far below this.
 constexpr std::size_t max_bytes = std::size_t{4} << 20;
 
-glm::dvec3 read_vector(const JsonCursor& array) {
-  glm::dvec3 value(0.0);
-  if (array.size() != 3) {
-    array.fail(ErrorCode::malformed, "must have 3 numbers");
-    return value;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const JsonCursor element = array.element(i);
-    value[static_cast<int>(i)] = element.number();
-    if (std::abs(value[static_cast<int>(i)]) > static_cast<double>(std::numeric_limits<float>::max())) {
-      element.fail(ErrorCode::out_of_range, "is too large");
-    }
-  }
-  return value;
-}
-
 MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
   MarkedPoint marked{id, std::nullopt, std::nullopt};
   point.must_be_object();
   if (point.has("vertex")) {
     marked.vertex = static_cast<std::uint32_t>(point["vertex"].integer(std::numeric_limits<std::uint32_t>::max()));
   }
-  if (point.has("position")) marked.position = read_vector(point["position"]);
+  if (point.has("position")) marked.position = import::read_vector(point["position"]);
   if (!marked.vertex && !marked.position) point.fail(ErrorCode::missing, "has neither a vertex nor a position");
   return marked;
 }
@@ -51,7 +36,7 @@ glm::dmat3 read_axes(const JsonCursor& rows) {
     return matrix;
   }
   for (int row = 0; row < 3; ++row) {
-    const glm::dvec3 values = read_vector(rows.element(static_cast<std::size_t>(row)));
+    const glm::dvec3 values = import::read_vector(rows.element(static_cast<std::size_t>(row)));
     for (int column = 0; column < 3; ++column) matrix[column][row] = values[column];
   }
   // Relative to the size of its rows, so that a change of unit is fine and a flattening is not.

@@ -10,6 +10,8 @@ namespace semblante {
 // variable SEMBLANTE_...) and the callback that runs it. A callback that fails throws CommandFailure
 // (command_failure.h); one that returns has succeeded.
 
+void add_parametrize_command(CLI::App& app);
+void add_deform_command(CLI::App& app);
 void add_version_command(CLI::App& app);
 
 }  // namespace semblante

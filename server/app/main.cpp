@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
   CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
+  add_parametrize_command(app);
+  add_deform_command(app);
   add_version_command(app);
   try {
     app.parse(argc, argv);

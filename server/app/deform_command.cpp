@@ -1,0 +1,71 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "core/expressions/kernel_rig.h"
+#include "server/app/command_failure.h"
+#include "server/app/commands.h"
+#include "server/app/face_options.h"
+#include "server/app/files.h"
+#include "server/app/head_input.h"
+#include "server/app/obj_writer.h"
+
+namespace semblante {
+namespace {
+
+struct DeformCommand {
+  HeadOptions head;
+  FaceOptions face;
+  std::string out;
+};
+
+void run(const DeformCommand& options) {
+  const FaceOptions& face = options.face;
+  if (face.faps.empty() && face.viseme.empty() && face.expression.empty() && face.displacements.empty()) {
+    throw CommandFailure(CommandFailure::bad_input,
+                         "deform: give --faps, --viseme, --expression (or several of them) or --displacements");
+  }
+  Head head = load_head(options.head);
+  const semblante_pose pose = make_pose(face, head, head.warnings);
+
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  std::vector<glm::vec3> deformed(head.model.positions.size());
+  const semblante_face rows = make_kernel_face(head.rig, &head.model.positions.front().x);
+  semblante_deform(&rows, &pose, &deformed.front().x);
+  write_file(options.out, [&](std::ostream& out) { write_obj(head.model, deformed, out); });
+  print_warnings(head.warnings, options.head.quiet);
+}
+
+}  // namespace
+
+void add_deform_command(CLI::App& app) {
+  auto options = std::make_shared<DeformCommand>();
+  CLI::App* const command =
+      app.add_subcommand("deform", "Write a head in one face as OBJ, file vertices in their order");
+  add_head_options(*command, options->head);
+  FaceOptions& face = options->face;
+  CLI::Option* const faps = command->add_option("--faps", face.faps, "Low-level FAPs in FAP units: \"3=200,19=512\"")
+                                ->envname("SEMBLANTE_FAPS");
+  CLI::Option* const viseme = command->add_option("--viseme", face.viseme, "Viseme of FAP 1: number 0..14 or name")
+                                  ->envname("SEMBLANTE_VISEME");
+  CLI::Option* const expression =
+      command->add_option("--expression", face.expression, "Expression of FAP 2: number 1..6 or name")
+          ->envname("SEMBLANTE_EXPRESSION");
+  command->add_option("--intensity", face.intensity, "Of the viseme and the expression, 0..1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_INTENSITY");
+  command
+      ->add_option("--displacements", face.displacements,
+                   "JSON file {\"2.1\": [dx, dy, dz], ...}: feature points moved in the model file's axes and unit")
+      ->excludes(faps)
+      ->excludes(viseme)
+      ->excludes(expression)
+      ->envname("SEMBLANTE_DISPLACEMENTS");
+  command->add_option("--out", options->out, "OBJ file to write; - is standard output")
+      ->required()
+      ->envname("SEMBLANTE_OUT");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace semblante

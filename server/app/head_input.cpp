@@ -1,0 +1,111 @@
+#include "server/app/head_input.h"
+
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/import/axes.h"
+#include "core/import/import.h"
+#include "core/parametrize/parametrize.h"
+#include "core/parametrize/place_feature_points.h"
+#include "server/app/command_failure.h"
+#include "server/app/files.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::size_t max_feature_points_bytes = std::size_t{4} << 20;
+constexpr std::array all_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
+                                    ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
+
+Model read_model(const HeadOptions& options) {
+  const ImportLimits limits;
+  const auto bytes = read_file(options.model_path, limits.max_file_bytes);
+  std::optional<ModelFormat> format;
+  for (const ModelFormat candidate : all_formats) {
+    if (to_string(candidate) == options.format) format = candidate;
+  }
+  if (!format) format = detect_format(bytes, std::filesystem::path(options.model_path).filename().string());
+  if (!format) {
+    throw CommandFailure(CommandFailure::bad_input,
+                         options.model_path + ": is no GLB, glTF (or zip of one), OBJ, PLY or STL");
+  }
+  auto model = import_model(bytes, *format, limits);
+  if (!model) fail(options.model_path, model.error());
+  return std::move(*model);
+}
+
+/// One line that is written over; cleared at the end. Only for people, so only on a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  void show(double progress, std::string_view stage) const {
+    if (shown_) std::cerr << "\r\033[K" << static_cast<int>(progress * 100.0) << " % " << stage << std::flush;
+  }
+
+ private:
+  bool shown_;
+};
+
+}  // namespace
+
+void add_head_options(CLI::App& command, HeadOptions& options) {
+  command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+      ->required()
+      ->envname("SEMBLANTE_MODEL");
+  command
+      .add_option("--feature-points", options.feature_points_path,
+                  "JSON: {\"points\": {\"2.1\": {\"vertex\": 966}, ...}}, vertices as the model file numbers them, or "
+                  "positions")
+      ->required()
+      ->envname("SEMBLANTE_FEATURE_POINTS");
+  command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
+      ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
+      ->envname("SEMBLANTE_FORMAT");
+  command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
+}
+
+void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
+  if (quiet) return;
+  for (const std::string& warning : warnings) std::cerr << "semblante: warning: " << warning << "\n";
+}
+
+Head load_head(const HeadOptions& options) {
+  const auto json = read_file(options.feature_points_path, max_feature_points_bytes);
+  auto file = parse_feature_points({reinterpret_cast<const char*>(json.data()), json.size()});
+  if (!file) fail(options.feature_points_path, file.error());
+
+  Head head;
+  head.model = read_model(options);
+  if (file->to_mpeg4_axes) {
+    head.to_mpeg4 = *file->to_mpeg4_axes;
+    change_axes(head.model, head.to_mpeg4);
+    change_axes(*file);
+  }
+  head.warnings = head.model.warnings;
+  head.surface = build_surface(head.model);
+  const auto points = place_feature_points(head.model, head.surface, file->points, &head.warnings);
+  if (!points) fail(options.feature_points_path, points.error());
+
+  const ProgressLine line(options.quiet);
+  ParametrizeOptions parametrize_options;
+  parametrize_options.progress = [&line](double progress, std::string_view stage) {
+    line.show(progress, stage);
+    return true;
+  };
+  auto rig = parametrize(head.model, head.surface, *points, parametrize_options);
+  if (!rig) fail(options.model_path, rig.error());
+  head.rig = std::move(*rig);
+  head.warnings.insert(head.warnings.end(), head.rig.warnings.begin(), head.rig.warnings.end());
+  return head;
+}
+
+}  // namespace semblante

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/import/feature_points_file.h"
+#include "core/types/model.h"
+#include "core/types/rig.h"
+
+namespace CLI {
+class App;
+}
+
+namespace semblante {
+
+/// What both `parametrize` and `deform` begin with.
+struct HeadOptions {
+  std::string model_path;
+  std::string feature_points_path;
+  std::string format;  ///< empty: by content and name
+  bool quiet = false;
+};
+
+/// Declares MODEL, --feature-points, --format and --quiet.
+void add_head_options(CLI::App& command, HeadOptions& options);
+
+/// A parametrized head, in the MPEG-4 frame; model.to_file_frame leads back to the file's.
+struct Head {
+  Model model;
+  Surface surface;
+  Rig rig;
+  glm::dmat3 to_mpeg4{1.0};           ///< what "to_mpeg4_axes" of the feature point file said
+  std::vector<std::string> warnings;  ///< of all steps, for print_warnings once the command has succeeded
+};
+
+/// Reads, places and parametrizes. Progress goes to stderr if that is a terminal and quiet is not asked for. Throws
+/// CommandFailure, naming the file and the place in it.
+Head load_head(const HeadOptions& options);
+
+/// "semblante: warning: ..." on stderr. At the end, so that a failure is one line alone.
+void print_warnings(const std::vector<std::string>& warnings, bool quiet);
+
+}  // namespace semblante
