@@ -1,0 +1,115 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { beforeAll, describe, expect, it } from 'vitest';
+import { compileKernel, Kernel, neutralFrame, type Face, type FaceFrame } from '../../../../clients/js/index.ts';
+import { rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
+import { featurePoints } from '../../../../protocol/ts/generated/mpeg4.ts';
+
+// The module is made by the C++ build (target semblante-kernel-wasm).
+const modulePath =
+  process.env['SEMBLANTE_WASM'] ??
+  fileURLToPath(new URL('../../../../build/wasm/semblante_kernel.wasm', import.meta.url));
+
+type Sparse = Record<string, Vec3>;
+interface Vectors {
+  rig: {
+    fapu: number[];
+    eye_pivot: [Vec3, Vec3];
+    head_pivot: Vec3;
+    viseme_share: number;
+    visemes: Sparse[];
+    expressions: Sparse[];
+  };
+  face: { rest: Vec3[]; rows: [number, number][][]; rigid: number[] };
+  cases: {
+    name: string;
+    frame: Pick<FaceFrame, 'viseme' | 'expression'> & { faps: Record<string, number> };
+    displacements: Sparse;
+    positions: number[];
+  }[];
+  interpolations: { from: number; to: number; t: number; positions: number[] }[];
+}
+const vectors = JSON.parse(
+  readFileSync(new URL('../../../../protocol/vectors/kernel/small-face.json', import.meta.url), 'utf8'),
+) as Vectors;
+
+function faceOf({ rig, face }: Vectors): Face {
+  const named = (set: Sparse) => ({
+    name: '',
+    displacements: Object.fromEntries(Object.entries(set).map(([fp, by]) => [featurePoints[Number(fp)]!.id, by])),
+  });
+  const offsets = [0];
+  for (const row of face.rows) offsets.push(offsets.at(-1)! + row.length);
+  return {
+    rig: {
+      fapu: Object.fromEntries(rigFapus.map((unit, i) => [unit, rig.fapu[i]])),
+      eye_pivots: rig.eye_pivot,
+      head_pivot: rig.head_pivot,
+      viseme_share: rig.viseme_share,
+      visemes: rig.visemes.map(named),
+      expressions: rig.expressions.map(named),
+    } as unknown as RigDocument,
+    mesh: { positions: Float32Array.from(face.rest.flat()) } as Face['mesh'],
+    influence: {
+      vertexCount: face.rest.length,
+      rowOffsets: Uint32Array.from(offsets),
+      rowPoints: Uint8Array.from(face.rows.flat().map(([point]) => point)),
+      rowWeights: Float32Array.from(face.rows.flat().map(([, weight]) => weight)),
+      rigid: Uint8Array.from(face.rigid),
+    } as Face['influence'],
+  };
+}
+
+/** The vectors have FAPs in FAP units: one level each, of a step that is the value. */
+function frameOf(given: Vectors['cases'][number]['frame']): [FaceFrame, QuantizerSteps] {
+  const frame = { ...neutralFrame(), viseme: given.viseme, expression: given.expression };
+  const steps = new Float64Array(69).fill(1);
+  for (const [fap, value] of Object.entries(given.faps)) {
+    frame.levels[Number(fap)] = 1;
+    steps[Number(fap)] = value;
+  }
+  return [frame, steps];
+}
+
+describe.skipIf(!existsSync(modulePath))('Kernel', () => {
+  let module: WebAssembly.Module;
+  beforeAll(async () => {
+    module = await compileKernel(new Uint8Array(readFileSync(modulePath)));
+  });
+
+  it('EvaluateAndDeform_GoldenFrames_GiveTheGoldenNumbers', async () => {
+    const kernel = await Kernel.create(module, faceOf(vectors), { poseCount: vectors.cases.length + 1 });
+    vectors.cases.forEach((each, pose) => {
+      const [frame, steps] = frameOf(each.frame);
+      kernel.evaluate(frame, pose, steps);
+      const expected = new Float32Array(84 * 3);
+      for (const [fp, by] of Object.entries(each.displacements)) expected.set(by, Number(fp) * 3);
+      expect(kernel.poses[pose]!.featurePoints.map((x) => x + 0), each.name).toEqual(expected);
+      kernel.deform(pose);
+      expect(kernel.positions.map((x) => x + 0), each.name).toEqual(Float32Array.from(each.positions));
+    });
+    const out = vectors.cases.length;
+    for (const { from, to, t, positions } of vectors.interpolations) {
+      kernel.interpolate(from, to, t, out);
+      kernel.deform(out);
+      expect(kernel.positions.map((x) => x + 0)).toEqual(Float32Array.from(positions));
+    }
+  });
+
+  it('Create_PosesAreNeutralAndPositionsAtRest', async () => {
+    const kernel = await Kernel.create(module, faceOf(vectors));
+    expect(kernel.positions).toEqual(Float32Array.from(vectors.face.rest.flat()));
+    expect(kernel.poses.length).toBe(3);
+    expect(Array.from(kernel.poses[0]!.headRotation)).toEqual([0, 0, 0, 1]);
+    expect(Array.from(kernel.poses[2]!.headPivot)).toEqual(Array.from(Float32Array.from(vectors.rig.head_pivot)));
+  });
+
+  it('Create_WithoutVertices_GivesPosesAlone', async () => {
+    const kernel = await Kernel.create(module, faceOf(vectors), { withVertices: false });
+    const [frame, steps] = frameOf(vectors.cases[3]!.frame);
+    kernel.evaluate(frame, 0, steps);
+    expect(kernel.poses[0]!.featurePoints.some((x) => x !== 0)).toBe(true);
+    expect(() => kernel.deform(0)).toThrow(RangeError);
+    expect(() => kernel.evaluate(frame, 3)).toThrow(RangeError);
+  });
+});
