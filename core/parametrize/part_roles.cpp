@@ -104,7 +104,8 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
       if (!roles[p] && votes[p][skin] > 0) roles[p] = PartRole::skin;
     }
     std::size_t main = main_skin_part(surface, votes);
-    if (roles[main]) main = main_skin_part(surface, std::vector<Votes>(votes.size(), Votes{}));
+    if (roles[main].value_or(PartRole::skin) != PartRole::skin)
+      main = main_skin_part(surface, std::vector<Votes>(votes.size(), Votes{}));
     if (!roles[main]) roles[main] = PartRole::skin;
     guess_roles_by_name(shapes, roles);
     guess_roles_by_place(shapes, points, main, roles);

@@ -174,7 +174,8 @@ class PlaceGuess {
   }
 
   void split_mouth(const std::vector<std::size_t>& inside, const std::optional<glm::dvec3>& mouth) {
-    if (largest(PartRole::tongue) == nullptr && inside.size() >= 2) {
+    const bool teeth_elsewhere = largest(PartRole::upper_teeth) != nullptr || largest(PartRole::lower_teeth) != nullptr;
+    if (largest(PartRole::tongue) == nullptr && (inside.size() >= 2 || teeth_elsewhere)) {
       // A single tooth fills its middle as well: the tongue reaches across a good part of the mouth.
       for (const std::size_t p : inside) {
         const PartShape& shape = shapes_[p];

@@ -1,0 +1,66 @@
+#include "core/parametrize/fapu.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+FeaturePoint bare(std::string_view name, const glm::vec3& position) {
+  return {testing::fp(name), std::nullopt, position};
+}
+
+const FeaturePointSet whole_face = {
+    bare("2.2", {0, -2, 9}),      bare("3.1", {3, 1.5F, 8}),  bare("3.2", {-3, 1.75F, 8}), bare("3.3", {3, 0.5F, 8}),
+    bare("3.4", {-3, 0.25F, 8}),  bare("3.5", {3.25F, 1, 8}), bare("3.6", {-3, 1.5F, 8}),  bare("8.3", {2.5F, -2, 8}),
+    bare("8.4", {-2.25F, -2, 8}), bare("9.15", {0, -0.5F, 9})};
+
+TEST(Fapu, WholeFace_GivesDifferencesOfOneCoordinateOver1024) {
+  const Fapu fapu = compute_fapu(whole_face);
+  // IRISD: left 1.5 - 0.5 = 1, right 1.75 - 0.25 = 1.5, mean 1.25.
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::irisd].value() * 1024, 1.25);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::es].value() * 1024, 6.25);  // 3.25 + 3, though the eyes differ in y
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::ens].value() * 1024, 1.5);  // 1 + 0.5: of the left eye
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::mns].value() * 1024, 1.5);  // -0.5 + 2
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::mw].value() * 1024, 4.75);  // 2.5 + 2.25
+  EXPECT_TRUE(explain_missing_fapu(fapu, whole_face).empty());
+}
+
+TEST(Fapu, OneEyeAlone_GivesIrisd) {
+  const FeaturePointSet points = {bare("3.2", {-3, 1.75F, 8}), bare("3.4", {-3, 0.25F, 8})};
+  EXPECT_DOUBLE_EQ(compute_fapu(points)[FapuUnit::irisd].value() * 1024, 1.5);
+}
+
+TEST(Fapu, MissingPoints_LeaveTheUnitEmptyAndAreNamed) {
+  FeaturePointSet points = whole_face;
+  std::erase_if(points, [](const FeaturePoint& p) { return p.id == testing::fp("9.15"); });
+  const Fapu fapu = compute_fapu(points);
+  EXPECT_FALSE(fapu[FapuUnit::ens]);
+  EXPECT_FALSE(fapu[FapuUnit::mns]);
+  EXPECT_TRUE(fapu[FapuUnit::mw]);
+  EXPECT_THAT(explain_missing_fapu(fapu, points),
+              ElementsAre(AllOf(HasSubstr("ENS"), HasSubstr("9.15 is not marked")),
+                          AllOf(HasSubstr("MNS"), HasSubstr("9.15 is not marked"))));
+}
+
+TEST(Fapu, SwappedPoints_LeaveTheUnitEmptyAndSaySo) {
+  const FeaturePointSet points = {bare("8.3", {-2, 0, 0}), bare("8.4", {2, 0, 0})};
+  const Fapu fapu = compute_fapu(points);
+  EXPECT_FALSE(fapu[FapuUnit::mw]);
+  EXPECT_THAT(explain_missing_fapu(fapu, points).back(), HasSubstr("8.3 is not to the left of 8.4"));
+}
+
+TEST(Fapu, GivenByHand_IsNotSpokenOf) {
+  Fapu fapu;
+  for (auto& value : fapu.value) value = 0.01;
+  EXPECT_TRUE(explain_missing_fapu(fapu, {}).empty());
+}
+
+}  // namespace
+}  // namespace semblante

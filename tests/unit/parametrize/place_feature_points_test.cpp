@@ -1,0 +1,162 @@
+#include "core/parametrize/place_feature_points.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+using testing::at_position;
+using testing::at_vertex;
+using ::testing::ElementsAre;
+using testing::fp;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A skin of 20 x 20 squares and an eyeball in front of it, whose first vertex is `eye_`.
+class PlaceFeaturePoints : public ::testing::Test {
+ protected:
+  PlaceFeaturePoints() {
+    eye_ = testing::append(model_, testing::make_ball({5, 15, 0}, 1.5F), "");
+    surface_ = build_surface(model_);
+  }
+  Result<FeaturePointSet> place(const std::vector<MarkedPoint>& marked,
+                                const std::vector<std::optional<PartRole>>& roles = {}) {
+    warnings_.clear();
+    return place_feature_points(model_, surface_, marked, &warnings_, roles);
+  }
+  void expect_error(const std::vector<MarkedPoint>& marked, ErrorCode code, const std::string& where,
+                    const std::vector<std::optional<PartRole>>& roles = {}) {
+    const auto placed = place(marked, roles);
+    ASSERT_FALSE(placed);
+    EXPECT_EQ(placed.error().code, code);
+    EXPECT_EQ(placed.error().where, where);
+    EXPECT_FALSE(placed.error().message.empty());
+  }
+  MarkedPoint at_both(std::string_view name, std::uint32_t vertex, const glm::dvec3& position) {
+    return {fp(name), vertex, position};
+  }
+
+  Model model_ = testing::make_grid(20, 20);
+  std::uint32_t eye_ = 0;
+  Surface surface_;
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(PlaceFeaturePoints, InvalidInput_NamesThePointAndTheReason) {
+  const auto count = static_cast<std::uint32_t>(model_.positions.size());
+  expect_error({at_vertex("2.1", count)}, ErrorCode::out_of_range, "/points/2.1/vertex");
+  expect_error({at_vertex("2.1", 0xFFFFFFFFU)}, ErrorCode::out_of_range, "/points/2.1/vertex");
+  // Out of range even where a position could stand in: the file and the model do not belong together.
+  expect_error({at_both("2.1", count, {0, 0, 0})}, ErrorCode::out_of_range, "/points/2.1/vertex");
+  expect_error({{fp("4.1"), std::nullopt, std::nullopt}}, ErrorCode::missing, "/points/4.1");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  expect_error({at_position("2.1", {nan, 0, 0})}, ErrorCode::not_finite, "/points/2.1/position");
+  expect_error({at_position("2.1", {0, 0, -infinite})}, ErrorCode::not_finite, "/points/2.1/position");
+  expect_error({at_vertex("2.1", 1), at_vertex("2.1", 2)}, ErrorCode::invalid_argument, "/points/2.1");
+  // The diagonal of the box is about 28.4: 5 % are 1.4.
+  expect_error({at_position("2.1", {0, 0, 5})}, ErrorCode::invalid_argument, "/points/2.1/position");
+}
+
+TEST_F(PlaceFeaturePoints, SkinPointOnAPartThatCannotBeSkin_IsRefused) {
+  // The pupil on the ball makes it an eye.
+  expect_error({at_vertex("2.1", 0), at_vertex("3.5", eye_), at_vertex("3.1", eye_ + 1)}, ErrorCode::invalid_argument,
+               "/points/3.1");
+  // Nothing but the user says so.
+  expect_error({at_vertex("8.1", eye_)}, ErrorCode::invalid_argument, "/points/8.1",
+               {std::nullopt, PartRole::upper_teeth});
+}
+
+TEST_F(PlaceFeaturePoints, SkinPointWhereNothingSpeaksAgainstIt_IsTaken) {
+  EXPECT_TRUE(place({at_vertex("8.1", eye_)}));
+  EXPECT_TRUE(place({at_vertex("8.1", eye_)}, {std::nullopt, PartRole::attached}));
+  // Eyes that are painted on the skin: the pupil lies on it too.
+  EXPECT_TRUE(place({at_vertex("2.1", 0), at_vertex("3.5", 8), at_vertex("3.1", 9)}));
+}
+
+TEST_F(PlaceFeaturePoints, Vertices_AreTakenAsTheyAre_SortedById) {
+  const auto placed = place({at_vertex("8.1", 7), at_vertex("2.10", 5), at_vertex("2.2", 3)});
+  ASSERT_TRUE(placed);
+  ASSERT_EQ(placed->size(), 3U);
+  EXPECT_EQ(placed->at(0).id, fp("2.2"));
+  EXPECT_EQ(placed->at(1).id, fp("2.10"));
+  EXPECT_EQ(placed->at(2).id, fp("8.1"));
+  EXPECT_EQ(placed->at(2).vertex, VertexId(7));
+  EXPECT_EQ(placed->at(2).position, model_.positions[7]);
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(PlaceFeaturePoints, EveryDisagreeingPositionHasAVertex_FileWasRenumbered) {
+  const auto placed = place({at_both("2.1", 0, {3, 4, 0}), at_both("2.2", 5, {5, 0, 0}), at_vertex("2.3", 9)});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
+  EXPECT_EQ(placed->at(1).vertex, VertexId(5));  // agreed all along
+  EXPECT_EQ(placed->at(2).vertex, VertexId(9));  // has no position that could win
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("2.1")));
+}
+
+TEST_F(PlaceFeaturePoints, OneDisagreeingPositionHasNoVertex_VerticesWin) {
+  const auto placed = place({at_both("2.1", 0, {3, 4, 0}), at_both("2.2", 5, {5.5, 0, 0})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(0));
+  EXPECT_EQ(placed->at(1).vertex, VertexId(5));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("2.1, 2.2")));
+}
+
+TEST_F(PlaceFeaturePoints, PositionRoundedInPrint_Agrees) {
+  const auto placed = place({at_both("2.1", 2, {2.0004, 0, 0})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(2));
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(PlaceFeaturePoints, PositionAtAVertex_IsThatVertex) {
+  const auto placed = place({at_position("2.1", {3, 4, 0.001}), at_position("7.1", {1, 1, 0})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
+  EXPECT_EQ(placed->at(1).vertex, VertexId(22));
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(PlaceFeaturePoints, SeveralVerticesAtAPosition_ThePartWithMostVerticesThenTheLowestIndex) {
+  // A small part of its own at (3, 4, 0), numbered first or last, must not take the point from the skin.
+  Model model = testing::make_model({{3, 4, 0}, {3, 4, 1}, {3, 5, 1}}, {{0, 1, 2}});
+  const std::uint32_t skin = testing::append(model, testing::make_grid(20, 20), "");
+  testing::append(model, testing::make_model({{3, 4, 0}, {3, 4, 1}, {3, 5, 1}}, {{0, 1, 2}}), "");
+  const Surface surface = build_surface(model);
+  const auto placed = place_feature_points(model, surface, std::vector{at_position("2.1", {3, 4, 0})}, nullptr);
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(skin + 4 * 21 + 3));
+}
+
+TEST_F(PlaceFeaturePoints, InnerPointsOffTheSurface_StayBare) {
+  const auto placed = place({at_position("3.5", {5.2, 15.1, 1.3}), at_position("7.1", {10, 5, -40})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, std::nullopt);
+  EXPECT_EQ(placed->at(0).position, glm::vec3(5.2F, 15.1F, 1.3F));
+  EXPECT_EQ(placed->at(1).vertex, std::nullopt);
+}
+
+TEST_F(PlaceFeaturePoints, OtherPointsNearTheSurface_SnapWithAWarning) {
+  const auto placed = place({at_position("2.1", {3.2, 4.1, 0.5}), at_position("8.1", {7, 2.4, 0})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
+  EXPECT_EQ(placed->at(1).vertex, VertexId(2 * 21 + 7));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("2.1, 8.1")));
+}
+
+TEST_F(PlaceFeaturePoints, VertexWithoutTriangles_IsNoPlaceForAPosition) {
+  model_.positions.emplace_back(3, 4, 0.5F);
+  surface_ = build_surface(model_);
+  const auto placed = place({at_position("2.1", {3, 4, 0.5})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
+}
+
+}  // namespace
+}  // namespace semblante
