@@ -62,7 +62,7 @@ export class PointsPanel {
       this.guide.select(id);
       this.drawCard();
       this.drawList();
-      if (id !== null) this.list.querySelector(`[data-point="${id}"]`)?.scrollIntoView({ block: 'nearest' });
+      if (id !== null) this.reveal(id);
     });
     points.busy.watch(() => this.drawButtons());
     studio.selected.watch(() => this.draw());
@@ -71,6 +71,14 @@ export class PointsPanel {
 
   private choose(id: string): void {
     this.points.chosen.set(this.points.chosen.value === id ? null : id);
+  }
+
+  /** Scrolls the list, and nothing else, until a row can be seen. */
+  private reveal(id: string): void {
+    const row = this.list.querySelector<HTMLElement>(`[data-point="${id}"]`);
+    if (!row || this.list.scrollHeight <= this.list.clientHeight) return;
+    const top = row.offsetTop - this.list.offsetTop;
+    if (top < this.list.scrollTop || top + row.offsetHeight > this.list.scrollTop + this.list.clientHeight) this.list.scrollTop = top - this.list.clientHeight / 3;
   }
 
   private draw(): void {

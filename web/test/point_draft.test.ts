@@ -1,0 +1,59 @@
+import { describe, expect, test } from 'vitest';
+import { PointDraft, type PlacedPoint } from '../src/face/point_draft.ts';
+import { bestView, drawings } from '../src/ui/guide_data.ts';
+import { pointGroups } from '../src/face/feature_points.ts';
+
+const at = (vertex: number | null): PlacedPoint => ({ vertex, position: [vertex ?? 0, 0, 0] });
+
+describe('point draft', () => {
+  test('Draft_PlaceUnknownId_Throws', () => expect(() => new PointDraft().place('1.1', at(3))).toThrow(RangeError));
+
+  test('Draft_UndoRedo_GoesThereAndBack', () => {
+    const draft = new PointDraft();
+    draft.reset([['2.1', at(5)]]);
+    draft.place('2.1', at(6));
+    draft.remove('2.1');
+    expect(draft.undo()).toBe(true);
+    expect(draft.points.get('2.1')?.vertex).toBe(6);
+    expect(draft.undo()).toBe(true);
+    expect(draft.changes).toBe(0);
+    expect(draft.undo()).toBe(false);
+    draft.redo();
+    expect(draft.points.get('2.1')?.vertex).toBe(6);
+  });
+
+  test('Draft_PlaceAfterUndo_ForgetsWhatWasUndone', () => {
+    const draft = new PointDraft();
+    draft.place('2.1', at(1));
+    draft.undo();
+    draft.place('2.2', at(2));
+    expect(draft.canRedo).toBe(false);
+  });
+
+  test('Draft_SameVertexAgain_CountsNoChange', () => {
+    const draft = new PointDraft();
+    draft.reset([['2.1', at(5)]]);
+    draft.place('2.1', { vertex: 5, position: [9, 9, 9] });
+    expect(draft.changes).toBe(0);
+  });
+
+  test('Draft_BarePosition_IsSentAsPosition', () => {
+    const draft = new PointDraft();
+    draft.reset([['7.1', at(null)], ['2.1', at(5)]]);
+    expect(draft.toBody()).toEqual({ points: { '7.1': { position: [0, 0, 0] }, '2.1': { vertex: 5 } } });
+  });
+});
+
+describe('guide', () => {
+  test('Guide_EveryFeaturePoint_IsOnTheDrawingThatShowsIt', () => {
+    const ids = pointGroups.flatMap((group) => group.points.map((point) => point.id));
+    expect(ids).toHaveLength(84);
+    expect(ids.filter((id) => !(id in drawings[bestView(id)].spots))).toEqual([]);
+  });
+
+  test('Guide_MirrorPairs_LeftIsOnTheRightOfThePicture', () => {
+    // 3.5 is the left pupil; the face looks at us, so its left is on our right.
+    expect(drawings.front.spots['3.5']![0]).toBeGreaterThan(drawings.front.spots['3.6']![0]);
+    expect(drawings.mouth.spots['2.4']![0]).toBeGreaterThan(drawings.mouth.spots['2.5']![0]);
+  });
+});

@@ -1,0 +1,31 @@
+import { describe, expect, test } from 'vitest';
+import { featurePointOf, fieldProblems, problemFrom } from '../src/net/problem.ts';
+
+describe('problem documents', () => {
+  test('ProblemFrom_ProblemJson_KeepsItsMembers', () => {
+    const body = JSON.stringify({ type: '/problems/invalid-feature-point', title: 'Refused', status: 422, detail: 'no such vertex', pointer: '/points/2.1/vertex' });
+    expect(problemFrom(422, 'Unprocessable', 'application/problem+json', body)).toMatchObject({ pointer: '/points/2.1/vertex', detail: 'no such vertex' });
+  });
+
+  test('ProblemFrom_HtmlOfAProxy_ShowsNoMarkup', () => {
+    expect(problemFrom(502, 'Bad Gateway', 'text/html', '<html>..</html>')).toEqual({ type: 'about:blank', title: 'Bad Gateway', status: 502 });
+  });
+
+  test('ProblemFrom_CutShortJson_StillIsAProblem', () => {
+    expect(problemFrom(500, '', 'application/problem+json', '{"title":').title).toBe('HTTP 500');
+  });
+
+  test('FieldProblems_SeveralErrors_GivesEach', () => {
+    const errors = [{ pointer: '/points/2.1', detail: 'a' }, { pointer: '/points/9.3/vertex', detail: 'b' }];
+    expect(fieldProblems({ type: '', title: 'x', status: 422, errors })).toEqual(errors);
+  });
+
+  test('FeaturePointOf_PointerIntoAPoint_NamesIt', () => {
+    expect(featurePointOf('/points/2.10/vertex')).toBe('2.10');
+    expect(featurePointOf('/points/7.1')).toBe('7.1');
+  });
+
+  test('FeaturePointOf_AnythingElse_IsNull', () => {
+    expect([featurePointOf('/name'), featurePointOf(undefined), featurePointOf('/points/abc/vertex')]).toEqual([null, null, null]);
+  });
+});
