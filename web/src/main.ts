@@ -48,7 +48,7 @@ function main(root: HTMLElement): void {
   });
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
-  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, demo));
+  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, demo));
   const livePanel = new LivePanel(studio, live);
   const layout = makeLayout(
     studio,

@@ -2,15 +2,16 @@ import { h, replace } from './dom.ts';
 import { icon } from './icons.ts';
 import type { LiveModel } from './live_model.ts';
 import type { SceneView } from './scene.ts';
+import type { Signal } from './signal.ts';
+import type { Tab } from './studio.ts';
 
 /** Says on the stage who moves the face, and lets the stream take over again. */
-export function makeDriverChip(live: LiveModel, scene: SceneView, defaultStream: { id: string; title: string }): HTMLElement {
+export function makeDriverChip(live: LiveModel, scene: SceneView, tab: Signal<Tab>, defaultStream: { id: string; title: string }): HTMLElement {
   const chip = h('div', { class: 'driver', role: 'status' });
   const draw = (): void => {
     const status = live.status.value;
-    const moves = scene.performer.value !== null;
-    chip.hidden = !moves;
-    if (!moves) return;
+    chip.hidden = scene.performer.value === null || tab.value === 'points';
+    if (chip.hidden) return;
     if (live.driving.value && status.kind !== 'off') {
       const words = status.kind === 'open' ? `Live: ${status.title ?? ''}` : status.kind === 'ended' ? (status.reason ?? 'The stream ended') : 'Connecting…';
       replace(chip, h('span', { class: `lamp lamp-${status.kind}` }), h('span', { class: 'driver-text' }, words), h('button', { type: 'button', class: 'quiet square small', 'aria-label': 'Pause the stream', title: 'Pause', on: { click: () => live.driving.set(false) } }, icon('pause', 15)));
@@ -26,5 +27,6 @@ export function makeDriverChip(live: LiveModel, scene: SceneView, defaultStream:
   live.driving.watch(draw);
   live.following.watch(draw);
   scene.performer.watch(draw);
+  tab.watch(draw);
   return chip;
 }

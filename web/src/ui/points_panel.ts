@@ -44,7 +44,7 @@ export class PointsPanel {
     this.redo = tool('Redo', 'redo', () => points.redo());
     this.mirror = tool('Fill the missing side by mirroring', 'mirror', () => void points.save(true));
     this.save = h('button', { type: 'button', on: { click: () => void points.save() } }, 'Save');
-    this.go = h('button', { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } }, 'Bring to life');
+    this.go = h('button', { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } }, 'Parametrize');
     this.element = h(
       'div',
       { class: 'panel points' },
@@ -113,7 +113,6 @@ export class PointsPanel {
     this.save.disabled = busy || !usable || draft.changes === 0;
     setText(this.save, draft.changes === 0 ? 'Saved' : `Save ${draft.changes} ${draft.changes === 1 ? 'change' : 'changes'}`);
     this.go.disabled = busy || !usable || draft.points.size === 0;
-    setText(this.go, model?.state === 'parametrized' && draft.changes === 0 ? 'Parametrize again' : 'Parametrize');
     replace(this.progress, activity ? h('div', { class: 'row small' }, h('span', { class: 'grow' }, activity.title), activity.progress !== null ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`) : null, activity.cancel ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, 'Cancel') : null) : null, activity ? bar(activity) : null);
   }
 
@@ -130,9 +129,8 @@ export class PointsPanel {
     replace(
       this.card,
       h('div', { class: 'row' }, h('code', { class: 'id' }, point.id), h('strong', { class: 'grow' }, capital(point.name)), place ? h('button', { type: 'button', class: 'quiet square small', 'aria-label': `Remove point ${point.id}`, title: 'Remove (Delete)', on: { click: () => this.points.remove(point.id) } }, icon('trash', 16)) : null),
-      h('p', { class: 'muted small' }, where),
+      h('div', { class: 'row' }, h('p', { class: 'muted small grow' }, where), this.points.draft.points.size < this.points.total ? h('button', { type: 'button', class: 'quiet small next', on: { click: () => this.points.chooseNext() } }, 'Next', icon('chevron', 14)) : null),
       reasons.map((text) => h('p', { class: 'reason', role: 'alert' }, icon('warning', 15), text)),
-      h('button', { type: 'button', class: 'quiet small next', on: { click: () => this.points.chooseNext() } }, 'Next unplaced', icon('chevron', 14)),
     );
   }
 

@@ -25,6 +25,9 @@ const directions: Record<ViewName, [number, number, number]> = {
   'three-quarter': [0.55, 0.06, 0.83],
 };
 
+/** Pixels that tools and messages take at the top and the bottom of the stage. */
+const toolRoom = 150;
+
 /** Something that moves: called once per frame before drawing; returns whether the picture changed. */
 export type FrameHook = (deltaSeconds: number) => boolean;
 
@@ -111,8 +114,11 @@ export class Stage {
   look(view: ViewName, atOnce = false): void {
     const [x, y, z] = directions[view];
     const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(1, this.camera.aspect * 1.18);
-    const distance = (this.radius * 1.3) / Math.tan(half) / narrow;
+    // Room for the tools that float above and below the head.
+    const height = this.canvas.clientHeight;
+    const free = Math.max(0.6, (height - toolRoom) / Math.max(height, 1));
+    const narrow = Math.min(1, this.camera.aspect * 1.3);
+    const distance = (this.radius * 1.06) / Math.tan(half) / (free * narrow);
     this.flightTo.set(x, y, z).normalize().multiplyScalar(distance).add(this.center);
     this.controls.target.copy(this.center);
     if (atOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {

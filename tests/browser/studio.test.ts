@@ -1,0 +1,189 @@
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { faces, sampleHead, samplePoints } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+/** The middle of the lower half of the stage, where the mouth of a head seen from the front is. */
+const mouth = [0.36, 0.48, 0.28, 0.3] as const;
+const wholeStage = [0, 0, 1, 1] as const;
+
+interface PointsFile {
+  points: Record<string, { vertex: number; position: [number, number, number] }>;
+}
+
+let server: RunningServer;
+let browser: Browser;
+const scratch = mkdtempSync(join(tmpdir(), 'semblante-studio-'));
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+async function importPoints(studio: StudioPage, path: string): Promise<void> {
+  await studio.page.setInputFiles('#points-file', path);
+}
+
+/** Drops a head with its points, marks one point by a click, parametrizes, and returns with the Animate tab open. */
+async function bringToLife(studio: StudioPage, head: string, points: string): Promise<void> {
+  const { page } = studio;
+  await studio.drop(head);
+  await studio.waitForState('ready');
+  await studio.waitForStage('ready');
+  await importPoints(studio, points);
+  await page.getByText(/\d+ of 84 placed/).filter({ hasNotText: /^0 of/ }).waitFor({ timeout: 30_000 });
+
+  // The tip of the nose, taken away and put back with the pointer.
+  const file = JSON.parse(readFileSync(points, 'utf8')) as PointsFile;
+  const nose = file.points['9.3']!;
+  await page.getByRole('searchbox', { name: 'Search feature points' }).fill('9.3');
+  await page.locator('[data-point="9.3"]').click();
+  await page.getByRole('button', { name: 'Remove point 9.3' }).click();
+  await page.getByText('Click on the head to place it.').waitFor();
+  const spot = await studio.project(nose.position);
+  await page.mouse.click(spot.x, spot.y);
+  await page.getByText(/^On vertex \d+/).waitFor();
+  const placed = Number(/\d+/.exec(await page.getByText(/^On vertex \d+/).innerText())![0]);
+  expect(placed).toBeGreaterThanOrEqual(0);
+  await page.getByRole('searchbox', { name: 'Search feature points' }).fill('');
+
+  await page.getByRole('button', { name: 'Parametrize' }).click();
+  await studio.waitForState('parametrized');
+  await studio.waitForStage('ready');
+  await page.locator('#tab-animate[aria-selected="true"]').waitFor();
+}
+
+async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
+  const { page } = studio;
+  await studio.settle();
+  const before = await studio.picture();
+  await page.locator('details[data-group="2"] summary').click();
+  const jaw = page.getByRole('slider', { name: 'Open jaw' });
+  await jaw.fill('600');
+  await studio.settle();
+  const after = await studio.picture();
+  expect(await studio.difference(before, after, mouth)).toBeGreaterThan(2);
+  // The forehead does not follow the jaw.
+  expect(await studio.difference(before, after, [0.4, 0.18, 0.2, 0.1])).toBeLessThan(0.5);
+
+  await page.getByRole('button', { name: 'Neutral face' }).click();
+  await studio.settle();
+  expect(await studio.difference(before, await studio.picture(), wholeStage)).toBeLessThan(0.2);
+}
+
+describe('studio', () => {
+  test('Studio_FirstVisit_SampleHeadMovesByTheDemoStream', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    await studio.waitForStage('ready');
+    await studio.page.getByText(/^Live: /).first().waitFor({ timeout: 20_000 });
+    const first = await studio.picture();
+    let most = 0;
+    for (let i = 0; i < 6 && most < 0.5; i += 1) {
+      await studio.page.waitForTimeout(700);
+      most = Math.max(most, await studio.difference(first, await studio.picture(), wholeStage));
+    }
+    expect(most).toBeGreaterThan(0.5);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_DropMarkParametrize_SliderMovesTheMouth', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    await studio.waitForStage('ready');
+    await bringToLife(studio, sampleHead, samplePoints);
+    await moveSliderAndCompare(studio);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test.skipIf(faces === null)('Studio_DropMakeHuman_SliderMovesTheMouth', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    await studio.waitForStage('ready');
+    await bringToLife(studio, join(faces!, 'makehuman/head.glb'), join(faces!, 'makehuman/makehuman.fps.json'));
+    await moveSliderAndCompare(studio);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_RefusedPoints_ReasonStandsBesideThePoint', async () => {
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'refused.glb');
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    const bad = join(scratch, 'bad.fps.json');
+    writeFileSync(bad, JSON.stringify({ points: { '2.1': { vertex: 99_999_999 } } }));
+    await importPoints(studio, bad);
+    await studio.page.locator('.point-card .reason').filter({ hasText: '/points/2.1' }).waitFor({ timeout: 20_000 });
+    expect(await studio.page.locator('[data-point="2.1"]').getAttribute('class')).toContain('wrong');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_FileThatIsNoModel_SaysSo', async () => {
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
+    await studio.waitForStage('ready');
+    const text = join(scratch, 'letter.glb');
+    writeFileSync(text, 'Dear reader, this is not a head.');
+    await studio.drop(text);
+    await studio.page.locator('.toast-error, .stage-card.error').first().waitFor({ timeout: 30_000 });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_RenameAndDelete_ShelfFollows', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'short-lived.glb');
+    await studio.waitForState('ready');
+    const entry = page.locator('.head', { hasText: 'short-lived' });
+    await entry.hover();
+    await entry.getByRole('button', { name: 'Rename short-lived' }).click();
+    await page.getByRole('textbox', { name: 'Name' }).fill('Renamed head');
+    await page.getByRole('button', { name: 'Rename', exact: true }).last().click();
+    const renamed = page.locator('.head', { hasText: 'Renamed head' });
+    await renamed.waitFor();
+    await renamed.hover();
+    await renamed.getByRole('button', { name: 'Delete Renamed head' }).click();
+    await page.getByRole('dialog').getByRole('button', { name: 'Delete' }).click();
+    await renamed.waitFor({ state: 'detached' });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_PublishByHand_AnotherPageSeesIt', async () => {
+    const director = await StudioPage.open(browser, server.url);
+    await director.waitForStage('ready');
+    await director.page.locator('#tab-live').click();
+    await director.page.getByRole('button', { name: 'New stream' }).click();
+    await director.page.getByRole('textbox', { name: 'Title' }).fill('Two pages');
+    await director.page.getByRole('button', { name: 'Create' }).click();
+    await director.page.locator('.stream', { hasText: 'Two pages' }).waitFor();
+    await director.page.getByLabel('Stream to send to').selectOption({ label: 'Two pages' });
+    await director.page.getByRole('switch').check();
+    await director.page.getByText('Sending: move a slider in Animate.').waitFor();
+
+    const viewer = await StudioPage.open(browser, server.url);
+    await viewer.waitForStage('ready');
+    await viewer.page.locator('#tab-live').click();
+    await viewer.page.locator('.stream', { hasText: 'Two pages' }).getByRole('button', { name: 'Watch' }).click();
+    await viewer.page.getByText('Live: Two pages').first().waitFor();
+    await viewer.settle();
+    const before = await viewer.picture();
+    await director.page.locator('#tab-animate').click();
+    await director.page.locator('[data-viseme="10"]').click();
+    await viewer.page.waitForTimeout(2500);
+    expect(await viewer.difference(before, await viewer.picture(), mouth)).toBeGreaterThan(1);
+    expect([...director.errors, ...viewer.errors]).toEqual([]);
+    await Promise.all([director.close(), viewer.close()]);
+  });
+});

@@ -1,0 +1,54 @@
+import { spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { buildDir, sampleHead, webRoot } from './paths.ts';
+
+export interface RunningServer {
+  url: string;
+  stop(): Promise<void>;
+}
+
+/** A port nobody uses now, below the range that outgoing connections take theirs from. */
+async function freePort(): Promise<number> {
+  for (let tries = 0; tries < 50; tries += 1) {
+    const port = 18_000 + Math.floor(Math.random() * 12_000);
+    const free = await new Promise<boolean>((resolve) => {
+      const probe = createServer();
+      probe.once('error', () => resolve(false));
+      probe.listen(port, '127.0.0.1', () => probe.close(() => resolve(true)));
+    });
+    if (free) return port;
+  }
+  throw new Error('no free port');
+}
+
+/** The real server with an empty store, the sample head and the demo stream; resolves once it is ready. */
+export async function startServer(): Promise<RunningServer> {
+  const port = await freePort();
+  const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
+  const url = `http://127.0.0.1:${port}`;
+  const child = spawn(join(buildDir, 'bin/semblante'), ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo'], { stdio: ['ignore', 'pipe', 'pipe'] });
+  let output = '';
+  child.stdout.on('data', (chunk: Buffer) => (output += chunk.toString()));
+  child.stderr.on('data', (chunk: Buffer) => (output += chunk.toString()));
+  const ended = new Promise<void>((resolve) => child.once('exit', () => resolve()));
+  const deadline = Date.now() + 60_000;
+  for (;;) {
+    if (child.exitCode !== null) throw new Error(`the server stopped while starting:\n${output}`);
+    if (Date.now() > deadline) throw new Error(`the server is not ready after a minute:\n${output}`);
+    const ready = await fetch(`${url}/readyz`).then((r) => r.ok, () => false);
+    const sample = ready && (await fetch(`${url}/v1/models/sample`).then(async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized', () => false));
+    if (sample) break;
+    await new Promise((wake) => setTimeout(wake, 100));
+  }
+  return {
+    url,
+    stop: async () => {
+      child.kill('SIGTERM');
+      await ended;
+      rmSync(data, { recursive: true, force: true });
+    },
+  };
+}

@@ -1,0 +1,135 @@
+import { mkdirSync, readFileSync } from 'node:fs';
+import { basename, join } from 'node:path';
+import { chromium as driver, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import { buildDir, chromium } from './paths.ts';
+
+export function launch(): Promise<Browser> {
+  return driver.launch({ executablePath: chromium, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
+}
+
+export interface OpenOptions {
+  width?: number;
+  height?: number;
+  dark?: boolean;
+  /** What the console may complain about in this test: an expected refusal shows up there as a failed request. */
+  allowed?: RegExp;
+}
+
+/** A page on the studio that remembers every error its console or its scripts report. */
+export class StudioPage {
+  readonly errors: string[] = [];
+
+  private constructor(
+    readonly context: BrowserContext,
+    readonly page: Page,
+  ) {}
+
+  static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
+    const context = await browser.newContext({
+      viewport: { width: options.width ?? 1000, height: options.height ?? 640 },
+      colorScheme: options.dark ? 'dark' : 'light',
+      reducedMotion: 'reduce',
+    });
+    const page = await context.newPage();
+    const studio = new StudioPage(context, page);
+    page.on('console', (message) => {
+      if (message.type() === 'error' && !options.allowed?.test(message.text())) studio.errors.push(message.text());
+    });
+    page.on('pageerror', (error) => studio.errors.push(String(error)));
+    page.on('requestfailed', (request) => {
+      // Requests that the page itself gave up (a newer one took over) are no faults.
+      if (request.failure()?.errorText !== 'net::ERR_ABORTED') studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
+    });
+    await page.goto(url);
+    return studio;
+  }
+
+  /** Until the stage shows the named state of the scene. */
+  async waitForStage(kind: 'ready' | 'failed'): Promise<void> {
+    await this.page.waitForFunction((wanted) => (window as unknown as Inside).semblante?.scene.state.value.kind === wanted, kind, { timeout: 90_000 });
+  }
+
+  async waitForState(state: string): Promise<void> {
+    await this.page.waitForFunction((wanted) => (window as unknown as Inside).semblante?.studio.selected.value?.state === wanted, state, { timeout: 90_000 });
+  }
+
+  /** Until the face has come to rest under the sliders. */
+  async settle(): Promise<void> {
+    await this.page.waitForTimeout(1500);
+  }
+
+  /** Drops a file on the page, as a person would from a folder. */
+  async drop(path: string, name = basename(path)): Promise<void> {
+    const base64 = readFileSync(path).toString('base64');
+    const transfer = await this.page.evaluateHandle(
+      async ({ content, fileName }) => {
+        const bytes = Uint8Array.from(atob(content), (c) => c.charCodeAt(0));
+        const data = new DataTransfer();
+        data.items.add(new File([bytes], fileName));
+        return data;
+      },
+      { content: base64, fileName: name },
+    );
+    for (const type of ['dragenter', 'dragover', 'drop']) await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
+  }
+
+  /** The picture of the stage alone. */
+  async picture(): Promise<Buffer> {
+    return this.page.locator('canvas.canvas').screenshot();
+  }
+
+  /**
+   * Mean difference of two pictures, 0..255, within a region given in shares of width and height (x, y, width, height).
+   */
+  async difference(a: Buffer, b: Buffer, region: readonly [number, number, number, number]): Promise<number> {
+    return this.page.evaluate(
+      async ({ first, second, region: [x, y, w, h] }) => {
+        const pixels = async (base64: string): Promise<ImageData> => {
+          const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+          const canvas = new OffscreenCanvas(image.width, image.height);
+          const context = canvas.getContext('2d')!;
+          context.drawImage(image, 0, 0);
+          return context.getImageData(image.width * x, image.height * y, image.width * w, image.height * h);
+        };
+        const [one, two] = [await pixels(first), await pixels(second)];
+        let sum = 0;
+        for (let i = 0; i < one.data.length; i += 4) for (let k = 0; k < 3; k += 1) sum += Math.abs(one.data[i + k]! - two.data[i + k]!);
+        return sum / ((one.data.length / 4) * 3);
+      },
+      { first: a.toString('base64'), second: b.toString('base64'), region },
+    );
+  }
+
+  /** Where a place in model space shows on the page, in pixels. */
+  async project(position: readonly number[]): Promise<{ x: number; y: number }> {
+    return this.page.evaluate((at) => {
+      const { scene } = (window as unknown as Inside).semblante;
+      const canvas = document.querySelector('canvas.canvas')!.getBoundingClientRect();
+      const place = scene.markers.project(at, scene.stage.camera, canvas.width, canvas.height);
+      return { x: canvas.left + place.x, y: canvas.top + place.y };
+    }, position);
+  }
+
+  /** Saves the whole page for people to look at. */
+  async keep(name: string): Promise<void> {
+    const folder = join(buildDir, 'screenshots');
+    mkdirSync(folder, { recursive: true });
+    await this.page.screenshot({ path: join(folder, `${name}.png`) });
+  }
+
+  close(): Promise<void> {
+    return this.context.close();
+  }
+}
+
+/** What the studio shows to tests. */
+export interface Inside {
+  semblante: {
+    scene: {
+      state: { value: { kind: string } };
+      markers: { project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number } };
+      stage: { camera: unknown };
+    };
+    studio: { selected: { value: { id: string; state: string } | null } };
+  };
+}
