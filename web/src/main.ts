@@ -1,8 +1,8 @@
 import './ui/styles/index.css';
-import { neutralFrame } from './face/frame.ts';
+import { compileKernel, neutralFrame } from '@client/index.ts';
+import { dracoDecoder } from './face/draco.ts';
 import { loadFace } from './face/package.ts';
 import { Api } from './net/api.ts';
-import { requestBytes } from './net/http.ts';
 import { AnimatePanel } from './ui/animate_panel.ts';
 import { h } from './ui/dom.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
@@ -27,15 +27,14 @@ function main(root: HTMLElement): void {
   const theme = themeButton();
   const api = new Api();
   const studio = new Studio(api, toasts);
-  const live = new LiveModel(studio);
   const points = new PointsModel(studio);
   const frame = neutralFrame();
-  const between = { from: frame, to: frame, share: 0 };
+  const live = new LiveModel(studio, frame);
+  const faceSources = { base: api.base, draco: dracoDecoder, kernel: kernelModule, image: (sha256: string, signal: AbortSignal) => api.content(sha256, signal) };
   const canvas = h('canvas', { class: 'canvas' });
   const scene = new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
-    face: (model, signal) =>
-      loadFace({ artefact: (name) => api.artefact(model.id, name, signal), image: (sha256) => api.content(sha256, signal), kernel: kernelModule }),
+    face: (model, signal) => loadFace(faceSources, model.id, signal),
   });
 
   const animate = new AnimatePanel({
@@ -43,7 +42,7 @@ function main(root: HTMLElement): void {
     onChange: () => {
       live.driving.set(false);
       scene.performer.value?.follow(frame);
-      live.publish(frame);
+      live.touch();
     },
   });
   const thumbnails = new Map<string, string>();
@@ -59,15 +58,16 @@ function main(root: HTMLElement): void {
   root.replaceChildren(layout, toasts.element);
   acceptDrops(layout, (files) => void studio.upload(files));
 
-  scene.drive = (performer) => {
-    if (!live.driving.value || !live.subscriber?.sample(performance.now(), between)) return false;
-    performer.showBetween(between.from, between.to, between.share);
-    return true;
-  };
   live.driving.watch((driving) => {
     if (!driving) scene.performer.value?.follow(frame);
   });
-  scene.performer.watch((performer) => performer?.follow(frame));
+  live.driving.watch((driving) => (scene.live = driving));
+  const listen = (): void => scene.performer.value?.listen(live.subscriber.value?.client ?? null);
+  live.subscriber.watch(listen);
+  scene.performer.watch((performer) => {
+    performer?.follow(frame);
+    listen();
+  });
 
   studio.tab.watch((tab) => scene.show(tab === 'points' ? 'preview' : 'face'));
   let opened = '';
@@ -92,7 +92,7 @@ function main(root: HTMLElement): void {
     });
   });
 
-  setInterval(() => livePanel.refreshFigures(), 500);
+  setInterval(() => livePanel.refreshFigures(scene.performer.value?.playhead ?? NaN), 500);
   setInterval(() => {
     if (studio.tab.value === 'live' && document.visibilityState === 'visible') void live.refresh();
   }, 3000);
@@ -119,7 +119,7 @@ let compiledKernel: Promise<WebAssembly.Module> | null = null;
 
 /** The WebAssembly kernel, fetched and compiled once. */
 function kernelModule(): Promise<WebAssembly.Module> {
-  compiledKernel ??= requestBytes('./kernel.wasm').then((bytes) => WebAssembly.compile(bytes as Uint8Array<ArrayBuffer>));
+  compiledKernel ??= compileKernel(fetch('./kernel.wasm'));
   compiledKernel.catch(() => (compiledKernel = null));
   return compiledKernel;
 }

@@ -1,17 +1,18 @@
 import { describe, expect, test } from 'vitest';
-import { clearFrame, expressionIntensity, isNeutral, neutralFrame, setExpression, setFap, setViseme } from '../src/face/frame.ts';
+import { neutralFrame } from '@client/index.ts';
+import { clearFrame, expressionIntensity, fapValue, isNeutral, setExpression, setFap, setVisemes } from '../src/face/frame.ts';
 
 describe('frame by hand', () => {
-  test('SetViseme_HalfStrength_BlendsWithSilence', () => {
+  test('SetVisemes_HalfShare_BlendsWithSilence', () => {
     const frame = neutralFrame();
-    setViseme(frame, 10, 0.5);
+    setVisemes(frame, 10, 0, 0.5);
     expect(frame.viseme).toEqual({ select1: 10, select2: 0, blend: 32 }); // round(0.5 * 63) = 32
   });
 
-  test('SetViseme_Silence_IsNeutral', () => {
+  test('SetVisemes_Silence_IsNeutral', () => {
     const frame = neutralFrame();
-    setViseme(frame, 10, 1);
-    setViseme(frame, 0, 1);
+    setVisemes(frame, 10, 0, 1);
+    setVisemes(frame, 0, 0, 1);
     expect(isNeutral(frame)).toBe(true);
   });
 
@@ -35,26 +36,26 @@ describe('frame by hand', () => {
   test('SetFap_BothSides_LipCornersMirror', () => {
     const frame = neutralFrame();
     expect(setFap(frame, 6, 100, true)).toBe(7); // stretch_l_cornerlip and stretch_r_cornerlip, both outwards
-    expect([frame.faps[6], frame.faps[7]]).toEqual([100, 100]);
+    expect([fapValue(frame, 6), fapValue(frame, 7)]).toEqual([100, 100]);
   });
 
   test('SetFap_BothSides_EyesLookTheSameWay', () => {
     const frame = neutralFrame();
-    setFap(frame, 23, 5000, true); // yaw_l_eyeball: parallel gaze has equal values
-    expect(frame.faps[24]).toBe(5000);
+    setFap(frame, 23, 5120, true); // yaw_l_eyeball: parallel gaze has equal values; 5120 = 40 steps of 128
+    expect(fapValue(frame, 24)).toBe(5120);
   });
 
   test('SetFap_OneSide_LeavesTheOtherAlone', () => {
     const frame = neutralFrame();
     setFap(frame, 6, 100, false);
-    expect(frame.faps[7]).toBe(0);
+    expect(fapValue(frame, 7)).toBe(0);
   });
 
   test('SetFap_InTheMiddle_HasNoPartner', () => expect(setFap(neutralFrame(), 3, 100, true)).toBe(0));
 
   test('ClearFrame_AfterEverything_IsNeutral', () => {
     const frame = neutralFrame();
-    setViseme(frame, 4, 1);
+    setVisemes(frame, 4, 0, 1);
     setExpression(frame, 2, 30);
     setFap(frame, 3, 100, true);
     expect(isNeutral(frame)).toBe(false);

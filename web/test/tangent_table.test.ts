@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { deformNormals } from '../src/face/deform_reference.ts';
 import { joinSeams, smoothNormals, type FaceMesh } from '../src/face/mesh.ts';
-import { neutralPose } from '../src/face/pose.ts';
+import { neutralPose } from './support/pose.ts';
 import { makeTangentTable, tangentFrame } from '../src/face/tangent_table.ts';
 
 /** A flat grid of n by n unit squares in the plane z = 0, moved by FP 0 with weight x / n. */
@@ -57,7 +57,7 @@ describe('tangent table', () => {
     // FP 0 goes 4 up, weight x / 4: the plane becomes z = x, its normal (-1, 0, 1) / sqrt 2 = (-0.7071, 0, 0.7071).
     const mesh = ramp(4);
     const pose = neutralPose();
-    pose.points[2] = 4;
+    pose.featurePoints[2] = 4;
     const out = new Float32Array(mesh.normals.length);
     deformNormals(mesh, makeTangentTable(mesh), pose, out);
     for (let v = 0; v < mesh.vertexCount; v += 1) {

@@ -1,5 +1,5 @@
+import type { Pose } from '@client/index.ts';
 import type { FaceMesh } from './mesh.ts';
-import type { Pose } from './pose.ts';
 import { tangentFrame, type TangentTable } from './tangent_table.ts';
 
 /**
@@ -21,9 +21,9 @@ export function deformNormals(mesh: FaceMesh, table: TangentTable, pose: Pose, o
         const point = entries[k * 4]! * 3;
         const s1 = entries[k * 4 + 2]!;
         const s2 = entries[k * 4 + 3]!;
-        const dx = pose.points[point]!;
-        const dy = pose.points[point + 1]!;
-        const dz = pose.points[point + 2]!;
+        const dx = pose.featurePoints[point]!;
+        const dy = pose.featurePoints[point + 1]!;
+        const dz = pose.featurePoints[point + 2]!;
         frame[0]! += s1 * dx;
         frame[1]! += s1 * dy;
         frame[2]! += s1 * dz;
@@ -44,7 +44,7 @@ export function deformNormals(mesh: FaceMesh, table: TangentTable, pose: Pose, o
     turned[0] = x;
     turned[1] = y;
     turned[2] = z;
-    if (rigid[v]! > 0) rotate(turned, pose.eyeRotation, (rigid[v]! - 1) * 4);
+    if (rigid[v]! > 0) rotate(turned, pose.eyeRotations, (rigid[v]! - 1) * 4);
     rotate(turned, pose.headRotation, 0);
     out[v * 3] = turned[0]!;
     out[v * 3 + 1] = turned[1]!;

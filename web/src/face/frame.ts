@@ -1,40 +1,29 @@
 import { faps } from '@protocol/generated/mpeg4.ts';
+import { maxBlend, type FaceFrame } from '@protocol/face_frame.ts';
+import { quantize, standardQuantizers } from '@protocol/quantizers.ts';
 
-/** FAPs 1..68 at one moment; all zero is the neutral face. `faps[n]` is FAP n in FAP units, entries 0..2 unused. */
-export interface FaceFrame {
-  viseme: { select1: number; select2: number; blend: number };
-  expression: { select1: number; intensity1: number; select2: number; intensity2: number };
-  faps: Float32Array;
-}
-
-export const blendMax = 63;
-
-export function neutralFrame(): FaceFrame {
-  return {
-    viseme: { select1: 0, select2: 0, blend: 0 },
-    expression: { select1: 0, intensity1: 0, select2: 0, intensity2: 0 },
-    faps: new Float32Array(69),
-  };
-}
+/** Edits of a frame made by hand; its levels count the standard's quantizer steps. */
 
 export function clearFrame(frame: FaceFrame): void {
   Object.assign(frame.viseme, { select1: 0, select2: 0, blend: 0 });
   Object.assign(frame.expression, { select1: 0, intensity1: 0, select2: 0, intensity2: 0 });
-  frame.faps.fill(0);
+  frame.levels.fill(0);
 }
 
 export function isNeutral(frame: FaceFrame): boolean {
   const { viseme, expression } = frame;
-  const shown = (viseme.select1 > 0 && viseme.blend > 0) || (viseme.select2 > 0 && viseme.blend < blendMax);
+  const shown = (viseme.select1 > 0 && viseme.blend > 0) || (viseme.select2 > 0 && viseme.blend < maxBlend);
   const felt = (expression.select1 > 0 && expression.intensity1 > 0) || (expression.select2 > 0 && expression.intensity2 > 0);
-  return !shown && !felt && frame.faps.every((value) => value === 0);
+  return !shown && !felt && frame.levels.every((level) => level === 0);
 }
 
-/** Shows one viseme, or none. Strength 0..1 blends it with silence. */
-export function setViseme(frame: FaceFrame, viseme: number, strength: number): void {
-  frame.viseme.select1 = viseme;
-  frame.viseme.select2 = 0;
-  frame.viseme.blend = viseme === 0 ? 0 : Math.round(strength * blendMax);
+/**
+ * Shows `first` with this share (0..1), and `second` with the rest. 0 is silence: a share of one viseme and silence is
+ * that viseme, weaker.
+ */
+export function setVisemes(frame: FaceFrame, first: number, second: number, share: number): void {
+  const none = first === 0 && second === 0;
+  Object.assign(frame.viseme, { select1: first, select2: second, blend: none ? 0 : Math.round(share * maxBlend) });
 }
 
 /**
@@ -65,13 +54,19 @@ export function expressionIntensity(frame: FaceFrame, expression: number): numbe
   return 0;
 }
 
-/** Sets a FAP, and its partner on the other side of the face when `both`. Returns the partner that changed, or 0. */
+/** In FAP units. */
+export const fapValue = (frame: FaceFrame, number: number): number => frame.levels[number]! * standardQuantizers[number]!;
+
+/**
+ * Sets a FAP (in FAP units, to the nearest level), and its partner on the other side of the face when `both`. Returns
+ * the partner that changed, or 0.
+ */
 export function setFap(frame: FaceFrame, number: number, value: number, both: boolean): number {
-  frame.faps[number] = value;
+  const level = quantize(value, standardQuantizers[number]!) ?? 0;
+  frame.levels[number] = level;
   const fap = faps[number - 1];
   if (!both || !fap || fap.mirror === number || fap.mirror === 0) return 0;
   // Gaze is the exception: eyes look the same way, so the partner takes the value as it is.
-  const partner = fap.unit === 'AU' ? value : value * fap.mirrorSign;
-  frame.faps[fap.mirror] = partner;
+  frame.levels[fap.mirror] = fap.unit === 'AU' ? level : level * fap.mirrorSign;
   return fap.mirror;
 }

@@ -1,58 +1,71 @@
-import type { FaceFrame } from './frame.ts';
-import type { LoadedFace } from './loaded_face.ts';
-import type { Pose } from './pose.ts';
+import { Player, shownPose, type FaceFrame, type Kernel, type Pose, type StreamClient } from '@client/index.ts';
 
 /** Seconds in which a pose set by hand closes 63 % of the way: quick, without a jump. */
 const handTimeConstant = 0.055;
+const handDuration = 12 * handTimeConstant;
+
+// The player keeps poses 0 (shown), 1 and 2 in the kernel; these are ours.
+const handTarget = 3;
+const handShown = 4;
+export const poseCount = 5;
 
 /**
- * What the face shows: eases to a frame set by hand, or stands between two frames of a stream. Displacement is linear in
- * the feature points, so a pose between two poses is the paper's interpolation of every vertex. Nothing is allocated
- * after construction.
+ * What the face shows: a stream, played out by the SDK's player, or a frame set by hand, which it eases to. Nothing is
+ * allocated per displayed frame.
  */
 export class Performer {
-  /** What to draw. */
-  readonly pose: Pose;
-  private readonly target: Pose;
-  private readonly before: Pose;
-  private readonly after: Pose;
-  private beforeFrame: FaceFrame | null = null;
-  private afterFrame: FaceFrame | null = null;
-  private settled = 0;
+  private readonly player: Player;
+  private stopListening: (() => void) | null = null;
+  private shown = handShown;
+  private settled = handDuration;
 
-  constructor(private readonly face: LoadedFace) {
-    this.pose = face.newPose();
-    this.target = face.newPose();
-    this.before = face.newPose();
-    this.after = face.newPose();
+  constructor(readonly kernel: Kernel) {
+    this.player = new Player(kernel);
   }
 
-  /** Eases to a frame. */
+  /** What to draw. */
+  get pose(): Pose {
+    return this.kernel.poses[this.shown]!;
+  }
+
+  get poseNumber(): number {
+    return this.shown;
+  }
+
+  /** ms of the stream's clock on display; NaN before the first frame. */
+  get playhead(): number {
+    return this.player.playhead;
+  }
+
+  /** Plays what a client receives from now on; null: nothing. */
+  listen(client: StreamClient | null): void {
+    this.stopListening?.();
+    this.player.clear();
+    this.stopListening = client ? this.player.follow(client) : null;
+  }
+
+  /** Eases from what is shown to a frame set by hand. */
   follow(frame: FaceFrame): void {
-    this.face.evaluate(frame, this.target);
+    if (this.shown !== handShown) this.kernel.interpolate(this.shown, this.shown, 0, handShown);
+    this.kernel.evaluate(frame, handTarget);
+    this.shown = handShown;
     this.settled = 0;
   }
 
-  /** Shows the pose `share` of the way from one frame to another at once. Frames must not change once given. */
-  showBetween(from: FaceFrame, to: FaceFrame, share: number): void {
-    if (from !== this.beforeFrame) {
-      this.face.evaluate(from, this.before);
-      this.beforeFrame = from;
+  /** Moves on by a displayed frame, along the stream when `live`. Returns whether the pose changed. */
+  step(deltaSeconds: number, live: boolean): boolean {
+    if (live && this.player.update(deltaSeconds)) {
+      this.shown = shownPose;
+      return true;
     }
-    if (to !== this.afterFrame) {
-      this.face.evaluate(to, this.after);
-      this.afterFrame = to;
-    }
-    this.face.interpolate(this.before, this.after, share, this.pose);
-    this.settled = Infinity;
+    if (this.shown !== handShown || this.settled >= handDuration) return false;
+    this.settled += deltaSeconds;
+    const share = this.settled >= handDuration ? 1 : 1 - Math.exp(-deltaSeconds / handTimeConstant);
+    this.kernel.interpolate(handShown, handTarget, share, handShown);
+    return true;
   }
 
-  /** Advances the ease; returns whether the pose changed. */
-  step(deltaSeconds: number): boolean {
-    if (this.settled > 12 * handTimeConstant) return false;
-    this.settled += deltaSeconds;
-    const done = this.settled > 12 * handTimeConstant;
-    this.face.interpolate(this.pose, this.target, done ? 1 : 1 - Math.exp(-deltaSeconds / handTimeConstant), this.pose);
-    return true;
+  dispose(): void {
+    this.stopListening?.();
   }
 }

@@ -1,6 +1,7 @@
+import { streamUrl } from '@client/index.ts';
 import { requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf, upload } from './upload.ts';
-import type { ArtefactName, FeaturePointSet, Job, Model, ModelAndJob, ModelPage, StreamInfo, VersionInfo } from './types.ts';
+import type { FeaturePointSet, Job, Model, ModelAndJob, ModelPage, StreamInfo, VersionInfo } from './types.ts';
 
 const segment = encodeURIComponent;
 
@@ -45,10 +46,6 @@ export class Api {
 
   preview(id: string, signal?: AbortSignal): Promise<Uint8Array> {
     return requestBytes(this.previewUrl(id), signal);
-  }
-
-  artefact(id: string, name: ArtefactName, signal?: AbortSignal): Promise<Uint8Array> {
-    return requestBytes(`${this.base}/v1/models/${segment(id)}/${name}`, signal);
   }
 
   /** Bytes by their SHA-256: images of a package. */
@@ -97,9 +94,7 @@ export class Api {
   }
 
   streamUrl(id: string): string {
-    const base = new URL(this.base === '' ? location.href : this.base, location.href);
-    base.protocol = base.protocol === 'https:' ? 'wss:' : 'ws:';
-    return new URL(`/v1/streams/${segment(id)}`, base).href;
+    return streamUrl(new URL(this.base === '' ? '/' : this.base, location.href).href, id);
   }
 
   async version(): Promise<VersionInfo> {

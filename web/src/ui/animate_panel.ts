@@ -1,5 +1,7 @@
+import type { FaceFrame } from '@client/index.ts';
 import { expressions, visemes } from '@protocol/generated/mpeg4.ts';
-import { blendMax, clearFrame, expressionIntensity, isNeutral, setExpression, setViseme, type FaceFrame } from '../face/frame.ts';
+import { maxBlend } from '@protocol/face_frame.ts';
+import { clearFrame, expressionIntensity, isNeutral, setExpression, setVisemes } from '../face/frame.ts';
 import { h } from './dom.ts';
 import { expressionFace } from './expression_face.ts';
 import { FapSliders } from './fap_sliders.ts';
@@ -48,7 +50,7 @@ export class AnimatePanel {
     for (const [i, feeling] of this.feelings.entries()) {
       const intensity = expressionIntensity(frame, i + 1);
       // 64 steps against 100: a slider that already stands on the step keeps its place under the finger.
-      if (Math.round((feeling.slider.value / 100) * blendMax) !== intensity) feeling.slider.set(Math.round((intensity / blendMax) * 100));
+      if (Math.round((feeling.slider.value / 100) * maxBlend) !== intensity) feeling.slider.set(Math.round((intensity / maxBlend) * 100));
       feeling.row.classList.toggle('on', intensity > 0);
       feeling.button.setAttribute('aria-pressed', String(intensity > 0));
     }
@@ -70,15 +72,7 @@ export class AnimatePanel {
   }
 
   private applyViseme(): void {
-    const strength = this.strength.value / 100;
-    setViseme(this.options.frame, this.viseme, strength);
-    const second = Number(this.second.value);
-    if (second > 0) {
-      this.options.frame.viseme.select1 = this.viseme;
-      this.options.frame.viseme.select2 = second;
-      this.options.frame.viseme.blend = Math.round(strength * blendMax);
-      if (this.viseme === 0) this.options.frame.viseme.blend = Math.round((1 - strength) * blendMax);
-    }
+    setVisemes(this.options.frame, this.viseme, Number(this.second.value), this.strength.value / 100);
     this.changed();
   }
 
@@ -101,7 +95,7 @@ export class AnimatePanel {
   }
 
   private setFeeling(expression: number, percent: number): void {
-    setExpression(this.options.frame, expression, Math.round((percent / 100) * blendMax));
+    setExpression(this.options.frame, expression, Math.round((percent / 100) * maxBlend));
     this.changed();
   }
 

@@ -1,5 +1,6 @@
+import type { FaceFrame } from '@client/index.ts';
 import { fapGroups, faps, type Fap } from '@protocol/generated/mpeg4.ts';
-import { setFap, type FaceFrame } from '../face/frame.ts';
+import { fapValue, setFap } from '../face/frame.ts';
 import { h, setText } from './dom.ts';
 import { icon } from './icons.ts';
 import { fapGroupTitles, fapTitle } from './names.ts';
@@ -28,9 +29,9 @@ export class FapSliders {
 
   /** Shows the frame's values. */
   refresh(): void {
-    for (const [number, slider] of this.sliders) slider.set(this.options.frame.faps[number]!);
+    for (const [number, slider] of this.sliders) slider.set(fapValue(this.options.frame, number));
     for (const [group, count] of this.counts) {
-      const moved = faps.filter((fap) => fap.group === group && this.options.frame.faps[fap.number] !== 0).length;
+      const moved = faps.filter((fap) => fap.group === group && this.options.frame.levels[fap.number] !== 0).length;
       setText(count, moved === 0 ? '' : `${moved} moved`);
     }
   }
@@ -44,7 +45,7 @@ export class FapSliders {
       on: {
         click: (event) => {
           event.preventDefault();
-          for (const fap of list) this.options.frame.faps[fap.number] = 0;
+          for (const fap of list) this.options.frame.levels[fap.number] = 0;
           this.changed();
         },
       },

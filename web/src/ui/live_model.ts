@@ -1,12 +1,12 @@
 import { problemOf } from '../net/problem.ts';
 import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveStats } from '../net/live.ts';
 import type { Problem, StreamInfo } from '../net/types.ts';
-import type { FaceFrame } from '../face/frame.ts';
+import type { FaceFrame } from '@client/index.ts';
 import { Signal } from './signal.ts';
 import type { Studio } from './studio.ts';
 
 const off: LinkStatus = { kind: 'off' };
-const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, latencyMs: null, sequence: 0 };
+const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
 
 /** The stream the face follows, the one the sliders feed, and the list of all. */
 export class LiveModel {
@@ -19,14 +19,17 @@ export class LiveModel {
   readonly sendStatus = new Signal<LinkStatus>(off);
   /** Whether the face shows the stream (or what is done by hand, while the stream goes on underneath). */
   readonly driving = new Signal(false);
-  /** What the stream says now, to be sampled once per displayed frame. */
-  subscriber: LiveSubscriber | null = null;
+  readonly subscriber = new Signal<LiveSubscriber | null>(null);
   private publisher: LivePublisher | null = null;
 
-  constructor(private readonly studio: Studio) {}
+  constructor(
+    private readonly studio: Studio,
+    /** What is done by hand: sent while sending is on. */
+    private readonly frame: FaceFrame,
+  ) {}
 
   get stats(): LiveStats {
-    return this.subscriber?.stats ?? noStats;
+    return this.subscriber.value?.stats ?? noStats;
   }
 
   async refresh(): Promise<void> {
@@ -40,20 +43,20 @@ export class LiveModel {
   }
 
   subscribe(id: string, title: string): void {
-    this.subscriber?.close();
+    this.subscriber.value?.close();
     this.following.set(id);
     this.driving.set(true);
     const subscriber = new LiveSubscriber(this.studio.api.streamUrl(id), title, (status) => {
-      if (this.subscriber === subscriber) this.status.set(status);
+      if (this.subscriber.value === subscriber) this.status.set(status);
     });
-    this.subscriber = subscriber;
+    this.subscriber.set(subscriber);
     subscriber.open();
     void this.refresh();
   }
 
   unsubscribe(): void {
-    this.subscriber?.close();
-    this.subscriber = null;
+    this.subscriber.value?.close();
+    this.subscriber.set(null);
     this.following.set(null);
     this.status.set(off);
     this.driving.set(false);
@@ -76,14 +79,14 @@ export class LiveModel {
     await this.refresh();
   }
 
-  /** Starts or stops sending the frames of `publish`. */
+  /** Starts or stops sending what is done by hand. */
   send(id: string | null): void {
     this.publisher?.close();
     this.publisher = null;
     this.sendStatus.set(off);
     this.sending.set(id);
     if (id === null) return;
-    const publisher = new LivePublisher(this.studio.api.streamUrl(id), (status) => {
+    const publisher = new LivePublisher(this.studio.api.streamUrl(id), this.frame, (status) => {
       if (this.publisher !== publisher) return;
       this.sendStatus.set(status);
       if (status.kind === 'ended') this.sending.set(null);
@@ -92,7 +95,8 @@ export class LiveModel {
     publisher.open();
   }
 
-  publish(frame: FaceFrame): void {
-    this.publisher?.push(frame);
+  /** The frame was changed by hand. */
+  touch(): void {
+    this.publisher?.touch();
   }
 }

@@ -43,13 +43,13 @@ export class LivePanel {
     live.sendStatus.watch(() => this.drawSending());
   }
 
-  /** Called twice a second. */
-  refreshFigures(): void {
+  /** Called twice a second. `playhead`: ms of the stream's clock on display. */
+  refreshFigures(playhead: number): void {
     const { stats } = this.live;
     const open = this.live.status.value.kind === 'open';
     setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
-    setText(this.figures.latency, open && stats.latencyMs !== null ? `${Math.round(stats.latencyMs)} ms` : '–');
+    setText(this.figures.latency, open && stats.mediaTime !== null && playhead > 0 ? `${Math.max(0, Math.round(stats.mediaTime - playhead))} ms` : '–');
     setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
   }
 

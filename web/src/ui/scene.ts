@@ -44,8 +44,8 @@ export class SceneView {
     this.stage.onFrame((delta) => this.step(delta));
   }
 
-  /** Before each frame: whoever drives the face writes it now. */
-  drive: (performer: Performer, deltaSeconds: number) => boolean = () => false;
+  /** Whether the face follows the stream, or what is done by hand. */
+  live = false;
 
   /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
   async open(model: Model | null): Promise<void> {
@@ -116,7 +116,7 @@ export class SceneView {
     this.path = path;
     this.face?.usePath(path);
     const performer = this.performer.value;
-    if (performer) this.face?.setPose(performer.pose);
+    if (performer && this.face) this.pose(this.face, performer);
     this.stage.invalidate();
   }
 
@@ -124,10 +124,15 @@ export class SceneView {
     const { face } = this;
     const performer = this.performer.value;
     if (!face || !performer || !face.object.visible) return false;
-    const driven = this.drive(performer, delta);
-    if (!performer.step(delta) && !driven) return false;
-    face.setPose(performer.pose);
+    if (!performer.step(delta, this.live)) return false;
+    this.pose(face, performer);
     return true;
+  }
+
+  private pose(face: FaceView, performer: Performer): void {
+    if (this.path === 'gpu') return face.setPose(performer.pose);
+    performer.kernel.deform(performer.poseNumber);
+    face.setVertices(performer.kernel.positions, performer.pose);
   }
 
   private async openPreview(model: Model, signal: AbortSignal, keep: boolean): Promise<PreviewView> {
@@ -138,7 +143,7 @@ export class SceneView {
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
     const loaded = await this.sources.face(model, signal);
     const materials = await makeMaterials(loaded.materials);
-    return { view: new FaceView(loaded.mesh, materials, (pose) => loaded.deform(pose)), loaded };
+    return { view: new FaceView(loaded.mesh, materials), loaded };
   }
 
   private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null, reframe: boolean): void {
@@ -147,14 +152,15 @@ export class SceneView {
       this.preview = preview;
       this.stage.scene.add(preview.object);
     }
+    this.performer.value?.dispose();
     this.face?.dispose();
     this.face = face?.view ?? null;
     this.packageBytes.set(face?.loaded.packageBytes ?? 0);
     if (face) {
       this.stage.scene.add(face.view.object);
       face.view.usePath(this.path);
-      const performer = new Performer(face.loaded);
-      face.view.setPose(performer.pose);
+      const performer = new Performer(face.loaded.kernel);
+      this.pose(face.view, performer);
       this.performer.set(performer);
     } else {
       this.performer.set(null);
@@ -170,6 +176,7 @@ export class SceneView {
     this.preview = null;
     this.face = null;
     this.packageBytes.set(0);
+    this.performer.value?.dispose();
     this.performer.set(null);
     this.show(this.wanted);
   }

@@ -1,5 +1,5 @@
 import { DataTexture, FloatType, NearestFilter, RGBAFormat, Vector3, Vector4, type IUniform, type Material } from 'three';
-import type { Pose } from '../face/pose.ts';
+import type { Pose } from '@client/index.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
 /** Texels across the entry texture: entry k lies at (k mod width, k div width). */
@@ -36,11 +36,11 @@ export function makeDeformUniforms(table: TangentTable): DeformUniforms {
 }
 
 export function setPose(uniforms: DeformUniforms, pose: Pose): void {
-  uniforms.facePoints.value.set(pose.points);
+  uniforms.facePoints.value.set(pose.featurePoints);
   for (let eye = 0; eye < 2; eye += 1) {
-    uniforms.faceEyeRotation.value[eye]!.fromArray(pose.eyeRotation, eye * 4);
-    uniforms.faceEyePivot.value[eye]!.fromArray(pose.eyePivot, eye * 3);
-    uniforms.faceEyeTranslation.value[eye]!.fromArray(pose.eyeTranslation, eye * 3);
+    uniforms.faceEyeRotation.value[eye]!.fromArray(pose.eyeRotations, eye * 4);
+    uniforms.faceEyePivot.value[eye]!.fromArray(pose.eyePivots, eye * 3);
+    uniforms.faceEyeTranslation.value[eye]!.fromArray(pose.eyeTranslations, eye * 3);
   }
   uniforms.faceHeadRotation.value.fromArray(pose.headRotation);
   uniforms.faceHeadPivot.value.fromArray(pose.headPivot);

@@ -1,14 +1,11 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshDepthMaterial, RGBADepthPacking, Uint32BufferAttribute, type Material } from 'three';
 import { deformNormals } from '../face/deform_reference.ts';
 import type { FaceMesh } from '../face/mesh.ts';
-import type { Pose } from '../face/pose.ts';
+import type { Pose } from '@client/index.ts';
 import { makeTangentTable, type TangentTable } from '../face/tangent_table.ts';
 import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
 
 export type DeformPath = 'gpu' | 'wasm';
-
-/** Moves the vertices on the CPU: positions (#V by 3) of a pose. The result is only read until the next call. */
-export type CpuDeform = (pose: Pose) => Float32Array;
 
 /** A face that moves. Both paths draw the same picture; the GPU's is the default. */
 export class FaceView {
@@ -16,12 +13,10 @@ export class FaceView {
   readonly uniforms: DeformUniforms;
   private readonly table: TangentTable;
   private readonly depthMaterial = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
-  private path: DeformPath = 'gpu';
 
   constructor(
     readonly mesh: FaceMesh,
     readonly materials: Material[],
-    private readonly cpuDeform: CpuDeform,
   ) {
     this.table = makeTangentTable(mesh);
     this.uniforms = makeDeformUniforms(this.table);
@@ -43,7 +38,6 @@ export class FaceView {
   }
 
   usePath(path: DeformPath): void {
-    this.path = path;
     for (const material of [...this.materials, this.depthMaterial]) {
       if (path === 'gpu') deformByShader(material, this.uniforms);
       else deformByCpu(material);
@@ -51,14 +45,15 @@ export class FaceView {
     if (path === 'gpu') this.write(this.mesh.positions, this.mesh.normals);
   }
 
-  /** No allocation: runs once per displayed frame. */
+  /** For the GPU's path. No allocation: runs once per displayed frame. */
   setPose(pose: Pose): void {
-    if (this.path === 'gpu') {
-      setPose(this.uniforms, pose);
-      return;
-    }
+    setPose(this.uniforms, pose);
+  }
+
+  /** For the other path: the vertices as the kernel moved them for this pose. */
+  setVertices(positions: Float32Array, pose: Pose): void {
     const normal = this.object.geometry.getAttribute('normal') as BufferAttribute;
-    this.writePositions(this.cpuDeform(pose));
+    this.writePositions(positions);
     deformNormals(this.mesh, this.table, pose, normal.array as Float32Array);
     normal.needsUpdate = true;
   }

@@ -1,0 +1,13 @@
+import type { Pose } from '@client/index.ts';
+
+/** A pose in plain memory, as the kernel makes one of the neutral frame. */
+export function neutralPose(): Pose {
+  return {
+    featurePoints: new Float32Array(84 * 3),
+    eyeRotations: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1]),
+    eyeTranslations: new Float32Array(6),
+    headRotation: new Float32Array([0, 0, 0, 1]),
+    eyePivots: new Float32Array(6),
+    headPivot: new Float32Array(3),
+  };
+}
