@@ -83,14 +83,14 @@ int back_of_ear(HalfMesh& mesh, const Loop& edge, int top, int lobe) {
 void add_ear(Skin& skin, const Loop& hole) {
   HalfMesh& mesh = skin.mesh;
   const Frame frame = ear_frame();
-  const auto count = static_cast<double>(hole.size());
+  const std::size_t count = 2 * hole.size();  // an ear's outline needs more corners than the cheek beside it
   Loop outer = hole;
   Loop edge;
   std::size_t index = 0;
   for (const Ring& ring : ring_table) {
     Loop loop;
-    for (std::size_t k = 0; k < hole.size(); ++k) {
-      const double a = 2.0 * pi * static_cast<double>(k) / count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double a = 2.0 * pi * static_cast<double>(k) / static_cast<double>(count);
       const Vec2 o = outline(a);
       const double up = std::sin(a);
       const double to_front = glm::smoothstep(0.35, 0.95, std::cos(a));
@@ -103,7 +103,11 @@ void add_ear(Skin& skin, const Loop& hole) {
       paint.flush = 0.6;
       loop.push_back(mesh.add(frame.at(o.x * ring.size + ring.up, o.y * ring.size + ring.back, out), paint));
     }
-    bridge(mesh, outer, loop, true, Chart::outer);
+    if (index == 0) {
+      bridge_doubling(mesh, outer, loop, Chart::outer);
+    } else {
+      bridge(mesh, outer, loop, true, Chart::outer);
+    }
     outer = loop;
     if (index == 3) edge = loop;
     ++index;

@@ -46,7 +46,7 @@ Vec2 outer_uv(const Vec3& p) {
   return {std::clamp(u, 0.5, 1.0), 0.01 + 0.92 * std::clamp(v, 0.0, 1.0)};
 }
 
-Vec2 inner_uv(const Paint& paint) { return {(0.04 + 0.92 * paint.inner_uv.x + paint.inner_uv.y) / 3.0, 0.975}; }
+Vec2 inner_uv(const Paint& paint) { return {(0.04 + 0.92 * paint.inner_uv.x + paint.inner_uv.y) / 4.0, 0.975}; }
 
 Vec2 skin_uv(const Vec3& p, const Paint& paint, Chart chart) {
   return chart == Chart::outer ? outer_uv(p) : inner_uv(paint);

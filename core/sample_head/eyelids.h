@@ -4,13 +4,15 @@
 
 namespace semblante::sample_head_detail {
 
-/// Fills the orbit: rings from the hole of the skin inwards to the crease and the edge of the lids, over the edge and
-/// back into a socket behind the eyeball. `orbit` starts at the inner corner and runs over the upper lid.
+/// Fills the orbit: rings from the hole of the skin inwards to the fold over the upper lid and the edge of the lower
+/// one, over the edge and back into a socket behind the eyeball. `orbit` starts at the inner corner and runs over the
+/// top.
 void add_eyelids(Skin& skin, const Loop& orbit);
 
-/// The outer edge of the lids at step k of `lid_steps`, from the inner corner (0) over the upper lid to the outer
-/// corner (half way) and back along the lower lid.
-inline constexpr int lid_steps = 48;
-Vec3 lid_edge(int k);
+inline constexpr int lid_steps = 24;
+
+/// Line of the upper lid's edge over the eyeball: y at x, both from the middle of the eye.
+double upper_edge_y(double x);
+inline constexpr double slit_half_width = 1.52;
 
 }  // namespace semblante::sample_head_detail

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/sample_head/eyelids.h"
 #include "core/sample_head/sculpt.h"
 
 namespace semblante::sample_head_detail {
@@ -109,55 +108,6 @@ Vec2 brow_line(double t) {
 double brow_half_height(double t) {
   return 0.30 * std::pow(std::max(1.0 - std::pow(t, 2.2), 0.0), 0.8) * (0.72 + 0.28 * glm::smoothstep(0.0, 0.12, t)) +
          0.02;
-}
-
-HalfMesh make_brow() {
-  constexpr int steps = 26;
-  struct Section {
-    double across, lift;
-  };
-  constexpr Section sections[] = {{-1.0, -0.10}, {-0.9, 0.07}, {-0.35, 0.15}, {0.35, 0.15}, {0.9, 0.07}, {1.0, -0.10}};
-  HalfMesh mesh;
-  Loop before;
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    const Vec2 line = brow_line(t);
-    Vec2 along = brow_line(t + 0.01) - brow_line(t - 0.01);
-    along = glm::normalize(along);
-    const double ends = std::min(1.0, std::min(t, 1.0 - t) * 14.0 + 0.15);
-    Loop loop;
-    for (const Section& s : sections) {
-      const Vec2 q = line + Vec2(-along.y, along.x) * (s.across * brow_half_height(t) * std::sqrt(ends));
-      const Vec3 foot(q.x, q.y, front_z(q.x, q.y));
-      loop.push_back(mesh.add(foot + head_normal(foot) * (s.lift > 0.0 ? s.lift * ends : s.lift)));
-    }
-    if (!before.empty()) bridge(mesh, before, loop, false, Chart::outer);
-    before = loop;
-  }
-  orient(mesh, {0.0, -1.0, 0.3});
-  return mesh;
-}
-
-HalfMesh make_lashes() {
-  HalfMesh mesh;
-  Loop before;
-  for (int k = 1; k < lid_steps / 2; ++k) {
-    const double along = static_cast<double>(k) / (lid_steps / 2.0);
-    const Vec3 edge = lid_edge(k);
-    const Vec3 q = edge - eye_centre;
-    // Longest at the outer third, where they also turn outwards. They point forward rather than up: the tips stay
-    // nearest to the lid's edge and so follow it through a blink.
-    const double length = 0.30 * std::pow(std::sin(pi * std::pow(along, 1.35)), 0.8) * (k % 2 == 0 ? 1.0 : 0.7) + 0.05;
-    const Vec3 forward = glm::normalize(Vec3(q.x * 0.55, 0.12, q.z));
-    const Vec3 root = edge + Vec3(0.0, -0.02, -0.03);
-    const Vec3 base = edge + Vec3(0.0, 0.035, 0.02);
-    const Vec3 tip = base + forward * length + Vec3(0.0, 0.10 * length, 0.0);
-    const Loop loop{mesh.add(root), mesh.add(base), mesh.add(tip)};
-    if (!before.empty()) bridge(mesh, before, loop, false, Chart::outer);
-    before = loop;
-  }
-  orient(mesh, {0.0, 0.0, 1.0});
-  return mesh;
 }
 
 }  // namespace semblante::sample_head_detail

@@ -21,9 +21,5 @@ Hair make_hair();
 /// Middle line of the left brow at t = 0 (inner end, 4.1) .. 1 (outer end, 4.5), x and y.
 Vec2 brow_line(double t);
 double brow_half_height(double t);
-HalfMesh make_brow();
-
-/// A dark fringe on the edge of the upper lid.
-HalfMesh make_lashes();
 
 }  // namespace semblante::sample_head_detail

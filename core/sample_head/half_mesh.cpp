@@ -22,6 +22,18 @@ void bridge(HalfMesh& mesh, const Loop& outside, const Loop& inside, bool closed
   }
 }
 
+void bridge_doubling(HalfMesh& mesh, const Loop& outside, const Loop& inside, Chart chart) {
+  assert(inside.size() == 2 * outside.size());
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    const int a = outside[i];
+    const int b = outside[(i + 1) % outside.size()];
+    const int middle = inside[2 * i + 1];
+    mesh.add_triangle(a, b, middle, chart);
+    mesh.add_triangle(a, middle, inside[2 * i], chart);
+    mesh.add_triangle(b, inside[(2 * i + 2) % inside.size()], middle, chart);
+  }
+}
+
 void close_with_fan(HalfMesh& mesh, const Loop& loop, bool closed, int centre, Chart chart) {
   const std::size_t steps = closed ? loop.size() : loop.size() - 1;
   for (std::size_t i = 0; i < steps; ++i) mesh.add_triangle(loop[i], loop[(i + 1) % loop.size()], centre, chart);

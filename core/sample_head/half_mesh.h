@@ -21,8 +21,9 @@ enum class Chart : std::uint8_t { outer, inner };
 struct Paint {
   double lip = 0.0;    ///< red of the lips
   double lid = 0.0;    ///< edge of the lids
+  double lash = 0.0;   ///< dark of the lashes on it
   double flush = 0.0;  ///< warm thin skin: ears, wings of the nose
-  Vec2 inner_uv{0.0};  ///< x: depth from the opening 0..1, y: 0 mouth, 1 socket, 2 nostril
+  Vec2 inner_uv{0.0};  ///< x: depth from the opening 0..1, y: 0 mouth, 1 socket, 2 nostril, 3 upper lid
 };
 
 /// The left half of a symmetric surface. Vertices of the mirror plane have x == 0 exactly and exist once.
@@ -51,6 +52,9 @@ using Loop = std::vector<int>;
 /// Joins two loops of equal length by quads; `closed` also joins last and first. `outside` is the loop on whose left
 /// side, seen from outside the head and walking along it, the quads lie.
 void bridge(HalfMesh& mesh, const Loop& outside, const Loop& inside, bool closed, Chart chart);
+
+/// Joins a closed loop to one of twice as many vertices, whose even ones lie opposite the loop's.
+void bridge_doubling(HalfMesh& mesh, const Loop& outside, const Loop& inside, Chart chart);
 
 /// Closes a loop by a fan to one vertex.
 void close_with_fan(HalfMesh& mesh, const Loop& loop, bool closed, int centre, Chart chart);

@@ -96,7 +96,7 @@ void add_lips(Skin& skin, const Loop& around) {
     return loop;
   };
 
-  for (const double t : {0.28, 0.5, 0.68, 0.82, 0.93}) {
+  for (const double t : {0.42, 0.76}) {
     add_ring(
         [&](int k) {
           const Vec2 b = border(place_of(k));
@@ -115,7 +115,7 @@ void add_lips(Skin& skin, const Loop& around) {
   paint.lip = 0.55;
   const Loop border_loop = red_ring(0.0);
   paint.lip = 1.0;
-  for (const double t : {0.12, 0.28, 0.45, 0.62, 0.78, 0.9}) red_ring(t);
+  for (const double t : {0.2, 0.45, 0.75}) red_ring(t);
   const Loop meeting_loop = red_ring(1.0);
 
   double depth = 0.0;

@@ -9,6 +9,6 @@ namespace semblante::sample_head_detail {
 void add_lips(Skin& skin, const Loop& around);
 
 /// Steps of half a ring: 0 upper middle, half way the corner, last the lower middle.
-inline constexpr int lip_steps = 32;
+inline constexpr int lip_steps = 16;
 
 }  // namespace semblante::sample_head_detail

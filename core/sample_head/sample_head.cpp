@@ -12,6 +12,7 @@
 #include "core/sample_head/mouth_parts.h"
 #include "core/sample_head/skin.h"
 #include "core/sample_head/textures.h"
+#include "core/sample_head/upper_lid.h"
 
 namespace semblante {
 
@@ -89,6 +90,8 @@ SampleHead make_sample_head() {
 
   Assembly assembly(head);
   assembly.add("skin", skin_material, skin.mesh, skin.marks);
+  const UpperLid lid = make_upper_lid();
+  assembly.add("upper lids", skin_material, lid.mesh, lid.marks);
   for (const bool right : {false, true}) assembly.add(make_eyeball(right, eye_material), right ? "3.6" : "3.5");
   const MouthPart upper = make_upper_teeth();
   const MouthPart lower = make_lower_teeth();
@@ -98,8 +101,6 @@ SampleHead make_sample_head() {
   assembly.add("tongue", tongue_material, tongue.mesh, tongue.marks);
   const Hair hair = make_hair();
   assembly.add("hair", hair_material, hair.mesh, {{"11.5", hair.top}});
-  assembly.add("brows", hair_material, make_brow(), {});
-  assembly.add("lashes", lash_material, make_lashes(), {});
   head.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(head_pivot * 0.01)});
   std::sort(head.points.begin(), head.points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return head;

@@ -52,7 +52,7 @@ void relax(HalfMesh& mesh, int rounds) {
 Skin make_skin() {
   SkinCage cage = make_skin_cage();
   Skin skin;
-  skin.mesh = subdivide(subdivide(cage.mesh));
+  skin.mesh = subdivide(cage.mesh);
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   relax(skin.mesh, 4);
   // Holes first, then their fillings: a filling must not change another hole's border.

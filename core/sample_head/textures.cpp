@@ -31,6 +31,24 @@ double spot(const Vec3& p, const Vec3& centre, const Vec3& size) {
   return std::exp(-glm::dot(q, q));
 }
 
+/// How much of the skin the brow hides at (x, y): full along its line, frayed by slanted hairs at its edges.
+double brow_cover(const Vec2& p) {
+  double best = 1e9;
+  double at = 0.0;
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0;
+    const Vec2 d = p - brow_line(t);
+    const double away = glm::length(d) / brow_half_height(t);
+    if (away < best) {
+      best = away;
+      at = t;
+    }
+  }
+  const double hair = 0.5 + 0.5 * std::sin(46.0 * (p.x - 0.45 * p.y * (1.0 - at)));
+  const double ends = glm::smoothstep(-0.02, 0.10, at);
+  return 0.92 * (1.0 - glm::smoothstep(0.62, 1.12 + 0.12 * hair, best)) * (0.86 + 0.14 * hair) * (0.55 + 0.45 * ends);
+}
+
 Colour skin_colour(const Vec3& p, const Paint& paint) {
   const Colour base(0.905, 0.735, 0.640);
   const Colour warm(0.885, 0.560, 0.490);
@@ -42,23 +60,22 @@ Colour skin_colour(const Vec3& p, const Paint& paint) {
   const double lid = spot(p, eye_centre + Vec3(0.0, 0.9, 1.5), {1.7, 0.55, 1.0});
   c = glm::mix(c, warm, std::min(0.42 * cheek + 0.36 * nose + 0.14 * chin + 0.45 * paint.flush, 0.8));
   c = glm::mix(c, shade, 0.30 * lid);
-  // Soft shade where brow and hair grow.
-  for (int i = 0; i <= 12; ++i) {
-    const double t = i / 12.0;
-    const Vec2 b = brow_line(t);
-    const Vec2 d = (Vec2(std::abs(p.x), p.y) - b) / Vec2(0.35, 0.05 + 0.9 * brow_half_height(t));
-    if (p.z > 3.0) c = glm::mix(c, Colour(0.42, 0.28, 0.21), 0.10 * std::exp(-glm::dot(d, d)));
-  }
+  if (p.z > 3.0) c = glm::mix(c, Colour(0.27, 0.17, 0.12), brow_cover({std::abs(p.x), p.y}));
   const Vec3 from_centre = p - hair_centre;
   const double azimuth = std::atan2(std::abs(from_centre.x), from_centre.z);
   const double elevation = std::atan2(from_centre.y, std::hypot(from_centre.x, from_centre.z));
   const double over = elevation - hairline(azimuth);
   c = glm::mix(c, Colour(0.24, 0.15, 0.11), 0.9 * glm::smoothstep(-0.06, 0.05, over) * (paint.flush > 0.0 ? 0.0 : 1.0));
   c = glm::mix(c, Colour(0.800, 0.470, 0.435), 0.9 * paint.lip);
-  return glm::mix(c, Colour(0.62, 0.38, 0.34), 0.75 * paint.lid);
+  c = glm::mix(c, Colour(0.72, 0.46, 0.42), 0.8 * paint.lid);
+  return glm::mix(c, Colour(0.13, 0.08, 0.06), glm::smoothstep(0.55, 0.9, paint.lash));
 }
 
 Colour lining_colour(int kind, double depth) {
+  if (kind == 3) {  // the upper lid, from its lashes to its root
+    const Colour skin = glm::mix(Colour(0.80, 0.575, 0.50), Colour(0.86, 0.66, 0.575), depth);
+    return glm::mix(Colour(0.13, 0.08, 0.06), skin, glm::smoothstep(0.10, 0.17, depth));
+  }
   constexpr double soft[3] = {0.28, 0.5, 0.4};
   const Colour rim[3] = {{0.66, 0.30, 0.29}, {0.80, 0.52, 0.48}, {0.60, 0.36, 0.31}};
   const Colour deep[3] = {{0.20, 0.05, 0.06}, {0.40, 0.18, 0.17}, {0.16, 0.07, 0.06}};
@@ -111,6 +128,7 @@ void paint_triangle(Canvas& canvas, const std::array<Vec2, 3>& uv, const std::ar
       Paint mixed;
       mixed.lip = about[0].lip * a + about[1].lip * b + about[2].lip * c;
       mixed.lid = about[0].lid * a + about[1].lid * b + about[2].lid * c;
+      mixed.lash = about[0].lash * a + about[1].lash * b + about[2].lash * c;
       mixed.flush = about[0].flush * a + about[1].flush * b + about[2].flush * c;
       canvas.colour[i] = skin_colour(place, mixed);
     }
@@ -176,10 +194,10 @@ SampleHeadImage paint_skin(const HalfMesh& skin) {
       put(image, x, y, c);
       put(image, skin_size - 1 - x, y, c);
       if (v < 0.95) continue;
-      // The lining's strip is not mirrored: three ramps from the opening to the deep, side by side.
+      // The lining's strip is not mirrored: four ramps from the opening to the deep, side by side.
       for (const int column : {x, skin_size - 1 - x}) {
-        const double u = 3.0 * (column + 0.5) / skin_size;
-        const int kind = std::min(static_cast<int>(u), 2);
+        const double u = 4.0 * (column + 0.5) / skin_size;
+        const int kind = std::min(static_cast<int>(u), 3);
         put(image, column, y, lining_colour(kind, (u - kind - 0.04) / 0.92));
       }
     }

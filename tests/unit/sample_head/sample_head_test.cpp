@@ -221,7 +221,8 @@ TEST(SampleHead, Has84Points_EachOnItsPart) {
   EXPECT_THAT(points_of["upper teeth"], UnorderedElementsAre("9.8", "9.10"));
   EXPECT_THAT(points_of["lower teeth"], UnorderedElementsAre("9.9", "9.11"));
   EXPECT_THAT(points_of["hair"], UnorderedElementsAre("11.5"));
-  EXPECT_EQ(points_of["skin"].size(), 84U - 1 - 2 - 4 - 4 - 1);
+  EXPECT_THAT(points_of["upper lids"], UnorderedElementsAre("3.1", "3.2", "3.13", "3.14"));
+  EXPECT_EQ(points_of["skin"].size(), 84U - 1 - 2 - 4 - 4 - 1 - 4);
 }
 
 TEST(SampleHead, PointsMirror_AsTheStandardPairsThem) {
@@ -312,12 +313,39 @@ TEST(SampleHead, LidsCanClose_InFrontOfTheBall) {
   for (const auto& p : eye.positions) ASSERT_NEAR(glm::distance(glm::dvec3(p), centre), radius, 1e-6);
   EXPECT_NEAR(at("3.5").z, centre.z + radius, 1e-6);
 
-  // All along its way down by IRISD0 the middle of the upper edge stays in front of the ball and ends on the lower.
+  // A blink by Eq. 2, 4 and 7 written out for the two points of the lid, 3.1 moving down by IRISD0 and 3.13 resting:
+  // each is the other's only neighbour, so d = d_12 / cos(theta).
+  const auto& lid = part("upper lids");
+  const auto [on_lid, edge] = place_of(point("3.1"));
+  const auto [also_on_lid, root] = place_of(point("3.13"));
+  ASSERT_EQ(on_lid, &lid);
+  ASSERT_EQ(also_on_lid, &lid);
+  const auto from_edge = distances(lid, edge);
+  const auto from_root = distances(lid, root);
+  const double between = from_edge[root];
+  const auto weight = [&](const glm::dvec3& own, const glm::dvec3& other, const glm::dvec3& p, double way) {
+    if (way == 0.0) return 1.0;
+    const double cosine = glm::dot(glm::normalize(p - own), glm::normalize(other - own));
+    if (cosine <= 1e-6 || way >= between / cosine) return 0.0;
+    return std::sin(std::acos(0.0) * (1.0 - way * cosine / between));
+  };
   const double irisd = at("3.1").y - at("3.3").y;
-  for (int step = 0; step <= 16; ++step) {
-    const glm::dvec3 p = at("3.1") - glm::dvec3(0.0, irisd * step / 16.0, 0.0);
-    EXPECT_GT(glm::distance(p, centre), radius) << step;
+  double highest_of_edge = -1.0;
+  for (std::size_t v = 0; v < lid.positions.size(); ++v) {
+    const glm::dvec3 p = lid.positions[v];
+    if (p.z < centre.z + 0.005 || p.x <= 0.0) continue;  // the lid's root is hidden over the ball
+    const double w = weight(at("3.1"), at("3.13"), p, from_edge[v]);
+    const double rest = weight(at("3.13"), at("3.1"), p, from_root[v]);
+    ASSERT_GT(w + rest, 0.0) << "a vertex of the lid that nothing holds: " << v;
+    const glm::dvec3 closed = p - glm::dvec3(0.0, irisd * w / (w + rest), 0.0);
+    // The lid's front in the middle of the slit stays before the ball, however far it has come.
+    if (p.z > centre.z + 0.0135 && p.y < centre.y + 0.0155 && std::abs(p.x - centre.x) < 0.009) {
+      EXPECT_GT(glm::distance(closed, centre), radius) << v;
+      EXPECT_GT(glm::distance(0.5 * (closed + p), centre), radius) << v;
+    }
+    if (p.y <= at("3.1").y + 1e-6 && p.z > centre.z) highest_of_edge = std::max(highest_of_edge, closed.y);
   }
+  EXPECT_LT(highest_of_edge, at("3.3").y + 0.15 * irisd);
   // The iris reaches from lid to lid.
   EXPECT_NEAR(at("3.1").y, 0.5 * irisd, 2e-4);
 }
