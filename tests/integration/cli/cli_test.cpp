@@ -1,0 +1,317 @@
+// The real program on heads made here: what it writes, and how it refuses.
+#include <filesystem>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/geometry/surface.h"
+#include "core/import/feature_points_file.h"
+#include "core/import/import.h"
+#include "core/parametrize/parametrize.h"
+#include "core/parametrize/place_feature_points.h"
+#include "tests/integration/cli/program.h"
+
+namespace semblante::test {
+namespace {
+
+using nlohmann::json;
+
+/// A 9 by 9 sheet at z = 0 with a slight hill, one unit a step: vertex 9 * row + column. One vertex, 81, is used by no
+/// face.
+std::string sheet_obj() {
+  std::ostringstream text;
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 9; ++column) {
+      text << "v " << column << " " << row << " " << 0.125 * ((row * 7 + column * 3) % 4) << "\n";
+    }
+  }
+  text << "v 100 0.1 -1e-3\n";
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 9; ++column) text << "vt " << column / 8.0 << " " << row / 8.0 << "\n";
+  }
+  text << "g sheet\nusemtl paper\n";
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      const int a = 9 * row + column + 1;
+      text << "f";
+      for (const int v : {a, a + 1, a + 10, a + 9}) text << " " << v << "/" << v;
+      text << "\n";
+    }
+  }
+  return text.str();
+}
+
+/// 2.1 low in the middle, 8.3 and 8.4 as mouth corners (x 6 and 2), 2.2 and 9.15 above them, 7.1 behind.
+constexpr const char* sheet_points = R"({"points": {"9.15": {"vertex": 58}, "2.1": {"vertex": 13},
+  "8.3": {"vertex": 33}, "8.4": {"vertex": 29}, "2.2": {"vertex": 40},
+  "7.1": {"vertex": null, "position": [4, 4, -3]}}})";
+
+struct Sheet : ::testing::Test {
+  Workspace work;
+  std::string model = work.write("sheet.obj", sheet_obj());
+  std::string points = work.write("fps.json", sheet_points);
+
+  [[nodiscard]] Outcome deform(std::vector<std::string> face) const {
+    std::vector<std::string> arguments = {"deform", model, "--feature-points", points, "--out", work.path("out.obj")};
+    arguments.insert(arguments.end(), face.begin(), face.end());
+    return run_semblante(arguments);
+  }
+  [[nodiscard]] Model deformed() const { return import_text(read_text(work.path("out.obj"))); }
+  static Model import_text(const std::string& text) {
+    auto model = import_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, ModelFormat::obj);
+    EXPECT_TRUE(model);
+    return model ? *model : Model{};
+  }
+};
+
+TEST_F(Sheet, WeightsJson_HasARowPerFileVertex_WithAllDigits) {
+  const Outcome outcome =
+      run_semblante({"parametrize", model, "--feature-points", points, "--weights-json", work.path("w.json")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  const json weights = json::parse(read_text(work.path("w.json")));
+  EXPECT_EQ(weights["points"], json({"2.1", "2.2", "7.1", "8.3", "8.4", "9.15"}));
+  ASSERT_EQ(weights["vertices"].size(), 82U);
+  EXPECT_EQ(weights["vertices"][13], json::parse(R"([["2.1", 1]])"));
+  EXPECT_EQ(weights["vertices"][81], json::array());
+
+  // The same doubles as in this process: not one digit was lost.
+  const Model read = import_text(sheet_obj());
+  const Surface surface = build_surface(read);
+  const auto file = parse_feature_points(sheet_points);
+  const auto placed = place_feature_points(read, surface, file->points, nullptr);
+  ASSERT_TRUE(placed);
+  const auto rig = parametrize(read, surface, *placed);
+  ASSERT_TRUE(rig);
+  std::size_t entries = 0;
+  for (std::size_t v = 0; v < 82; ++v) {
+    const json& row = weights["vertices"][v];
+    ASSERT_EQ(row.size(), rig->weights.points_of(v).size()) << v;
+    for (std::size_t i = 0; i < row.size(); ++i, ++entries) {
+      EXPECT_EQ(row[i][0], to_string(rig->weights.points_of(v)[i]));
+      EXPECT_EQ(row[i][1].get<double>(), rig->weights.weights_of(v)[i]);
+    }
+  }
+  EXPECT_GT(entries, 82U);
+}
+
+TEST_F(Sheet, Displacements_MoveVertices_ByTheQuotientOfTheirWeights) {
+  const std::string moves = work.write("d.json", R"({"2.1": [0, -1, 0.5], "8.3": [0.25, 0, 0]})");
+  ASSERT_EQ(deform({"--displacements", moves}).exit_code, 0);
+  ASSERT_EQ(run_semblante({"parametrize", model, "--feature-points", points, "--weights-json", work.path("w.json")})
+                .exit_code,
+            0);
+  const json weights = json::parse(read_text(work.path("w.json")));
+  const Model rest = import_text(sheet_obj());
+  const Model moved = deformed();
+  ASSERT_EQ(moved.positions.size(), 82U);
+  EXPECT_EQ(moved.triangles, rest.triangles);
+  EXPECT_EQ(moved.uvs, rest.uvs);
+  EXPECT_EQ(moved.uv_triangles, rest.uv_triangles);
+  EXPECT_EQ(moved.primitives[0].name, "sheet");
+  EXPECT_EQ(moved.materials[0].name, "paper");
+  for (std::size_t v = 0; v < 82; ++v) {
+    glm::dvec3 sum(0.0);
+    double total = 0.0;
+    for (const json& entry : weights["vertices"][v]) {
+      const double w = entry[1];
+      total += w;
+      if (entry[0] == "2.1") sum += w * glm::dvec3(0, -1, 0.5);
+      if (entry[0] == "8.3") sum += w * glm::dvec3(0.25, 0, 0);
+    }
+    const glm::dvec3 expected = glm::dvec3(rest.positions[v]) + (total > 0.0 ? sum / total : glm::dvec3(0.0));
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(moved.positions[v][axis], expected[axis], 1e-6) << v;
+  }
+}
+
+TEST_F(Sheet, Fap_MovesItsPoint_ByItsUnit) {
+  // FAP 3 moves 2.1 down by value * MNS: MNS0 = 9.15.y - 2.2.y = 6 - 4 = 2, so 512 / 1024 * 2 = 1 down.
+  ASSERT_EQ(deform({"--faps", "3=512"}).exit_code, 0);
+  const Model rest = import_text(sheet_obj());
+  const Model moved = deformed();
+  EXPECT_NEAR(moved.positions[13].y, rest.positions[13].y - 1.0F, 1e-6F);
+  EXPECT_EQ(moved.positions[13].x, rest.positions[13].x);
+  EXPECT_EQ(moved.positions[81], rest.positions[81]);
+}
+
+TEST_F(Sheet, NeutralFap_LeavesEveryBit_OfEveryPosition) {
+  ASSERT_EQ(deform({"--faps", "3=0"}).exit_code, 0);
+  EXPECT_EQ(deformed().positions, import_text(sheet_obj()).positions);
+}
+
+TEST_F(Sheet, Output_OnStandardOutput_IsTheSameAsInAFile) {
+  ASSERT_EQ(deform({"--faps", "3=100"}).exit_code, 0);
+  const Outcome outcome = run_semblante({"deform", model, "--feature-points", points, "--faps", "3=100", "--out", "-"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, read_text(work.path("out.obj")));
+}
+
+TEST_F(Sheet, Options_ComeFromTheEnvironmentToo) {
+  const Outcome outcome = run_semblante({"deform"}, {{"SEMBLANTE_MODEL", model},
+                                                     {"SEMBLANTE_FEATURE_POINTS", points},
+                                                     {"SEMBLANTE_FAPS", "3=512"},
+                                                     {"SEMBLANTE_OUT", work.path("env.obj")}});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(read_text(work.path("env.obj")), "");
+}
+
+TEST_F(Sheet, OtherAxes_GiveTheSameWeights_AndFacesInTheFilesOwnAxes) {
+  // The same sheet in a Z-up file: file (x, y, z) = MPEG-4 (x, -z, y), so MPEG-4 = (x, z, -y).
+  std::istringstream lines(sheet_obj());
+  std::ostringstream turned;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    if (words >> keyword >> x >> y >> z && keyword == "v") {
+      turned << "v " << x << " " << -z << " " << y << "\n";
+    } else {
+      turned << line << "\n";
+    }
+  }
+  json file = json::parse(sheet_points);
+  file["to_mpeg4_axes"] = json::parse("[[1, 0, 0], [0, 0, 1], [0, -1, 0]]");
+  file["points"]["7.1"]["position"] = {4, 3, 4};
+  const std::string other_model = work.write("turned.obj", turned.str());
+  const std::string other_points = work.write("turned.json", file.dump());
+  const auto weights = [](const std::string& head, const std::string& fps) {
+    const Outcome outcome = run_semblante({"parametrize", head, "--feature-points", fps, "--weights-json", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_EQ(weights(other_model, other_points), weights(model, points));
+
+  ASSERT_EQ(deform({"--faps", "3=512"}).exit_code, 0);
+  const Model straight = deformed();
+  ASSERT_EQ(run_semblante({"deform", other_model, "--feature-points", other_points, "--faps", "3=512", "--out",
+                           work.path("out.obj")})
+                .exit_code,
+            0);
+  const Model back = deformed();
+  EXPECT_EQ(back.triangles, straight.triangles);
+  for (std::size_t v = 0; v < 82; ++v) {
+    EXPECT_NEAR(back.positions[v].x, straight.positions[v].x, 1e-6F);
+    EXPECT_NEAR(back.positions[v].y, -straight.positions[v].z, 1e-6F);
+    EXPECT_NEAR(back.positions[v].z, straight.positions[v].y, 1e-6F);
+  }
+}
+
+/// One line on stderr that names what is wrong, exit code 2, and nothing written.
+TEST_F(Sheet, BadInput_IsRefused_InOneLineThatNamesIt) {
+  struct Case {
+    const char* name;
+    std::vector<std::string> arguments;
+    std::vector<std::string> says;
+  };
+  const std::string out = work.path("out.obj");
+  const auto fps = [this](const std::string& json) {
+    static int number = 0;
+    return work.write(std::to_string(++number) + ".json", json);
+  };
+  const auto with_points = [&](const std::string& path) {
+    return std::vector<std::string>{"deform", model, "--feature-points", path, "--faps", "3=1", "--out", out};
+  };
+  const auto with_model = [&](const std::string& path) {
+    return std::vector<std::string>{"deform", path, "--feature-points", points, "--faps", "3=1", "--out", out};
+  };
+  const auto with_face = [&](std::vector<std::string> face) {
+    std::vector<std::string> arguments = {"deform", model, "--feature-points", points, "--out", out};
+    arguments.insert(arguments.end(), face.begin(), face.end());
+    return arguments;
+  };
+  const std::vector<Case> cases = {
+      {"no subcommand", {}, {"subcommand"}},
+      {"unknown subcommand", {"dance"}, {}},
+      {"unknown option", with_face({"--dance"}), {"--dance"}},
+      {"parametrize to nowhere", {"parametrize", model, "--feature-points", points}, {"--weights-json", "--out"}},
+      {"no feature points", {"parametrize", model, "--out", out}, {"--feature-points"}},
+      {"no face", with_face({}), {"--faps", "--viseme", "--expression", "--displacements"}},
+      {"model not there", with_model(work.path("none.obj")), {"none.obj", "No such file"}},
+      {"model is a folder", with_model(work.path("")), {"folder"}},
+      {"model is empty", with_model(work.write("empty.obj", "")), {"empty.obj", "empty"}},
+      {"model is prose", with_model(work.write("prose.obj", "once upon a time\n")), {"prose.obj", "line 1"}},
+      {"model is nothing known", with_model(work.write("prose.txt", "once upon")), {"prose.txt", "GLB"}},
+      {"model has NaN", with_model(work.write("nan.obj", "v 0 0 nan\n")), {"nan.obj", "line 1", "nan"}},
+      {"model is cut short", with_model(work.write("cut.glb", "glTF\2")), {"cut.glb", "12 bytes"}},
+      {"format says otherwise",
+       {"deform", model, "--feature-points", points, "--format", "stl", "--faps", "3=1", "--out", out},
+       {"sheet.obj"}},
+      {"unknown format", with_face({"--faps", "3=1", "--format", "fbx"}), {"--format", "fbx"}},
+      {"points not there", with_points(work.path("none.json")), {"none.json", "No such file"}},
+      {"points are no JSON", with_points(fps("hello")), {"not valid JSON"}},
+      {"unknown point", with_points(fps(R"({"points": {"2.15": {"vertex": 1}}})")), {"/points/2.15"}},
+      {"vertex is text",
+       with_points(fps(R"({"points": {"2.1": {"vertex": "1"}}})")),
+       {"/points/2.1/vertex", "whole number"}},
+      {"vertex negative", with_points(fps(R"({"points": {"2.1": {"vertex": -1}}})")), {"/points/2.1/vertex"}},
+      {"vertex not there", with_points(fps(R"({"points": {"2.1": {"vertex": 82}}})")), {"/points/2.1", "82"}},
+      {"position far away", with_points(fps(R"({"points": {"2.1": {"position": [9999, 0, 0]}}})")), {"/points/2.1"}},
+      {"FAP 99", with_face({"--faps", "99=1"}), {"--faps", "99"}},
+      {"FAP 0", with_face({"--faps", "0=1"}), {"--faps", "no FAP 0"}},
+      {"FAP 1", with_face({"--faps", "1=1"}), {"--faps", "--viseme"}},
+      {"FAP is text", with_face({"--faps", "jaw=1"}), {"--faps", "jaw=1"}},
+      {"FAP value is text", with_face({"--faps", "3=open"}), {"--faps", "3=open"}},
+      {"FAP value is NaN", with_face({"--faps", "3=nan"}), {"--faps", "3=nan"}},
+      {"FAP without value", with_face({"--faps", "3"}), {"--faps", "<number>=<value>"}},
+      {"FAP twice", with_face({"--faps", "3=1,3=2"}), {"--faps", "twice"}},
+      {"FAP trailing comma", with_face({"--faps", "3=1,"}), {"--faps"}},
+      {"FAP of a point not marked", with_face({"--faps", "4=1,51=1"}), {"51", "8.1", "not marked"}},
+      {"FAP of a unit not known", with_face({"--faps", "31=1"}), {"31", "ENS"}},
+      {"viseme 15", with_face({"--viseme", "15"}), {"--viseme", "15", "0 to 14"}},
+      {"viseme unknown", with_face({"--viseme", "xyz"}), {"--viseme", "xyz", "p_b_m"}},
+      {"expression 7", with_face({"--expression", "7"}), {"--expression", "1 to 6"}},
+      {"expression unknown", with_face({"--expression", "boredom"}), {"--expression", "boredom", "joy"}},
+      {"intensity 2", with_face({"--viseme", "10", "--intensity", "2"}), {"--intensity"}},
+      {"intensity text", with_face({"--viseme", "10", "--intensity", "much"}), {"--intensity"}},
+      {"displacements not there", with_face({"--displacements", work.path("none")}), {"none", "No such file"}},
+      {"displacements of unknown point", with_face({"--displacements", fps(R"({"1.1": [0, 0, 0]})")}), {"/1.1"}},
+      {"displacement of unmarked point",
+       with_face({"--displacements", fps(R"({"3.1": [0, 0, 0]})")}),
+       {"/3.1", "not marked"}},
+      {"displacement of bare position",
+       with_face({"--displacements", fps(R"({"7.1": [0, 0, 0]})")}),
+       {"/7.1", "moves no vertex"}},
+      {"displacement of two numbers", with_face({"--displacements", fps(R"({"2.1": [0, 0]})")}), {"/2.1"}},
+      {"displacement of text", with_face({"--displacements", fps(R"({"2.1": [0, "x", 0]})")}), {"/2.1/1"}},
+      {"displacements with FAPs",
+       with_face({"--displacements", fps(R"({"2.1": [0, 0, 1]})"), "--faps", "3=1"}),
+       {"--displacements", "--faps"}},
+      {"out is in no folder",
+       {"deform", model, "--feature-points", points, "--faps", "3=1", "--out", work.path("none/out.obj")},
+       {"none/out.obj"}},
+      {"weight bits",
+       {"parametrize", model, "--feature-points", points, "--out", work.path("p"), "--weight-bits", "4"},
+       {"--weight-bits"}},
+  };
+  for (const Case& test : cases) {
+    const Outcome outcome = run_semblante(test.arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << test.name << ": " << outcome.err;
+    EXPECT_EQ(outcome.out, "") << test.name;
+    EXPECT_EQ(line_count(outcome.err), 1U) << test.name << ": " << outcome.err;
+    for (const std::string& what : test.says) {
+      EXPECT_NE(outcome.err.find(what), std::string::npos) << test.name << ": no '" << what << "' in " << outcome.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(out)) << test.name;
+  }
+}
+
+TEST(Cli, Help_NamesTheEnvironment_OfEveryOption) {
+  for (const char* const command : {"parametrize", "deform"}) {
+    const Outcome outcome = run_semblante({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    std::istringstream lines(outcome.out);
+    std::size_t options = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("  --") != 0) continue;
+      ++options;
+      EXPECT_NE(line.find("(Env:SEMBLANTE_"), std::string::npos) << line;
+    }
+    EXPECT_GT(options, 3U);
+  }
+}
+
+}  // namespace
+}  // namespace semblante::test
