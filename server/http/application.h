@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+
+#include "server/http/message.h"
+#include "server/http/websocket_peer.h"
+
+namespace semblante::http {
+
+/// What to do with the body of a request whose header has arrived.
+struct BodyPlan {
+  std::uint64_t max_bytes = 0;  ///< more is answered 413
+  bool to_file = false;         ///< written to a temporary file while it arrives, instead of memory
+  bool required = false;        ///< no Content-Length and not chunked is answered 411
+};
+
+/// What the network layer (net/) asks of the layers above. One object serves all connections.
+class Application {
+ public:
+  virtual ~Application() = default;
+  /// On the connection's strand, when the header is there and the body is not: must not block. An answer here refuses
+  /// the request without reading its body.
+  virtual std::variant<BodyPlan, Response> plan(const Request& head) = 0;
+  /// On a worker thread, with the body: may take its time.
+  virtual Response handle(Request& request) = 0;
+  /// On the connection's strand, for a request that asks for a WebSocket: must not block.
+  virtual std::variant<std::shared_ptr<WebSocketPeer>, Response> open_websocket(const Request& head) = 0;
+  /// Adds what every answer carries (CORS). On any thread.
+  virtual void decorate(const Request& head, Response& response) = 0;
+};
+
+}  // namespace semblante::http

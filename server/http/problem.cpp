@@ -1,0 +1,139 @@
+#include "server/http/problem.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include <nlohmann/json.hpp>
+
+namespace semblante::http {
+namespace {
+
+constexpr auto kinds = std::to_array<ProblemKind>({
+    {"malformed-request", 400, "The request cannot be read"},
+    {"invalid-argument", 400, "A value of the request means nothing here"},
+    {"forbidden-origin", 403, "Pages from this origin may not use the server"},
+    {"not-found", 404, "There is nothing at this address"},
+    {"method-not-allowed", 405, "The resource does not know this method"},
+    {"not-acceptable", 406, "None of the accepted media types can be given"},
+    {"request-timeout", 408, "The request did not arrive in time"},
+    {"conflict", 409, "The state of the resource does not allow this"},
+    {"length-required", 411, "The request must carry a body"},
+    {"precondition-failed", 412, "The resource is not in the state that was expected"},
+    {"content-too-large", 413, "The body is over the limit"},
+    {"unsupported-media-type", 415, "The body's media type cannot be read here"},
+    {"range-not-satisfiable", 416, "The range lies outside the content"},
+    {"malformed-model", 422, "The model file cannot be read"},
+    {"unsupported-model", 422, "The model file needs something that is not supported"},
+    {"empty-model", 422, "The model has nothing to work on"},
+    {"model-too-large", 422, "The model is over a documented limit"},
+    {"invalid-feature-point", 422, "A feature point cannot be where it is said to be"},
+    {"missing-feature-points", 422, "Feature points are missing"},
+    {"invalid-frame", 422, "A frame of the stream cannot be read"},
+    {"invalid-field", 422, "A field of the body is wrong"},
+    {"idempotency-key-reused", 422, "The idempotency key was used for another request"},
+    {"upgrade-required", 426, "The resource speaks WebSocket"},
+    {"precondition-required", 428, "The request must say which state it expects"},
+    {"too-many-requests", 429, "Too much is waiting already"},
+    {"header-too-large", 431, "The header of the request is over the limit"},
+    {"worker-crashed", 500, "The worker of this job ended by a fault"},
+    {"worker-limit", 422, "The job used up what it was given"},
+    {"cancelled", 409, "It was stopped on request"},
+    {"internal", 500, "A fault of the server"},
+    {"overloaded", 503, "The server has as many connections as it takes"},
+    {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are spoken here"},
+    {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
+});
+
+const ProblemKind& kind_of(std::string_view slug) {
+  const auto* found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.slug == slug; });
+  assert(found != kinds.end());
+  return *found;
+}
+
+std::string_view slug_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::malformed:
+    case ErrorCode::truncated:
+    case ErrorCode::out_of_range:
+    case ErrorCode::not_finite:
+      return "malformed-model";
+    case ErrorCode::too_large:
+      return "model-too-large";
+    case ErrorCode::empty:
+      return "empty-model";
+    case ErrorCode::unsupported:
+      return "unsupported-model";
+    case ErrorCode::mismatch:
+    case ErrorCode::invalid_argument:
+      return "invalid-field";
+    case ErrorCode::missing:
+      return "missing-feature-points";
+    case ErrorCode::cancelled:
+      return "cancelled";
+    case ErrorCode::io:
+    case ErrorCode::internal:
+      return "internal";
+  }
+  return "internal";
+}
+
+nlohmann::ordered_json document(const Problem& problem) {
+  nlohmann::ordered_json json;
+  json["type"] = "/problems/" + problem.slug;
+  json["title"] = problem.title;
+  json["status"] = problem.status;
+  json["detail"] = problem.detail;
+  if (!problem.pointer.empty()) json["pointer"] = problem.pointer;
+  if (!problem.faults.empty()) {
+    auto& errors = json["errors"] = nlohmann::ordered_json::array();
+    for (const auto& fault : problem.faults) errors.push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<ProblemKind> problem_kinds() { return {kinds.begin(), kinds.end()}; }
+
+Problem make_problem(std::string_view slug, std::string detail, std::string pointer) {
+  const auto& kind = kind_of(slug);
+  return {kind.status, std::string(kind.slug), std::string(kind.title), std::move(detail), std::move(pointer), {}};
+}
+
+Problem problem_from(const Error& error) {
+  // What points at a feature point is about that point, whatever went wrong with it.
+  const bool about_point = error.where.rfind("/points", 0) == 0 && error.code != ErrorCode::missing;
+  return make_problem(about_point ? "invalid-feature-point" : slug_of(error.code), error.message, error.where);
+}
+
+std::string to_json(const Problem& problem) {
+  return document(problem).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Problem problem_from_json(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return make_problem("internal", "the reason was not recorded");
+  Problem problem;
+  const auto type = json.value("type", std::string("/problems/internal"));
+  problem.slug = type.substr(type.rfind('/') + 1);
+  problem.title = json.value("title", std::string());
+  problem.status = json.value("status", 500);
+  problem.detail = json.value("detail", std::string());
+  problem.pointer = json.value("pointer", std::string());
+  if (json.contains("errors"))
+    for (const auto& fault : json["errors"])
+      problem.faults.push_back({fault.value("pointer", std::string()), fault.value("detail", std::string())});
+  return problem;
+}
+
+Response to_response(const Problem& problem) {
+  Response response;
+  response.status = problem.status;
+  response.headers["Content-Type"] = "application/problem+json";
+  response.headers["Cache-Control"] = "no-store";
+  response.body = to_json(problem) + "\n";
+  return response;
+}
+
+}  // namespace semblante::http

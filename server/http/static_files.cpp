@@ -1,0 +1,53 @@
+#include "server/http/static_files.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+#include <sys/stat.h>
+
+#include "server/http/conditional.h"
+#include "server/http/media_type.h"
+#include "server/http/problem.h"
+
+namespace semblante::http {
+namespace {
+
+/// "assets/index-BTK3ftMc.js": a bundler's mark that the name changes with the content.
+bool has_hashed_name(const std::string& path) {
+  if (path.find("/assets/") == std::string::npos) return false;
+  const auto name = path.substr(path.rfind('/') + 1);
+  const auto dash = name.rfind('-');
+  if (dash == std::string::npos) return false;
+  const auto dot = name.find('.', dash);
+  return dot != std::string::npos && dot - dash - 1 >= 8;
+}
+
+}  // namespace
+
+Response static_file(const std::filesystem::path& root, const Request& request) {
+  const auto absent = [&] { return to_response(make_problem("not-found", "nothing is served at " + request.path)); };
+  std::string path = request.path;
+  if (path.back() == '/') path += "index.html";
+  if (path.find("/.") != std::string::npos || path.find('\\') != std::string::npos) return absent();
+
+  std::error_code error;
+  const auto file = std::filesystem::canonical(root / path.substr(1), error);
+  if (error) return absent();
+  const auto base = std::filesystem::canonical(root, error);
+  const auto [end, rest] = std::mismatch(base.begin(), base.end(), file.begin(), file.end());
+  if (error || end != base.end()) return absent();
+  struct stat info {};
+  if (::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return absent();
+
+  Response response;
+  response.headers["Content-Type"] = std::string(media_type_of_file(file.filename().string()));
+  response.headers["Cache-Control"] = has_hashed_name(path) ? "public, max-age=31536000, immutable" : "no-cache";
+  response.headers["ETag"] = "\"" + std::to_string(info.st_size) + "-" + std::to_string(info.st_mtim.tv_sec) + "." +
+                             std::to_string(info.st_mtim.tv_nsec) + "\"";
+  response.headers["X-Content-Type-Options"] = "nosniff";
+  response.body = FileBody{file, 0, static_cast<std::uint64_t>(info.st_size)};
+  return apply_conditions(request, std::move(response));
+}
+
+}  // namespace semblante::http

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "server/http/message.h"
+
+namespace semblante::http {
+
+/// A file below `root` for a decoded request path; "/" is index.html. Anything that would leave the root (dot segments,
+/// links out of it) or is no regular file is 404. Files whose name carries a content hash (assets/name-<8+
+/// characters>.ext, as Vite writes them) may be cached for a year, all others are revalidated by their ETag.
+Response static_file(const std::filesystem::path& root, const Request& request);
+
+}  // namespace semblante::http

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace semblante::http {
+
+/// A request target in origin form, taken apart.
+struct Target {
+  std::string path;  ///< percent-decoded; starts with '/'
+  std::map<std::string, std::string> query;
+};
+
+/// nullopt for anything that is not an origin-form target: no leading '/', a broken escape, a NUL byte.
+std::optional<Target> parse_target(std::string_view target);
+
+/// nullopt for a broken escape. '+' stays '+' unless `plus_is_space`.
+std::optional<std::string> percent_decode(std::string_view text, bool plus_is_space);
+
+}  // namespace semblante::http

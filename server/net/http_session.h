@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include "server/net/state.h"
+
+namespace semblante::net {
+
+/// Serves one accepted connection to its end. Everything it holds lives in this coroutine, on the strand of the socket;
+/// the handler alone runs elsewhere (worker pool), and the coroutine waits for it.
+boost::asio::awaitable<void> serve_connection(boost::asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state);
+
+}  // namespace semblante::net

@@ -1,0 +1,175 @@
+#include "server/net/response_writer.h"
+
+#include <array>
+#include <ctime>
+#include <fcntl.h>
+#include <unistd.h>
+#include <vector>
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+
+#include "server/log/log.h"
+#include "server/net/waker.h"
+
+namespace semblante::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+
+namespace {
+
+constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
+constexpr std::size_t piece_bytes = 64 * 1024;
+constexpr std::chrono::seconds heartbeat{15};
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+std::string http_date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 40> text{};
+  std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc);
+  return text.data();
+}
+
+/// A header value may quote what a client sent: what could end the line is left out.
+void append_field(std::string& out, std::string_view name, std::string_view value) {
+  out.append(name).append(": ");
+  for (const char c : value)
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) out.push_back(c);
+  out.append("\r\n");
+}
+
+std::string header_of(const http::Response& response, unsigned version, bool chunked, bool keep_alive) {
+  std::string out;
+  out.reserve(512);
+  out.append(version == 10 ? "HTTP/1.0 " : "HTTP/1.1 ").append(std::to_string(response.status)).append(" ");
+  out.append(http::reason_phrase(response.status)).append("\r\n");
+  for (const auto& [name, value] : response.headers) append_field(out, name, value);
+  append_field(out, "Date", http_date());
+  if (chunked) {
+    if (version == 11) append_field(out, "Transfer-Encoding", "chunked");
+  } else if (response.status != 204 && response.status != 304) {
+    append_field(out, "Content-Length", std::to_string(response.body_size()));
+  }
+  append_field(out, "Connection", keep_alive ? "keep-alive" : "close");
+  out.append("\r\n");
+  return out;
+}
+
+asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_ptr<http::Feed>& feed, bool chunked,
+                                 const SharedState& state) {
+  const auto waker = std::make_shared<Waker>(stream.get_executor());
+  feed->attach(waker->function());
+  const auto send = [&](std::string_view piece) -> asio::awaitable<bool> {
+    std::string framed;
+    if (chunked) {
+      std::array<char, 24> size{};
+      std::snprintf(size.data(), size.size(), "%zx\r\n", piece.size());
+      framed.append(size.data()).append(piece).append("\r\n");
+    } else {
+      framed = piece;
+    }
+    stream.expires_after(state.config.limits.write_timeout);
+    const auto [error, written] = co_await asio::async_write(stream, asio::buffer(framed), use_tuple);
+    co_return !error;
+  };
+
+  bool alive = true;
+  while (alive) {
+    if (const auto item = feed->take()) {
+      alive = co_await send(*item->bytes);
+    } else if (feed->finished() || state.stopping) {
+      break;
+    } else {
+      const auto before = std::chrono::steady_clock::now();
+      co_await waker->wait(heartbeat);
+      // A comment line keeps proxies patient, and tells us when nobody listens any more.
+      if (std::chrono::steady_clock::now() - before >= heartbeat) alive = co_await send(": still here\n\n");
+    }
+  }
+  feed->attach({});
+  if (alive && chunked) {
+    stream.expires_after(state.config.limits.write_timeout);
+    const auto [error, written] = co_await asio::async_write(stream, asio::buffer("0\r\n\r\n", 5), use_tuple);
+    alive = !error;
+  }
+  co_return alive&& chunked;
+}
+
+asio::awaitable<bool> write_file(beast::tcp_stream& stream, const http::FileBody& body, const SharedState& state) {
+  const OpenFile file(body.path);
+  if (file.get() < 0) {
+    log::error("cannot open " + body.path.string());
+    co_return false;
+  }
+  std::vector<char> piece(std::min<std::uint64_t>(piece_bytes, body.length));
+  std::uint64_t sent = 0;
+  while (sent < body.length) {
+    const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), body.length - sent));
+    const auto got = ::pread(file.get(), piece.data(), want, static_cast<off_t>(body.offset + sent));
+    if (got <= 0) co_return false;
+    stream.expires_after(state.config.limits.write_timeout);
+    const auto [error, written] =
+        co_await asio::async_write(stream, asio::buffer(piece.data(), static_cast<std::size_t>(got)), use_tuple);
+    if (error) co_return false;
+    sent += static_cast<std::uint64_t>(got);
+  }
+  co_return true;
+}
+
+}  // namespace
+
+asio::awaitable<bool> write_response(beast::tcp_stream& stream, const http::Response& response, unsigned http_version,
+                                     bool head_only, bool keep_alive, const SharedState& state) {
+  const auto* feed = std::get_if<std::shared_ptr<http::Feed>>(&response.body);
+  const bool chunked = feed != nullptr && http_version == 11;
+  if (feed != nullptr && !chunked) keep_alive = false;
+  const std::string header = header_of(response, http_version, feed != nullptr, keep_alive);
+  stream.expires_after(state.config.limits.write_timeout);
+
+  const auto* text = std::get_if<std::string>(&response.body);
+  if (text != nullptr && !head_only) {
+    const std::array<asio::const_buffer, 2> both = {asio::buffer(header), asio::buffer(*text)};
+    const auto [error, written] = co_await asio::async_write(stream, both, use_tuple);
+    co_return !error && keep_alive;
+  }
+  const auto [error, written] = co_await asio::async_write(stream, asio::buffer(header), use_tuple);
+  if (error) co_return false;
+  if (head_only) co_return keep_alive;
+  if (const auto* file = std::get_if<http::FileBody>(&response.body))
+    co_return co_await write_file(stream, *file, state) && keep_alive;
+  if (feed != nullptr) co_return co_await write_feed(stream, *feed, chunked, state) && keep_alive;
+  co_return keep_alive;
+}
+
+asio::awaitable<void> close_gently(beast::tcp_stream& stream) {
+  boost::system::error_code ignored;
+  stream.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  std::vector<char> dropped(piece_bytes);
+  std::size_t total = 0;
+  stream.expires_after(std::chrono::seconds(2));
+  while (total < (64U << 20)) {
+    const auto [error, count] = co_await stream.async_read_some(asio::buffer(dropped), use_tuple);
+    if (error) break;
+    total += count;
+  }
+  stream.close();
+}
+
+}  // namespace semblante::net

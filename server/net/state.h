@@ -1,0 +1,29 @@
+#pragma once
+
+// Private to net/: what the listener and its sessions share. Beast itself stays in the two session sources.
+
+#include <atomic>
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+#include "server/net/server.h"
+
+namespace semblante::net {
+
+struct SharedState {
+  SharedState(ServerConfig c, http::Application& a)
+      : config(std::move(c)), application(a), io(static_cast<int>(config.io_threads)), workers(config.worker_threads) {}
+
+  ServerConfig config;
+  http::Application& application;
+  boost::asio::io_context io;
+  boost::asio::thread_pool workers;
+  std::atomic<bool> stopping{false};
+  std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
+      websockets_open{0}, upload_number{0};
+};
+
+}  // namespace semblante::net
