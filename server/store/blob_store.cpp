@@ -1,0 +1,132 @@
+#include "server/store/blob_store.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include "server/store/sha256.h"
+
+namespace semblante::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error io_error(const fs::path& path) {
+  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(errno)};
+}
+
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] bool ok() const { return value_ >= 0; }
+  [[nodiscard]] int get() const { return value_; }
+
+ private:
+  int value_;
+};
+
+bool sync_folder(const fs::path& folder) {
+  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
+  return descriptor.ok() && ::fsync(descriptor.get()) == 0;
+}
+
+}  // namespace
+
+Result<BlobStore> BlobStore::open(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder / "tmp", error);
+  fs::create_directories(folder / "tmp", error);
+  if (!error) fs::create_directories(folder / "blobs", error);
+  if (error) return Error{ErrorCode::io, folder.string(), folder.string() + ": " + error.message()};
+  return BlobStore(folder);
+}
+
+fs::path BlobStore::path_of(std::string_view sha256) const {
+  return folder_ / "blobs" / std::string(sha256.substr(0, 2)) / std::string(sha256);
+}
+
+Result<Blob> BlobStore::adopt(const fs::path& path) const {
+  const Descriptor file(path, O_RDONLY);
+  if (!file.ok()) return io_error(path);
+  Sha256Stream hash;
+  Blob blob;
+  std::vector<char> piece(1U << 18U);
+  while (true) {
+    const auto got = ::read(file.get(), piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return io_error(path);
+    if (got == 0) break;
+    hash.update({piece.data(), static_cast<std::size_t>(got)});
+    blob.bytes += static_cast<std::uint64_t>(got);
+  }
+  blob.sha256 = hash.hex();
+  const auto target = path_of(blob.sha256);
+  std::error_code error;
+  if (fs::exists(target, error)) {  // the same content is there already, whole and durable
+    fs::remove(path, error);
+    return blob;
+  }
+  if (::fsync(file.get()) != 0) return io_error(path);
+  const bool new_folder = fs::create_directory(target.parent_path(), error);
+  if (error) return Error{ErrorCode::io, target.string(), target.string() + ": " + error.message()};
+  if (new_folder && !sync_folder(folder_ / "blobs")) return io_error(folder_);
+  if (::rename(path.c_str(), target.c_str()) != 0) return io_error(target);
+  if (!sync_folder(target.parent_path())) return io_error(target);
+  return blob;
+}
+
+Result<Blob> BlobStore::put(std::string_view bytes) const {
+  static std::atomic<std::uint64_t> number{0};
+  const auto path = temporary() / ("put-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
+  {
+    const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+    if (!file.ok()) return io_error(path);
+    while (!bytes.empty()) {
+      const auto written = ::write(file.get(), bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) {
+        auto error = io_error(path);
+        std::error_code ignored;
+        fs::remove(path, ignored);
+        return error;
+      }
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  return adopt(path);
+}
+
+std::optional<fs::path> BlobStore::find(std::string_view sha256) const {
+  if (!is_sha256_hex(sha256)) return std::nullopt;
+  auto path = path_of(sha256);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  return path;
+}
+
+void BlobStore::remove(std::string_view sha256) const {
+  std::error_code ignored;
+  if (is_sha256_hex(sha256)) fs::remove(path_of(sha256), ignored);
+}
+
+std::size_t BlobStore::sweep(const std::unordered_set<std::string>& keep) const {
+  std::size_t removed = 0;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "blobs", error)) {
+    if (!entry.is_regular_file(error) || keep.contains(entry.path().filename().string())) continue;
+    if (fs::remove(entry.path(), error)) ++removed;
+  }
+  return removed;
+}
+
+}  // namespace semblante::store

@@ -1,0 +1,47 @@
+#include "server/store/records.h"
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <stdexcept>
+
+#include <sys/random.h>
+
+namespace semblante::store {
+
+std::string_view to_string(ModelState state) {
+  static constexpr std::array<std::string_view, 4> names = {"importing", "ready", "parametrized", "failed"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+std::string_view to_string(JobKind kind) { return kind == JobKind::import ? "import" : "parametrize"; }
+
+std::string_view to_string(JobState state) {
+  static constexpr std::array<std::string_view, 5> names = {"queued", "running", "done", "failed", "cancelled"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+std::string timestamp_now() {
+  const auto now = std::chrono::system_clock::now();
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  const auto milliseconds =
+      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 40> text{};
+  const auto used = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::snprintf(text.data() + used, text.size() - used, ".%03dZ", static_cast<int>(milliseconds));
+  return text.data();
+}
+
+std::string random_id() {
+  constexpr std::string_view alphabet = "abcdefghijklmnopqrstuvwxyz234567";
+  std::array<unsigned char, 12> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("the system has no random numbers");
+  std::string id;
+  for (const auto byte : bytes) id.push_back(alphabet[byte % alphabet.size()]);
+  return id;
+}
+
+}  // namespace semblante::store

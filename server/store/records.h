@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace semblante::store {
+
+/// What the import found out about a part, with the role a guess or a user gave it.
+struct PartRecord {
+  std::string name;
+  std::string role;           ///< as part_role_names; of the last guess
+  bool role_by_user = false;  ///< a user's role replaces the guess
+  std::uint32_t vertices = 0, triangles = 0;
+  std::array<double, 3> box_min{}, box_max{};
+
+  bool operator==(const PartRecord&) const = default;
+};
+
+enum class ModelState { importing, ready, parametrized, failed };
+enum class JobKind { import, parametrize };
+enum class JobState { queued, running, done, failed, cancelled };
+
+/// An immutable thing a model has, by name; the bytes are in the blob folder under the hash.
+struct ArtefactRecord {
+  std::string name;  ///< "source", "positions", "preview.glb", "mesh.drc", "weights", "rig.json", "face.glb", "image-0"
+  std::string sha256;
+  std::uint64_t bytes = 0;
+  std::string content_type;
+
+  bool operator==(const ArtefactRecord&) const = default;
+};
+
+/// The package a parametrization made.
+struct PackageRecord {
+  std::string parametrization;  ///< id of the job
+  std::string created;
+  std::string metric, weights;
+  int weight_bits = 12;
+
+  bool operator==(const PackageRecord&) const = default;
+};
+
+struct ModelRecord {
+  std::string id, name;
+  ModelState state = ModelState::importing;
+  std::string problem;           ///< JSON of the problem document, or empty
+  std::string created, updated;  ///< RFC 3339, UTC
+  std::uint64_t revision = 1;    ///< rises with every change of the model or its feature points
+  std::string file_name, format;
+  std::uint64_t source_bytes = 0;
+  std::string source_sha256;
+  std::uint32_t vertices = 0, triangles = 0;
+  std::array<double, 3> box_min{}, box_max{};
+  std::vector<PartRecord> parts;
+  std::vector<std::string> warnings;
+  std::uint32_t feature_point_count = 0;
+  std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
+  std::optional<PackageRecord> package;
+
+  bool operator==(const ModelRecord&) const = default;
+};
+
+/// One marked point as the user gave it: a vertex, a position, or both.
+struct FeaturePointRecord {
+  std::string id;  ///< "2.1"
+  std::optional<std::uint32_t> vertex;
+  std::optional<std::array<double, 3>> position;
+
+  bool operator==(const FeaturePointRecord&) const = default;
+};
+
+struct JobRecord {
+  std::string id, model;
+  JobKind kind = JobKind::import;
+  JobState state = JobState::queued;
+  double progress = 0.0;  ///< 0..1
+  std::string stage;
+  std::string created, updated;
+  std::string problem;  ///< JSON of the problem document, or empty
+  std::string metric = "edge", weights = "paper";
+  int weight_bits = 12;
+  std::uint32_t attempts = 0;  ///< how often a worker began it
+
+  bool operator==(const JobRecord&) const = default;
+};
+
+struct StreamRecord {
+  std::string id, title, model, created;
+
+  bool operator==(const StreamRecord&) const = default;
+};
+
+/// Remembers under which key a creating request came, and what it made.
+struct IdempotencyRecord {
+  std::string key;
+  std::string fingerprint;  ///< of method, path and body
+  std::string resource;     ///< id of the job or stream that the request created
+
+  bool operator==(const IdempotencyRecord&) const = default;
+};
+
+std::string_view to_string(ModelState state);
+std::string_view to_string(JobKind kind);
+std::string_view to_string(JobState state);
+inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
+
+/// Now, as RFC 3339 in UTC with milliseconds.
+std::string timestamp_now();
+/// A new id of 12 characters out of a-z and 2-7, from the system's random source: 60 bits.
+std::string random_id();
+
+}  // namespace semblante::store

@@ -1,0 +1,58 @@
+#include "server/store/sqlite.h"
+
+namespace semblante::store {
+namespace {
+
+[[noreturn]] void fail(sqlite3* handle, std::string_view what) {
+  throw std::runtime_error(std::string(what) + ": " + (handle != nullptr ? sqlite3_errmsg(handle) : "out of memory"));
+}
+
+}  // namespace
+
+Database::Database(const std::string& file) {
+  // The store has its own mutex, so SQLite needs none.
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+  if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+    const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory";
+    sqlite3_close(handle_);
+    throw std::runtime_error(file + ": " + reason);
+  }
+  sqlite3_extended_result_codes(handle_, 1);
+  sqlite3_busy_timeout(handle_, 5000);
+}
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::execute(const char* sql) {
+  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(handle_, sql);
+}
+
+Statement::Statement(Database& database, std::string_view sql) : database_(database) {
+  if (sqlite3_prepare_v2(database.get(), sql.data(), static_cast<int>(sql.size()), &statement_, nullptr) != SQLITE_OK)
+    fail(database.get(), sql);
+}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_);
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  fail(database_.get(), "a statement failed");
+}
+
+std::string Statement::text(int column) const {
+  const auto* bytes = sqlite3_column_text(statement_, column);
+  if (bytes == nullptr) return {};
+  return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+void Statement::bind_one(std::string_view value) {
+  sqlite3_bind_text(statement_, next_++, value.data() != nullptr ? value.data() : "", static_cast<int>(value.size()),
+                    SQLITE_TRANSIENT);
+}
+void Statement::bind_one(std::int64_t value) { sqlite3_bind_int64(statement_, next_++, value); }
+void Statement::bind_one(double value) { sqlite3_bind_double(statement_, next_++, value); }
+void Statement::bind_one(std::nullptr_t) { sqlite3_bind_null(statement_, next_++); }
+
+}  // namespace semblante::store

@@ -1,0 +1,98 @@
+#pragma once
+
+// Private to store/: a thin, safe hold on SQLite's C interface.
+
+#include <cstdint>
+#include <optional>
+#include <sqlite3.h>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace semblante::store {
+
+class Database {
+ public:
+  explicit Database(const std::string& file);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void execute(const char* sql);
+  [[nodiscard]] sqlite3* get() const { return handle_; }
+  /// Rows the last statement changed.
+  [[nodiscard]] int changes() const { return sqlite3_changes(handle_); }
+
+ private:
+  sqlite3* handle_ = nullptr;
+};
+
+/// A prepared statement: bind in order, then step row by row, read columns in order.
+class Statement {
+ public:
+  Statement(Database& database, std::string_view sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    (bind_one(values), ...);
+    return *this;
+  }
+  /// True while there is a row.
+  bool step();
+  /// For statements that give no rows.
+  void run() {
+    while (step()) {
+    }
+  }
+
+  [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
+  [[nodiscard]] double real(int column) const { return sqlite3_column_double(statement_, column); }
+  [[nodiscard]] bool is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
+
+ private:
+  void bind_one(std::string_view value);
+  void bind_one(const std::string& value) { bind_one(std::string_view(value)); }
+  void bind_one(const char* value) { bind_one(std::string_view(value)); }
+  void bind_one(std::int64_t value);
+  void bind_one(std::uint64_t value) { bind_one(static_cast<std::int64_t>(value)); }
+  void bind_one(std::uint32_t value) { bind_one(static_cast<std::int64_t>(value)); }
+  void bind_one(int value) { bind_one(static_cast<std::int64_t>(value)); }
+  void bind_one(double value);
+  void bind_one(std::nullptr_t);
+  template <class T>
+  void bind_one(const std::optional<T>& value) {
+    if (value)
+      bind_one(*value);
+    else
+      bind_one(nullptr);
+  }
+
+  Database& database_;
+  sqlite3_stmt* statement_ = nullptr;
+  int next_ = 1;
+};
+
+/// BEGIN IMMEDIATE now, COMMIT when told, ROLLBACK otherwise.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
+  ~Transaction() {
+    if (!committed_) sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() {
+    database_.execute("COMMIT");
+    committed_ = true;
+  }
+
+ private:
+  Database& database_;
+  bool committed_ = false;
+};
+
+}  // namespace semblante::store

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/types/result.h"
+#include "server/store/store.h"
+
+namespace semblante::store {
+
+/// Opens (creates) the facts in one SQLite file: WAL, synchronous=FULL, so that a commit is on the disk when it
+/// returns. One connection behind one mutex. Error `io` with the path when it cannot be opened, `unsupported` when it
+/// was written by a later version.
+Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& file);
+
+}  // namespace semblante::store

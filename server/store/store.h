@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/store/records.h"
+
+namespace semblante::store {
+
+/// A part by its index, and the role a user gives it; empty: back to the guess.
+using RoleChange = std::pair<std::uint32_t, std::optional<std::string>>;
+
+/// Facts about models, jobs and streams. Every call that changes something returns after the change is durable: it
+/// survives the end of the process and of the machine. Calls may come from any thread but never from an I/O thread:
+/// they wait for the disk. A failing disk throws std::runtime_error: nothing was changed.
+class Store {
+ public:
+  virtual ~Store() = default;
+
+  // ---- models
+  /// Creates model, source artefact and import job in one step. False when the id is taken.
+  virtual bool create_model(const ModelRecord& model, const ArtefactRecord& source, const JobRecord& job,
+                            const std::optional<IdempotencyRecord>& key) = 0;
+  virtual std::optional<ModelRecord> model(std::string_view id) = 0;
+  /// In the order of creation, after the model `after` (empty: from the first). nullopt when `after` is not there.
+  virtual std::optional<std::vector<ModelRecord>> models(std::string_view after, std::size_t limit) = 0;
+  virtual std::size_t model_count() = 0;
+  /// False when the model is gone, or `expected_revision` is not its revision any more.
+  virtual bool edit_model(std::string_view id, const std::optional<std::string>& name,
+                          const std::vector<RoleChange>& roles, std::uint64_t expected_revision) = 0;
+  /// Removes the model with everything it has. nullopt when there is none, else the hashes no one refers to any more.
+  virtual std::optional<std::vector<std::string>> remove_model(std::string_view id) = 0;
+
+  // ---- feature points
+  virtual std::vector<FeaturePointRecord> feature_points(std::string_view model) = 0;
+  /// Replaces the whole set. False when the model is gone or the revision of its points is another.
+  virtual bool put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
+                                  std::uint64_t expected_revision) = 0;
+
+  // ---- artefacts
+  virtual std::optional<ArtefactRecord> artefact(std::string_view model, std::string_view name) = 0;
+  virtual std::vector<ArtefactRecord> artefacts(std::string_view model) = 0;
+  /// By content, among those clients may fetch (all but "source" and "positions").
+  virtual std::optional<ArtefactRecord> public_artefact(std::string_view sha256) = 0;
+  /// Every hash the facts refer to: what a sweep of the blob folder must keep.
+  virtual std::vector<std::string> referenced_hashes() = 0;
+
+  // ---- jobs
+  virtual void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) = 0;
+  virtual std::optional<JobRecord> job(std::string_view id) = 0;
+  /// Queued or running, oldest first: what a restart takes up again.
+  virtual std::vector<JobRecord> unfinished_jobs() = 0;
+  virtual std::optional<JobRecord> latest_job(std::string_view model, JobKind kind) = 0;
+  /// State, progress, stage, problem and attempts. Nothing happens to a job that is gone.
+  virtual void update_job(const JobRecord& job) = 0;
+  /// The end of an import: job, facts of the model, and its artefacts, in one step. False when the model is gone.
+  virtual bool finish_import(const JobRecord& job, const ModelRecord& facts,
+                             const std::vector<ArtefactRecord>& artefacts) = 0;
+  /// The end of a parametrization, likewise: replaces the package that was there; roles are the final guesses. Hashes
+  /// no one refers to any more are returned; nullopt when the model is gone.
+  virtual std::optional<std::vector<std::string>> finish_parametrization(
+      const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
+      const std::vector<std::string>& warnings, const std::vector<ArtefactRecord>& artefacts) = 0;
+  /// The end of a job without a result; a failed or cancelled import fails its model.
+  virtual void finish_without_result(const JobRecord& job) = 0;
+
+  // ---- streams
+  /// False when the id is taken.
+  virtual bool create_stream(const StreamRecord& stream, const std::optional<IdempotencyRecord>& key) = 0;
+  virtual std::vector<StreamRecord> streams() = 0;
+  virtual bool remove_stream(std::string_view id) = 0;
+
+  virtual std::optional<IdempotencyRecord> idempotency(std::string_view key) = 0;
+
+  /// A cheap question to the disk, for /readyz.
+  virtual bool healthy() = 0;
+};
+
+}  // namespace semblante::store
