@@ -1,0 +1,187 @@
+#include "server/jobs/worker_process.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <poll.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <sys/wait.h>
+
+extern char** environ;
+
+namespace semblante::jobs {
+namespace {
+
+constexpr std::size_t max_line_bytes = 4U << 20U;
+constexpr std::size_t last_words_bytes = 600;
+constexpr int poll_milliseconds = 50;
+constexpr std::chrono::seconds term_to_kill{2};
+
+class Pipe {
+ public:
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) ends_ = {-1, -1};
+  }
+  ~Pipe() {
+    close_read();
+    close_write();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  [[nodiscard]] int read_end() const { return ends_[0]; }
+  [[nodiscard]] int write_end() const { return ends_[1]; }
+  void close_read() { close_one(ends_[0]); }
+  void close_write() { close_one(ends_[1]); }
+
+ private:
+  static void close_one(int& end) {
+    if (end >= 0) ::close(end);
+    end = -1;
+  }
+  std::array<int, 2> ends_{-1, -1};
+};
+
+/// posix_spawn's two option objects, freed together.
+struct SpawnOptions {
+  posix_spawn_file_actions_t files{};
+  posix_spawnattr_t attributes{};
+  SpawnOptions() {
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&attributes);
+  }
+  ~SpawnOptions() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnOptions(const SpawnOptions&) = delete;
+  SpawnOptions& operator=(const SpawnOptions&) = delete;
+};
+
+Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, const Pipe& out,
+                    const std::filesystem::path& error_file) {
+  SpawnOptions options;
+  posix_spawn_file_actions_adddup2(&options.files, in.read_end(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&options.files, out.write_end(), STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&options.files, STDERR_FILENO, error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  // The server's sockets and files are no business of a worker.
+  posix_spawn_file_actions_addclosefrom_np(&options.files, STDERR_FILENO + 1);
+  posix_spawnattr_setflags(&options.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&options.attributes, &none);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  for (const int number : {SIGTERM, SIGINT, SIGPIPE}) sigaddset(&defaults, number);
+  posix_spawnattr_setsigdefault(&options.attributes, &defaults);
+
+  std::vector<char*> argv;
+  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  pid_t pid = 0;
+  const int code = posix_spawn(&pid, arguments[0].c_str(), &options.files, &options.attributes, argv.data(), environ);
+  if (code != 0)
+    return Error{ErrorCode::io, arguments[0], "cannot start a worker: " + std::string(std::strerror(code))};
+  return pid;
+}
+
+/// The request is small but may exceed a pipe's buffer, and the worker may die before it reads: no SIGPIPE, no hang.
+void feed_input(Pipe& in, std::string_view& input) {
+  while (!input.empty() && in.write_end() >= 0) {
+    const auto written = ::write(in.write_end(), input.data(), input.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) return;
+    if (written <= 0) break;
+    input.remove_prefix(static_cast<std::size_t>(written));
+  }
+  in.close_write();
+}
+
+std::string read_last_words(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.size() > last_words_bytes ? text.substr(text.size() - last_words_bytes) : text;
+}
+
+}  // namespace
+
+std::string own_executable() {
+  std::error_code error;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::string("/proc/self/exe") : path.string();
+}
+
+Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,
+                                      const std::filesystem::path& error_file, std::chrono::seconds wall_limit,
+                                      const std::function<void(std::string_view line)>& on_line,
+                                      const std::function<Wish()>& poll_wish) {
+  Pipe in;
+  Pipe out;
+  if (in.read_end() < 0 || out.read_end() < 0)
+    return Error{ErrorCode::io, "", "cannot make a pipe: " + std::string(std::strerror(errno))};
+  auto started = spawn(arguments, in, out, error_file);
+  if (!started) return started.error();
+  const pid_t pid = *started;
+  in.close_read();
+  out.close_write();
+  ::fcntl(in.write_end(), F_SETFL, O_NONBLOCK);
+
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  WorkerExit exit;
+  bool ended_by_us = false;
+  Clock::time_point kill_at = Clock::time_point::max();
+  std::string pending;
+  std::array<char, 16384> piece{};
+  const auto end_it = [&](WorkerExit::Kind kind, bool gently) {
+    exit.kind = kind;
+    ended_by_us = true;
+    ::kill(pid, gently ? SIGTERM : SIGKILL);
+    kill_at = gently ? Clock::now() + term_to_kill : Clock::time_point::max();
+  };
+
+  while (true) {
+    feed_input(in, input);
+    pollfd wait{out.read_end(), POLLIN, 0};
+    const int ready = ::poll(&wait, 1, poll_milliseconds);
+    if (ready > 0) {
+      const auto got = ::read(out.read_end(), piece.data(), piece.size());
+      if (got == 0) break;
+      if (got > 0) pending.append(piece.data(), static_cast<std::size_t>(got));
+      for (std::size_t end = pending.find('\n'); end != std::string::npos; end = pending.find('\n')) {
+        on_line(std::string_view(pending).substr(0, end));
+        pending.erase(0, end + 1);
+      }
+      if (pending.size() > max_line_bytes && !ended_by_us) end_it(WorkerExit::Kind::exited, false);
+    }
+    const auto now = Clock::now();
+    const auto wish = poll_wish();
+    if (wish == Wish::stop && exit.kind != WorkerExit::Kind::stopped) end_it(WorkerExit::Kind::stopped, false);
+    if (!ended_by_us && wish == Wish::cancel) end_it(WorkerExit::Kind::cancelled, true);
+    if (!ended_by_us && now - begin > wall_limit) end_it(WorkerExit::Kind::timed_out, false);
+    if (now >= kill_at) {
+      ::kill(pid, SIGKILL);
+      kill_at = Clock::time_point::max();
+    }
+  }
+  // Its output is closed: it is ending, or it closed it on purpose and must not linger.
+  int status = 0;
+  for (int round = 0; ::waitpid(pid, &status, WNOHANG) == 0; ++round) {
+    if (round == 100 || ended_by_us) ::kill(pid, SIGKILL);
+    ::poll(nullptr, 0, 20);
+  }
+  exit.last_words = read_last_words(error_file);
+  if (ended_by_us) return exit;
+  exit.kind = WIFSIGNALED(status) ? WorkerExit::Kind::signalled : WorkerExit::Kind::exited;
+  exit.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  return exit;
+}
+
+}  // namespace semblante::jobs

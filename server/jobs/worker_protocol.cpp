@@ -1,0 +1,143 @@
+#include "server/jobs/worker_protocol.h"
+
+#include <nlohmann/json.hpp>
+
+namespace semblante::jobs {
+namespace {
+
+using nlohmann::json;
+
+json to_value(const store::PartRecord& part) {
+  return {{"name", part.name},         {"role", part.role},           {"by_user", part.role_by_user},
+          {"vertices", part.vertices}, {"triangles", part.triangles}, {"min", part.box_min},
+          {"max", part.box_max}};
+}
+
+store::PartRecord part_from(const json& value) {
+  store::PartRecord part;
+  part.name = value.at("name");
+  part.role = value.at("role");
+  part.role_by_user = value.at("by_user");
+  part.vertices = value.at("vertices");
+  part.triangles = value.at("triangles");
+  part.box_min = value.at("min");
+  part.box_max = value.at("max");
+  return part;
+}
+
+template <class T, class Make>
+std::vector<T> list_from(const json& values, Make make) {
+  std::vector<T> list;
+  for (const auto& value : values) list.push_back(make(value));
+  return list;
+}
+
+json to_value(const WorkerResult& result) {
+  json value = {{"format", result.format}, {"vertices", result.vertices}, {"triangles", result.triangles},
+                {"min", result.box_min},   {"max", result.box_max},       {"warnings", result.warnings},
+                {"parts", json::array()},  {"artefacts", json::array()}};
+  for (const auto& part : result.parts) value["parts"].push_back(to_value(part));
+  for (const auto& artefact : result.artefacts)
+    value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
+  return value;
+}
+
+WorkerResult result_from(const json& value) {
+  WorkerResult result;
+  result.format = value.at("format");
+  result.vertices = value.at("vertices");
+  result.triangles = value.at("triangles");
+  result.box_min = value.at("min");
+  result.box_max = value.at("max");
+  result.warnings = value.at("warnings").get<std::vector<std::string>>();
+  result.parts = list_from<store::PartRecord>(value.at("parts"), part_from);
+  result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
+    return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};
+  });
+  return result;
+}
+
+std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string to_json(const WorkerRequest& request) {
+  json value = {{"kind", std::string(store::to_string(request.kind))},
+                {"source", request.source},
+                {"file_name", request.file_name},
+                {"name", request.name},
+                {"output_directory", request.output_directory},
+                {"metric", request.metric},
+                {"weights", request.weights},
+                {"weight_bits", request.weight_bits},
+                {"points", json::array()},
+                {"parts", json::array()}};
+  for (const auto& point : request.points) {
+    json item = {{"id", point.id}};
+    if (point.vertex) item["vertex"] = *point.vertex;
+    if (point.position) item["position"] = *point.position;
+    value["points"].push_back(std::move(item));
+  }
+  for (const auto& part : request.parts) value["parts"].push_back(to_value(part));
+  return dump(value);
+}
+
+Result<WorkerRequest> worker_request_from_json(std::string_view text) {
+  try {
+    const auto value = json::parse(text);
+    WorkerRequest request;
+    request.kind = value.at("kind") == "import" ? store::JobKind::import : store::JobKind::parametrize;
+    request.source = value.at("source");
+    request.file_name = value.at("file_name");
+    request.name = value.at("name");
+    request.output_directory = value.at("output_directory");
+    request.metric = value.at("metric");
+    request.weights = value.at("weights");
+    request.weight_bits = value.at("weight_bits");
+    request.points = list_from<store::FeaturePointRecord>(value.at("points"), [](const json& item) {
+      store::FeaturePointRecord point;
+      point.id = item.at("id");
+      if (item.contains("vertex")) point.vertex = item["vertex"].get<std::uint32_t>();
+      if (item.contains("position")) point.position = item["position"].get<std::array<double, 3>>();
+      return point;
+    });
+    request.parts = list_from<store::PartRecord>(value.at("parts"), part_from);
+    return request;
+  } catch (const json::exception& fault) {
+    return Error{ErrorCode::malformed, "", fault.what()};
+  }
+}
+
+std::string to_json_line(const WorkerLine& line) {
+  switch (line.kind) {
+    case WorkerLine::Kind::progress:
+      return dump({{"progress", line.progress}, {"stage", line.stage}}) + "\n";
+    case WorkerLine::Kind::done:
+      return dump({{"done", to_value(line.result)}}) + "\n";
+    case WorkerLine::Kind::problem:
+      return "{\"problem\":" + http::to_json(line.problem) + "}\n";
+  }
+  return {};
+}
+
+Result<WorkerLine> worker_line_from_json(std::string_view text) {
+  try {
+    const auto value = json::parse(text);
+    WorkerLine line;
+    if (value.contains("done")) {
+      line.kind = WorkerLine::Kind::done;
+      line.result = result_from(value["done"]);
+    } else if (value.contains("problem")) {
+      line.kind = WorkerLine::Kind::problem;
+      line.problem = http::problem_from_json(dump(value["problem"]));
+    } else {
+      line.progress = value.at("progress");
+      line.stage = value.at("stage");
+    }
+    return line;
+  } catch (const json::exception& fault) {
+    return Error{ErrorCode::malformed, "", fault.what()};
+  }
+}
+
+}  // namespace semblante::jobs

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types/result.h"
+#include "server/http/problem.h"
+#include "server/store/records.h"
+
+namespace semblante::jobs {
+
+/// What a worker process is told on its standard input, as one JSON text.
+struct WorkerRequest {
+  store::JobKind kind = store::JobKind::import;
+  std::string source;            ///< path of the model's bytes
+  std::string file_name;         ///< as uploaded: a hint of the format
+  std::string name;              ///< of the model
+  std::string output_directory;  ///< exists, empty: artefacts go here by their name
+  // parametrize only
+  std::vector<store::FeaturePointRecord> points;
+  std::vector<store::PartRecord> parts;  ///< of the import; roles set by the user are kept
+  std::string metric = "edge", weights = "paper";
+  int weight_bits = 12;
+};
+
+/// The limits a worker puts on itself before it reads a byte of the model. 0: none.
+struct WorkerLimits {
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
+  std::uint64_t cpu_seconds = 300;
+  std::uint64_t file_bytes = std::uint64_t{1} << 30U;
+};
+
+/// What it found out; the artefacts are files in the output directory (sha256 still empty).
+struct WorkerResult {
+  std::string format;
+  std::uint32_t vertices = 0, triangles = 0;
+  std::array<double, 3> box_min{}, box_max{};
+  std::vector<store::PartRecord> parts;
+  std::vector<std::string> warnings;
+  std::vector<store::ArtefactRecord> artefacts;
+};
+
+/// One line of a worker's standard output: progress, or the end.
+struct WorkerLine {
+  enum class Kind { progress, done, problem } kind = Kind::progress;
+  double progress = 0.0;
+  std::string stage;
+  WorkerResult result;
+  http::Problem problem;
+};
+
+std::string to_json(const WorkerRequest& request);
+Result<WorkerRequest> worker_request_from_json(std::string_view text);
+std::string to_json_line(const WorkerLine& line);
+/// Errors: the line is not one of ours (a crashing worker may write anything).
+Result<WorkerLine> worker_line_from_json(std::string_view text);
+
+}  // namespace semblante::jobs

@@ -1,0 +1,181 @@
+#include "server/jobs/worker_tasks.h"
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include "core/geometry/surface.h"
+#include "core/import/import.h"
+#include "core/parametrize/parametrize.h"
+#include "core/parametrize/part_roles.h"
+#include "core/parametrize/place_feature_points.h"
+#include "protocol/cpp/rig_document.h"
+#include "server/package/package.h"
+
+namespace semblante::jobs {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "`positions` is written as it lies in memory");
+
+Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return Error{ErrorCode::io, "", "the bytes of the model cannot be read"};
+  return std::vector<std::uint8_t>((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+}
+
+/// Adds one file to the output directory and to the result.
+Status write_artefact(const WorkerRequest& request, WorkerResult& result, const std::string& name,
+                      const std::string& content_type, std::span<const std::uint8_t> bytes) {
+  std::ofstream stream(request.output_directory + "/" + name, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream.flush()) return Error{ErrorCode::io, "", name + " cannot be written"};
+  result.artefacts.push_back({name, "", bytes.size(), content_type});
+  return Unit{};
+}
+
+Result<Model> read_model(const WorkerRequest& request) {
+  auto bytes = read_file(request.source);
+  if (!bytes) return bytes.error();
+  const auto format = detect_format(*bytes, request.file_name);
+  if (!format) return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
+  return import_model(*bytes, *format);
+}
+
+std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
+  std::vector<store::PartRecord> records;
+  for (const auto& part : parts) {
+    store::PartRecord record;
+    record.name = part.name;
+    record.role = std::string(part_role_names[static_cast<std::size_t>(part.role)]);
+    record.role_by_user = part.role_by_user;
+    record.vertices = part.vertex_count;
+    record.triangles = part.triangle_count;
+    record.box_min = {part.box_min.x, part.box_min.y, part.box_min.z};
+    record.box_max = {part.box_max.x, part.box_max.y, part.box_max.z};
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+std::vector<std::optional<PartRole>> roles_by_user(const WorkerRequest& request) {
+  std::vector<std::optional<PartRole>> roles;
+  for (const auto& part : request.parts) {
+    const auto* found = std::find(part_role_names.begin(), part_role_names.end(), part.role);
+    roles.push_back(part.role_by_user && found != part_role_names.end()
+                        ? std::optional(static_cast<PartRole>(found - part_role_names.begin()))
+                        : std::nullopt);
+  }
+  return roles;
+}
+
+Result<std::vector<MarkedPoint>> marked_points(const WorkerRequest& request) {
+  std::vector<MarkedPoint> points;
+  for (const auto& record : request.points) {
+    const auto id = parse_feature_point(record.id);
+    if (!id) return Error{ErrorCode::invalid_argument, "/points/" + record.id, "it is none of the 84 feature points"};
+    MarkedPoint point{*id, record.vertex, std::nullopt};
+    if (record.position)
+      point.position = glm::dvec3((*record.position)[0], (*record.position)[1], (*record.position)[2]);
+    points.push_back(point);
+  }
+  return points;
+}
+
+void describe(const Model& model, WorkerResult& result) {
+  result.format = model.format;
+  result.vertices = static_cast<std::uint32_t>(model.positions.size());
+  result.triangles = static_cast<std::uint32_t>(model.triangles.size());
+  if (model.positions.empty()) return;
+  glm::vec3 low = model.positions.front();
+  glm::vec3 high = low;
+  for (const auto& position : model.positions) {
+    low = glm::min(low, position);
+    high = glm::max(high, position);
+  }
+  result.box_min = {low.x, low.y, low.z};
+  result.box_max = {high.x, high.y, high.z};
+}
+
+}  // namespace
+
+Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& progress) {
+  progress(0.05, "reading");
+  auto model = read_model(request);
+  if (!model) return model.error();
+  progress(0.5, "surface");
+  const auto surface = build_surface(*model);
+  const auto parts = describe_parts(*model, surface, {}, {});
+  WorkerResult result;
+  describe(*model, result);
+  result.parts = records_of(parts);
+  result.warnings = model->warnings;
+
+  progress(0.7, "preview");
+  const auto preview = build_preview(*model, surface, parts);
+  if (!preview) return preview.error();
+  if (auto written = write_artefact(request, result, "preview.glb", "model/gltf-binary", *preview); !written)
+    return written.error();
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  const std::span positions(reinterpret_cast<const std::uint8_t*>(model->positions.data()),
+                            model->positions.size() * sizeof(glm::vec3));
+  if (auto written = write_artefact(request, result, "positions", "application/octet-stream", positions); !written)
+    return written.error();
+  return result;
+}
+
+Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progress& progress) {
+  progress(0.02, "reading");
+  auto model = read_model(request);
+  if (!model) return model.error();
+  progress(0.06, "surface");
+  const auto surface = build_surface(*model);
+  const auto roles = roles_by_user(request);
+  const auto marked = marked_points(request);
+  if (!marked) return marked.error();
+  auto warnings = model->warnings;
+  const auto points = place_feature_points(*model, surface, *marked, &warnings, roles);
+  if (!points) return points.error();
+
+  ParametrizeOptions options;
+  options.roles_by_user = roles;
+  options.progress = [&](double share, std::string_view stage) { return progress(0.08 + 0.72 * share, stage); };
+  auto rig = parametrize(*model, surface, *points, options);
+  if (!rig) return rig.error();
+  rig->warnings.insert(rig->warnings.begin(), warnings.begin(), warnings.end());
+
+  progress(0.82, "package");
+  const auto package = build_package(*model, surface, *rig, {request.name, request.weight_bits});
+  if (!package) return package.error();
+  progress(0.96, "writing");
+  WorkerResult result;
+  describe(*model, result);
+  result.parts = records_of(rig->parts);
+  const auto rig_json =
+      read_rig({reinterpret_cast<const char*>(package->rig_json.bytes.data()), package->rig_json.bytes.size()});
+  if (!rig_json) return Error{ErrorCode::internal, rig_json.error().where, rig_json.error().message};
+  result.warnings = rig_json->warnings;
+  struct File {
+    std::string name, content_type;
+    const Artefact& artefact;
+  };
+  const File files[] = {{"mesh.drc", "application/octet-stream", package->mesh_drc},
+                        {"weights", "application/vnd.semblante.weights", package->weights},
+                        {"rig.json", "application/json", package->rig_json},
+                        {"face.glb", "model/gltf-binary", package->face_glb}};
+  for (const auto& file : files)
+    if (auto written = write_artefact(request, result, file.name, file.content_type, file.artefact.bytes); !written)
+      return written.error();
+  for (std::size_t i = 0; i < package->images.size(); ++i) {
+    const auto& image = package->images[i];
+    const auto info = std::find_if(rig_json->images.begin(), rig_json->images.end(),
+                                   [&](const auto& item) { return item.sha256 == image.sha256; });
+    const auto type = info == rig_json->images.end() ? std::string("application/octet-stream") : info->mime_type;
+    if (auto written = write_artefact(request, result, "image-" + std::to_string(i), type, image.bytes); !written)
+      return written.error();
+  }
+  return result;
+}
+
+}  // namespace semblante::jobs
