@@ -1,0 +1,116 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/types/result.h"
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/messages.h"
+
+namespace semblante::streams {
+
+class StreamConnection;
+using SharedBytes = std::shared_ptr<const std::string>;
+
+struct StreamLimits {
+  std::size_t max_connections = 256;  ///< of one stream
+  std::size_t held_batches = 1024;    ///< for clients that come back
+  std::chrono::milliseconds held_time{30'000};
+  std::size_t pending_messages = 64;        ///< of one subscriber, before newest replaces all
+  std::chrono::milliseconds stalled{5000};  ///< reading nothing for so long closes with 1013
+  std::chrono::milliseconds hello_time{10'000};
+  std::uint32_t frames_per_second = 500;  ///< of one publisher, on average
+  std::uint32_t frames_burst = 2000;
+};
+
+/// What a stream says about itself.
+struct StreamInfo {
+  std::string id, title, model, created;
+  std::string source;  ///< "demo" or "none": what feeds it when nobody publishes
+  std::uint64_t epoch = 0, sequence = 0;
+  std::size_t subscribers = 0, publishers = 0;
+};
+
+struct StreamCounts {
+  std::uint64_t frames = 0, messages_sent = 0, messages_replaced = 0, closed_slow = 0, refused = 0;
+};
+
+/// Who feeds a stream. One connection publishes at a time; a REST call comes between only while no connection
+/// publishes; the demo gives way to both.
+enum class Source { connection, request, demo };
+
+struct PublishReceipt {
+  std::size_t accepted = 0;
+  std::uint64_t sequence = 0;  ///< of the last frame
+};
+
+/// One live stream: the newest state, a short memory, and who listens. Shared by the hub and its connections; one
+/// mutex, taken before the mutex of a connection, never after. Each batch is encoded once per subprotocol, and all
+/// subscribers get the same bytes.
+class Stream : public std::enable_shared_from_this<Stream> {
+ public:
+  Stream(StreamInfo info, StreamLimits limits);
+
+  [[nodiscard]] const StreamLimits& limits() const { return limits_; }
+  [[nodiscard]] StreamInfo info() const;
+  [[nodiscard]] StreamCounts counts() const;
+
+  /// Takes frames in and sends them on. Errors: conflict (somebody else publishes) as `mismatch`; empty list as
+  /// `empty`.
+  Result<PublishReceipt> publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+
+  /// A new connection, before its hello. False when the stream has as many as it takes, or has ended.
+  bool admit(const std::shared_ptr<StreamConnection>& connection);
+  void leave(StreamConnection& connection);
+  /// After the hello: queues header and keyframe (or the gap) into the connection and lets frames follow.
+  void subscribe(StreamConnection& connection, const Hello& hello);
+  /// After the hello: false when another connection publishes.
+  bool begin_publishing(StreamConnection& connection);
+  /// The newest state for a subscriber that fell behind; from here on batches reach it again.
+  void catch_up(StreamConnection& connection);
+
+  /// Ends it for everyone. Connections are told the reason and closed.
+  void end(EndReason reason);
+  /// Closes connections that say no hello, or read nothing. A few times a second.
+  void look_after_connections();
+
+  [[nodiscard]] std::uint64_t media_time_now() const;
+  static double server_time_now();
+
+ private:
+  struct Batch {
+    Frames message;
+    FaceFrame state_before;
+    SharedBytes binary, json;  ///< json is encoded when somebody wants it
+    std::chrono::steady_clock::time_point when;
+  };
+
+  Header make_header(bool recovered) const;
+  const SharedBytes& encoded(Batch& batch, bool binary) const;
+  void send_keyframe(StreamConnection& connection, std::uint64_t sequence, std::uint64_t media_time,
+                     const FaceFrame& state) const;
+  std::uint64_t place_in_time(Source source, std::uint64_t media_time);
+
+  const StreamLimits limits_;
+  mutable std::mutex mutex_;
+  StreamInfo info_;
+  StreamCounts counts_;
+  FaceFrame state_;
+  std::uint64_t media_time_ = 0;  ///< of the newest frame
+  FrameEncoder encoder_;
+  std::deque<Batch> held_;
+  std::vector<std::shared_ptr<StreamConnection>> connections_;
+  const StreamConnection* publisher_ = nullptr;
+  bool ended_ = false;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_live_;  ///< when somebody other than the demo last published
+  std::int64_t publisher_offset_ = 0;                ///< stream clock minus the publisher's
+  bool publisher_offset_known_ = false;
+};
+
+}  // namespace semblante::streams

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "server/http/websocket_peer.h"
+#include "server/streams/stream.h"
+
+namespace semblante::streams {
+
+/// Why a connection was not taken.
+enum class Refusal { no_such_stream, too_many };
+
+/// The live streams of one node. A cluster's hub (frames between nodes) has the same face.
+class StreamHub {
+ public:
+  virtual ~StreamHub() = default;
+  /// False when the id is taken.
+  virtual bool open(const StreamInfo& info) = 0;
+  /// False when there is no such stream. Tells everyone on it.
+  virtual bool close(std::string_view id, EndReason reason) = 0;
+  virtual void close_all(EndReason reason) = 0;
+  [[nodiscard]] virtual std::vector<StreamInfo> list() const = 0;
+  [[nodiscard]] virtual std::optional<StreamInfo> info(std::string_view id) const = 0;
+  [[nodiscard]] virtual StreamCounts counts() const = 0;
+  /// Frames from a request. Errors: missing (no such stream), mismatch (a connection publishes), empty.
+  virtual Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) = 0;
+  /// A WebSocket to a stream. `offered`: the client's Sec-WebSocket-Protocol, may be empty.
+  virtual std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
+                                                                              std::string_view offered) = 0;
+};
+
+/// All streams in this process. Its thread feeds the demo stream and looks after the connections. Any thread.
+class InProcessHub : public StreamHub {
+ public:
+  explicit InProcessHub(StreamLimits limits = {});
+  ~InProcessHub() override;
+  InProcessHub(const InProcessHub&) = delete;
+  InProcessHub& operator=(const InProcessHub&) = delete;
+
+  bool open(const StreamInfo& info) override;
+  bool close(std::string_view id, EndReason reason) override;
+  void close_all(EndReason reason) override;
+  [[nodiscard]] std::vector<StreamInfo> list() const override;
+  [[nodiscard]] std::optional<StreamInfo> info(std::string_view id) const override;
+  [[nodiscard]] StreamCounts counts() const override;
+  Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) override;
+  std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
+                                                                      std::string_view offered) override;
+
+ private:
+  [[nodiscard]] std::shared_ptr<Stream> find(std::string_view id) const;
+  void tick();
+
+  const StreamLimits limits_;
+  mutable std::mutex mutex_;
+  std::condition_variable stopping_changed_;
+  bool stopping_ = false;
+  std::uint64_t last_epoch_ = 0;
+  std::vector<std::string> order_;  ///< ids by creation
+  std::map<std::string, std::shared_ptr<Stream>, std::less<>> streams_;
+  StreamCounts gone_;  ///< counts of streams that have ended
+  std::thread thread_;
+};
+
+}  // namespace semblante::streams
