@@ -1,0 +1,155 @@
+#include "server/api/api.h"
+
+#include <algorithm>
+#include <array>
+
+#include "server/api/common.h"
+#include "server/api/routes.h"
+#include "server/http/media_type.h"
+#include "server/http/problem.h"
+#include "server/http/static_files.h"
+
+namespace semblante::api {
+namespace {
+
+using http::make_problem;
+using http::to_response;
+
+bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
+
+const Route* find_method(const Match& match, std::string_view method) {
+  if (method == "HEAD") method = "GET";
+  const auto found = std::find_if(match.routes.begin(), match.routes.end(),
+                                  [&](const Route* route) { return route->method == method; });
+  return found == match.routes.end() ? nullptr : *found;
+}
+
+std::string allowed_methods(const Match& match) {
+  std::string list = "OPTIONS";
+  for (const auto* route : match.routes) {
+    list.append(", ").append(route->method);
+    if (route->method == "GET") list.append(", HEAD");
+  }
+  return list;
+}
+
+/// What the body of a route may be sent as; a body without a Content-Type is taken for what it should be.
+bool takes(BodyKind kind, std::string_view media_type) {
+  if (media_type.empty() || kind == BodyKind::none) return true;
+  if (kind == BodyKind::json) return media_type == "application/json";
+  if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
+  static constexpr auto uploads = std::to_array<std::string_view>(
+      {"model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "model/ply", "model/vnd.ply",
+       "application/zip", "application/x-zip-compressed", "application/octet-stream", "application/sla",
+       "application/ply", "text/plain", "multipart/form-data"});
+  return std::find(uploads.begin(), uploads.end(), media_type) != uploads.end();
+}
+
+bool is_page(const ApiConfig& config, std::string_view path) {
+  return !config.web_root.empty() && path.substr(0, 4) != "/v1/";
+}
+
+/// "http://localhost:5173" and the like: pages this machine serves itself.
+bool is_loopback_origin(std::string_view origin) {
+  const auto scheme = origin.find("://");
+  if (scheme == std::string_view::npos) return false;
+  auto host = origin.substr(scheme + 3);
+  if (!host.empty() && host.front() == '[') return host.substr(0, host.find(']') + 1) == "[::1]";
+  host = host.substr(0, host.find(':'));
+  return host == "localhost" || host == "127.0.0.1";
+}
+
+}  // namespace
+
+bool Api::origin_allowed(const http::Request& head) const {
+  const auto origin = head.header("Origin");
+  if (!origin || is_loopback_origin(*origin)) return true;
+  const auto& list = context_.config.allowed_origins;
+  return std::any_of(list.begin(), list.end(), [&](const auto& item) { return item == "*" || item == *origin; });
+}
+
+std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
+  if (!is_safe(head.method) && !origin_allowed(head))
+    return to_response(make_problem("forbidden-origin", "pages from " + std::string(*head.header("Origin")) +
+                                                            " may not change anything here (see --allow-origin)"));
+  const auto match = match_path(head.path);
+  if (match.routes.empty()) {
+    if (is_page(context_.config, head.path) && is_safe(head.method)) return http::BodyPlan{};
+    return to_response(make_problem("not-found", "there is no route " + head.path));
+  }
+  if (head.method == "OPTIONS") {
+    http::Response response;
+    response.status = 204;
+    response.headers["Allow"] = allowed_methods(match);
+    if (origin_allowed(head)) {
+      response.headers["Access-Control-Allow-Methods"] = allowed_methods(match);
+      response.headers["Access-Control-Allow-Headers"] =
+          "Content-Type, Content-Disposition, If-Match, If-None-Match, Idempotency-Key, Range";
+      response.headers["Access-Control-Max-Age"] = "600";
+    }
+    return response;
+  }
+  const auto* route = find_method(match, head.method);
+  if (route == nullptr) {
+    auto response = to_response(make_problem("method-not-allowed", head.path + " knows " + allowed_methods(match)));
+    response.headers["Allow"] = allowed_methods(match);
+    return response;
+  }
+  if (!route->produces.empty() && route->produces != "*/*" &&
+      !http::accepts(head.header("Accept").value_or(""), route->produces))
+    return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
+  const auto content_type = http::essence(head.header("Content-Type").value_or(""));
+  if (!takes(route->body, content_type))
+    return to_response(make_problem("unsupported-media-type", content_type + " is not read here"));
+
+  const auto& limits = context_.config.limits;
+  switch (route->body) {
+    case BodyKind::none:
+      return http::BodyPlan{limits.max_json_bytes, false, false};
+    case BodyKind::json:
+    case BodyKind::merge:
+      return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
+    case BodyKind::upload:
+      return http::BodyPlan{limits.max_upload_bytes, true, true};
+  }
+  return http::BodyPlan{};
+}
+
+http::Response Api::handle(http::Request& request) {
+  auto match = match_path(request.path);
+  const auto* route = find_method(match, request.method);
+  if (route == nullptr) return http::static_file(context_.config.web_root, request);
+  request.params = std::move(match.params);
+  try {
+    return route->handler(context_, request);
+  } catch (const Refused& refused) {
+    return to_response(refused.problem);
+  }
+}
+
+std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_websocket(const http::Request& head) {
+  if (!origin_allowed(head))
+    return to_response(make_problem("forbidden-origin", "pages from " + std::string(*head.header("Origin")) +
+                                                            " may not open streams here (see --allow-origin)"));
+  const auto match = match_path(head.path);
+  if (match.routes.empty() || match.routes.front()->pattern != "/v1/streams/{stream}")
+    return to_response(make_problem("not-found", head.path + " is no stream"));
+  const auto& id = match.params.at("stream");
+  auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""));
+  if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
+  if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
+    return to_response(make_problem("too-many-requests", "the stream has as many connections as it takes"));
+  return to_response(make_problem("not-found", "there is no stream " + id));
+}
+
+void Api::decorate(const http::Request& head, http::Response& response) {
+  response.headers.try_emplace("X-Content-Type-Options", "nosniff");
+  const auto origin = head.header("Origin");
+  if (!origin) return;
+  response.headers["Vary"] = "Origin";
+  if (!origin_allowed(head)) return;
+  response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
+  response.headers["Access-Control-Expose-Headers"] = "ETag, Location, Retry-After, Content-Range, Allow";
+}
+
+}  // namespace semblante::api

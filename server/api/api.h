@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "server/http/application.h"
+#include "server/jobs/job_queue.h"
+#include "server/store/blob_store.h"
+#include "server/store/store.h"
+#include "server/streams/stream_hub.h"
+
+namespace semblante::api {
+
+struct ApiLimits {
+  std::uint64_t max_upload_bytes = std::uint64_t{256} << 20U;
+  std::uint64_t max_json_bytes = std::uint64_t{1} << 20U;
+  std::size_t max_models = 1000;
+  std::size_t max_streams = 256;
+};
+
+struct ApiConfig {
+  ApiLimits limits;
+  std::string version;
+  std::filesystem::path web_root;            ///< empty: no pages
+  std::vector<std::string> allowed_origins;  ///< beside pages from this machine; "*": all
+};
+
+/// Numbers of the network layer for /metrics, by the name they get there.
+using NetMetrics = std::function<std::vector<std::pair<std::string, std::uint64_t>>()>;
+
+/// What the handlers work on. Everything in it may be used from any worker thread.
+struct Context {
+  store::Store& store;
+  store::BlobStore& blobs;
+  jobs::JobQueue& jobs;
+  streams::StreamHub& hub;
+  ApiConfig config;
+  NetMetrics net_metrics;
+};
+
+/// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The
+/// handlers are plain functions on plain values (routes.h lists them); no sockets here.
+class Api : public http::Application {
+ public:
+  explicit Api(Context context) : context_(std::move(context)) {}
+
+  std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override;
+  http::Response handle(http::Request& request) override;
+  std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> open_websocket(const http::Request& head) override;
+  void decorate(const http::Request& head, http::Response& response) override;
+
+ private:
+  [[nodiscard]] bool origin_allowed(const http::Request& head) const;
+
+  Context context_;
+};
+
+}  // namespace semblante::api

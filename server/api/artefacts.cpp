@@ -1,0 +1,40 @@
+#include "server/api/common.h"
+#include "server/api/routes.h"
+#include "server/http/conditional.h"
+
+namespace semblante::api {
+namespace {
+
+http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
+                             std::string_view cache_control) {
+  const auto path = context.blobs.find(artefact.sha256);
+  if (!path) refuse("internal", "the bytes of this artefact are not in the data folder any more");
+  http::Response response;
+  response.headers["Content-Type"] = artefact.content_type;
+  response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";
+  response.headers["Cache-Control"] = std::string(cache_control);
+  response.body = http::FileBody{*path, 0, artefact.bytes};
+  return http::apply_conditions(request, std::move(response));
+}
+
+}  // namespace
+
+http::Response get_model_artefact(Context& context, http::Request& request) {
+  const auto model = model_of(context, request);
+  const auto name = request.path.substr(request.path.rfind('/') + 1);
+  const auto artefact = context.store.artefact(model.id, name);
+  if (!artefact)
+    refuse("not-found", name == "preview.glb" ? "the model has no preview: it is not imported"
+                                              : "the model has no " + name + ": it is not parametrized");
+  // The name stays, what it names changes with each parametrization: to be asked for again, cheaply, by the tag.
+  return file_response(context, request, *artefact, "no-cache");
+}
+
+http::Response get_artefact(Context& context, http::Request& request) {
+  const auto& hash = request.params.at("sha256");
+  const auto artefact = context.store.public_artefact(hash);
+  if (!artefact) refuse("not-found", "there is no artefact " + hash);
+  return file_response(context, request, *artefact, "public, max-age=31536000, immutable");
+}
+
+}  // namespace semblante::api

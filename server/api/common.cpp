@@ -1,0 +1,77 @@
+#include "server/api/common.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "server/http/conditional.h"
+#include "server/store/sha256.h"
+
+namespace semblante::api {
+
+void refuse(std::string_view slug, std::string detail, std::string pointer) {
+  throw Refused{http::make_problem(slug, std::move(detail), std::move(pointer))};
+}
+
+store::ModelRecord model_of(Context& context, const http::Request& request) {
+  const auto& id = request.params.at("model");
+  auto model = context.store.model(id);
+  if (!model) refuse("not-found", "there is no model " + id);
+  return std::move(*model);
+}
+
+Json body_object(const http::Request& request) {
+  if (request.body.empty()) return Json::object();
+  Json json;
+  try {
+    json = Json::parse(request.body);
+  } catch (const Json::parse_error& fault) {
+    refuse("malformed-request", "the body is not JSON: it stops making sense at byte " + std::to_string(fault.byte));
+  } catch (const Json::exception&) {
+    refuse("malformed-request", "a number of the body is out of range");
+  }
+  if (!json.is_object()) refuse("invalid-field", "the body must be a JSON object");
+  return json;
+}
+
+void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known) {
+  for (const auto& [name, value] : object.items())
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse("invalid-field", "there is no field \"" + name + "\" here", "/" + name);
+}
+
+std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer) {
+  if (value.empty()) refuse("invalid-field", "it must not be empty", pointer);
+  if (value.size() > max) refuse("invalid-field", "it has more than " + std::to_string(max) + " bytes", pointer);
+  if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }))
+    refuse("invalid-field", "it holds a control character", pointer);
+  return std::string(value);
+}
+
+std::string checked_text(const Json& value, std::size_t max, const std::string& pointer) {
+  if (!value.is_string()) refuse("invalid-field", "it must be a text", pointer);
+  return checked_text(std::string_view(value.get_ref<const std::string&>()), max, pointer);
+}
+
+void check_if_match(const http::Request& request, const std::string& etag) {
+  const auto match = request.header("If-Match");
+  if (match && !http::etag_matches(*match, etag, false))
+    refuse("precondition-failed", "the resource has the tag " + etag + " now");
+}
+
+IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash) {
+  const auto key = request.header("Idempotency-Key");
+  if (!key) return {};
+  if (key->empty() || key->size() > 200) refuse("invalid-argument", "an Idempotency-Key has 1 to 200 characters");
+  std::string whole = request.method + " " + request.path;
+  for (const auto& [name, value] : request.query) whole.append("&").append(name).append("=").append(value);
+  whole.append("\n").append(body_hash);
+  store::IdempotencyRecord record{std::string(*key), store::sha256_hex(whole), {}};
+  const auto earlier = context.store.idempotency(*key);
+  if (!earlier) return {std::move(record), std::nullopt};
+  if (earlier->fingerprint != record.fingerprint)
+    refuse("idempotency-key-reused", "this key came with another request before");
+  return {std::nullopt, earlier->resource};
+}
+
+}  // namespace semblante::api

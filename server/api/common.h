@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "server/api/api.h"
+#include "server/api/representations.h"
+#include "server/http/problem.h"
+
+namespace semblante::api {
+
+/// Carries a problem out of the middle of a handler; Api::handle turns it into the answer.
+struct Refused {
+  http::Problem problem;
+};
+[[noreturn]] void refuse(std::string_view slug, std::string detail, std::string pointer = {});
+
+/// The model of the path; refuses with 404.
+store::ModelRecord model_of(Context& context, const http::Request& request);
+
+/// The body as a JSON object; an absent body is an empty object. Refuses with 400 (`malformed-request`, with the byte)
+/// or 422 when it is no object.
+Json body_object(const http::Request& request);
+
+/// Refuses members of `object` that are none of `known`, by pointer.
+void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known);
+
+/// A string of 1..max bytes without control characters; `pointer` is where it was.
+std::string checked_text(const Json& value, std::size_t max, const std::string& pointer);
+std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer);
+
+/// Refuses with 412 when the request's If-Match does not name the tag.
+void check_if_match(const http::Request& request, const std::string& etag);
+
+/// The request's Idempotency-Key. `earlier`: what it made the first time. Refuses a key that is too long, or was used
+/// for a different request.
+struct IdempotencyCheck {
+  std::optional<store::IdempotencyRecord> record;  ///< to be stored with what is made; `resource` to be filled in
+  std::optional<std::string> earlier;
+};
+IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash);
+
+}  // namespace semblante::api

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/types/feature_point_id.h"
+#include "server/api/common.h"
+#include "server/api/mirror_points.h"
+#include "server/api/routes.h"
+#include "server/api/vertex_positions.h"
+#include "server/http/conditional.h"
+
+namespace semblante::api {
+namespace {
+
+constexpr std::size_t max_faults = 32;
+
+/// Reads one entry of "points"; what is wrong with it goes to `faults`.
+std::optional<store::FeaturePointRecord> read_point(const std::string& id, const Json& value, std::uint32_t vertices,
+                                                    std::vector<http::Fault>& faults) {
+  const auto at = "/points/" + id;
+  const auto fault = [&](const std::string& where, std::string detail) {
+    faults.push_back({at + where, std::move(detail)});
+    return std::nullopt;
+  };
+  if (!parse_feature_point(id)) return fault("", "\"" + id + "\" is none of the 84 feature points");
+  if (!value.is_object()) return fault("", "it must be an object with a vertex, a position or both");
+  store::FeaturePointRecord point{id, std::nullopt, std::nullopt};
+  if (value.contains("vertex") && !value["vertex"].is_null()) {
+    const auto& vertex = value["vertex"];
+    if (!vertex.is_number_integer()) return fault("/vertex", "it must be a whole number");
+    if (!vertex.is_number_unsigned() || vertex.get<std::uint64_t>() >= vertices)
+      return fault("/vertex", "vertex " + vertex.dump() + " is not there: the model has the vertices 0 to " +
+                                  std::to_string(vertices - 1));
+    point.vertex = vertex.get<std::uint32_t>();
+  }
+  if (value.contains("position") && !value["position"].is_null()) {
+    const auto& position = value["position"];
+    if (!position.is_array() || position.size() != 3) return fault("/position", "it must be three numbers");
+    std::array<double, 3> xyz{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!position[i].is_number()) return fault("/position/" + std::to_string(i), "it must be a number");
+      xyz[i] = position[i].get<double>();
+      if (!std::isfinite(xyz[i]) || std::abs(xyz[i]) > 3e38)
+        return fault("/position/" + std::to_string(i), "it is not a finite coordinate");
+    }
+    point.position = xyz;
+  }
+  if (!point.vertex && !point.position) return fault("", "it has neither a vertex nor a position");
+  return point;
+}
+
+std::vector<store::FeaturePointRecord> read_points(const Json& body, std::uint32_t vertices) {
+  if (!body.contains("points")) refuse("invalid-field", "the field \"points\" is missing", "/points");
+  if (!body["points"].is_object()) refuse("invalid-field", "it must be an object", "/points");
+  std::vector<http::Fault> faults;
+  std::vector<store::FeaturePointRecord> points;
+  for (const auto& [id, value] : body["points"].items()) {
+    if (auto point = read_point(id, value, vertices, faults)) points.push_back(std::move(*point));
+    if (faults.size() == max_faults) break;
+  }
+  if (!faults.empty()) {
+    auto problem = http::make_problem("invalid-feature-point", faults.front().detail, faults.front().pointer);
+    if (faults.size() > 1) problem.faults = std::move(faults);
+    throw Refused{std::move(problem)};
+  }
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return *parse_feature_point(a.id) < *parse_feature_point(b.id); });
+  return points;
+}
+
+http::Response represent_points(Context& context, const store::ModelRecord& model) {
+  const VertexPositions positions(context, model);
+  Json json = {{"model", model.id}, {"points", Json::object()}};
+  for (const auto& point : context.store.feature_points(model.id)) {
+    auto& item = json["points"][point.id];
+    auto vertex = point.vertex;
+    if (!vertex && point.position) vertex = positions.at(*point.position);
+    item["vertex"] = vertex ? Json(*vertex) : Json(nullptr);
+    if (point.position)
+      item["position"] = *point.position;
+    else if (const auto position = positions.of(*point.vertex))
+      item["position"] = *position;
+    else
+      item["position"] = nullptr;
+  }
+  auto response = json_response(200, json);
+  response.headers["ETag"] = points_etag(model);
+  return response;
+}
+
+}  // namespace
+
+http::Response get_feature_points(Context& context, http::Request& request) {
+  return http::apply_conditions(request, represent_points(context, model_of(context, request)));
+}
+
+http::Response put_feature_points(Context& context, http::Request& request) {
+  const auto model = model_of(context, request);
+  if (model.state == store::ModelState::importing)
+    refuse("conflict", "the model is still being imported: its vertices are not known yet");
+  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
+  check_if_match(request, points_etag(model));
+  auto points = read_points(body_object(request), model.vertices);
+  if (const auto fill = request.query_value("fill")) {
+    if (*fill != "mirror") refuse("invalid-argument", "the only way to fill is \"mirror\"", "?fill");
+    fill_by_mirror(points, VertexPositions(context, model));
+  }
+  if (!context.store.put_feature_points(model.id, points, model.feature_points_revision))
+    refuse("conflict", "the points were changed by somebody else in the same moment: read them and try again");
+  return represent_points(context, model_of(context, request));
+}
+
+}  // namespace semblante::api

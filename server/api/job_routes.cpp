@@ -1,0 +1,87 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/common.h"
+#include "server/api/job_events.h"
+#include "server/api/new_parametrization.h"
+#include "server/api/routes.h"
+#include "server/store/sha256.h"
+
+namespace semblante::api {
+namespace {
+
+ParametrizationOptions read_options(const Json& body) {
+  refuse_unknown_members(body, {"metric", "weights", "weight_bits"});
+  ParametrizationOptions options;
+  if (body.contains("metric") && body["metric"] != "edge")
+    refuse("invalid-field", "the only metric is \"edge\"", "/metric");
+  if (body.contains("weights") && body["weights"] != "paper")
+    refuse("invalid-field", "the only weights are \"paper\"", "/weights");
+  if (body.contains("weight_bits")) {
+    const auto& bits = body["weight_bits"];
+    if (!bits.is_number_integer() || bits < 8 || bits > 16)
+      refuse("invalid-field", "it must be a whole number from 8 to 16", "/weight_bits");
+    options.weight_bits = bits.get<int>();
+  }
+  return options;
+}
+
+http::Response accepted(const store::JobRecord& job) {
+  auto response = json_response(202, represent(job));
+  response.headers["Location"] = "/v1/jobs/" + job.id;
+  return response;
+}
+
+store::JobRecord job_of(Context& context, const http::Request& request) {
+  const auto& id = request.params.at("job");
+  auto job = context.jobs.find(id);
+  if (!job) refuse("not-found", "there is no job " + id);
+  return std::move(*job);
+}
+
+}  // namespace
+
+http::Response create_parametrization(Context& context, http::Request& request) {
+  const auto model = model_of(context, request);
+  const auto options = read_options(body_object(request));
+  auto check = check_idempotency(context, request, store::sha256_hex(request.body));
+  if (check.earlier) {
+    if (const auto job = context.jobs.find(*check.earlier)) return accepted(*job);
+    refuse("conflict", "what this key made has been removed");
+  }
+  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported");
+  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
+  if (model.feature_point_count == 0)
+    refuse("missing-feature-points", "no feature point is marked on this model", "/points");
+  if (!context.jobs.has_room()) {
+    auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
+    response.headers["Retry-After"] = "10";
+    return response;
+  }
+  const auto job = add_parametrization(context.store, model.id, options, check.record);
+  context.jobs.enqueue(job);
+  return accepted(job);
+}
+
+http::Response get_job(Context& context, http::Request& request) {
+  return json_response(200, represent(job_of(context, request)));
+}
+
+http::Response cancel_job(Context& context, http::Request& request) {
+  const auto job = job_of(context, request);
+  if (!context.jobs.cancel(job.id)) refuse("conflict", "the job has ended already");
+  return json_response(202, represent(job_of(context, request)));
+}
+
+http::Response get_job_events(Context& context, http::Request& request) {
+  const auto& id = request.params.at("job");
+  auto events = JobEvents::open(context.jobs, id);
+  if (!events) refuse("not-found", "there is no job " + id);
+  http::Response response;
+  response.headers["Content-Type"] = "text/event-stream";
+  response.headers["Cache-Control"] = "no-store";
+  response.headers["X-Accel-Buffering"] = "no";
+  response.body = std::shared_ptr<http::Feed>(std::move(events));
+  return response;
+}
+
+}  // namespace semblante::api

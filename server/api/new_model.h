@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/types/result.h"
+#include "server/store/blob_store.h"
+#include "server/store/store.h"
+
+namespace semblante::api {
+
+struct NewModel {
+  store::ModelRecord model;
+  store::JobRecord job;
+};
+
+/// Takes over the file of a new model and stores model and import job, durably. `id` empty: a random one. The job is
+/// not queued yet. Errors: io.
+Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, const std::filesystem::path& file,
+                           std::string id, std::string name, std::string file_name,
+                           std::optional<store::IdempotencyRecord> key);
+
+}  // namespace semblante::api

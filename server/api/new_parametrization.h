@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "server/store/store.h"
+
+namespace semblante::api {
+
+struct ParametrizationOptions {
+  std::string metric = "edge", weights = "paper";
+  int weight_bits = 12;
+};
+
+/// Stores a parametrize job, durably. It is not queued yet.
+store::JobRecord add_parametrization(store::Store& store, const std::string& model,
+                                     const ParametrizationOptions& options,
+                                     std::optional<store::IdempotencyRecord> key);
+
+}  // namespace semblante::api

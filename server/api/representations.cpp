@@ -1,0 +1,116 @@
+#include "server/api/representations.h"
+
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+namespace semblante::api {
+namespace {
+
+Json problem_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json::parse(text, nullptr, false);
+}
+
+Json box(const std::array<double, 3>& low, const std::array<double, 3>& high) { return {{"min", low}, {"max", high}}; }
+
+bool is_of_package(std::string_view name) {
+  static constexpr auto names = std::to_array<std::string_view>({"mesh.drc", "weights", "rig.json", "face.glb"});
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Json represent_package(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
+  if (!model.package) return nullptr;
+  Json json = {{"parametrization", model.package->parametrization},
+               {"created", model.package->created},
+               {"metric", model.package->metric},
+               {"weights", model.package->weights},
+               {"weight_bits", model.package->weight_bits},
+               {"artefacts", Json::object()}};
+  for (const auto& artefact : artefacts)
+    if (is_of_package(artefact.name))
+      json["artefacts"][artefact.name] = {{"href", "/v1/models/" + model.id + "/" + artefact.name},
+                                          {"sha256", artefact.sha256},
+                                          {"bytes", artefact.bytes},
+                                          {"content_type", artefact.content_type}};
+  return json;
+}
+
+}  // namespace
+
+Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
+  const auto self = "/v1/models/" + model.id;
+  Json json;
+  json["id"] = model.id;
+  json["name"] = model.name;
+  json["state"] = std::string(store::to_string(model.state));
+  json["problem"] = problem_or_null(model.problem);
+  json["created"] = model.created;
+  json["updated"] = model.updated;
+  json["source"] = {{"format", model.format.empty() ? Json(nullptr) : Json(model.format)},
+                    {"file_name", model.file_name},
+                    {"bytes", model.source_bytes},
+                    {"sha256", model.source_sha256}};
+  json["counts"] = {{"vertices", model.vertices}, {"triangles", model.triangles}, {"parts", model.parts.size()}};
+  const bool imported = model.state == store::ModelState::ready || model.state == store::ModelState::parametrized;
+  json["bounds"] = imported ? box(model.box_min, model.box_max) : Json(nullptr);
+  auto& parts = json["parts"] = Json::array();
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    const auto& part = model.parts[i];
+    parts.push_back({{"index", i},
+                     {"name", part.name},
+                     {"role", part.role},
+                     {"role_by_user", part.role_by_user},
+                     {"vertices", part.vertices},
+                     {"triangles", part.triangles},
+                     {"bounds", box(part.box_min, part.box_max)}});
+  }
+  json["warnings"] = model.warnings;
+  json["feature_point_count"] = model.feature_point_count;
+  json["package"] = represent_package(model, artefacts);
+  json["links"] = {{"self", self},
+                   {"feature_points", self + "/feature-points"},
+                   {"preview", imported ? Json(self + "/preview.glb") : Json(nullptr)}};
+  return json;
+}
+
+Json represent(const store::JobRecord& job) {
+  return {{"id", job.id},
+          {"kind", std::string(store::to_string(job.kind))},
+          {"model", job.model},
+          {"state", std::string(store::to_string(job.state))},
+          {"progress", job.progress},
+          {"stage", job.stage},
+          {"created", job.created},
+          {"updated", job.updated},
+          {"problem", problem_or_null(job.problem)}};
+}
+
+Json represent(const streams::StreamInfo& stream) {
+  return {{"id", stream.id},
+          {"title", stream.title},
+          {"model", stream.model.empty() ? Json(nullptr) : Json(stream.model)},
+          {"created", stream.created},
+          {"epoch", stream.epoch},
+          {"sequence", stream.sequence},
+          {"subscribers", stream.subscribers},
+          {"publishers", stream.publishers},
+          {"source", stream.source}};
+}
+
+std::string model_etag(const store::ModelRecord& model) { return "\"model-" + std::to_string(model.revision) + "\""; }
+
+std::string points_etag(const store::ModelRecord& model) {
+  return "\"points-" + std::to_string(model.feature_points_revision) + "\"";
+}
+
+http::Response json_response(int status, const Json& json) {
+  http::Response response;
+  response.status = status;
+  response.headers["Content-Type"] = "application/json";
+  response.headers["Cache-Control"] = "no-cache";
+  response.body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return response;
+}
+
+}  // namespace semblante::api

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "server/http/message.h"
+#include "server/store/records.h"
+#include "server/streams/stream.h"
+
+// How records look to clients. nlohmann's types stay inside the sources of this folder.
+namespace semblante::api {
+
+using Json = nlohmann::ordered_json;
+
+Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts);
+Json represent(const store::JobRecord& job);
+Json represent(const streams::StreamInfo& stream);
+
+std::string model_etag(const store::ModelRecord& model);
+std::string points_etag(const store::ModelRecord& model);
+
+/// JSON with its media type, not cached. Text that is not UTF-8 is repaired rather than refused: it came from a file.
+http::Response json_response(int status, const Json& json);
+
+}  // namespace semblante::api

@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "protocol/cpp/json_codec.h"
+#include "server/api/common.h"
+#include "server/api/routes.h"
+#include "server/store/sha256.h"
+
+namespace semblante::api {
+namespace {
+
+constexpr std::size_t max_slug_bytes = 64;
+constexpr std::size_t max_title_bytes = 200;
+
+std::string checked_slug(const Json& value) {
+  auto slug = checked_text(value, max_slug_bytes, "/name");
+  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
+  if (!std::all_of(slug.begin(), slug.end(), good) || slug.front() == '-')
+    refuse("invalid-field", "it takes lower-case letters, digits, - and _", "/name");
+  return slug;
+}
+
+streams::StreamInfo info_of(Context& context, const http::Request& request) {
+  const auto& id = request.params.at("stream");
+  auto info = context.hub.info(id);
+  if (!info) refuse("not-found", "there is no stream " + id);
+  return std::move(*info);
+}
+
+http::Response created(const streams::StreamInfo& info) {
+  auto response = json_response(201, represent(info));
+  response.headers["Location"] = "/v1/streams/" + info.id;
+  return response;
+}
+
+}  // namespace
+
+http::Response list_streams(Context& context, http::Request&) {
+  Json json = {{"streams", Json::array()}};
+  for (const auto& stream : context.hub.list()) json["streams"].push_back(represent(stream));
+  return json_response(200, json);
+}
+
+http::Response create_stream(Context& context, http::Request& request) {
+  const auto body = body_object(request);
+  refuse_unknown_members(body, {"name", "title", "model"});
+  streams::StreamInfo info;
+  info.id = body.contains("name") ? checked_slug(body["name"]) : store::random_id();
+  info.title = body.contains("title") ? checked_text(body["title"], max_title_bytes, "/title") : info.id;
+  if (body.contains("model") && !body["model"].is_null()) {
+    info.model = checked_text(body["model"], max_slug_bytes, "/model");
+    if (!context.store.model(info.model)) refuse("invalid-field", "there is no model " + info.model, "/model");
+  }
+  info.created = store::timestamp_now();
+  info.source = "none";
+
+  auto check = check_idempotency(context, request, store::sha256_hex(request.body));
+  if (check.earlier) {
+    if (const auto earlier = context.hub.info(*check.earlier)) return created(*earlier);
+    refuse("conflict", "what this key made has been removed");
+  }
+  if (context.hub.list().size() >= context.config.limits.max_streams)
+    refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_streams) + " streams");
+  if (check.record) check.record->resource = info.id;
+  // Durable before it is there for others, so that a stream somebody saw is never forgotten.
+  if (context.hub.info(info.id) ||
+      !context.store.create_stream({info.id, info.title, info.model, info.created}, check.record))
+    refuse("conflict", "there is a stream " + info.id + " already", "/name");
+  context.hub.open(info);
+  return created(context.hub.info(info.id).value_or(info));
+}
+
+http::Response get_stream(Context& context, http::Request& request) {
+  return json_response(200, represent(info_of(context, request)));
+}
+
+http::Response delete_stream(Context& context, http::Request& request) {
+  const auto info = info_of(context, request);
+  if (info.source != "none") refuse("conflict", "the " + info.source + " stream is the server's own");
+  context.store.remove_stream(info.id);
+  context.hub.close(info.id, EndReason::deleted);
+  http::Response response;
+  response.status = 204;
+  return response;
+}
+
+http::Response post_frames(Context& context, http::Request& request) {
+  const auto info = info_of(context, request);
+  auto frames = decode_json_frames(request.body);
+  if (!frames) {
+    const auto& error = frames.error();
+    refuse(error.code == ErrorCode::malformed && error.where.empty() ? "malformed-request" : "invalid-frame",
+           error.message, error.where);
+  }
+  const auto receipt = context.hub.publish(info.id, *frames);
+  if (!receipt) {
+    const auto& error = receipt.error();
+    if (error.code == ErrorCode::missing) refuse("not-found", error.message);
+    refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
+  }
+  return json_response(202, {{"accepted", receipt->accepted}, {"sequence", receipt->sequence}});
+}
+
+}  // namespace semblante::api

@@ -1,0 +1,113 @@
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/import/import.h"
+#include "server/api/common.h"
+#include "server/api/mapped_file.h"
+#include "server/api/new_model.h"
+#include "server/api/routes.h"
+#include "server/http/media_type.h"
+#include "server/http/multipart.h"
+#include "server/store/sha256.h"
+
+namespace semblante::api {
+namespace {
+
+constexpr std::size_t max_name_bytes = 200;
+
+/// What arrived, whichever way it was sent.
+struct Upload {
+  std::filesystem::path path;
+  std::string file_name, name;
+  std::shared_ptr<http::TemporaryFile> extracted;  ///< holds the file of a form's part
+};
+
+/// The last segment of a path of any system, without what a file name cannot hold.
+std::string clean_file_name(std::string_view name) {
+  const auto slash = name.find_last_of("/\\");
+  if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
+  std::string clean;
+  for (const char c : name.substr(0, max_name_bytes))
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
+  return clean;
+}
+
+Upload take_form(Context& context, const http::Request& request) {
+  const auto& body = request.body_file->path();
+  const MappedFile mapped(body);
+  auto parts =
+      http::parse_multipart(mapped.text(), http::parameter(request.header("Content-Type").value_or(""), "boundary"));
+  if (!parts) refuse("malformed-request", "the form cannot be read: " + parts.error().message);
+  Upload upload;
+  const http::FormPart* file = nullptr;
+  for (const auto& part : *parts) {
+    if (part.name == "file") file = &part;
+    if (part.name == "name" && !part.content.empty()) upload.name = checked_text(part.content, max_name_bytes, "/name");
+  }
+  if (file == nullptr) refuse("invalid-field", "the form has no part \"file\"", "/file");
+  upload.file_name = clean_file_name(file->file_name);
+  upload.extracted = std::make_shared<http::TemporaryFile>(body.string() + ".part");
+  upload.path = upload.extracted->path();
+  std::ofstream out(upload.path, std::ios::binary);
+  out.write(file->content.data(), static_cast<std::streamsize>(file->content.size()));
+  if (!out.flush()) refuse("limit-exceeded", "the model cannot be written to disk");
+  (void)context;
+  return upload;
+}
+
+Upload take_upload(Context& context, const http::Request& request) {
+  Upload upload;
+  if (http::essence(request.header("Content-Type").value_or("")) == "multipart/form-data") {
+    upload = take_form(context, request);
+  } else {
+    upload.path = request.body_file->path();
+    upload.file_name = clean_file_name(http::parameter(request.header("Content-Disposition").value_or(""), "filename"));
+  }
+  if (const auto name = request.query_value("filename")) upload.file_name = clean_file_name(*name);
+  if (const auto name = request.query_value("name")) upload.name = checked_text(*name, max_name_bytes, "?name");
+  if (upload.name.empty()) upload.name = std::filesystem::path(upload.file_name).stem().string();
+  if (upload.name.empty()) upload.name = "Untitled";
+  return upload;
+}
+
+http::Response accepted(Context& context, const store::ModelRecord& model, const store::JobRecord& job) {
+  auto response =
+      json_response(202, {{"model", represent(model, context.store.artefacts(model.id))}, {"job", represent(job)}});
+  response.headers["Location"] = "/v1/models/" + model.id;
+  return response;
+}
+
+}  // namespace
+
+http::Response create_model(Context& context, http::Request& request) {
+  const auto upload = take_upload(context, request);
+  std::string hash;
+  {
+    const MappedFile mapped(upload.path);
+    if (mapped.bytes().empty()) refuse("empty-model", "the file is empty", "/file");
+    if (!detect_format(mapped.bytes(), upload.file_name))
+      refuse("unsupported-media-type", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL", "/file");
+    hash = store::sha256_hex(mapped.text());
+  }
+  auto check = check_idempotency(context, request, hash + upload.name + upload.file_name);
+  if (check.earlier) {
+    const auto job = context.jobs.find(*check.earlier);
+    const auto model = job ? context.store.model(job->model) : std::nullopt;
+    if (model) return accepted(context, *model, *job);
+    refuse("conflict", "what this key made has been removed");
+  }
+  if (context.store.model_count() >= context.config.limits.max_models)
+    refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_models) + " models");
+  if (!context.jobs.has_room()) {
+    auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
+    response.headers["Retry-After"] = "10";
+    return response;
+  }
+  auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record);
+  if (!made) refuse("limit-exceeded", "the model cannot be kept: " + made.error().message);
+  context.jobs.enqueue(made->job);
+  return accepted(context, made->model, made->job);
+}
+
+}  // namespace semblante::api
