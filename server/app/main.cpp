@@ -13,7 +13,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
   add_parametrize_command(app);
   add_deform_command(app);
+  add_serve_command(app);
   add_version_command(app);
+  add_worker_command(app);
   try {
     app.parse(argc, argv);
     return 0;

@@ -1,0 +1,94 @@
+#include "server/app/sample_installer.h"
+
+#include <fstream>
+#include <iterator>
+#include <shared_mutex>
+
+#include "core/import/axes.h"
+#include "core/import/feature_points_file.h"
+#include "server/api/new_model.h"
+#include "server/api/new_parametrization.h"
+#include "server/app/command_failure.h"
+#include "server/log/log.h"
+#include "server/store/sha256.h"
+
+namespace semblante {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read");
+  return {(std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()};
+}
+
+std::vector<store::FeaturePointRecord> read_points(const std::filesystem::path& path) {
+  auto file = parse_feature_points(read_text(path));
+  if (!file) fail("serve: --sample: " + path.string(), file.error());
+  change_axes(*file);
+  std::vector<store::FeaturePointRecord> records;
+  for (const auto& point : file->points) {
+    store::FeaturePointRecord record{to_string(point.id), point.vertex, std::nullopt};
+    if (point.position) record.position = {point.position->x, point.position->y, point.position->z};
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+}  // namespace
+
+SampleInstaller::SampleInstaller(store::Store& store, store::BlobStore& blobs, jobs::JobQueue& queue,
+                                 std::filesystem::path file)
+    : store_(store), blobs_(blobs), queue_(queue), file_(std::move(file)) {}
+
+void SampleInstaller::begin() {
+  if (file_.empty()) return;
+  const auto hash = store::sha256_hex(read_text(file_));
+  points_ = read_points(std::filesystem::path(file_).replace_extension(".fps.json"));
+  const auto model = store_.model(sample_model_id);
+  if (!model || model->source_sha256 != hash || model->state == store::ModelState::failed) {
+    import();
+  } else if (model->state == store::ModelState::ready) {
+    const auto job = store_.latest_job(sample_model_id, store::JobKind::parametrize);
+    if (!job || job->state != store::JobState::queued) parametrize();
+  }
+}
+
+void SampleInstaller::import() {
+  if (store_.model(sample_model_id)) {  // another version of the program brought another head
+    queue_.cancel_all_of(sample_model_id);
+    const std::unique_lock alone(blobs_.references());
+    if (const auto orphans = store_.remove_model(sample_model_id))
+      for (const auto& hash : *orphans) blobs_.remove(hash);
+  }
+  const auto copy = blobs_.temporary() / "sample";
+  std::error_code error;
+  std::filesystem::copy_file(file_, copy, std::filesystem::copy_options::overwrite_existing, error);
+  auto made = api::add_model(store_, blobs_, copy, std::string(sample_model_id), "Sample head",
+                             file_.filename().string(), std::nullopt);
+  if (!made) fail("serve: --sample", made.error());
+  queue_.enqueue(made->job);
+}
+
+void SampleInstaller::parametrize() {
+  const auto model = store_.model(sample_model_id);
+  if (!model) return;
+  if (model->feature_point_count == 0) {
+    for (const auto& point : points_) {
+      if (!point.vertex || *point.vertex < model->vertices) continue;
+      log::error("the sample head has no vertex for its feature point " + point.id);
+      return;
+    }
+    store_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
+  }
+  queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), {}, std::nullopt));
+}
+
+void SampleInstaller::job_finished(const store::JobRecord& job) {
+  if (file_.empty() || job.model != sample_model_id || job.state != store::JobState::done) return;
+  if (job.kind == store::JobKind::import)
+    parametrize();
+  else
+    log::info("the sample head is ready");
+}
+
+}  // namespace semblante

@@ -1,0 +1,152 @@
+#include "server/app/serve.h"
+
+#include <csignal>
+#include <fcntl.h>
+#include <iostream>
+#include <unistd.h>
+#include <unordered_set>
+
+#include <arpa/inet.h>
+#include <sys/file.h>
+
+#include "server/api/api.h"
+#include "server/app/command_failure.h"
+#include "server/app/sample_installer.h"
+#include "server/jobs/worker_process.h"
+#include "server/log/log.h"
+#include "server/net/server.h"
+#include "server/store/sqlite_store.h"
+
+namespace semblante {
+namespace {
+
+[[noreturn]] void fail_input(const std::string& message) {
+  throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
+}
+
+/// Tokens do not exist yet: whoever reaches the port may do everything, so only this machine may reach it.
+std::string checked_address(std::string address) {
+  if (address == "localhost") address = "127.0.0.1";
+  in_addr four{};
+  in6_addr six{};
+  const bool is_four = inet_pton(AF_INET, address.c_str(), &four) == 1;
+  const bool is_six = inet_pton(AF_INET6, address.c_str(), &six) == 1;
+  if (!is_four && !is_six) fail_input("--address: " + address + " is not an IP address");
+  const bool loopback = is_four ? (ntohl(four.s_addr) >> 24U) == 127U : IN6_IS_ADDR_LOOPBACK(&six);
+  if (!loopback)
+    fail_input(
+        "--address: " + address +
+        " can be reached from other machines, and this server asks nobody who they are; use 127.0.0.1 or ::1 and "
+        "put a proxy that does in front of it");
+  return address;
+}
+
+/// Two servers on one data folder would undo each other's work: the second is refused. Held until the process ends.
+void lock_data(const std::filesystem::path& data) {
+  const auto file = data / "lock";
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (descriptor < 0) fail_input("--data: " + data.string() + " cannot be written");
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
+}
+
+void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptions& options) {
+  if (options.demo) {
+    streams::StreamInfo demo;
+    demo.id = "demo";
+    demo.title = "Demo";
+    demo.model = options.sample.empty() ? "" : std::string(sample_model_id);
+    demo.created = store::timestamp_now();
+    demo.source = "demo";
+    hub.open(demo);
+  }
+  for (const auto& record : store.streams()) {
+    streams::StreamInfo info;
+    info.id = record.id;
+    info.title = record.title;
+    info.model = record.model;
+    info.created = record.created;
+    info.source = "none";
+    if (!hub.open(info)) log::warning("the stream " + record.id + " is hidden by one of the server's own");
+  }
+}
+
+std::string url_of(const std::string& address, std::uint16_t port) {
+  const bool is_six = address.find(':') != std::string::npos;
+  return "http://" + (is_six ? "[" + address + "]" : address) + ":" + std::to_string(port);
+}
+
+}  // namespace
+
+void run_serve(const ServeOptions& options) {
+  const auto level = log::parse_level(options.log_level);
+  if (!level) fail_input("--log-level: " + options.log_level + " is none of debug, info, warning, error");
+  log::set_level(*level);
+  std::signal(SIGPIPE, SIG_IGN);  // a worker or a client that is gone is an error of its write, not of the server
+  const auto address = checked_address(options.address);
+  std::error_code error;
+  if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
+    fail_input("--web-root: " + options.web_root.string() + " is no folder");
+  std::filesystem::create_directories(options.data, error);
+  if (error) fail_input("--data: " + options.data.string() + ": " + error.message());
+  lock_data(options.data);
+
+  auto blobs = store::BlobStore::open(options.data);
+  if (!blobs) fail("serve: --data", blobs.error());
+  auto store = store::open_sqlite_store(options.data / "semblante.sqlite");
+  if (!store) fail("serve: --data", store.error());
+  const auto hashes = (*store)->referenced_hashes();
+  if (const auto swept = blobs->sweep({hashes.begin(), hashes.end()}); swept > 0)
+    log::info(std::to_string(swept) + " unused blobs removed");
+
+  jobs::JobConfig job_config;
+  job_config.worker_command = {jobs::own_executable(), "worker"};
+  job_config.limits.memory_bytes = options.worker_memory;
+  job_config.limits.cpu_seconds = options.worker_cpu_seconds;
+  job_config.concurrency = options.workers;
+  jobs::JobQueue queue(**store, *blobs, job_config);
+  streams::InProcessHub hub;
+  open_streams(**store, hub, options);
+
+  api::ApiConfig api_config;
+  api_config.limits.max_upload_bytes = options.max_upload_bytes;
+  api_config.limits.max_models = options.max_models;
+  api_config.limits.max_streams = options.max_streams;
+  api_config.version = SEMBLANTE_VERSION;
+  api_config.web_root = options.web_root;
+  api_config.allowed_origins = options.allowed_origins;
+  net::Server* running = nullptr;
+  const auto net_metrics = [&running] {
+    const auto counts = running->counts();
+    return std::vector<std::pair<std::string, std::uint64_t>>{{"connections", counts.connections_open},
+                                                              {"connections_total", counts.connections_total},
+                                                              {"connections_refused_total", counts.connections_refused},
+                                                              {"requests_total", counts.requests_total},
+                                                              {"websockets", counts.websockets_open}};
+  };
+  api::Api api(api::Context{**store, *blobs, queue, hub, api_config, net_metrics});
+
+  net::ServerConfig net_config;
+  net_config.address = address;
+  net_config.port = options.port;
+  net_config.worker_threads = options.threads;
+  net_config.upload_directory = blobs->temporary();
+  net_config.limits.max_connections = static_cast<std::uint32_t>(options.max_connections);
+  net::Server server(net_config, api);
+  running = &server;
+  const auto port = server.listen();
+  if (!port) fail("serve", port.error());
+  server.stop_on_signals();
+
+  SampleInstaller sample(**store, *blobs, queue, options.sample);
+  queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
+  queue.start();
+  sample.begin();
+
+  std::cout << "semblante listening on " << url_of(address, *port) << std::endl;
+  server.run([&hub] { hub.close_all(EndReason::shutdown); });
+  log::info("stopping");
+  queue.stop();
+}
+
+}  // namespace semblante

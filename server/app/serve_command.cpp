@@ -1,0 +1,49 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "server/app/commands.h"
+#include "server/app/serve.h"
+
+namespace semblante {
+
+void add_serve_command(CLI::App& app) {
+  const auto options = std::make_shared<ServeOptions>();
+  auto* command = app.add_subcommand(
+      "serve", "Serve the studio, the REST interface and the streams. Ctrl-C (SIGINT) or SIGTERM stops it cleanly.");
+  const auto add = [command](const std::string& name, auto& value, const std::string& help,
+                             const std::string& variable) {
+    return command->add_option(name, value, help)->envname("SEMBLANTE_" + variable)->capture_default_str();
+  };
+  add("--address", options->address, "Address to listen on; loopback only", "ADDRESS");
+  add("--port", options->port, "Port to listen on; 0 takes any that is free and says which", "PORT");
+  add("--data", options->data, "Folder for models, packages and facts; made if missing", "DATA");
+  add("--web-root", options->web_root, "Folder of the studio's built pages, served at /; none if left out", "WEB_ROOT");
+  add("--sample", options->sample,
+      "Model file (with <name>.fps.json beside it) to be there as model `sample`, parametrized once in the background",
+      "SAMPLE");
+  command->add_flag("--demo", options->demo, "Play the stream `demo`: a face that talks, in a loop")
+      ->envname("SEMBLANTE_DEMO");
+  add("--threads", options->threads, "Threads that answer requests", "THREADS")->check(CLI::Range(1, 256));
+  add("--workers", options->workers, "Jobs that run at a time, each in a process of its own", "WORKERS")
+      ->check(CLI::Range(1, 64));
+  add("--max-upload-bytes", options->max_upload_bytes, "Largest model file taken", "MAX_UPLOAD_BYTES")
+      ->transform(CLI::AsSizeValue(false));
+  add("--max-models", options->max_models, "Models kept at most", "MAX_MODELS");
+  add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS");
+  add("--max-connections", options->max_connections, "Connections served at a time", "MAX_CONNECTIONS")
+      ->check(CLI::Range(1, 1'000'000));
+  add("--worker-memory", options->worker_memory, "Address space of one job's process, bytes (or 4GB); 0: no limit",
+      "WORKER_MEMORY")
+      ->transform(CLI::AsSizeValue(false));
+  add("--worker-cpu-seconds", options->worker_cpu_seconds, "Processor time of one job, seconds; 0: no limit",
+      "WORKER_CPU_SECONDS");
+  add("--allow-origin", options->allowed_origins,
+      "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
+      "be given more than once",
+      "ALLOW_ORIGIN");
+  add("--log-level", options->log_level, "debug (one line a request), info, warning or error", "LOG_LEVEL");
+  command->callback([options] { run_serve(*options); });
+}
+
+}  // namespace semblante
