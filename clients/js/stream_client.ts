@@ -139,12 +139,15 @@ export class StreamClient extends Emitter<StreamEvents> {
   publish(frames: TimedFrame[], mediaTime = 0): boolean {
     if (this.state !== 'open' || !this.socket || frames.length === 0) return false;
     if (this.socket.bufferedAmount > maxBufferedBytes) return false;
+    let rest = frames;
     if (!this.encoder) {
-      // What follows is differences, so the first thing on a connection is a whole state.
+      // What follows is differences, so the first frame on a connection is a whole state.
       this.encoder = new FrameEncoder();
-      this.send({ type: 'keyframe', sequence: 0, media_time: mediaTime, state: frames[0]!.state });
+      const { time, state } = frames[0]!;
+      this.send({ type: 'keyframe', sequence: 0, media_time: mediaTime === 0 ? 0 : mediaTime + time, state });
+      rest = frames.slice(1);
     }
-    this.send({ type: 'frames', sequence: 0, media_time: mediaTime, frames });
+    if (rest.length > 0) this.send({ type: 'frames', sequence: 0, media_time: mediaTime, frames: rest });
     return true;
   }
 
@@ -210,6 +213,7 @@ export class StreamClient extends Emitter<StreamEvents> {
         if (message.reason === 'finished' || message.reason === 'deleted' || message.reason === 'replaced') this.close();
         return;
       case 'error':
+        this.encoder = null; // the server may lack a frame that the next would be a difference to
         return this.emit('error', message);
       case 'pong':
         return this.emit('clock', this.clockOf(message));

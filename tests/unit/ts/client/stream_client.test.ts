@@ -98,7 +98,13 @@ describe.each(['binary', 'json'] as const)('StreamClient %s', (subprotocol) => {
     expect(stream.publish([{ time: 0, state: state(1) }], 5)).toBe(true);
     expect(stream.publish([{ time: 0, state: state(2) }], 45)).toBe(true);
     const types = FakeSocket.last.sent.map((message) => message.type).filter((type) => type !== 'ping');
-    expect(types).toEqual(['hello', 'keyframe', 'frames', 'frames']);
+    expect(types).toEqual(['hello', 'keyframe', 'frames']);
+    FakeSocket.last.give({ type: 'error', code: 'throttled', where: '', message: '' });
+    expect(stream.publish([1, 2, 3].map((i) => ({ time: i, state: state(i) })), 85)).toBe(true);
+    expect(FakeSocket.last.sent.slice(-2)).toMatchObject([
+      { type: 'keyframe', media_time: 86, state: { levels: state(1).levels } },
+      { type: 'frames', media_time: 85, frames: [{ time: 2 }, { time: 3 }] },
+    ]);
     FakeSocket.last.bufferedAmount = 1e6;
     expect(stream.publish([{ time: 0, state: state(3) }])).toBe(false);
   });
