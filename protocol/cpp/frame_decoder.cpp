@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/state_codec.h"
@@ -139,7 +140,11 @@ template <class... M>
 Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last,
                              const std::variant<M...>* /*types*/) {
   std::optional<Result<Message>> result;
-  ((MessageTraits<M>::type == bytes[0] && (result = read_message<M>(bytes.subspan(1), last), true)) || ...);
+  const auto read = [&]<class T>(std::type_identity<T>) {
+    result = read_message<T>(bytes.subspan(1), last);
+    return true;
+  };
+  static_cast<void>(((MessageTraits<M>::type == bytes[0] && read(std::type_identity<M>())) || ...));
   if (!result) return Error{ErrorCode::unsupported, "/type", "no message has the type " + std::to_string(bytes[0])};
   return *std::move(result);
 }
