@@ -69,6 +69,7 @@ Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player,
       shown = *frame;
       if (shown && collected.empty()) {
         start = shown->from.media_time;
+        shown->media_time = start;
       }
     } else {
       auto frame = player.next_received();
