@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace semblante {
@@ -13,7 +14,9 @@ namespace {
 /// so a triangle that a file holds twice does not turn a seam into an inner edge.
 struct Side {
   std::uint32_t low, high, across;
-  friend auto operator<=>(const Side&, const Side&) = default;
+  [[nodiscard]] auto key() const { return std::tie(low, high, across); }
+  friend bool operator<(const Side& a, const Side& b) { return a.key() < b.key(); }
+  friend bool operator==(const Side& a, const Side& b) { return a.key() == b.key(); }
 };
 
 /// Sets of file vertices that are one surface vertex; the lowest member stands for each.
