@@ -40,6 +40,14 @@ std::vector<Votes> votes_of_points(const Surface& surface, std::span<const Surfa
   return votes;
 }
 
+/// A mesh often has one name and several materials; then the material tells its parts apart.
+std::string most_telling_name(const Model& model, const PartShape& shape) {
+  if (shape.material.empty()) return shape.name;
+  const auto shared = std::count_if(model.primitives.begin(), model.primitives.end(),
+                                    [&](const Primitive& p) { return p.name == shape.name; });
+  return shape.name.empty() || shared > 1 ? shape.material : shape.name;
+}
+
 constexpr std::size_t skin = static_cast<std::size_t>(PartRole::skin);
 
 /// The part with the most skin points; of equals, and without any, the one with the most vertices.
@@ -116,7 +124,7 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
   for (std::size_t p = 0; p < shapes.size(); ++p) {
     const PartShape& shape = shapes[p];
     Part part;
-    part.name = shape.name;
+    part.name = most_telling_name(model, shape);
     part.role = roles[p].value_or(PartRole::rest);
     part.role_by_user = p < roles_by_user.size() && roles_by_user[p].has_value();
     part.vertex_count = shape.file_vertices;

@@ -10,12 +10,6 @@
 namespace semblante {
 namespace {
 
-std::string name_of(const Model& model, std::size_t primitive) {
-  const Primitive& p = model.primitives[primitive];
-  if (!p.name.empty() || p.material < 0) return p.name;
-  return model.materials[static_cast<std::size_t>(p.material)].name;
-}
-
 void count_triangles(const Model& model, const Surface& surface, std::vector<PartShape>& shapes) {
   std::vector<std::map<std::size_t, std::uint32_t>> of_primitive(shapes.size());  // triangles by primitive, by part
   const auto part_of = [&](const Triangle& t) { return surface.part_of[surface.surface_of[t[0]].value()].value(); };
@@ -31,7 +25,11 @@ void count_triangles(const Model& model, const Surface& surface, std::vector<Par
   for (std::size_t p = 0; p < shapes.size(); ++p) {
     const auto most = std::max_element(of_primitive[p].begin(), of_primitive[p].end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most != of_primitive[p].end()) shapes[p].name = name_of(model, most->first);
+    if (most == of_primitive[p].end()) continue;
+    const Primitive& primitive = model.primitives[most->first];
+    shapes[p].name = primitive.name;
+    if (primitive.material >= 0)
+      shapes[p].material = model.materials[static_cast<std::size_t>(primitive.material)].name;
   }
 }
 

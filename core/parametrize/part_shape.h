@@ -14,7 +14,8 @@ namespace semblante {
 
 /// What a part looks like from outside: what the guess of its role goes by, beside the points on it.
 struct PartShape {
-  std::string name;  ///< of the primitive (failing that the material) most of its triangles belong to
+  std::string name;      ///< of the primitive most of its triangles belong to
+  std::string material;  ///< of that primitive
   std::uint32_t file_vertices = 0;
   std::uint32_t triangles = 0;
   glm::dvec3 low{0.0}, high{0.0};  ///< its box

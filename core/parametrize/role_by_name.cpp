@@ -4,6 +4,7 @@
 #include <cctype>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace semblante {
 namespace {
@@ -31,6 +32,8 @@ bool has_side(const std::string& name, std::string_view word, char letter) {
   return false;
 }
 
+bool names_teeth(const std::string& name) { return has_any(name, {"teeth", "tooth", "gum", "denture"}); }
+
 std::optional<PartRole> role_of_name(const std::string& name, double x) {
   // Most telling words first: an "eyelash" is no eye, "eyeglasses" are neither.
   if (has_any(name, {"lash", "brow", "tear", "lacrimal", "occlusion", "eyeblend", "eye_blend", "caruncle", "fluid",
@@ -57,7 +60,9 @@ std::optional<PartRole> role_of_name(const std::string& name, double x) {
 
 }  // namespace
 
-bool names_teeth(std::string_view name) { return has_any(lower_case(name), {"teeth", "tooth", "gum", "denture"}); }
+bool is_named_teeth(const PartShape& shape) {
+  return names_teeth(lower_case(shape.name)) || names_teeth(lower_case(shape.material));
+}
 
 void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optional<PartRole>> roles) {
   double low = 0.0;
@@ -70,7 +75,9 @@ void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optio
   }
   for (std::size_t p = 0; p < shapes.size(); ++p) {
     if (roles[p] || shapes[p].triangles == 0) continue;
-    roles[p] = role_of_name(lower_case(shapes[p].name), shapes[p].center.x - 0.5 * (low + high));
+    const double x = shapes[p].center.x - 0.5 * (low + high);
+    roles[p] = role_of_name(lower_case(shapes[p].name), x);
+    if (!roles[p]) roles[p] = role_of_name(lower_case(shapes[p].material), x);
   }
 }
 

@@ -26,6 +26,8 @@ constexpr double mouth_half_height = 0.55;
 constexpr double mouth_depth = 1.6;
 constexpr double attached_mean = 0.15;  // lashes: a centimetre long at most, roots on the lid
 constexpr double attached_most = 0.4;
+constexpr double attached_width = 1.3;  // a brow, a row of lashes; hair in one piece is wider and keeps its shape
+constexpr double attached_height = 1.0;
 constexpr double of_skin_height = 0.25;  // ES0 of a cut head, where nothing else tells
 }  // namespace share_of_es
 
@@ -149,7 +151,7 @@ class PlaceGuess {
     std::vector<std::size_t> inside;
     for (std::size_t p = 0; p < shapes_.size(); ++p) {
       if (!is_open(p)) continue;
-      const bool named = names_teeth(shapes_[p].name);
+      const bool named = is_named_teeth(shapes_[p]);
       if (!mouth) {
         if (named) inside.push_back(p);
         continue;
@@ -180,7 +182,7 @@ class PlaceGuess {
       for (const std::size_t p : inside) {
         const PartShape& shape = shapes_[p];
         const bool midline = std::abs(shape.box_center().x - skin_.box_center().x) < 0.1 * shape.extent().x;
-        if (names_teeth(shape.name) || !midline || shape.extent().z < 0.3 * es_ || !fills_its_middle(shape)) continue;
+        if (is_named_teeth(shape) || !midline || shape.extent().z < 0.3 * es_ || !fills_its_middle(shape)) continue;
         roles_[p] = PartRole::tongue;
         break;
       }
@@ -199,6 +201,11 @@ class PlaceGuess {
   void find_attached() {
     for (std::size_t p = 0; p < shapes_.size(); ++p) {
       if (!is_open(p)) continue;
+      const glm::dvec3 extent = shapes_[p].extent();
+      if (extent.x > share_of_es::attached_width * es_ || extent.y > share_of_es::attached_height * es_) {
+        roles_[p] = PartRole::rest;
+        continue;
+      }
       double sum = 0.0;
       double most = 0.0;
       for (const glm::dvec3& v : shapes_[p].positions) {

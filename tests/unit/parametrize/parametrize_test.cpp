@@ -55,7 +55,8 @@ TEST(Parametrize, EveryTable_HasARowPerFileVertex) {
 TEST(Parametrize, Weights_KnowNoRoles) {
   // A tooth's own points give it weights of Eq. 4, though its row of influence is the jaw's alone.
   Model model = testing::make_strip(8);
-  const std::uint32_t tooth = testing::append(model, testing::shifted(testing::make_strip(4), {0, 0, -5}), "teeth lower");
+  const std::uint32_t tooth =
+      testing::append(model, testing::shifted(testing::make_strip(4), {0, 0, -5}), "teeth lower");
   const auto rig = parametrize_model(
       model, testing::points_at(model, {{"2.1", 0}, {"2.2", 4}, {"9.9", tooth}, {"9.11", tooth + 4}}));
   ASSERT_TRUE(rig);

@@ -135,6 +135,25 @@ TEST_F(CartoonHead, EmptyModel_HasNoParts) {
   EXPECT_TRUE(describe_parts(nothing, build_surface(nothing), {}).empty());
 }
 
+TEST_F(CartoonHead, OneNameForAll_MaterialsTellThePartsApart) {
+  const std::uint32_t ball = add(testing::make_ball({3, 4, -1.2F}, 1.3F), "head");
+  ASSERT_GT(ball, 0U);
+  model_.materials = {{.name = "skin"}, {.name = "Hair"}};
+  model_.primitives[0].material = 0;
+  model_.primitives.back().material = 1;
+  surface_ = build_surface(model_);
+  const auto parts = describe_parts(model_, surface_, {});
+  EXPECT_EQ(parts[0].name, "skin");
+  EXPECT_EQ(parts[1].name, "Hair");
+  EXPECT_EQ(parts[1].role, PartRole::rest);  // by its place it would be an eye
+}
+
+TEST_F(CartoonHead, HairInOnePiece_IsNotAttachedHoweverCloseItLies) {
+  add(testing::make_box({-8, 6, 0.1F}, {8, 11, 0.6F}), "");
+  surface_ = build_surface(model_);
+  EXPECT_EQ(describe_parts(model_, surface_, face_points())[1].role, PartRole::rest);
+}
+
 struct NameCase {
   const char* name;
   double x;
