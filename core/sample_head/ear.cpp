@@ -22,7 +22,7 @@ Frame ear_frame() {
   Frame f;
   f.origin = {6.95, -1.45, -0.55};
   f.up = glm::normalize(Vec3(0.12, 1.0, -0.20));
-  const Vec3 back = glm::normalize(Vec3(0.42, 0.0, -1.0));
+  const Vec3 back = glm::normalize(Vec3(0.34, 0.0, -1.0));
   f.out = glm::normalize(glm::cross(back, f.up));
   if (f.out.x < 0.0) f.out = -f.out;
   f.back = glm::normalize(back - f.up * glm::dot(back, f.up));

@@ -105,7 +105,7 @@ void mark_skin_points(Skin& skin) {
   mark.furthest_of_middle("2.1", {0.0, -1.0, 0.0}, -12.5, -10.0, 7.0);
   mark.furthest_of_middle("11.6", -forward, -3.0, 8.0, -20.0);
 
-  mark.at("2.11", on_front(1.9, -10.55));
+  mark.at("2.11", on_front(1.9, -10.25));
   mark.at("2.13", project_to_head({5.4, -7.3, 1.4}));
 
   const double brow_start = 0.03;

@@ -19,9 +19,9 @@ struct BorderPoint {
 };
 
 /// Forehead, temple, sideburn, arch over the ear, nape.
-constexpr std::array<BorderPoint, 14> border = {{{0, 36},
-                                                 {18, 36.5},
-                                                 {34, 34},
+constexpr std::array<BorderPoint, 14> border = {{{0, 34},
+                                                 {18, 34.5},
+                                                 {34, 32.5},
                                                  {46, 26},
                                                  {55, 13},
                                                  {63, -2},
@@ -34,16 +34,17 @@ constexpr std::array<BorderPoint, 14> border = {{{0, 36},
                                                  {140, -38},
                                                  {180, -43}}};
 
+/// Locks run from front to back: lines of equal angle about the long axis of the head.
+double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
+
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
 double thickness(double a, double t, const Vec3& p) {
   const double front = 0.5 + 0.5 * std::cos(a);
   const double body = 0.16 + 0.14 * front + 0.55 * glm::smoothstep(0.0, 0.55, t) +
                       0.75 * front * front * glm::smoothstep(0.0, 0.22, t) * (1.0 - glm::smoothstep(0.35, 1.0, t));
-  // Grooves run from front to back: lines of equal angle about the long axis of the head.
-  const double across = std::atan2(p.x, std::max(p.y - 0.5, 0.3));
-  const double lock = std::abs(std::sin(6.5 * across + 0.35 * std::sin(0.5 * p.z)));
-  const double groove = std::pow(1.0 - lock, 2.0) * glm::smoothstep(0.0, 0.15, t);
-  return body - 0.17 * groove;
+  const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
+  const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
+  return body - 0.26 * groove;
 }
 
 }  // namespace
@@ -65,8 +66,8 @@ double hairline(double azimuth) {
 }
 
 Hair make_hair() {
-  constexpr int columns = 40;
-  constexpr int rows = 20;
+  constexpr int columns = 52;
+  constexpr int rows = 24;
   Hair hair;
   HalfMesh& mesh = hair.mesh;
   const auto place = [&](int column, double t, double offset_scale, double sink) {
@@ -98,10 +99,14 @@ Hair make_hair() {
   return hair;
 }
 
+Vec2 hair_uv(const Vec3& p) {
+  return {std::clamp(0.5 + angle_across(p) / pi, 0.0, 1.0), std::clamp(0.5 - p.z / 26.0, 0.0, 1.0)};
+}
+
 Vec2 brow_line(double t) {
   // Rises to its highest point in the middle of its width (4.3), then falls to a fine end.
   const double x = glm::mix(1.15, 5.15, t);
-  const double y = 2.42 + 0.62 * std::sin(pi * std::pow(t, 1.0)) - 0.10 * t;
+  const double y = 2.42 + 0.50 * std::sin(pi * t) + 0.06 * t;
   return {x, y};
 }
 

@@ -18,6 +18,9 @@ struct Hair {
 };
 Hair make_hair();
 
+/// Across the locks in u, along them in v.
+Vec2 hair_uv(const Vec3& p);
+
 /// Middle line of the left brow at t = 0 (inner end, 4.1) .. 1 (outer end, 4.5), x and y.
 Vec2 brow_line(double t);
 double brow_half_height(double t);

@@ -22,9 +22,17 @@ struct LipPlace {
   bool upper;
 };
 
+/// Steps are wide beside the feature points, at 0, 1/2 and 1, and close between them: a point that moves alone then
+/// draws a slope and not a thorn.
+double spread(double along) {
+  const double half = along < 0.5 ? 0.0 : 0.5;
+  const double t = 4.0 * (along - half) - 1.0;  // -1 .. 1 from one point to the next
+  return half + 0.25 + 0.25 * t * std::abs(t);
+}
+
 LipPlace place_of(int k) {
   const bool upper = k <= lip_steps / 2;
-  return {static_cast<double>(upper ? k : lip_steps - k) / (lip_steps / 2), upper};
+  return {spread(static_cast<double>(upper ? k : lip_steps - k) / (lip_steps / 2)), upper};
 }
 
 /// Border of the red (8.x): cupid's bow above, a full curve below.
@@ -34,15 +42,16 @@ Vec2 border(const LipPlace& place) {
   if (place.upper) {
     const double fall = 0.70 * (1.0 - std::pow(s, 1.9));
     const double bow = -0.08 * std::exp(-std::pow(s / 0.12, 2.0));
-    return {x, mouth_y + fall + bow};
+    return {x, mouth_y + fall + bow + 0.07 * std::pow(s, 5.0)};
   }
-  return {x, mouth_y - 0.92 * std::pow(1.0 - std::pow(s, 2.0), 1.1)};
+  return {x, mouth_y - 0.92 * std::pow(1.0 - std::pow(s, 2.0), 1.1) + 0.07 * std::pow(s, 5.0)};
 }
 
 /// Line where the lips meet (2.x), the same for both: a small tubercle in the middle, level corners.
 Vec3 meeting(double s) {
   const double x = inner_corner_x * s;
-  const double y = mouth_y - 0.05 * std::exp(-std::pow(s / 0.2, 2.0)) + 0.02 * std::sin(pi * s);
+  const double y =
+      mouth_y - 0.05 * std::exp(-std::pow(s / 0.2, 2.0)) + 0.015 * std::sin(pi * s) + 0.07 * std::pow(s, 5.0);
   const double z = front_z(x, mouth_y) - 0.16 - 0.16 * s * s;
   return {x, y, z};
 }

@@ -26,14 +26,7 @@ glm::vec4 linear(double r, double g, double b) {
   return {one(r), one(g), one(b), 1.0};
 }
 
-enum Material : std::size_t {
-  skin_material,
-  eye_material,
-  teeth_material,
-  tongue_material,
-  hair_material,
-  lash_material
-};
+enum Material : std::size_t { skin_material, eye_material, teeth_material, tongue_material, hair_material };
 
 /// Adds parts to a head and counts vertices as a reader of the file will.
 class Assembly {
@@ -78,14 +71,13 @@ class Assembly {
 SampleHead make_sample_head() {
   SampleHead head;
   const Skin skin = make_skin();
-  head.images = {paint_skin(skin.mesh), paint_eye(), paint_teeth()};
+  head.images = {paint_skin(skin.mesh), paint_eye(), paint_teeth(), paint_hair()};
   const glm::vec4 white(1.0F);
   head.materials = {{"skin", white, 0.55F, 0, false},
                     {"eye", white, 0.15F, 1, false},
                     {"teeth", white, 0.3F, 2, true},
                     {"tongue", linear(0.78, 0.42, 0.42), 0.45F, std::nullopt, false},
-                    {"hair", linear(0.30, 0.19, 0.135), 0.55F, std::nullopt, true},
-                    {"lashes", linear(0.10, 0.07, 0.06), 0.8F, std::nullopt, true}};
+                    {"hair", white, 0.75F, 3, true}};
   const UvOf by_gum = [](const Vec3&, const Paint& paint, Chart) { return Vec2(0.5, 1.0 - paint.lip); };
 
   Assembly assembly(head);
@@ -100,7 +92,8 @@ SampleHead make_sample_head() {
   assembly.add("lower teeth", teeth_material, lower.mesh, lower.marks, by_gum);
   assembly.add("tongue", tongue_material, tongue.mesh, tongue.marks);
   const Hair hair = make_hair();
-  assembly.add("hair", hair_material, hair.mesh, {{"11.5", hair.top}});
+  assembly.add("hair", hair_material, hair.mesh, {{"11.5", hair.top}},
+               [](const Vec3& p, const Paint&, Chart) { return hair_uv(p); });
   head.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(head_pivot * 0.01)});
   std::sort(head.points.begin(), head.points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return head;

@@ -51,22 +51,22 @@ double head_distance(const Vec3& p) {
   const Vec3 q(std::abs(p.x), p.y, p.z);
   double d = skull_distance(q);
   d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);             // middle of the face
-  d = join(d, ellipsoid(q, {0.0, -5.2, 2.9}, {5.65, 5.6, 6.1}), 2.4);             // lower face
+  d = join(d, ellipsoid(q, {0.0, -5.1, 2.9}, {5.65, 5.5, 6.1}), 2.4);             // lower face
   d = join(d, ellipsoid(q, {3.6, -5.9, 1.7}, {1.85, 2.6, 2.8}), 2.2);             // angle of the jaw
   d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);              // cheek bone
   d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);              // apple of the cheek
   d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);              // muzzle, over the teeth
-  d = join(d, ellipsoid(q, {0.0, -9.6, 7.35}, {1.75, 1.5, 1.85}), 2.0);           // chin
-  d = join(d, capsule(q, {3.9, -7.6, 3.2}, {1.4, -9.9, 6.9}, 1.0, 1.0), 2.2);     // edge of the jaw
+  d = join(d, ellipsoid(q, {0.0, -9.4, 7.6}, {1.75, 1.5, 1.85}), 2.2);            // chin
+  d = join(d, capsule(q, {4.0, -7.4, 2.9}, {1.4, -9.7, 7.0}, 1.0, 1.0), 2.4);     // edge of the jaw
   d = join(d, capsule(q, {1.0, 2.0, 8.05}, {4.6, 2.0, 6.2}, 0.72, 0.66), 1.8);    // brow ridge
   d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);            // eye socket
   d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);            // lids over the ball
   d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
   d = join(d, nose_distance(q), 0.95);
-  double neck = capsule(q, {0.0, -7.0, -2.4}, {0.0, -15.0, -2.3}, 4.4, 4.9);
+  double neck = capsule(q, {0.0, -6.0, -2.5}, {0.0, -15.0, -2.3}, 4.5, 4.9);
   neck = join(neck, capsule(q, {4.4, -6.0, -2.2}, {1.5, -16.5, 1.6}, 0.8, 1.0), 2.0);    // sternomastoid
   neck = join(neck, capsule(q, {0.0, -17.5, -3.2}, {6.0, -18.5, -3.2}, 2.4, 2.2), 3.0);  // trapezius
-  return join(d, neck, 1.8);
+  return join(d, neck, 2.8);
 }
 
 Vec3 head_normal(const Vec3& p) {

@@ -47,6 +47,30 @@ void relax(HalfMesh& mesh, int rounds) {
   }
 }
 
+/// The edge of the bust: level, and rolled in under the neck.
+void finish_bust(HalfMesh& mesh, const Loop& border) {
+  constexpr double level = -15.5;
+  const auto at = [&](int v) -> Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
+  for (const int v : border) {
+    const Vec3 outward(at(v).x, 0.0, at(v).z + 1.8);
+    at(v) = cast_from_inside({0.0, level, -1.8}, outward);
+    if (outward.x == 0.0) at(v).x = 0.0;
+  }
+  Loop outer = border;
+  struct Step {
+    double size, down;
+  };
+  for (const auto& step : {Step{0.985, 0.16}, Step{0.94, 0.24}, Step{0.86, 0.26}}) {
+    Loop loop;
+    for (const int v : border) {
+      const Vec3 p = at(v);
+      loop.push_back(mesh.add({p.x * step.size, p.y - step.down, (p.z + 1.8) * step.size - 1.8}));
+    }
+    bridge(mesh, outer, loop, false, Chart::outer);
+    outer = loop;
+  }
+}
+
 }  // namespace
 
 Skin make_skin() {
@@ -60,10 +84,12 @@ Skin make_skin() {
   const Loop around_mouth = boundary_loop(skin.mesh, cage["M5_0"], {1.0, 0.0, 0.0});
   const Loop nostril = boundary_loop(skin.mesh, cage["h0"], {1.0, 0.0, 0.0});
   const Loop ear = boundary_loop(skin.mesh, cage["Y7"], {0.0, 1.0, 0.0});
+  const Loop bust = boundary_loop(skin.mesh, cage["bust"], {1.0, 0.0, 0.0});
   add_eyelids(skin, orbit);
   add_lips(skin, around_mouth);
   add_nostril(skin, nostril);
   add_ear(skin, ear);
+  finish_bust(skin.mesh, bust);
   skin.marks["9.15"] = around_mouth[0];
   mark_skin_points(skin);
   orient(skin.mesh, {0.0, 0.0, 1.0});

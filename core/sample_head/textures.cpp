@@ -44,9 +44,13 @@ double brow_cover(const Vec2& p) {
       at = t;
     }
   }
-  const double hair = 0.5 + 0.5 * std::sin(46.0 * (p.x - 0.45 * p.y * (1.0 - at)));
-  const double ends = glm::smoothstep(-0.02, 0.10, at);
-  return 0.92 * (1.0 - glm::smoothstep(0.62, 1.12 + 0.12 * hair, best)) * (0.86 + 0.14 * hair) * (0.55 + 0.45 * ends);
+  // Hairs lean outwards; three waves that share no period look like none.
+  const double lean = p.x - 0.9 * p.y;
+  const double hair =
+      0.5 + 0.17 * std::sin(31.0 * lean) + 0.17 * std::sin(53.0 * lean + 1.0) + 0.16 * std::sin(19.0 * lean + 2.0);
+  const double ends = glm::smoothstep(-0.03, 0.14, at);
+  return (1.0 - glm::smoothstep(0.55 + 0.25 * hair, 1.15 + 0.15 * hair, best)) * (0.72 + 0.2 * hair) *
+         (0.5 + 0.5 * ends);
 }
 
 Colour skin_colour(const Vec3& p, const Paint& paint) {
@@ -77,8 +81,8 @@ Colour lining_colour(int kind, double depth) {
     return glm::mix(Colour(0.13, 0.08, 0.06), skin, glm::smoothstep(0.10, 0.17, depth));
   }
   constexpr double soft[3] = {0.28, 0.5, 0.4};
-  const Colour rim[3] = {{0.66, 0.30, 0.29}, {0.80, 0.52, 0.48}, {0.60, 0.36, 0.31}};
-  const Colour deep[3] = {{0.20, 0.05, 0.06}, {0.40, 0.18, 0.17}, {0.16, 0.07, 0.06}};
+  const Colour rim[3] = {{0.74, 0.36, 0.34}, {0.80, 0.52, 0.48}, {0.60, 0.36, 0.31}};
+  const Colour deep[3] = {{0.40, 0.13, 0.13}, {0.40, 0.18, 0.17}, {0.16, 0.07, 0.06}};
   return glm::mix(rim[kind], deep[kind], glm::smoothstep(0.0, soft[kind] * 2.0, depth));
 }
 
@@ -230,6 +234,26 @@ SampleHeadImage paint_eye() {
       const Vec2 glint = q / iris - Vec2(0.0, -0.42);
       c = glm::mix(Colour(1.0), c, glm::smoothstep(0.09, 0.16, glm::length(glint)));
       put(image, x, y, c);
+    }
+  }
+  return image;
+}
+
+SampleHeadImage paint_hair() {
+  SampleHeadImage image = blank("hair", 256, 64);
+  for (int x = 0; x < 256; ++x) {
+    for (int y = 0; y < 64; ++y) {
+      // Strands run down the image; each wanders a little on its way.
+      const double u = x / 256.0 + 0.004 * std::sin(0.35 * y + 0.7 * x);
+      double tone = 0.0;
+      double size = 0.5;
+      for (const double waves : {9.0, 23.0, 57.0, 101.0}) {
+        tone += size * std::sin(2.0 * pi * waves * u + 1.7 * waves + 0.02 * waves * std::sin(0.11 * y));
+        size *= 0.8;
+      }
+      tone += 0.5 * (hash_noise(x, y / 9) - 0.5);
+      const double light = std::clamp(0.5 + 0.25 * tone, 0.0, 1.0);
+      put(image, x, y, glm::mix(Colour(0.205, 0.125, 0.085), Colour(0.405, 0.270, 0.185), light));
     }
   }
   return image;
