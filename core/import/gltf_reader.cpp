@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
-#include <set>
-
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "core/import/gltf_document.h"
 #include "core/import/gltf_draco.h"
 #include "core/import/gltf_materials.h"
 #include "core/import/gltf_scene.h"
+#include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
 
@@ -66,6 +61,8 @@ class PrimitiveData {
     } else {
       draco_ = std::move(*decoded);
     }
+    // The decoded triangles count the decoded points, so no other positions can go with them.
+    if (draco_ && !in_draco("POSITION")) draco_place_->fail(ErrorCode::missing, "compresses no POSITION");
   }
 
   [[nodiscard]] bool has(const char* attribute) const { return attributes_.has(attribute); }
@@ -165,24 +162,25 @@ class GltfReader {
 
     const auto first = static_cast<std::uint32_t>(builder_.model.positions.size());
     const std::vector<float> positions = data.floats("POSITION", 3, count);
+    VertexTransform transform(placement ? &*placement : nullptr);
+    for (int set = 0; transform.wants_joints() && set < 4; ++set) {
+      const std::string joints = "JOINTS_" + std::to_string(set);
+      const std::string weights = "WEIGHTS_" + std::to_string(set);
+      if (!data.has(joints.c_str()) || !data.has(weights.c_str())) break;
+      transform.add_joints(data.floats(joints.c_str(), 4, count), data.floats(weights.c_str(), 4, count));
+    }
     if (document_.failed()) return;
     for (std::size_t i = 0; i < count; ++i) {
       builder_.model.positions.push_back(
-          placed(glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]), placement));
+          transform.position(i, glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2])));
     }
     const bool has_uvs = read_uvs(data, material, count);
-    const bool has_normals = read_normals(data, placement, count);
+    const bool has_normals = read_normals(data, transform, count);
     if (document_.failed() || !placement) return;
 
     builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1);
-    const bool mirrored = !placement->is_identity && glm::determinant(glm::dmat3(placement->to_world)) < 0.0;
-    add_triangles(primitive, data, Range{first, static_cast<std::uint32_t>(count), has_uvs, has_normals, mirrored});
-  }
-
-  static glm::vec3 placed(const glm::vec3& position, const std::optional<MeshPlacement>& placement) {
-    // A file that stands still keeps its float32 positions to the bit.
-    if (!placement || placement->is_identity) return position;
-    return glm::vec3(glm::dvec3(placement->to_world * glm::dvec4(position, 1.0)));
+    add_triangles(primitive, data,
+                  Range{first, static_cast<std::uint32_t>(count), has_uvs, has_normals, transform.mirrors()});
   }
 
   bool read_uvs(const PrimitiveData& data, std::optional<std::size_t> material, std::size_t count) {
@@ -200,27 +198,14 @@ class GltfReader {
     return true;
   }
 
-  bool read_normals(const PrimitiveData& data, const std::optional<MeshPlacement>& placement, std::size_t count) {
+  bool read_normals(const PrimitiveData& data, const VertexTransform& transform, std::size_t count) {
     if (!data.has("NORMAL")) return false;
     const std::vector<float> values = data.floats("NORMAL", 3, count);
     if (document_.failed()) return false;
-    // The cofactor matrix turns normals as the transform turns surfaces, even where it has no inverse.
-    glm::dmat3 turn(1.0);
-    const bool turned = placement && !placement->is_identity;
-    if (turned) {
-      const glm::dmat3 m(placement->to_world);
-      turn = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-      if (glm::determinant(m) < 0.0) turn = -turn;
-    }
     pad_before(builder_.model.normals, count);
     for (std::size_t i = 0; i < count; ++i) {
-      glm::dvec3 normal(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-      if (turned) {
-        normal = turn * normal;
-        const double length = glm::length(normal);
-        if (length > 0.0) normal /= length;  // before it becomes a float: a model in millimetres would underflow
-      }
-      builder_.model.normals.emplace_back(normal);
+      builder_.model.normals.push_back(
+          transform.normal(i, glm::vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2])));
     }
     return true;
   }

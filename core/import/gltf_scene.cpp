@@ -3,6 +3,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/import/gltf_skin.h"
+
 namespace semblante::import {
 namespace {
 
@@ -73,6 +75,18 @@ std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_co
   return nodes;
 }
 
+void pose_by_skin(GltfDocument& document, MeshPlacement& placement, std::span<const std::optional<glm::dmat4>> world) {
+  std::vector<glm::dmat4> joints = joint_matrices(document, *placement.skin, world);
+  if (joints.empty()) return;  // a skin that hangs on nothing: the node's own transform is the best there is
+  if (const auto common = common_matrix(joints)) {
+    placement.to_world = *common;
+    placement.is_identity = *common == glm::dmat4(1.0);
+  } else {
+    placement.joints = std::move(joints);
+    placement.is_identity = false;
+  }
+}
+
 }  // namespace
 
 std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
@@ -88,27 +102,31 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
   std::vector<Visit> pending;
   const std::vector<std::size_t> roots = scene_nodes(document, node_count);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
-  std::vector<bool> visited(node_count, false);
+  std::vector<std::optional<glm::dmat4>> world(node_count);
   while (!pending.empty() && !document.failed()) {
     const auto [index, parent] = pending.back();
     pending.pop_back();
     const JsonCursor node = document.item("nodes", index);
-    if (visited[index]) {
+    if (world[index]) {
       node.fail(ErrorCode::malformed, "is in the scene twice: nodes must form trees");
       break;
     }
-    visited[index] = true;
     const glm::dmat4 to_world = parent * local_transform(node);
+    world[index] = to_world;
     if (const auto mesh = node.index("mesh", mesh_count); mesh && !document.failed()) {
       if (placements[*mesh]) {
         ++placements[*mesh]->node_count;
       } else {
-        placements[*mesh] = MeshPlacement{to_world, to_world == glm::dmat4(1.0), 1};
+        placements[*mesh] =
+            MeshPlacement{to_world, to_world == glm::dmat4(1.0), 1, node.index("skin", document.count("skins")), {}};
       }
     }
     for (std::size_t c = node.size_of("children"); c-- > 0;) {
       pending.push_back({node["children"].element(c).integer(node_count - 1), to_world});
     }
+  }
+  for (auto& placement : placements) {
+    if (placement && placement->skin && !document.failed()) pose_by_skin(document, *placement, world);
   }
   return placements;
 }

@@ -14,6 +14,9 @@ struct MeshPlacement {
   glm::dmat4 to_world{1.0};
   bool is_identity = true;
   std::size_t node_count = 1;  ///< nodes that show it
+  std::optional<std::size_t> skin;
+  /// Of a skin whose pose is not its bind pose: each vertex stands where its joints put it, and to_world says nothing.
+  std::vector<glm::dmat4> joints;
 };
 
 /// Per mesh of the document; nullopt for a mesh the scene does not show. A document without nodes shows all of them as

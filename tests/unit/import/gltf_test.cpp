@@ -254,6 +254,43 @@ TEST(Gltf, MirroringNode_KeepsTheOutsideOut) {
   EXPECT_EQ(model->positions[1], glm::vec3(-1, 0, 0));
 }
 
+/// The quad with two joints: nodes 1 and 2, at rest where `translations` say; vertices 0 and 1 follow the first, 2 and
+/// 3 the second. Both were bound at the origin. The mesh's own node is far off, which a skin ignores.
+Result<Model> skinned_quad(const std::string& first, const std::string& second) {
+  Packer binary;
+  binary.bytes = quad_gltf_binary();  // 92 bytes
+  for (const int joint : {0, 0, 1, 1}) {
+    binary.put(static_cast<std::uint8_t>(joint));
+    for (int i = 0; i < 3; ++i) binary.put(std::uint8_t{0});
+  }
+  for (int vertex = 0; vertex < 4; ++vertex) binary.put(1.0F).put(0.0F).put(0.0F).put(0.0F);
+  std::string json = replaced(quad_gltf_json(), R"([{"mesh":0}])",
+                              R"([{"mesh":0,"skin":0,"translation":[50,0,0]},{"translation":)" + first +
+                                  R"(},{"translation":)" + second + "}]");
+  json = replaced(json, R"([{"nodes":[0]}])", R"([{"nodes":[0,1,2]}])");
+  json = replaced(json, R"("TEXCOORD_0":1)", R"("TEXCOORD_0":1,"JOINTS_0":3,"WEIGHTS_0":4)");
+  json = replaced(json, R"("count":6,"type":"SCALAR"})",
+                  R"("count":6,"type":"SCALAR"},{"bufferView":3,"componentType":5121,"count":4,"type":"VEC4"},
+{"bufferView":4,"componentType":5126,"count":4,"type":"VEC4"})");
+  json = replaced(json, R"("byteOffset":80,"byteLength":12})",
+                  R"("byteOffset":80,"byteLength":12},{"buffer":0,"byteOffset":92,"byteLength":16},
+{"buffer":0,"byteOffset":108,"byteLength":64})");
+  json = replaced(json, R"([{"byteLength":92}])", R"([{"byteLength":172}],"skins":[{"joints":[1,2]}])");
+  return import_model(make_glb(json, binary.bytes), ModelFormat::glb);
+}
+
+TEST(Gltf, Skin_PutsVerticesWhereTheirJointsAre) {
+  const auto model = skinned_quad("[0,0,1]", "[0,2,0]");
+  ASSERT_TRUE(model) << model.error().where << model.error().message;
+  EXPECT_EQ(model->positions, (std::vector<glm::vec3>{{0, 0, 1}, {1, 0, 1}, {1, 3, 0}, {0, 3, 0}}));
+}
+
+TEST(Gltf, Skin_InItsBindPose_LeavesEveryBit) {
+  const auto model = skinned_quad("[0,0,0]", "[0,0,0]");
+  ASSERT_TRUE(model) << model.error().where << model.error().message;
+  EXPECT_EQ(model->positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+}
+
 TEST(Gltf, MeshInTwoNodes_StandsWhereTheFirstPutsIt_WithAWarning) {
   std::string json = replaced(quad_gltf_json(), R"([{"mesh":0}])",
                               R"([{"mesh":0,"translation":[5,0,0]},{"mesh":0,"translation":[9,0,0]}])");
@@ -357,6 +394,17 @@ TEST(Draco, HeaderThatAnnouncesMoreThanItsBytesHold_IsRefused_BeforeDecoding) {
     EXPECT_NE(model.error().message.find("announces"), std::string::npos) << model.error().message;
     EXPECT_EQ(model.error().where, "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression");
   }
+}
+
+TEST(Draco, WithoutPositions_IsRefused_SinceItsTrianglesCountOtherPoints) {
+  const Bytes data = quad_draco_data(true);
+  const auto model =
+      import_model(make_glb(replaced(quad_draco_json(data.size()), R"("attributes":{"POSITION":0}}}}]}])",
+                                     R"("attributes":{"NORMAL":0}}}}]}])"),
+                            data),
+                   ModelFormat::glb);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::missing));
 }
 
 TEST(Draco, UnknownAttribute_IsRefused_ByItsPointer) {
