@@ -104,6 +104,22 @@ Result<Announced> read_head(std::span<const std::uint8_t> bytes) {
   return announced;
 }
 
+/// The types an accessor can have. Draco knows more, and reading its bool from a byte that is neither 0 nor 1 is
+/// undefined.
+bool is_gltf_type(draco::DataType type) {
+  switch (type) {
+    case draco::DT_INT8:
+    case draco::DT_UINT8:
+    case draco::DT_INT16:
+    case draco::DT_UINT16:
+    case draco::DT_UINT32:
+    case draco::DT_FLOAT32:
+      return true;
+    default:
+      return false;
+  }
+}
+
 double largest_of(draco::DataType type) {
   switch (type) {
     case draco::DT_INT8:
@@ -190,6 +206,9 @@ Result<std::vector<float>> DracoMesh::floats(std::uint32_t unique_id, std::size_
     return Error{ErrorCode::mismatch, "",
                  "names a Draco attribute of " + std::to_string(int{attribute->num_components()}) +
                      " components, it needs " + std::to_string(components)};
+  }
+  if (!is_gltf_type(attribute->data_type())) {
+    return Error{ErrorCode::unsupported, "", "names a Draco attribute of a type that glTF does not have"};
   }
   const auto stride = static_cast<std::uint64_t>(attribute->byte_stride());
   const std::uint64_t element = components * static_cast<std::uint64_t>(draco::DataTypeLength(attribute->data_type()));

@@ -1,5 +1,7 @@
 #include <cstring>
 
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/import/test_files.h"
@@ -405,6 +407,28 @@ TEST(Draco, WithoutPositions_IsRefused_SinceItsTrianglesCountOtherPoints) {
                    ModelFormat::glb);
   ASSERT_FALSE(model);
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::missing));
+}
+
+TEST(Draco, AttributeOfBools_IsRefused_WhateverItsBytes) {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(1);
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int flags = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 3, draco::DT_BOOL);
+  const std::array<std::array<float, 3>, 3> corners = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  const std::array<bool, 3> values = {true, false, true};
+  builder.SetAttributeValuesForFace(position, draco::FaceIndex(0), corners[0].data(), corners[1].data(),
+                                    corners[2].data());
+  builder.SetAttributeValuesForFace(flags, draco::FaceIndex(0), values.data(), values.data(), values.data());
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(draco::Encoder().EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok());
+  const Bytes data(buffer.data(), buffer.data() + buffer.size());
+  const auto model =
+      import_model(make_glb(replaced(quad_draco_json(data.size()), R"("attributes":{"POSITION":0}}}}]}])",
+                                     R"("attributes":{"POSITION":1}}}}]}])"),
+                            data),
+                   ModelFormat::glb);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::unsupported)) << model.error().message;
 }
 
 TEST(Draco, UnknownAttribute_IsRefused_ByItsPointer) {
