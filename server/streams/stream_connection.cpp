@@ -107,29 +107,23 @@ void StreamConnection::disconnected() { stream_->leave(*this); }
 
 void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (finished()) return;
+  // Whatever comes, it is answered and the connection goes on; who never says hello is closed by the clock.
   if (binary != binary_) {
-    close(Message(StreamError{
-              StreamErrorCode::malformed, "",
-              binary_ ? "this subprotocol is binary, a text came" : "this subprotocol is text, bytes came"}),
-          {1003, "wrong kind of message"});
+    refuse(StreamErrorCode::malformed, "",
+           binary_ ? "this subprotocol is binary, a text came" : "this subprotocol is text, bytes came");
     return;
   }
   auto decoded = binary_ ? decoder_.decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()))
                          : decode_json(bytes);
-  if (decoded) {
+  if (decoded)
     handle(std::move(*decoded));
-    return;
-  }
-  const auto& error = decoded.error();
-  const bool before_hello = !said_hello();
-  refuse(stream_code(error.code), error.where, error.message);
-  if (before_hello) close(std::nullopt, {1002, "the first message must be a hello"});
+  else
+    refuse(stream_code(decoded.error().code), decoded.error().where, decoded.error().message);
 }
 
 void StreamConnection::handle(Message message) {
   if (!said_hello() && !std::holds_alternative<Hello>(message)) {
     refuse(StreamErrorCode::missing, "", "the first message must be a hello");
-    close(std::nullopt, {1002, "the first message must be a hello"});
     return;
   }
   std::visit(

@@ -1,0 +1,148 @@
+// What was acknowledged survives kill -9; jobs that were cut off are taken up again; a hostile job takes down only its
+// worker.
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/integration/server/model_flow.h"
+
+namespace semblante::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+
+TEST(Durability, Acknowledged_SurvivesKill) {
+  const TemporaryFolder folder;
+  std::string model;
+  std::string points;
+  std::map<std::string, Reply> artefacts;
+  {
+    ServerProcess server(folder.path() / "data");
+    model = import_grid(server.port());
+    ASSERT_EQ(parametrize_grid(server.port(), model).value("state", ""), "done");
+    for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb", "preview.glb"})
+      artefacts[name] = request(server.port(), "GET", "/v1/models/" + model + "/" + name);
+    const auto put = request(server.port(), "PUT", "/v1/models/" + model + "/feature-points",
+                             R"({"points":{"2.1":{"vertex":7}}})", json_type);
+    ASSERT_EQ(put.status, 200);
+    points = put.body;
+    EXPECT_EQ(server.end(SIGKILL), -SIGKILL);
+  }
+  ServerProcess server(folder.path() / "data");
+  EXPECT_EQ(request(server.port(), "GET", "/v1/models/" + model + "/feature-points").body, points);
+  EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/models/" + model))["state"], "parametrized");
+  for (const auto& [name, before] : artefacts) {
+    const auto after = request(server.port(), "GET", "/v1/models/" + model + "/" + name);
+    EXPECT_EQ(after.body, before.body) << name;
+    EXPECT_EQ(after.headers.at("etag"), before.headers.at("etag"));
+  }
+}
+
+TEST(Durability, ManyPuts_EachSurvivesItsKill) {
+  const TemporaryFolder folder;
+  std::string model;
+  for (int round = 0; round < 5; ++round) {
+    ServerProcess server(folder.path() / "data");
+    if (model.empty()) model = import_grid(server.port());
+    const auto target = "/v1/models/" + model + "/feature-points";
+    if (round > 0) {
+      EXPECT_EQ(json_of(request(server.port(), "GET", target))["points"]["2.1"]["vertex"], round - 1);
+    }
+    const auto put = request(server.port(), "PUT", target,
+                             R"({"points":{"2.1":{"vertex":)" + std::to_string(round) + "}}}", json_type);
+    ASSERT_EQ(put.status, 200);
+    server.end(SIGKILL);
+  }
+}
+
+TEST(Durability, JobsCutOff_AreTakenUpAgain) {
+  const TemporaryFolder folder;
+  json made;
+  {
+    ServerProcess server(folder.path() / "data");
+    made = json_of(
+        request(server.port(), "POST", "/v1/models?filename=big.obj", grid_obj(300), {{"Content-Type", "model/obj"}}));
+    server.end(SIGKILL);
+  }
+  ServerProcess server(folder.path() / "data");
+  EXPECT_EQ(wait_for_job(server.port(), made["job"]["id"])["state"], "done");
+  EXPECT_EQ(json_of(request(server.port(), "GET",
+                            "/v1/models/" + made["model"]["id"].get<std::string>()))["counts"]["vertices"],
+            90'000);
+}
+
+TEST(Durability, Streams_AreThereAfterARestart) {
+  const TemporaryFolder folder;
+  {
+    ServerProcess server(folder.path() / "data");
+    EXPECT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type).status, 201);
+    EXPECT_EQ(server.end(SIGINT), 0) << "Ctrl-C ends it well";
+  }
+  ServerProcess server(folder.path() / "data");
+  EXPECT_EQ(request(server.port(), "GET", "/v1/streams/kept").status, 200);
+}
+
+TEST(Durability, SecondServerOnTheSameFolder_IsRefused) {
+  const TemporaryFolder folder;
+  const ServerProcess first(folder.path() / "data");
+  EXPECT_THAT([&] { ServerProcess second(folder.path() / "data"); },
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("another server works in")));
+}
+
+TEST(Start, PortInUse_SaysSo) {
+  const TemporaryFolder folder;
+  const ServerProcess first(folder.path() / "one");
+  EXPECT_THAT(
+      [&] {
+        ServerProcess second(folder.path() / "two", {"--port", std::to_string(first.port())});
+      },
+      ::testing::ThrowsMessage<std::runtime_error>(::testing::AnyOf(HasSubstr("is in use"), HasSubstr("--port"))));
+}
+
+TEST(Start, PublicAddress_IsRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(
+      [&] {
+        ServerProcess server(folder.path() / "data", {"--address", "0.0.0.0"});
+      },
+      ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("can be reached from other machines")));
+}
+
+TEST(Limits, WorkerOverItsMemory_FailsTheJobWithTheReason) {
+  const TemporaryFolder folder;
+  ServerProcess server(folder.path() / "data", {"--worker-memory", "60000000"});
+  const auto made = json_of(
+      request(server.port(), "POST", "/v1/models?filename=big.obj", grid_obj(700), {{"Content-Type", "model/obj"}}));
+  const auto job = wait_for_job(server.port(), made["job"]["id"]);
+  EXPECT_EQ(job["state"], "failed");
+  EXPECT_THAT(job["problem"].value("type", ""), HasSubstr("/problems/worker-")) << job;
+  EXPECT_EQ(request(server.port(), "GET", "/healthz").status, 200);
+}
+
+TEST(Limits, ModelsOverTheCount_AreRefused) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path() / "data", {"--max-models", "1"});
+  import_grid(server.port(), 4);
+  const auto reply =
+      request(server.port(), "POST", "/v1/models?filename=b.obj", grid_obj(4), {{"Content-Type", "model/obj"}});
+  EXPECT_EQ(reply.status, 507);
+  EXPECT_EQ(json_of(reply)["type"], "/problems/limit-exceeded");
+}
+
+TEST(Jobs, Cancelled_EndsSoonAndFailsItsImport) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path() / "data");
+  const auto made = json_of(
+      request(server.port(), "POST", "/v1/models?filename=big.obj", grid_obj(900), {{"Content-Type", "model/obj"}}));
+  const auto id = made["job"]["id"].get<std::string>();
+  EXPECT_EQ(request(server.port(), "DELETE", "/v1/jobs/" + id).status, 202);
+  EXPECT_EQ(wait_for_job(server.port(), id)["state"], "cancelled");
+}
+
+}  // namespace
+}  // namespace semblante::test

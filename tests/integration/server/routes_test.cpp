@@ -1,0 +1,373 @@
+// Every route of openapi.json answers as it says; no route is missing from it; every limit and every bad input gets a
+// problem document that names what is wrong.
+
+#include "server/api/routes.h"
+
+#include <csignal>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/integration/server/model_flow.h"
+
+namespace semblante::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+
+/// One server for all tests of this file: each makes its own models.
+class Routes : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    server_ = new ServerProcess(folder_->path() / "data", {"--demo", "--max-upload-bytes", "300000"});
+  }
+  static void TearDownTestSuite() {
+    EXPECT_EQ(server_->end(SIGTERM), 0) << "a server that is told to stop ends well";
+    delete server_;
+    delete folder_;
+  }
+  static int port() { return server_->port(); }
+
+  static void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
+    EXPECT_EQ(reply.status, status) << reply.body;
+    EXPECT_EQ(reply.headers.contains("content-type") ? reply.headers.at("content-type") : "",
+              "application/problem+json");
+    const auto problem = json_of(reply);
+    EXPECT_EQ(problem.value("type", ""), "/problems/" + slug) << reply.body;
+    EXPECT_EQ(problem.value("status", 0), status);
+    EXPECT_FALSE(problem.value("detail", "").empty());
+    EXPECT_EQ(problem.value("pointer", ""), pointer) << reply.body;
+    EXPECT_EQ(request(port(), "GET", problem.value("type", "/")).status, 200) << "the type can be looked up";
+    EXPECT_EQ(request(port(), "GET", "/healthz").status, 200) << "the server goes on";
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline ServerProcess* server_ = nullptr;
+};
+
+TEST_F(Routes, OpenApi_ListsExactlyTheRoutes) {
+  const auto document = json_of(request(port(), "GET", "/openapi.json"));
+  ASSERT_EQ(document.value("openapi", ""), "3.1.0");
+  std::vector<std::string> documented;
+  for (const auto& [path, item] : document["paths"].items())
+    for (const auto& [method, operation] : item.items()) {
+      auto name = method;
+      for (auto& c : name) c = static_cast<char>(std::toupper(c));
+      documented.push_back(name + " " + path);
+    }
+  std::vector<std::string> served;
+  for (const auto& route : api::routes())
+    served.push_back(std::string(route.method) + " " + std::string(route.pattern));
+  EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(served));
+}
+
+/// Whether a document says that this operation gives this status and media type.
+void expect_documented(const json& document, const std::string& method, const std::string& path, const Reply& reply) {
+  const auto& responses = document["paths"][path][method]["responses"];
+  const auto status = std::to_string(reply.status);
+  ASSERT_TRUE(responses.contains(status)) << method << " " << path << " answered " << status << ": " << reply.body;
+  auto response = responses[status];
+  if (response.contains("$ref")) {
+    const auto ref = response["$ref"].get<std::string>();
+    response = document["components"]["responses"][ref.substr(ref.rfind('/') + 1)];
+  }
+  if (!response.contains("content") || reply.status == 304) return;
+  const auto type = reply.headers.at("content-type").substr(0, reply.headers.at("content-type").find(';'));
+  EXPECT_TRUE(response["content"].contains(type) || response["content"].contains("*/*"))
+      << method << " " << path << " answered with " << type;
+}
+
+TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
+  const auto document = json_of(request(port(), "GET", "/openapi.json"));
+  const auto model = import_grid(port());
+  const auto job = parametrize_grid(port(), model);
+  ASSERT_EQ(job.value("state", ""), "done") << job;
+  const auto package = json_of(request(port(), "GET", "/v1/models/" + model));
+  const auto hash = package["package"]["artefacts"]["mesh.drc"]["sha256"].get<std::string>();
+  std::map<std::string, std::string> good = {
+      {"{model}", model}, {"{job}", job["id"]}, {"{stream}", "walk"}, {"{sha256}", hash}, {"{slug}", "not-found"}};
+  struct Body {
+    std::string text, type;
+  };
+  const std::map<std::string, Body> bodies = {
+      {"post /v1/models", {grid_obj(5), "model/obj"}},
+      {"patch /v1/models/{model}", {R"({"name":"Renamed"})", "application/json"}},
+      {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
+      {"post /v1/streams", {R"({"name":"walk"})", "application/json"}},
+      {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}}};
+  // Creating before reading, deleting last.
+  for (const std::string method : {"post", "get", "put", "patch", "delete"}) {
+    for (const auto& [path, item] : document["paths"].items()) {
+      if (!item.contains(method)) continue;
+      const auto fill = [&](const std::map<std::string, std::string>& values) {
+        std::string target = path;
+        for (const auto& [name, value] : values)
+          if (const auto at = target.find(name); at != std::string::npos) target.replace(at, name.size(), value);
+        return target;
+      };
+      auto upper = method;
+      for (auto& c : upper) c = static_cast<char>(std::toupper(c));
+      const auto found = bodies.find(method + " " + path);
+      const Body body = found == bodies.end() ? Body{} : found->second;
+      const Fields fields = body.type.empty() ? Fields{} : Fields{{"Content-Type", body.type}};
+      const auto reply = request(port(), upper, fill(good), body.text, fields);
+      SCOPED_TRACE(upper + " " + fill(good));
+      expect_documented(document, method, path, reply);
+      // A finished job cannot be cancelled any more; all else succeeds.
+      if (upper + path != "DELETE/v1/jobs/{job}") {
+        EXPECT_LT(reply.status, 300) << reply.body;
+      }
+
+      if (path.find('{') == std::string::npos) continue;
+      const auto absent = request(port(), upper,
+                                  fill({{"{model}", "absent"},
+                                        {"{job}", "absent"},
+                                        {"{stream}", "absent"},
+                                        {"{sha256}", std::string(64, '0')},
+                                        {"{slug}", "absent"}}),
+                                  body.text, fields);
+      expect_problem(absent, 404, "not-found");
+      expect_documented(document, method, path, absent);
+    }
+  }
+}
+
+TEST_F(Routes, Package_IsServedByTagRangeAndHash) {
+  const auto model = import_grid(port());
+  ASSERT_EQ(parametrize_grid(port(), model).value("state", ""), "done");
+  for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb"}) {
+    SCOPED_TRACE(name);
+    const auto target = "/v1/models/" + model + "/" + name;
+    const auto whole = request(port(), "GET", target);
+    ASSERT_EQ(whole.status, 200);
+    const auto tag = whole.headers.at("etag");
+    EXPECT_EQ(request(port(), "GET", target, {}, {{"If-None-Match", tag}}).status, 304);
+    EXPECT_EQ(request(port(), "GET", target, {}, {{"If-None-Match", "\"other\""}}).status, 200);
+    const auto part = request(port(), "GET", target, {}, {{"Range", "bytes=2-5"}});
+    EXPECT_EQ(part.status, 206);
+    EXPECT_EQ(part.body, whole.body.substr(2, 4));
+    EXPECT_EQ(part.headers.at("content-range"), "bytes 2-5/" + std::to_string(whole.body.size()));
+    EXPECT_EQ(request(port(), "GET", target, {}, {{"Range", "bytes=-3"}}).body,
+              whole.body.substr(whole.body.size() - 3));
+    expect_problem(request(port(), "GET", target, {}, {{"Range", "bytes=99999999-"}}), 416, "range-not-satisfiable");
+    const auto head = request(port(), "HEAD", target);
+    EXPECT_EQ(head.status, 200);
+    EXPECT_EQ(head.body, "");
+    EXPECT_EQ(head.headers.at("content-length"), std::to_string(whole.body.size()));
+    const auto by_hash = request(port(), "GET", "/v1/artefacts/" + tag.substr(8, 64));
+    EXPECT_EQ(by_hash.body, whole.body);
+    EXPECT_THAT(by_hash.headers.at("cache-control"), HasSubstr("immutable"));
+  }
+  EXPECT_EQ(request(port(), "GET", "/v1/models/" + model + "/preview.glb").body.substr(0, 4), "glTF");
+}
+
+TEST_F(Routes, JobEvents_EndWithDone) {
+  const auto model = import_grid(port());
+  request(port(), "PUT", "/v1/models/" + model + "/feature-points", grid_points(), json_type);
+  const auto job = json_of(request(port(), "POST", "/v1/models/" + model + "/parametrizations"));
+  const auto events = request(port(), "GET", "/v1/jobs/" + job["id"].get<std::string>() + "/events");
+  EXPECT_EQ(events.headers.at("content-type"), "text/event-stream");
+  EXPECT_THAT(events.body, HasSubstr("event: progress\n"));
+  EXPECT_THAT(events.body, HasSubstr("event: done\n"));
+  EXPECT_EQ(events.body.rfind("event: done"), events.body.rfind("event: ")) << "nothing comes after the end";
+}
+
+TEST_F(Routes, IdempotencyKey_MakesOneModel) {
+  const Fields fields = {{"Content-Type", "model/obj"}, {"Idempotency-Key", "upload-1"}};
+  const auto first = json_of(request(port(), "POST", "/v1/models?filename=a.obj", grid_obj(4), fields));
+  const auto second = json_of(request(port(), "POST", "/v1/models?filename=a.obj", grid_obj(4), fields));
+  EXPECT_EQ(first["model"]["id"], second["model"]["id"]);
+  expect_problem(request(port(), "POST", "/v1/models?filename=a.obj", grid_obj(6), fields), 422,
+                 "idempotency-key-reused");
+}
+
+TEST_F(Routes, Edits_HonourIfMatch) {
+  const auto model = import_grid(port());
+  const auto target = "/v1/models/" + model + "/feature-points";
+  const auto tag = request(port(), "GET", target).headers.at("etag");
+  const Fields with_tag = {{"Content-Type", "application/json"}, {"If-Match", tag}};
+  EXPECT_EQ(request(port(), "PUT", target, grid_points(), with_tag).status, 200);
+  expect_problem(request(port(), "PUT", target, grid_points(), with_tag), 412, "precondition-failed");
+  expect_problem(request(port(), "PATCH", "/v1/models/" + model, R"({"name":"x"})", with_tag), 412,
+                 "precondition-failed");
+}
+
+TEST_F(Routes, FeaturePoints_FillByMirror) {
+  const auto model = import_grid(port());
+  // Vertex 38 is column 2 of row 4, x = -2; its mirror is column 6: vertex 42.
+  const auto reply = json_of(request(port(), "PUT", "/v1/models/" + model + "/feature-points?fill=mirror",
+                                     R"({"points":{"2.4":{"vertex":38}}})", json_type));
+  EXPECT_EQ(reply["points"]["2.5"]["vertex"], 42);
+  EXPECT_EQ(reply["points"]["2.5"]["position"], (json{2.0, 4.0, 0.0}));
+}
+
+TEST_F(Routes, Multipart_TakesFileAndName) {
+  const std::string body =
+      "--XX\r\nContent-Disposition: form-data; name=\"name\"\r\n\r\nFrom a form\r\n--XX\r\n"
+      "Content-Disposition: form-data; name=\"file\"; filename=\"grid.obj\"\r\n\r\n" +
+      grid_obj(4) + "\r\n--XX--\r\n";
+  const auto made =
+      json_of(request(port(), "POST", "/v1/models", body, {{"Content-Type", "multipart/form-data; boundary=XX"}}));
+  EXPECT_EQ(made["model"]["name"], "From a form");
+  EXPECT_EQ(wait_for_job(port(), made["job"]["id"])["state"], "done");
+}
+
+TEST_F(Routes, PagesOfModels_FollowNext) {
+  import_grid(port(), 4);
+  import_grid(port(), 4);
+  auto page = json_of(request(port(), "GET", "/v1/models?limit=1"));
+  std::size_t count = 0;
+  while (true) {
+    count += page["models"].size();
+    if (page["next"].is_null()) break;
+    page = json_of(request(port(), "GET", "/v1/models?limit=1&after=" + page["next"].get<std::string>()));
+  }
+  EXPECT_EQ(count, json_of(request(port(), "GET", "/v1/models?limit=200"))["models"].size());
+}
+
+TEST_F(Routes, BadRequests_NameTheField) {
+  const auto model = import_grid(port());
+  const auto points = "/v1/models/" + model + "/feature-points";
+  const auto put = [&](const std::string& text) { return request(port(), "PUT", points, text, json_type); };
+  expect_problem(put(R"({"points":{"2.1":{"vertex":81}}})"), 422, "invalid-feature-point", "/points/2.1/vertex");
+  expect_problem(put(R"({"points":{"2.1":{"vertex":-1}}})"), 422, "invalid-feature-point", "/points/2.1/vertex");
+  expect_problem(put(R"({"points":{"2.1":{"vertex":1.5}}})"), 422, "invalid-feature-point", "/points/2.1/vertex");
+  expect_problem(put(R"({"points":{"2.1":{"vertex":"four"}}})"), 422, "invalid-feature-point", "/points/2.1/vertex");
+  expect_problem(put(R"({"points":{"2.1":{"vertex":null}}})"), 422, "invalid-feature-point", "/points/2.1");
+  expect_problem(put(R"({"points":{"2.1":{"position":[0,1]}}})"), 422, "invalid-feature-point", "/points/2.1/position");
+  expect_problem(put(R"({"points":{"2.1":{"position":[0,1,"x"]}}})"), 422, "invalid-feature-point",
+                 "/points/2.1/position/2");
+  expect_problem(put(R"({"points":{"99.1":{"vertex":1}}})"), 422, "invalid-feature-point", "/points/99.1");
+  expect_problem(put(R"({"points":[]})"), 422, "invalid-field", "/points");
+  expect_problem(put(R"({})"), 422, "invalid-field", "/points");
+  expect_problem(put("{\"points\":"), 400, "malformed-request");
+  expect_problem(put("[1]"), 422, "invalid-field");
+  expect_problem(request(port(), "PUT", points, grid_points(), {{"Content-Type", "text/plain"}}), 415,
+                 "unsupported-media-type");
+  expect_problem(request(port(), "POST", "/v1/models/" + model + "/parametrizations"), 422, "missing-feature-points",
+                 "/points");
+  expect_problem(
+      request(port(), "POST", "/v1/models/" + model + "/parametrizations", R"({"metric":"crow"})", json_type), 422,
+      "invalid-field", "/metric");
+  expect_problem(
+      request(port(), "POST", "/v1/models/" + model + "/parametrizations", R"({"weight_bits":20})", json_type), 422,
+      "invalid-field", "/weight_bits");
+  const auto patch = [&](const std::string& text) {
+    return request(port(), "PATCH", "/v1/models/" + model, text, json_type);
+  };
+  expect_problem(patch(R"({"roles":{"0":"elbow"}})"), 422, "invalid-field", "/roles/0");
+  expect_problem(patch(R"({"roles":{"7":"skin"}})"), 422, "invalid-field", "/roles/7");
+  expect_problem(patch(R"({"name":""})"), 422, "invalid-field", "/name");
+  expect_problem(patch(R"({"colour":"red"})"), 422, "invalid-field", "/colour");
+  expect_problem(request(port(), "GET", "/v1/models?limit=0"), 400, "invalid-argument", "?limit");
+  expect_problem(request(port(), "GET", "/v1/models?after=nobody"), 400, "invalid-argument", "?after");
+}
+
+TEST_F(Routes, BadRoutesAndMethods_AreToldApart) {
+  expect_problem(request(port(), "GET", "/v1/nothing"), 404, "not-found");
+  expect_problem(request(port(), "GET", "/v1/models/a/b/c"), 404, "not-found");
+  const auto wrong = request(port(), "PUT", "/v1/models", "{}");
+  expect_problem(wrong, 405, "method-not-allowed");
+  EXPECT_EQ(wrong.headers.at("allow"), "OPTIONS, GET, HEAD, POST");
+  expect_problem(request(port(), "GET", "/v1/models", {}, {{"Accept", "image/png"}}), 406, "not-acceptable");
+  EXPECT_EQ(request(port(), "GET", "/v1/models", {}, {{"Accept", "image/png, */*;q=0.1"}}).status, 200);
+  const auto preflight = request(port(), "OPTIONS", "/v1/models", {}, {{"Origin", "http://localhost:5173"}});
+  EXPECT_EQ(preflight.status, 204);
+  EXPECT_EQ(preflight.headers.at("access-control-allow-origin"), "http://localhost:5173");
+  expect_problem(request(port(), "POST", "/v1/streams", "{}", {{"Origin", "https://evil.example"}}), 403,
+                 "forbidden-origin");
+}
+
+TEST_F(Routes, Uploads_OverTheLimitOrNoModel_AreRefused) {
+  const Fields type = {{"Content-Type", "application/octet-stream"}};
+  expect_problem(request(port(), "POST", "/v1/models", std::string(300'001, 'x'), type), 413, "content-too-large");
+  expect_problem(request(port(), "POST", "/v1/models", std::string(1000, '\x01'), type), 415, "unsupported-media-type",
+                 "/file");
+  expect_problem(request(port(), "POST", "/v1/models", "x", {{"Content-Type", "application/json"}}), 415,
+                 "unsupported-media-type");
+  expect_problem(request(port(), "POST", "/v1/models", {}, type), 411, "length-required");
+  expect_problem(request(port(), "POST", "/v1/models", "x", {{"Content-Type", "multipart/form-data; boundary=Q"}}), 400,
+                 "malformed-request");
+  // Announced in a chunk, not in the header.
+  const auto chunked = parse_reply(
+      raw_exchange(port(), "POST /v1/models HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n493e1\r\n" +
+                               std::string(300'001, 'x') + "\r\n0\r\n\r\n"));
+  expect_problem(chunked, 413, "content-too-large");
+}
+
+TEST_F(Routes, BrokenModels_FailTheirImportWithTheReason) {
+  struct Case {
+    std::string name, file, bytes;
+  };
+  std::string huge_glb("glTF\x02\x00\x00\x00\x00\x00\x00\x80\x10\x00\x00\x00JSON", 20);
+  const std::vector<Case> cases = {{"cut short", "cut.glb", std::string("glTF\x02\x00\x00\x00\xff\x00\x00\x00", 12)},
+                                   {"two gigabytes announced", "huge.glb", huge_glb + std::string(1000, ' ')},
+                                   {"index out of range", "far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
+                                   {"not a number", "nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                                   {"no triangles", "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
+                                   {"many vertices announced", "many.ply",
+                                    "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty "
+                                    "float y\nproperty float z\nend_header\n"},
+                                   {"not what it says", "text.glb", "this is no model"}};
+  for (const auto& item : cases) {
+    SCOPED_TRACE(item.name);
+    const auto reply = request(port(), "POST", "/v1/models?filename=" + item.file, item.bytes,
+                               {{"Content-Type", "application/octet-stream"}});
+    if (reply.status == 415) {
+      expect_problem(reply, 415, "unsupported-media-type", "/file");
+      continue;
+    }
+    ASSERT_EQ(reply.status, 202) << reply.body;
+    const auto made = json_of(reply);
+    const auto job = wait_for_job(port(), made["job"]["id"]);
+    EXPECT_EQ(job["state"], "failed");
+    EXPECT_FALSE(job["problem"].value("detail", "").empty());
+    EXPECT_THAT(job["problem"].value("type", ""), HasSubstr("model"));
+    const auto model = json_of(request(port(), "GET", "/v1/models/" + made["model"]["id"].get<std::string>()));
+    EXPECT_EQ(model["state"], "failed");
+    EXPECT_EQ(model["problem"], job["problem"]);
+    expect_problem(request(port(), "PUT", "/v1/models/" + model["id"].get<std::string>() + "/feature-points",
+                           grid_points(), json_type),
+                   409, "conflict");
+  }
+}
+
+TEST_F(Routes, BadFrames_NameTheField) {
+  request(port(), "POST", "/v1/streams", R"({"name":"bad-frames"})", json_type);
+  const auto post = [&](const std::string& text) {
+    return request(port(), "POST", "/v1/streams/bad-frames/frames", text, json_type);
+  };
+  expect_problem(post(R"({"frames":[{"faps":{"99":1}}]})"), 422, "invalid-frame", "/frames/0/faps/99");
+  expect_problem(post(R"({"frames":[{"viseme":{"select1":15}}]})"), 422, "invalid-frame", "/frames/0/viseme/select1");
+  expect_problem(post(R"({"frames":[{"faps":{"3":"wide"}}]})"), 422, "invalid-frame", "/frames/0/faps/3");
+  EXPECT_EQ(post("{\"frames\":").status, 400);
+  EXPECT_EQ(post(R"({"frames":[]})").status, 422);
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/streams/bad-frames"))["sequence"], 0);
+  EXPECT_EQ(json_of(post(R"({"frames":[{"faps":{"3":200}}]})"))["sequence"], 1);
+  expect_problem(request(port(), "POST", "/v1/streams", R"({"name":"bad-frames"})", json_type), 409, "conflict",
+                 "/name");
+  expect_problem(request(port(), "POST", "/v1/streams", R"({"name":"No Spaces"})", json_type), 422, "invalid-field",
+                 "/name");
+  expect_problem(request(port(), "POST", "/v1/streams", R"({"model":"nobody"})", json_type), 422, "invalid-field",
+                 "/model");
+  expect_problem(request(port(), "DELETE", "/v1/streams/demo"), 409, "conflict");
+}
+
+TEST_F(Routes, RawGarbage_IsAnsweredOrDropped) {
+  EXPECT_THAT(raw_exchange(port(), "\x16\x03\x01 no http here\r\n\r\n"), HasSubstr("400 Bad Request"));
+  EXPECT_THAT(raw_exchange(port(), "GET /healthz HTTP/1.1\r\nX: " + std::string(20'000, 'y') + "\r\n\r\n"),
+              HasSubstr("431 "));
+  EXPECT_THAT(raw_exchange(port(), "GET /%zz HTTP/1.1\r\nHost: x\r\n\r\n"), HasSubstr("400 "));
+  EXPECT_THAT(raw_exchange(port(), "GET /../../etc/passwd HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"),
+              HasSubstr("404 "));
+  raw_exchange(port(), std::string(65536, '\xff'));
+  EXPECT_EQ(request(port(), "GET", "/healthz").status, 200);
+}
+
+}  // namespace
+}  // namespace semblante::test
