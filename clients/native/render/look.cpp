@@ -67,6 +67,13 @@ bool says_nothing(const Material& material) {
   return material.base_color_image < 0 && spread < 0.02F && c.a > 0.99F && c.r > 0.3F;
 }
 
+/// The white of an eye by any file's idea of white: no iris can be meant by it, so one may be painted.
+bool is_eye_white(const Material& material) {
+  const glm::vec4& c = material.base_color;
+  const float low = std::min({c.r, c.g, c.b});
+  return material.base_color_image < 0 && c.a > 0.99F && low > 0.6F && std::max({c.r, c.g, c.b}) - low < 0.12F;
+}
+
 }  // namespace
 
 std::optional<Substance> substance_by_name(std::string_view name) {
@@ -110,7 +117,7 @@ Look look_of(const Model& model, const Primitive& primitive, std::optional<PartR
   look.specular = appearance.specular;
   if (material != nullptr && !says_nothing(*material)) {
     // A chosen colour also means that nobody wants an iris painted over it.
-    if (look.substance == Substance::eyeball || look.substance == Substance::film) {
+    if ((look.substance == Substance::eyeball && !is_eye_white(*material)) || look.substance == Substance::film) {
       look.substance = Substance::plain;
     }
     look.color = glm::vec3(material->base_color);
