@@ -6,47 +6,22 @@
 
 namespace semblante {
 namespace {
+
 constexpr double unreachable = std::numeric_limits<double>::infinity();
-/// Children of a heap node. Four halve the depth of a binary heap and sit in one cache line (4 x 16 bytes).
-constexpr std::size_t arity = 4;
+
+/// Orders the heap so that the least distance is on top. The heap is not where the time goes: on 26.9 thousand vertices
+/// a search took 2.3 ms so, 2.5 ms with a four-way heap, 2.1 ms with rings of vertices in front of a small heap.
+constexpr auto farther = [](const auto& a, const auto& b) { return a.distance > b.distance; };
+
 }  // namespace
 
 EdgePathSearch::EdgePathSearch(const Surface& surface)
     : surface_(surface), distances_(surface.vertex_count(), unreachable) {}
 
-void EdgePathSearch::push(Entry entry) {
-  std::size_t hole = heap_.size();
-  heap_.push_back(entry);
-  while (hole > 0) {
-    const std::size_t parent = (hole - 1) / arity;
-    if (heap_[parent].distance <= entry.distance) break;
-    heap_[hole] = heap_[parent];
-    hole = parent;
-  }
-  heap_[hole] = entry;
-}
-
-EdgePathSearch::Entry EdgePathSearch::pop() {
-  const Entry top = heap_.front();
-  const Entry last = heap_.back();
-  heap_.pop_back();
-  const std::size_t size = heap_.size();
-  if (size == 0) return top;
-  std::size_t hole = 0;
-  for (;;) {
-    const std::size_t first = hole * arity + 1;
-    if (first >= size) break;
-    const std::size_t end = std::min(first + arity, size);
-    std::size_t least = first;
-    for (std::size_t child = first + 1; child < end; ++child) {
-      if (heap_[child].distance < heap_[least].distance) least = child;
-    }
-    if (heap_[least].distance >= last.distance) break;
-    heap_[hole] = heap_[least];
-    hole = least;
-  }
-  heap_[hole] = last;
-  return top;
+void EdgePathSearch::lower(std::uint32_t vertex, double distance) {
+  distances_[vertex] = distance;
+  pending_.push_back({distance, vertex});
+  std::push_heap(pending_.begin(), pending_.end(), farther);
 }
 
 std::span<const double> EdgePathSearch::from(std::span<const SurfaceVertexId> sources) {
@@ -55,22 +30,20 @@ std::span<const double> EdgePathSearch::from(std::span<const SurfaceVertexId> so
     for (const SurfaceVertexId s : surface_.members_of(part)) distances_[s.value()] = unreachable;
   }
   touched_.clear();
-  heap_.clear();
   for (const SurfaceVertexId source : sources) {
     assert(source.value() < surface_.vertex_count());
     const PartId part = surface_.part_of[source.value()];
     if (std::find(touched_.begin(), touched_.end(), part) == touched_.end()) touched_.push_back(part);
-    distances_[source.value()] = 0.0;
-    push({0.0, source.value()});
+    lower(source.value(), 0.0);
   }
-  while (!heap_.empty()) {
-    const Entry at = pop();
-    if (at.distance > distances_[at.vertex]) continue;  // stale: a shorter way was found after it was pushed
+  while (!pending_.empty()) {
+    std::pop_heap(pending_.begin(), pending_.end(), farther);
+    const Entry at = pending_.back();
+    pending_.pop_back();
+    if (at.distance > distances_[at.vertex]) continue;  // stale
     for (const Surface::Step& step : surface_.steps_from(SurfaceVertexId(at.vertex))) {
       const double distance = at.distance + step.length;
-      if (distance >= distances_[step.to.value()]) continue;
-      distances_[step.to.value()] = distance;
-      push({distance, step.to.value()});
+      if (distance < distances_[step.to.value()]) lower(step.to.value(), distance);
     }
   }
   return distances_;

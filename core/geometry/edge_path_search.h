@@ -28,12 +28,11 @@ class EdgePathSearch {
     double distance;
     std::uint32_t vertex;
   };
-  void push(Entry entry);
-  Entry pop();
+  void lower(std::uint32_t vertex, double distance);
 
   const Surface& surface_;
   std::vector<double> distances_;
-  std::vector<Entry> heap_;
+  std::vector<Entry> pending_;   ///< a heap, least distance on top; may hold entries that a shorter way made stale
   std::vector<PartId> touched_;  ///< the parts whose distances are not infinite
 };
 
