@@ -20,7 +20,7 @@ std::string snake_case(const std::string& name) {
 
 std::string documentation(const Json& field) {
   const std::string unit = text(field, "unit");
-  const std::string doc = text(field, "doc");
+  std::string doc = text(field, "doc");
   if (unit.empty()) return doc;
   return doc.empty() ? unit : unit + "; " + doc;
 }

@@ -61,19 +61,19 @@ Status read_group(byte_io::Reader& reader, const mpeg4::FapGroup& group, FaceFra
 
 Status read_high_level(byte_io::Reader& reader, std::uint64_t bits, FaceFrame& state, const std::string& where) {
   struct Member {
-    std::uint32_t bit;
     std::uint8_t& value;
-    std::uint8_t most;
     const char* name;
+    std::uint32_t bit;
+    std::uint8_t most;
   };
   const Member members[] = {
-      {viseme_bit, state.viseme.select1, max_viseme, "/viseme/select1"},
-      {viseme_bit, state.viseme.select2, max_viseme, "/viseme/select2"},
-      {viseme_bit, state.viseme.blend, max_blend, "/viseme/blend"},
-      {expression_bit, state.expression.select1, max_expression, "/expression/select1"},
-      {expression_bit, state.expression.intensity1, max_blend, "/expression/intensity1"},
-      {expression_bit, state.expression.select2, max_expression, "/expression/select2"},
-      {expression_bit, state.expression.intensity2, max_blend, "/expression/intensity2"},
+      {state.viseme.select1, "/viseme/select1", viseme_bit, max_viseme},
+      {state.viseme.select2, "/viseme/select2", viseme_bit, max_viseme},
+      {state.viseme.blend, "/viseme/blend", viseme_bit, max_blend},
+      {state.expression.select1, "/expression/select1", expression_bit, max_expression},
+      {state.expression.intensity1, "/expression/intensity1", expression_bit, max_blend},
+      {state.expression.select2, "/expression/select2", expression_bit, max_expression},
+      {state.expression.intensity2, "/expression/intensity2", expression_bit, max_blend},
   };
   for (const Member& member : members) {
     if ((bits & member.bit) == 0) continue;

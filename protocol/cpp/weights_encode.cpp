@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <zlib.h>
 
 #include "core/types/rig.h"
@@ -20,9 +21,11 @@ using namespace weights_layout;
 
 /// One entry of the dictionary: which points move a vertex, and whether its weights sum to one.
 struct InfluenceSet {
-  std::vector<FeaturePointId> points;
+  std::vector<std::uint16_t> points;  ///< dense indices; not bytes, whose comparison GCC 12 warns of for no reason
   bool unit_sum = false;
-  auto operator<=>(const InfluenceSet&) const = default;
+  bool operator<(const InfluenceSet& other) const {
+    return std::tie(points, unit_sum) < std::tie(other.points, other.unit_sum);
+  }
 };
 
 struct Quantized {
@@ -38,6 +41,7 @@ bool sums_to_one(std::span<const float> row) {
 void quantize_unit_row(std::span<const float> row, std::uint32_t total, std::uint32_t* levels) {
   const double scale = total / std::accumulate(row.begin(), row.end(), 0.0);
   std::vector<std::pair<double, std::size_t>> remainders;
+  remainders.reserve(row.size());
   std::uint32_t given = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const double exact = static_cast<double>(row[i]) * scale;
@@ -78,9 +82,13 @@ Dictionary build_dictionary(const WeightTable<float>& rows, const std::vector<bo
   std::map<InfluenceSet, std::vector<std::uint32_t>> vertices_of;
   for (std::size_t v = 0; v < rows.row_count(); ++v) {
     const auto points = rows.points_of(v);
-    vertices_of[{{points.begin(), points.end()}, unit_sum[v]}].push_back(static_cast<std::uint32_t>(v));
+    InfluenceSet set;
+    set.unit_sum = unit_sum[v];
+    for (const FeaturePointId point : points) set.points.push_back(point.value());
+    vertices_of[std::move(set)].push_back(static_cast<std::uint32_t>(v));
   }
   std::vector<const std::pair<const InfluenceSet, std::vector<std::uint32_t>>*> order;
+  order.reserve(vertices_of.size());
   for (const auto& entry : vertices_of) order.push_back(&entry);
   std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->second.size() > b->second.size(); });
 
@@ -126,7 +134,7 @@ std::vector<std::uint8_t> build_payload(const InfluenceTable& table, const Quant
   std::vector<std::uint8_t> payload;
   for (const InfluenceSet& set : dictionary.sets) {
     payload.push_back(static_cast<std::uint8_t>(set.points.size() | (set.unit_sum ? unit_sum_flag : 0U)));
-    for (const FeaturePointId point : set.points) payload.push_back(point.value());
+    for (const std::uint16_t point : set.points) payload.push_back(static_cast<std::uint8_t>(point));
   }
   append_planes(payload, dictionary.set_of_vertex, id_planes(static_cast<std::uint32_t>(dictionary.sets.size())));
   append_planes(payload, residuals(table.rows, quantized, dictionary, bits), weight_planes(bits));
