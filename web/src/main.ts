@@ -7,6 +7,7 @@ import { AnimatePanel } from './ui/animate_panel.ts';
 import { h } from './ui/dom.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
 import { makeLayout } from './ui/layout.ts';
+import { exposeInspection } from './ui/inspect.ts';
 import { LiveModel } from './ui/live_model.ts';
 import { LivePanel } from './ui/live_panel.ts';
 import { PointsModel } from './ui/points_model.ts';
@@ -103,7 +104,7 @@ function main(root: HTMLElement): void {
   void studio.start().then(() => {
     if (studio.selected.value?.state === 'parametrized') live.subscribe(demo.id, demo.title);
   });
-  exposeForTests(scene, studio);
+  exposeInspection(scene, studio);
 }
 
 function makeMarkers(points: PointsModel): Marker[] {
@@ -122,11 +123,6 @@ function kernelModule(): Promise<WebAssembly.Module> {
   compiledKernel ??= compileKernel(fetch('./kernel.wasm'));
   compiledKernel.catch(() => (compiledKernel = null));
   return compiledKernel;
-}
-
-/** The browser tests look inside: pose by pose, GPU against WASM. Nothing on the page uses this. */
-function exposeForTests(scene: SceneView, studio: Studio): void {
-  Object.assign(window, { semblante: { scene, studio } });
 }
 
 const root = document.querySelector<HTMLElement>('#studio');

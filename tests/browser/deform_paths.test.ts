@@ -1,0 +1,101 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { faces } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+/**
+ * The shader against the kernel. Positions: two float32 sums in different order, of at most 17 terms each, then two
+ * rotations: 1e-5 of the head's diagonal is some ten times what that can differ, and far below what can be seen.
+ */
+const positionTolerance = 1e-5;
+/** Normals: the shader against the same formula in double. Degrees. */
+const normalTolerance = 0.1;
+/** Normals by the weights' slopes against those of the deformed triangles, in the mean over the skin. Degrees. */
+const meanSlopeError = 6;
+
+interface Comparison {
+  worstPosition: number;
+  worstNormal: number;
+  meanAgainstTriangles: number;
+  moved: number;
+}
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+type Edit = { viseme?: number; expression?: number; faps?: Record<number, number> };
+
+const frames: Record<string, Edit> = {
+  neutral: {},
+  viseme: { viseme: 10 },
+  expression: { expression: 1 },
+  'viseme and expression': { viseme: 13, expression: 6 },
+  'jaw, lids, brows': { faps: { 3: 150, 19: 900, 20: 900, 31: 300, 32: 300, 6: 100 } },
+  'gaze and head': { faps: { 23: 150, 24: 150, 25: -60, 26: -60, 48: 80, 49: -150, 50: 60 } },
+};
+
+/** In the page: the same pose by the shader and by the kernel. */
+async function compare(studio: StudioPage, edit: Edit): Promise<Comparison> {
+  return studio.page.evaluate((change) => {
+    const { compareDeformation } = (window as unknown as { semblante: { compareDeformation(edit: Edit): Comparison } }).semblante;
+    return compareDeformation(change);
+  }, edit);
+}
+
+async function check(studio: StudioPage): Promise<void> {
+  for (const [name, edit] of Object.entries(frames)) {
+    const result = await compare(studio, edit);
+    expect(result.worstPosition, name).toBeLessThan(positionTolerance);
+    expect(result.worstNormal, name).toBeLessThan(normalTolerance);
+    expect(result.meanAgainstTriangles, name).toBeLessThan(meanSlopeError);
+    if (name === 'neutral') expect(result.moved, name).toBe(0);
+    else expect(result.moved, name).toBeGreaterThan(0.002);
+  }
+}
+
+describe('deformation', () => {
+  test('Shader_SampleHead_AgreesWithTheKernel', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    await studio.waitForStage('ready');
+    await check(studio);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test.skipIf(faces === null)('Shader_IctHead_AgreesWithTheKernel', async () => {
+    const folder = join(faces!, 'ict-facekit');
+    const answer = await fetch(`${server.url}/v1/models?name=ict&filename=neutral.obj`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: readFileSync(join(folder, 'neutral.obj')) });
+    const { model } = (await answer.json()) as { model: { id: string } };
+    const state = async (): Promise<string> => ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { state: string }).state;
+    const until = async (wanted: string): Promise<void> => {
+      const deadline = Date.now() + 60_000;
+      while ((await state()) !== wanted) {
+        if (Date.now() > deadline) throw new Error(`the head is not ${wanted} after a minute`);
+        await new Promise((wake) => setTimeout(wake, 200));
+      }
+    };
+    await until('ready');
+    const put = await fetch(`${server.url}/v1/models/${model.id}/feature-points`, { method: 'PUT', headers: { 'Content-Type': 'application/json' }, body: readFileSync(join(folder, 'ict-facekit.fps.json')) });
+    expect(put.status).toBeLessThan(300);
+    await fetch(`${server.url}/v1/models/${model.id}/parametrizations`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{}' });
+    await until('parametrized');
+
+    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}`);
+    await studio.waitForStage('ready');
+    await check(studio);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});

@@ -1,0 +1,136 @@
+import { createHash } from 'node:crypto';
+import { join } from 'node:path';
+import { createRequire } from 'node:module';
+import { build } from 'esbuild';
+import { createDecoderModule } from 'draco3d';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { decodeWeights } from '@protocol/weights_format.ts';
+import { readRig } from '@protocol/rig_document.ts';
+import { root } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch } from './support/studio_page.ts';
+import type { FaceReport } from './pages/read_face.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+async function artefact(name: string): Promise<Uint8Array> {
+  const response = await fetch(`${server.url}/v1/models/sample/${name}`);
+  expect(response.status).toBe(200);
+  const bytes = new Uint8Array(await response.arrayBuffer());
+  expect(response.headers.get('ETag')).toBe(`"sha256-${createHash('sha256').update(bytes).digest('hex')}"`);
+  return bytes;
+}
+
+describe('face package, read by others', () => {
+  test('MeshDrc_NpmDraco3d_DecodesWhatTheRigAnnounces', async () => {
+    const draco = (await createDecoderModule({})) as any; // eslint-disable-line @typescript-eslint/no-explicit-any
+    const bytes = await artefact('mesh.drc');
+    const rig = readRig(new TextDecoder().decode(await artefact('rig.json')));
+    const decoder = new draco.Decoder();
+    const buffer = new draco.DecoderBuffer();
+    buffer.Init(new Int8Array(bytes), bytes.length);
+    expect(decoder.GetEncodedGeometryType(buffer)).toBe(draco.TRIANGULAR_MESH);
+    const mesh = new draco.Mesh();
+    const status = decoder.DecodeBufferToMesh(buffer, mesh);
+    expect(status.ok(), status.error_msg()).toBe(true);
+    expect([mesh.num_points(), mesh.num_faces()]).toEqual([rig.mesh.vertices, rig.mesh.triangles]);
+
+    const floats = (id: number): Float32Array => {
+      const array = new draco.DracoFloat32Array();
+      decoder.GetAttributeFloatForAllPoints(mesh, decoder.GetAttributeByUniqueId(mesh, id), array);
+      return Float32Array.from({ length: array.size() }, (_, i) => array.GetValue(i));
+    };
+    const positions = floats(rig.mesh.attributes.position);
+    expect(positions).toHaveLength(rig.mesh.vertices * 3);
+    positions.forEach((value, i) => {
+      const axis = i % 3;
+      const slack = (rig.bounds.max[axis]! - rig.bounds.min[axis]!) * 1e-3;
+      if (!(value >= rig.bounds.min[axis]! - slack && value <= rig.bounds.max[axis]! + slack)) throw new Error(`position ${i} is ${value}`);
+    });
+    const normals = floats(rig.mesh.attributes.normal!);
+    for (let v = 0; v < normals.length; v += 3) expect(Math.abs(Math.hypot(normals[v]!, normals[v + 1]!, normals[v + 2]!) - 1)).toBeLessThan(0.01);
+    const face = new draco.DracoInt32Array();
+    let highest = 0;
+    for (let i = 0; i < mesh.num_faces(); i += 1) {
+      decoder.GetFaceFromMesh(mesh, i, face);
+      for (let k = 0; k < 3; k += 1) highest = Math.max(highest, face.GetValue(k));
+    }
+    expect(highest).toBe(rig.mesh.vertices - 1);
+    for (const point of rig.feature_points) {
+      if (point.vertex === null) continue;
+      const at = positions.subarray(point.vertex * 3, point.vertex * 3 + 3);
+      point.position.forEach((value, axis) => expect(Math.abs(value - at[axis]!), point.id).toBeLessThan((rig.bounds.max[axis]! - rig.bounds.min[axis]!) * 1e-3));
+    }
+  });
+
+  test('Weights_OfTheMesh_RowsAreSharesOfKnownPoints', async () => {
+    const [table, mesh, rig] = [await decodeWeights(await artefact('weights')), await artefact('mesh.drc'), readRig(new TextDecoder().decode(await artefact('rig.json')))];
+    expect(table.meshSha256).toBe(createHash('sha256').update(mesh).digest('hex'));
+    expect(table.vertexCount).toBe(rig.mesh.vertices);
+    let full = 0;
+    for (let v = 0; v < table.vertexCount; v += 1) {
+      let sum = 0;
+      for (let k = table.rowOffsets[v]!; k < table.rowOffsets[v + 1]!; k += 1) {
+        expect(table.rowPoints[k]).toBeLessThan(84);
+        sum += table.rowWeights[k]!;
+      }
+      // A tongue follows its own points and the jaw besides: at most 2.
+      expect(sum).toBeLessThanOrEqual(2.0001);
+      if (Math.abs(sum - 1) < 1e-4) full += 1;
+    }
+    expect(full / table.vertexCount).toBeGreaterThan(0.5);
+    const eyes = new Set(table.rigid);
+    expect([...eyes].sort()).toEqual([0, 1, 2]);
+  });
+
+  test('FaceGlb_GltfLoader_ReadsMeshMaterialsWeightsAndRig', async () => {
+    // Bundled from three.js as npm ships it; the page is any page of the server's origin, for the decoder beside it.
+    const nodeModules = join(root, 'web/node_modules');
+    const bundle = await build({ entryPoints: [join(root, 'tests/browser/pages/read_face.ts')], bundle: true, format: 'iife', globalName: 'reader', write: false, nodePaths: [nodeModules], logLevel: 'silent' });
+    const page = await browser.newPage();
+    const errors: string[] = [];
+    page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+    page.on('pageerror', (error) => errors.push(String(error)));
+    await page.goto(`${server.url}/version`);
+    await page.addScriptTag({ content: bundle.outputFiles[0]!.text });
+    const report = await page.evaluate(() => (window as unknown as { reader: { readFace(url: string, draco: string): Promise<FaceReport> } }).reader.readFace('/v1/models/sample/face.glb', '/draco/'));
+    const rig = readRig(new TextDecoder().decode(await artefact('rig.json')));
+
+    expect(report.primitives.length).toBeGreaterThan(1);
+    expect(report.primitives.reduce((sum, one) => sum + one.triangles, 0)).toBe(rig.mesh.triangles);
+    expect(report.textures).toBeGreaterThan(0);
+    for (const one of report.primitives) {
+      expect(one.finite).toBe(true);
+      expect(one.highestIndex).toBeLessThan(one.vertices);
+      expect(one.attributes).toEqual(expect.arrayContaining(['position', 'normal', '_rigid', '_fp_index_0', '_fp_weight_0']));
+      expect(one.highestPoint).toBeLessThan(84);
+      expect(one.highestSum).toBeLessThanOrEqual(2.001);
+      expect(one.highestRigid).toBeLessThanOrEqual(2);
+    }
+    expect(report.format).toBe('semblante.rig');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  test('PreviewGlb_FileVertices_AreThoseOfTheModel', async () => {
+    const model = (await (await fetch(`${server.url}/v1/models/sample`)).json()) as { counts: { vertices: number } };
+    const points = (await (await fetch(`${server.url}/v1/models/sample/feature-points`)).json()) as { points: Record<string, { vertex: number | null }> };
+    const vertices = Object.values(points.points).flatMap((point) => (point.vertex === null ? [] : [point.vertex]));
+    expect(vertices).toHaveLength(84);
+    expect(Math.max(...vertices)).toBeLessThan(model.counts.vertices);
+  });
+});
+
+// Resolved here so that a missing package fails at once, with its name.
+createRequire(join(root, 'web/package.json')).resolve('three');
