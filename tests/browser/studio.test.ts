@@ -39,7 +39,7 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
   await studio.waitForState('ready');
   await studio.waitForStage('ready');
   await importPoints(studio, points);
-  await page.getByText(/\d+ of 84 placed/).filter({ hasNotText: /^0 of/ }).waitFor({ timeout: 30_000 });
+  await page.getByText(/\d+ of 84 placed/).filter({ hasNotText: /^0 of/ }).waitFor();
 
   // The tip of the nose, taken away and put back with the pointer.
   const file = JSON.parse(readFileSync(points, 'utf8')) as PointsFile;
@@ -83,7 +83,7 @@ describe('studio', () => {
   test('Studio_FirstVisit_SampleHeadMovesByTheDemoStream', async () => {
     const studio = await StudioPage.open(browser, server.url);
     await studio.waitForStage('ready');
-    await studio.page.getByText(/^Live: /).first().waitFor({ timeout: 20_000 });
+    await studio.page.getByText(/^Live: /).first().waitFor();
     const first = await studio.picture();
     let most = 0;
     for (let i = 0; i < 6 && most < 0.5; i += 1) {
@@ -122,7 +122,7 @@ describe('studio', () => {
     const bad = join(scratch, 'bad.fps.json');
     writeFileSync(bad, JSON.stringify({ points: { '2.1': { vertex: 99_999_999 } } }));
     await importPoints(studio, bad);
-    await studio.page.locator('.point-card .reason').filter({ hasText: '/points/2.1' }).waitFor({ timeout: 20_000 });
+    await studio.page.locator('.point-card .reason').filter({ hasText: '/points/2.1' }).waitFor();
     expect(await studio.page.locator('[data-point="2.1"]').getAttribute('class')).toContain('wrong');
     expect(studio.errors).toEqual([]);
     await studio.close();
@@ -134,7 +134,7 @@ describe('studio', () => {
     const text = join(scratch, 'letter.glb');
     writeFileSync(text, 'Dear reader, this is not a head.');
     await studio.drop(text);
-    await studio.page.locator('.toast-error, .stage-card.error').first().waitFor({ timeout: 30_000 });
+    await studio.page.locator('.toast-error, .stage-card.error').first().waitFor();
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -126,4 +126,8 @@ function kernelModule(): Promise<WebAssembly.Module> {
 }
 
 const root = document.querySelector<HTMLElement>('#studio');
-if (root) main(root);
+try {
+  if (root) main(root);
+} catch (error) {
+  root?.replaceChildren(h('div', { class: 'no-stage', role: 'alert' }, h('h1', {}, 'Semblante'), h('p', {}, error instanceof Error ? error.message : String(error))));
+}

@@ -26,10 +26,12 @@ export class StudioPage {
 
   static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
     const context = await browser.newContext({
-      viewport: { width: options.width ?? 1000, height: options.height ?? 640 },
+      viewport: { width: options.width ?? 880, height: options.height ?? 560 },
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: 'reduce',
     });
+    // Software rendering on a busy machine: patience costs nothing where all goes well.
+    context.setDefaultTimeout(90_000);
     const page = await context.newPage();
     const studio = new StudioPage(context, page);
     page.on('console', (message) => {
@@ -40,7 +42,7 @@ export class StudioPage {
       // Requests that the page itself gave up (a newer one took over) are no faults.
       if (request.failure()?.errorText !== 'net::ERR_ABORTED') studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
     });
-    await page.goto(url);
+    await page.goto(url, { waitUntil: 'domcontentloaded', timeout: 90_000 });
     return studio;
   }
 

@@ -7,6 +7,7 @@ import { makeMaterials } from '../view/face_materials.ts';
 import { FaceView, type DeformPath } from '../view/face_view.ts';
 import { Markers, type Marker } from '../view/markers.ts';
 import { PreviewView } from '../view/preview_view.ts';
+import { chooseQuality, type Quality } from '../view/quality.ts';
 import { Stage } from '../view/stage.ts';
 import { Signal } from './signal.ts';
 
@@ -20,6 +21,7 @@ export interface SceneSources {
 /** What stands on the stage: the still preview with its markers, or the face that moves. */
 export class SceneView {
   readonly stage: Stage;
+  private readonly quality: Quality;
   readonly markers: Markers;
   readonly state = new Signal<SceneState>({ kind: 'empty' });
   /** Of the face that moves; null while there is none. */
@@ -37,7 +39,8 @@ export class SceneView {
     canvas: HTMLCanvasElement,
     private readonly sources: SceneSources,
   ) {
-    this.stage = new Stage(canvas);
+    this.quality = chooseQuality();
+    this.stage = new Stage(canvas, this.quality);
     this.markers = new Markers(this.stage.renderer.getPixelRatio());
     this.markers.object.visible = false;
     this.stage.scene.add(this.markers.object);
@@ -137,12 +140,12 @@ export class SceneView {
 
   private async openPreview(model: Model, signal: AbortSignal, keep: boolean): Promise<PreviewView> {
     if (keep && this.preview) return this.preview;
-    return PreviewView.load(await this.sources.preview(model, signal));
+    return PreviewView.load(await this.sources.preview(model, signal), this.quality.richSkin);
   }
 
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
     const loaded = await this.sources.face(model, signal);
-    const materials = await makeMaterials(loaded.materials);
+    const materials = await makeMaterials(loaded.materials, this.quality.richSkin);
     return { view: new FaceView(loaded.mesh, materials), loaded };
   }
 

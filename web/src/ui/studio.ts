@@ -167,6 +167,10 @@ export class Studio {
   private replaceModel(model: Model): void {
     const known = this.models.value.some((m) => m.id === model.id);
     this.models.set(known ? this.models.value.map((m) => (m.id === model.id ? model : m)) : [model, ...this.models.value]);
-    if (this.selected.value?.id === model.id) this.selected.set(model);
+    const open = this.selected.value;
+    if (open?.id !== model.id) return;
+    this.selected.set(model);
+    // Imported while we looked at it: the next thing to do is to mark its points.
+    if (open.state === 'importing' && model.state === 'ready') this.tab.set('points');
   }
 }

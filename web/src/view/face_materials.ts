@@ -14,11 +14,11 @@ export interface MaterialFacts {
   normalImage: Blob | null;
 }
 
-export function makeMaterials(facts: readonly MaterialFacts[]): Promise<Material[]> {
-  return Promise.all(facts.map(makeMaterial));
+export function makeMaterials(facts: readonly MaterialFacts[], richSkin: boolean): Promise<Material[]> {
+  return Promise.all(facts.map((one) => makeMaterial(one, richSkin)));
 }
 
-async function makeMaterial(facts: MaterialFacts): Promise<Material> {
+async function makeMaterial(facts: MaterialFacts, richSkin: boolean): Promise<Material> {
   const [r, g, b, a] = facts.baseColor;
   const material = new MeshStandardMaterial({
     name: facts.name,
@@ -35,7 +35,7 @@ async function makeMaterial(facts: MaterialFacts): Promise<Material> {
     // Without tangents three.js derives the frame from the picture; glTF's green points up.
     material.normalScale = new Vector2(1, -1);
   }
-  return studioMaterial(material);
+  return studioMaterial(material, richSkin);
 }
 
 async function makeTexture(image: Blob, color: boolean): Promise<Texture> {

@@ -4,13 +4,13 @@ import { Color, DoubleSide, MeshPhysicalMaterial, MeshStandardMaterial, type Mat
  * Materials as the file gives them, with what a face under studio light needs: skin that is not chalk where the file
  * says nothing, and a soft sheen at grazing angles in place of light that would pass through skin.
  */
-export function studioMaterial(material: Material): Material {
+export function studioMaterial(material: Material, richSkin: boolean): Material {
   if (!(material instanceof MeshStandardMaterial)) return material;
   const bare = material.map === null && !(material.vertexColors ?? false);
   const white = material.color.r > 0.94 && material.color.g > 0.94 && material.color.b > 0.94;
   if (bare && white) material.color.copy(new Color(0xd8a387));
   material.metalness = Math.min(material.metalness, 0.4);
-  if (material.roughness < 0.25 || material.transparent || !isSkinLike(material)) return tidy(material);
+  if (material.roughness < 0.25 || material.transparent || !richSkin || !isSkinLike(material)) return tidy(material);
   const skin = new MeshPhysicalMaterial();
   MeshStandardMaterial.prototype.copy.call(skin, material);
   skin.defines = { STANDARD: '', PHYSICAL: '' };
@@ -41,6 +41,6 @@ function isSkinLike(material: MeshStandardMaterial): boolean {
 }
 
 /** For meshes without any material. */
-export function defaultMaterial(): Material {
-  return studioMaterial(new MeshStandardMaterial({ color: 0xffffff, roughness: 0.6 }));
+export function defaultMaterial(richSkin: boolean): Material {
+  return studioMaterial(new MeshStandardMaterial({ color: 0xffffff, roughness: 0.6 }), richSkin);
 }

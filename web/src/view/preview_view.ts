@@ -32,7 +32,7 @@ export class PreviewView {
     });
   }
 
-  static async load(bytes: Uint8Array): Promise<PreviewView> {
+  static async load(bytes: Uint8Array, richSkin: boolean): Promise<PreviewView> {
     const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
     const gltf = await new GLTFLoader().parseAsync(buffer, '');
     const polished = new Map<Material, Material>();
@@ -42,14 +42,14 @@ export class PreviewView {
       const raw = node.material as Material;
       let material = polished.get(raw);
       if (!material) {
-        material = raw.name === '' && !gltf.parser.associations.has(raw) ? defaultMaterial() : studioMaterial(raw);
+        material = raw.name === '' && !gltf.parser.associations.has(raw) ? defaultMaterial(richSkin) : studioMaterial(raw, richSkin);
         polished.set(raw, material);
       }
       node.material = material;
       const number = gltf.parser.associations.get(raw)?.materials;
       if (number !== undefined) numbered[number] = material;
     });
-    for (let i = 0; i < numbered.length; i += 1) numbered[i] ??= defaultMaterial();
+    for (let i = 0; i < numbered.length; i += 1) numbered[i] ??= defaultMaterial(richSkin);
     return new PreviewView(gltf.scene, numbered);
   }
 

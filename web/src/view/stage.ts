@@ -15,6 +15,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { PaceWatch, type Quality } from './quality.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
 
@@ -53,21 +54,27 @@ export class Stage {
   private lastTime = 0;
   private secondStart = 0;
   private framesInSecond = 0;
+  private pixelRatioLimit: number;
+  private readonly pace = new PaceWatch();
   private readonly key = new DirectionalLight(0xfff1e2, 2.1);
   private readonly rim = new DirectionalLight(0xdfe6ff, 0.9);
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly quality: Quality,
+  ) {
+    this.pixelRatioLimit = quality.maxPixelRatio;
+    this.renderer = new WebGLRenderer({ canvas, antialias: quality.antialias, alpha: true, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
-    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.enabled = quality.shadows;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(new Color(0), 0);
 
     const generator = new PMREMGenerator(this.renderer);
     const room = new RoomEnvironment();
-    this.scene.environment = generator.fromScene(room, 0.04).texture;
+    this.scene.environment = generator.fromScene(room, 0.04, 0.1, 100, { size: quality.roomSize }).texture;
     this.scene.environmentIntensity = 0.42;
     room.dispose();
     generator.dispose();
@@ -170,7 +177,7 @@ export class Stage {
     this.rim.position.set(c.x + r * 2.4, c.y + r * 1.2, c.z - r * 2.2);
     this.key.target.position.copy(c);
     this.rim.target.position.copy(c);
-    this.key.castShadow = true;
+    this.key.castShadow = this.quality.shadows;
     const shadow = this.key.shadow;
     shadow.mapSize.set(1024, 1024);
     shadow.radius = 7;
@@ -189,7 +196,7 @@ export class Stage {
     const holder = this.canvas.parentElement ?? this.canvas;
     const width = Math.max(1, holder.clientWidth);
     const height = Math.max(1, holder.clientHeight);
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, this.pixelRatioLimit));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -209,7 +216,15 @@ export class Stage {
       this.dirty = true;
     }
     this.controls.update();
-    for (const hook of this.hooks) if (hook(delta)) this.dirty = true;
+    let moves = false;
+    for (const hook of this.hooks) moves = hook(delta) || moves;
+    if (moves) {
+      this.dirty = true;
+      if (this.pace.tick(delta) && this.pixelRatioLimit > 0.75) {
+        this.pixelRatioLimit = Math.max(0.75, Math.min(window.devicePixelRatio, this.pixelRatioLimit) * 0.75);
+        this.resize();
+      }
+    }
     if (this.dirty) {
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
