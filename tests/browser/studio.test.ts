@@ -9,7 +9,8 @@ import { launch, StudioPage } from './support/studio_page.ts';
 
 /** The middle of the lower half of the stage, where the mouth of a head seen from the front is. */
 const mouth = [0.36, 0.48, 0.28, 0.3] as const;
-const wholeStage = [0, 0, 1, 1] as const;
+/** Clear of what floats above and below the head. */
+const faceAlone = [0.3, 0.2, 0.4, 0.5] as const;
 
 interface PointsFile {
   points: Record<string, { vertex: number; position: [number, number, number] }>;
@@ -63,6 +64,8 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
 
 async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
   const { page } = studio;
+  // The demo drives every head that can move: by hand from here on.
+  await page.getByRole('button', { name: 'Pause the stream' }).click();
   await studio.settle();
   const before = await studio.picture();
   await page.locator('details[data-group="2"] summary').click();
@@ -76,7 +79,7 @@ async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
 
   await page.getByRole('button', { name: 'Neutral face' }).click();
   await studio.settle();
-  expect(await studio.difference(before, await studio.picture(), wholeStage)).toBeLessThan(0.2);
+  expect(await studio.difference(before, await studio.picture(), faceAlone)).toBeLessThan(0.2);
 }
 
 describe('studio', () => {
@@ -88,7 +91,7 @@ describe('studio', () => {
     let most = 0;
     for (let i = 0; i < 6 && most < 0.5; i += 1) {
       await studio.page.waitForTimeout(700);
-      most = Math.max(most, await studio.difference(first, await studio.picture(), wholeStage));
+      most = Math.max(most, await studio.difference(first, await studio.picture(), faceAlone));
     }
     expect(most).toBeGreaterThan(0.5);
     expect(studio.errors).toEqual([]);
@@ -145,6 +148,7 @@ describe('studio', () => {
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'short-lived.glb');
     await studio.waitForState('ready');
+    await page.locator('#tab-heads').click();
     const entry = page.locator('.head', { hasText: 'short-lived' });
     await entry.hover();
     await entry.getByRole('button', { name: 'Rename short-lived' }).click();

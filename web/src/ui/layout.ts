@@ -46,7 +46,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
   }
 
   // One shelf, in the place the width of the page gives it.
-  const narrow = matchMedia('(max-width: 860px)');
+  const narrow = matchMedia('(max-width: 1080px)');
   const seat = (): void => {
     panels.heads.id = 'panel-heads';
     (narrow.matches ? inspector : shelfHome).append(panels.heads);

@@ -79,7 +79,7 @@ export class SceneView {
       const parts = { preview: this.openPreview(model, opening.signal, sameModel), face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null) };
       const [preview, face] = await Promise.all([parts.preview, parts.face]);
       if (opening.signal.aborted) return;
-      this.install(preview, face, !sameModel);
+      this.install(preview, face);
       this.state.set({ kind: 'ready' });
     } catch (error) {
       if (opening.signal.aborted) return;
@@ -149,8 +149,9 @@ export class SceneView {
     return { view: new FaceView(loaded.mesh, materials), loaded };
   }
 
-  private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null, reframe: boolean): void {
-    if (preview !== this.preview) {
+  private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null): void {
+    const another = preview !== this.preview;
+    if (another) {
       this.preview?.dispose();
       this.preview = preview;
       this.stage.scene.add(preview.object);
@@ -169,7 +170,7 @@ export class SceneView {
       this.performer.set(null);
     }
     this.wireframe = this.wire;
-    if (reframe) this.stage.frameObject(preview.object);
+    if (another) this.stage.frameObject(preview.object);
     this.show(this.wanted);
   }
 

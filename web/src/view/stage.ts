@@ -133,6 +133,8 @@ export class Stage {
       this.camera.position.copy(this.flightTo);
       this.camera.updateProjectionMatrix();
       this.controls.update();
+      // A click may come before the next picture: it must meet what that picture will show.
+      this.camera.updateMatrixWorld();
     } else {
       this.flightFrom.copy(this.camera.position);
       this.flightTime = 0;
