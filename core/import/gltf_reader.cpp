@@ -131,7 +131,7 @@ class GltfReader {
  private:
   void read_mesh(std::size_t index) {
     const JsonCursor mesh = document_.item("meshes", index);
-    const std::string name = mesh.text_or("name", "");
+    const std::string name = printable(mesh.text_or("name", ""));  // cut, since every primitive keeps a copy
     const auto& placement = placements_[index];
     if (!placement) {
       builder_.warn("mesh " + std::to_string(index) + " " + shown(name) +

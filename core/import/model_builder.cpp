@@ -130,7 +130,6 @@ Result<Model> ModelBuilder::finish(std::string format) && {
     model.normals.clear();
     model.normal_triangles.clear();
   }
-  for (Primitive& primitive : model.primitives) primitive.name = printable(primitive.name);
   for (Material& material : model.materials) material.name = printable(material.name);
   model.format = std::move(format);
   return std::move(model);

@@ -70,7 +70,7 @@ class ObjReader {
     if (keyword == "vn") return read_normal(rest);
     if (keyword == "f" || keyword == "fo") return read_face(rest);
     if (keyword == "o" || keyword == "g") {
-      name_ = trimmed(rest);
+      name_ = printable(trimmed(rest));  // cut, since every section keeps a copy
       start_section();
     } else if (keyword == "usemtl") {
       return use_material(trimmed(rest));

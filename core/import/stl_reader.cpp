@@ -115,7 +115,7 @@ Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
       corner_count = 0;
     } else if (keyword == "solid") {
       while (!line->empty() && line->front() == ' ') line->remove_prefix(1);
-      builder.begin_primitive(std::string(*line), -1);
+      builder.begin_primitive(printable(*line), -1);
       ended = false;
     } else if (keyword == "endsolid") {
       ended = true;

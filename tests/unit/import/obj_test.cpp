@@ -129,6 +129,16 @@ TEST(Obj, Names_ThatAreNotUtf8_ComeOutPrintable) {
   EXPECT_EQ(model->primitives[0].name, "?? caf\xC3\xA9 ?");
 }
 
+TEST(Obj, HugeName_OfManySections_IsNotKeptManyTimes) {
+  // 10 MB of name, 2000 sections: 20 GB if each kept it whole.
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng " + std::string(10'000'000, 'x') + "\n";
+  for (int i = 0; i < 1000; ++i) text += "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n";
+  const auto model = import_obj(text);
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->primitives.size(), 2000U);
+  EXPECT_EQ(model->primitives[0].name, std::string(200, 'x'));
+}
+
 TEST(Obj, Triangles_OverTheLimit_AreRefused_BeforeTheyAreMade) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
   for (int i = 0; i < 1000; ++i) text += " 1 2 3";
