@@ -113,6 +113,18 @@ class Session {
  private:
   enum class Next { again, close, gone };
 
+  /// Counts a connection that is owed an answer (or speaks WebSocket): a stopping server waits for those alone.
+  class Busy {
+   public:
+    explicit Busy(SharedState& state) : state_(state) { ++state_.busy; }
+    ~Busy() { --state_.busy; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+   private:
+    SharedState& state_;
+  };
+
   asio::awaitable<Next> answer(const http::Request& request, http::Response response, unsigned version, bool keep) {
     state_->application.decorate(request, response);
     if (log::enabled(log::Level::debug))
@@ -139,6 +151,7 @@ class Session {
     const auto [error, count] = co_await beast::http::async_read_header(stream_, buffer_, parser, use_tuple);
     if (error) co_return co_await refuse_header(error);
     ++state_->requests_total;
+    const Busy busy(*state_);
 
     const auto& message = parser.get();
     const unsigned version = message.version();

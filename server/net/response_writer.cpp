@@ -23,6 +23,7 @@ namespace {
 constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t piece_bytes = 64 * 1024;
 constexpr std::chrono::seconds heartbeat{15};
+constexpr std::chrono::milliseconds look_for_stop{500};
 
 class OpenFile {
  public:
@@ -91,16 +92,19 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
   };
 
   bool alive = true;
+  auto last_sent = std::chrono::steady_clock::now();
   while (alive) {
     if (const auto item = feed->take()) {
       alive = co_await send(*item->bytes);
+      last_sent = std::chrono::steady_clock::now();
     } else if (feed->finished() || state.stopping) {
       break;
-    } else {
-      const auto before = std::chrono::steady_clock::now();
-      co_await waker->wait(heartbeat);
+    } else if (std::chrono::steady_clock::now() - last_sent >= heartbeat) {
       // A comment line keeps proxies patient, and tells us when nobody listens any more.
-      if (std::chrono::steady_clock::now() - before >= heartbeat) alive = co_await send(": still here\n\n");
+      alive = co_await send(": still here\n\n");
+      last_sent = std::chrono::steady_clock::now();
+    } else {
+      co_await waker->wait(look_for_stop);
     }
   }
   feed->attach({});

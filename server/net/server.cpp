@@ -121,11 +121,11 @@ void Server::stop() {
     state->acceptor.close(ignored);
     state->signals.cancel(ignored);
     if (state->on_stopping) state->on_stopping();
-    // Answers under way get the grace; idle connections end with it. Looked at in small steps, so that an idle server
+    // Answers under way get the grace, idle connections nothing. Looked at in small steps, so that an idle server
     // stops at once.
     struct Step {
       static void take(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end) {
-        if (state->connections_open == 0 || std::chrono::steady_clock::now() >= end) {
+        if (state->busy == 0 || std::chrono::steady_clock::now() >= end) {
           state->io.stop();
           return;
         }

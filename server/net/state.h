@@ -23,7 +23,7 @@ struct SharedState {
   boost::asio::thread_pool workers;
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
-      websockets_open{0}, upload_number{0};
+      busy{0}, websockets_open{0}, upload_number{0};
 };
 
 }  // namespace semblante::net

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include "server/http/conditional.h"
+#include "server/http/media_type.h"
+#include "server/http/multipart.h"
+#include "server/http/problem.h"
+#include "server/http/url.h"
+
+namespace semblante::http {
+namespace {
+
+TEST(Url, BrokenTargets_AreRefused) {
+  for (const auto* target : {"", "x", "http://host/", "/%", "/%1", "/%zz", "/a%00b", "/?a=%g0"})
+    EXPECT_FALSE(parse_target(target)) << target;
+}
+
+TEST(Url, Target_IsTakenApart) {
+  const auto target = parse_target("/v1/a%20b?x=1%2B2&y=a+b&x=9&z#end");
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->path, "/v1/a b");
+  EXPECT_EQ(target->query, (std::map<std::string, std::string>{{"x", "1+2"}, {"y", "a b"}, {"z", ""}}));
+}
+
+TEST(MediaType, Parameters_MayBeQuotedAndHoldSemicolons) {
+  EXPECT_EQ(parameter(R"(form-data; name="a;b\"c"; filename=x.obj)", "name"), "a;b\"c");
+  EXPECT_EQ(parameter(R"(form-data; name="a;b"; filename=x.obj)", "FILENAME"), "x.obj");
+  EXPECT_EQ(parameter("form-data", "name"), "");
+  EXPECT_EQ(essence(" Text/HTML ; charset=utf-8"), "text/html");
+}
+
+TEST(MediaType, Accept_MostSpecificRangeDecides) {
+  EXPECT_TRUE(accepts("", "application/json"));
+  EXPECT_TRUE(accepts("*/*", "application/json"));
+  EXPECT_TRUE(accepts("text/html, application/*;q=0.5", "application/json"));
+  EXPECT_FALSE(accepts("text/html", "application/json"));
+  EXPECT_FALSE(accepts("*/*, application/json;q=0", "application/json"));
+  EXPECT_TRUE(accepts("*/*;q=0, application/json;q=0.001", "application/json"));
+}
+
+Response tagged() {
+  Response response;
+  response.headers["ETag"] = "\"t\"";
+  response.headers["Cache-Control"] = "no-cache";
+  response.body = std::string("0123456789");
+  return response;
+}
+
+Response conditioned(const Headers& headers, const std::string& method = "GET") {
+  Request request;
+  request.method = method;
+  request.headers = headers;
+  return apply_conditions(request, tagged());
+}
+
+TEST(Conditional, Tags_GiveNotModifiedOrFailed) {
+  EXPECT_EQ(conditioned({{"If-None-Match", "\"a\", W/\"t\""}}).status, 304);
+  EXPECT_EQ(conditioned({{"If-None-Match", "*"}}).status, 304);
+  EXPECT_EQ(conditioned({{"If-None-Match", "\"a\""}}).status, 200);
+  EXPECT_EQ(conditioned({{"If-Match", "\"a\""}}).status, 412);
+  EXPECT_EQ(conditioned({{"If-Match", "W/\"t\""}}).status, 412) << "a weak tag proves nothing about the bytes";
+  EXPECT_EQ(conditioned({{"If-Match", "\"t\""}}).status, 200);
+  EXPECT_EQ(conditioned({{"If-None-Match", "\"t\""}}).headers.at("ETag"), "\"t\"");
+}
+
+TEST(Conditional, Ranges_FollowTheRfc) {
+  const auto body = [](const Response& response) { return std::get<std::string>(response.body); };
+  const auto first = conditioned({{"Range", "bytes=0-3"}});
+  EXPECT_EQ(first.status, 206);
+  EXPECT_EQ(body(first), "0123");
+  EXPECT_EQ(first.headers.at("Content-Range"), "bytes 0-3/10");
+  EXPECT_EQ(body(conditioned({{"Range", "bytes=8-"}})), "89");
+  EXPECT_EQ(body(conditioned({{"Range", "bytes=8-99"}})), "89");
+  EXPECT_EQ(body(conditioned({{"Range", "bytes=-3"}})), "789");
+  EXPECT_EQ(body(conditioned({{"Range", "bytes=-99"}})), "0123456789");
+  for (const auto* outside : {"bytes=10-", "bytes=10-12", "bytes=-0"})
+    EXPECT_EQ(conditioned({{"Range", outside}}).status, 416) << outside;
+  for (const auto* ignored :
+       {"bytes=3-1", "lines=0-1", "bytes=a-b", "bytes=0-1,3-4", "bytes=", "bytes=18446744073709551616-"})
+    EXPECT_EQ(conditioned({{"Range", ignored}}).status, 200) << ignored;
+  EXPECT_EQ(conditioned({{"Range", "bytes=0-3"}, {"If-Range", "\"other\""}}).status, 200);
+  EXPECT_EQ(conditioned({{"Range", "bytes=0-3"}}, "HEAD").status, 200);
+}
+
+TEST(Multipart, BrokenForms_AreRefused) {
+  for (const auto* body : {"", "x", "--B", "--B\r\n", "--Bx\r\n\r\n", "--B\r\nName: x", "--B\r\n\r\ncontent",
+                           "--B\r\n\r\ncontent\r\n--C--"})
+    EXPECT_FALSE(parse_multipart(body, "B")) << body;
+  EXPECT_FALSE(parse_multipart("--B--", ""));
+  std::string many;
+  for (int i = 0; i < 20; ++i) many += "--B\r\n\r\nx\r\n";
+  EXPECT_FALSE(parse_multipart(many + "--B--", "B"));
+}
+
+TEST(Multipart, Parts_AreFound) {
+  const std::string body =
+      "preamble\r\n--B\r\nContent-Disposition: form-data; name=\"name\"\r\n\r\nA\r\n--B\r\ncontent-disposition: "
+      "form-data; "
+      "name=file; filename=\"h.glb\"\r\nContent-Type: "
+      "model/gltf-binary\r\n\r\n\r\n--\r\nraw\r\n--B\r\n\r\n\r\n--B--\r\n";
+  const auto parts = parse_multipart(body, "B");
+  ASSERT_TRUE(parts) << parts.error().message;
+  ASSERT_EQ(parts->size(), 3U);
+  EXPECT_EQ((*parts)[0].name, "name");
+  EXPECT_EQ((*parts)[0].content, "A");
+  EXPECT_EQ((*parts)[1].file_name, "h.glb");
+  EXPECT_EQ((*parts)[1].content, "\r\n--\r\nraw");
+  EXPECT_EQ((*parts)[2].content, "");
+}
+
+TEST(Problem, Json_ComesBackAsItWas) {
+  auto problem = make_problem("invalid-feature-point", "vertex 9 is not there", "/points/2.1/vertex");
+  problem.faults = {{"/points/2.1/vertex", "vertex 9 is not there"}, {"/points/2.2", "neither"}};
+  EXPECT_EQ(problem_from_json(to_json(problem)), problem);
+  EXPECT_EQ(problem_from_json("no json").slug, "internal");
+}
+
+TEST(Problem, ErrorAtAPoint_IsAboutThatPoint) {
+  EXPECT_EQ(problem_from({ErrorCode::out_of_range, "/points/2.1", "x"}).slug, "invalid-feature-point");
+  EXPECT_EQ(problem_from({ErrorCode::out_of_range, "line 3", "x"}).slug, "malformed-model");
+}
+
+}  // namespace
+}  // namespace semblante::http

@@ -1,0 +1,96 @@
+#include "server/jobs/worker_process.h"
+
+#include <csignal>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "server/jobs/worker_protocol.h"
+
+namespace semblante::jobs {
+namespace {
+
+class WorkerProcessTest : public ::testing::Test {
+ protected:
+  WorkerProcessTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "semblante-worker-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    std::signal(SIGPIPE, SIG_IGN);
+  }
+  ~WorkerProcessTest() override { std::filesystem::remove_all(folder_); }
+
+  Result<WorkerExit> run(const std::string& script, Wish wish = Wish::go_on,
+                         std::chrono::seconds limit = std::chrono::seconds(20), const std::string& input = "in") {
+    return run_worker_process(
+        {"/bin/sh", "-c", script}, input, folder_ / "errors", limit,
+        [this](std::string_view line) { lines_.emplace_back(line); }, [wish] { return wish; });
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> lines_;
+};
+
+TEST_F(WorkerProcessTest, Missing_CannotBeStarted) {
+  EXPECT_FALSE(run_worker_process(
+      {"/absent"}, "", folder_ / "errors", std::chrono::seconds(5), [](std::string_view) {},
+      [] { return Wish::go_on; }));
+}
+
+TEST_F(WorkerProcessTest, Lines_ComeWholeAndInOrder) {
+  const auto exit = run("cat; printf '\\none\\ntw'; sleep 0.1; printf 'o\\nthree'; exit 3");
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->kind, WorkerExit::Kind::exited);
+  EXPECT_EQ(exit->code, 3);
+  EXPECT_EQ(lines_, (std::vector<std::string>{"in", "one", "two"})) << "what has no end is no line";
+}
+
+TEST_F(WorkerProcessTest, LongInput_ArrivesWhole) {
+  ASSERT_TRUE(run("wc -c", Wish::go_on, std::chrono::seconds(20), std::string(1 << 20, 'x')));
+  EXPECT_EQ(std::atoi(lines_.at(0).c_str()), 1 << 20);
+}
+
+TEST_F(WorkerProcessTest, WorkerThatReadsNothing_DoesNotHang) {
+  const auto exit = run("exit 0", Wish::go_on, std::chrono::seconds(20), std::string(1 << 20, 'x'));
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->kind, WorkerExit::Kind::exited);
+}
+
+TEST_F(WorkerProcessTest, Signal_IsNamed) {
+  const auto exit = run("echo last words >&2; kill -SEGV $$");
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->kind, WorkerExit::Kind::signalled);
+  EXPECT_EQ(exit->code, SIGSEGV);
+  EXPECT_EQ(exit->last_words, "last words");
+}
+
+TEST_F(WorkerProcessTest, CancelStopAndTime_EndIt) {
+  EXPECT_EQ(run("exec sleep 30", Wish::cancel)->kind, WorkerExit::Kind::cancelled);
+  EXPECT_EQ(run("trap '' TERM; while :; do sleep 0.1; done", Wish::cancel)->kind, WorkerExit::Kind::cancelled);
+  EXPECT_EQ(run("exec sleep 30", Wish::stop)->kind, WorkerExit::Kind::stopped);
+  EXPECT_EQ(run("exec sleep 30", Wish::go_on, std::chrono::seconds(0))->kind, WorkerExit::Kind::timed_out);
+}
+
+TEST(WorkerProtocol, BrokenLines_AreRefused) {
+  for (const auto* line : {"", "x", "[]", "{}", R"({"progress":"half","stage":""})", R"({"done":{}})", R"({"done":7})"})
+    EXPECT_FALSE(worker_line_from_json(line)) << line;
+  for (const auto* request : {"", "{}", R"({"kind":"import"})"})
+    EXPECT_FALSE(worker_request_from_json(request)) << request;
+}
+
+TEST(WorkerProtocol, Request_ComesBackAsItWas) {
+  WorkerRequest request;
+  request.kind = store::JobKind::parametrize;
+  request.source = "/a b/\"c\"";
+  request.points = {{"2.1", 7, std::nullopt}, {"7.1", std::nullopt, {{1.5, -2.0, 0.1}}}};
+  request.parts = {{"face", "skin", true, 8, 4, {0, 0, 0}, {1, 1, 1}}};
+  request.weight_bits = 9;
+  const auto back = worker_request_from_json(to_json(request));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->source, request.source);
+  EXPECT_EQ(back->points, request.points);
+  EXPECT_EQ(back->parts, request.parts);
+  EXPECT_EQ(back->weight_bits, 9);
+}
+
+}  // namespace
+}  // namespace semblante::jobs

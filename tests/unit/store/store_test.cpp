@@ -1,0 +1,207 @@
+#include <cstdlib>
+#include <sqlite3.h>
+
+#include <gtest/gtest.h>
+
+#include "server/store/blob_store.h"
+#include "server/store/sha256.h"
+#include "server/store/sqlite_store.h"
+
+namespace semblante::store {
+namespace {
+
+class StoreTest : public ::testing::Test {
+ protected:
+  StoreTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "semblante-store-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    reopen();
+  }
+  ~StoreTest() override { std::filesystem::remove_all(folder_); }
+
+  void reopen() {
+    store_.reset();
+    auto opened = open_sqlite_store(folder_ / "facts.sqlite");
+    ASSERT_TRUE(opened) << opened.error().message;
+    store_ = std::move(*opened);
+  }
+
+  JobRecord add(const std::string& id, const std::string& hash = std::string(64, 'a')) {
+    ModelRecord model;
+    model.id = id;
+    model.name = "Name of " + id;
+    model.source_sha256 = hash;
+    model.created = model.updated = timestamp_now();
+    JobRecord job;
+    job.id = "job-" + id;
+    job.model = id;
+    job.created = job.updated = model.created;
+    EXPECT_TRUE(store_->create_model(model, {"source", hash, 10, "application/octet-stream"}, job, std::nullopt));
+    return job;
+  }
+
+  void import(JobRecord job) {
+    ModelRecord facts;
+    facts.format = "obj";
+    facts.vertices = 8;
+    facts.box_max = {1.0, 2.0, 0.1};
+    facts.parts = {{"face", "skin", false, 8, 4, {0, 0, 0}, {1, 1, 1}}, {"eye", "left_eye", false, 4, 2, {}, {}}};
+    facts.warnings = {"a warning with \xff bad bytes"};
+    job.state = JobState::done;
+    EXPECT_TRUE(store_->finish_import(job, facts, {{"preview.glb", std::string(64, 'b'), 5, "model/gltf-binary"}}));
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Store> store_;
+};
+
+TEST_F(StoreTest, Model_ComesBackAfterReopening) {
+  import(add("m"));
+  const auto before = store_->model("m");
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->state, ModelState::ready);
+  EXPECT_EQ(before->parts.size(), 2U);
+  EXPECT_EQ(before->box_max[2], 0.1);
+  reopen();
+  EXPECT_EQ(store_->model("m"), before);
+  EXPECT_FALSE(store_->model("n"));
+}
+
+TEST_F(StoreTest, TakenId_IsRefusedWhole) {
+  const auto job = add("m");
+  ModelRecord again;
+  again.id = "m";
+  JobRecord other;
+  other.id = "other";
+  other.model = "m";
+  EXPECT_FALSE(store_->create_model(again, {"source", std::string(64, 'c'), 1, ""}, other, std::nullopt));
+  EXPECT_FALSE(store_->job("other"));
+  EXPECT_EQ(store_->job(job.id), job);
+}
+
+TEST_F(StoreTest, FeaturePoints_NeedTheRightRevision) {
+  add("m");
+  const std::vector<FeaturePointRecord> points = {{"2.1", 5, std::nullopt}, {"7.1", std::nullopt, {{0.1, -2.0, 3e-9}}}};
+  EXPECT_TRUE(store_->put_feature_points("m", points, 0));
+  EXPECT_FALSE(store_->put_feature_points("m", {}, 0)) << "somebody else was quicker";
+  EXPECT_EQ(store_->feature_points("m"), points);
+  EXPECT_EQ(store_->model("m")->feature_point_count, 2U);
+  EXPECT_TRUE(store_->put_feature_points("m", {}, 1));
+  EXPECT_TRUE(store_->feature_points("m").empty());
+  EXPECT_FALSE(store_->put_feature_points("absent", {}, 0));
+}
+
+TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
+  import(add("m"));
+  const auto revision = store_->model("m")->revision;
+  EXPECT_FALSE(store_->edit_model("m", "x", {}, revision + 1));
+  EXPECT_FALSE(store_->edit_model("m", std::nullopt, {{9, "skin"}}, revision)) << "no such part";
+  ASSERT_TRUE(store_->edit_model("m", "Renamed", {{1, "right_eye"}}, revision));
+  JobRecord job;
+  job.id = "p";
+  job.model = "m";
+  job.kind = JobKind::parametrize;
+  store_->create_job(job, std::nullopt);
+  job.state = JobState::done;
+  std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
+                                     {"eye", "left_eye", false, 4, 2, {}, {}}};
+  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, guesses, {},
+                                             {{"mesh.drc", std::string(64, 'd'), 3, "x"}}));
+  const auto model = *store_->model("m");
+  EXPECT_EQ(model.name, "Renamed");
+  EXPECT_EQ(model.parts[0].role, "attached");
+  EXPECT_EQ(model.parts[1].role, "right_eye");
+  EXPECT_EQ(model.state, ModelState::parametrized);
+  EXPECT_EQ(model.package->parametrization, "p");
+}
+
+TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
+  import(add("m"));
+  const auto finish = [&](const std::string& id, char hash) {
+    JobRecord job;
+    job.id = id;
+    job.model = "m";
+    job.kind = JobKind::parametrize;
+    store_->create_job(job, std::nullopt);
+    return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12}, {}, {},
+                                           {{"mesh.drc", std::string(64, hash), 3, "x"}});
+  };
+  EXPECT_TRUE(finish("one", 'd').empty());
+  EXPECT_TRUE(finish("two", 'd').empty()) << "the same bytes are still in use";
+  EXPECT_EQ(finish("three", 'e'), std::vector<std::string>{std::string(64, 'd')});
+  EXPECT_TRUE(store_->public_artefact(std::string(64, 'e')));
+  EXPECT_FALSE(store_->public_artefact(std::string(64, 'a'))) << "uploads are not for everyone";
+}
+
+TEST_F(StoreTest, RemovedModel_TakesEverythingButSharedBytes) {
+  import(add("m", std::string(64, 'a')));
+  add("n", std::string(64, 'a'));
+  EXPECT_EQ(store_->remove_model("m"), std::vector<std::string>{std::string(64, 'b')}) << "the source is n's too";
+  EXPECT_FALSE(store_->job("job-m"));
+  EXPECT_TRUE(store_->artefacts("m").empty());
+  EXPECT_FALSE(store_->remove_model("m"));
+}
+
+TEST_F(StoreTest, Pages_GoInTheOrderOfCreation) {
+  for (const auto* id : {"c", "a", "b"}) add(id);
+  const auto first = store_->models("", 2);
+  ASSERT_EQ(first->size(), 2U);
+  EXPECT_EQ((*first)[1].id, "a");
+  EXPECT_EQ(store_->models("a", 2)->at(0).id, "b");
+  EXPECT_FALSE(store_->models("absent", 2));
+}
+
+TEST_F(StoreTest, UnfinishedJobs_AreThoseToTakeUpAgain) {
+  auto done = add("a");
+  auto running = add("b");
+  const auto queued = add("c");
+  done.state = JobState::done;
+  store_->update_job(done);
+  running.state = JobState::running;
+  running.attempts = 2;
+  store_->update_job(running);
+  reopen();
+  EXPECT_EQ(store_->unfinished_jobs(), (std::vector<JobRecord>{running, queued}));
+}
+
+TEST_F(StoreTest, FailedImport_FailsItsModel) {
+  auto job = add("m");
+  job.state = JobState::failed;
+  job.problem = R"({"type":"/problems/malformed-model"})";
+  store_->finish_without_result(job);
+  EXPECT_EQ(store_->model("m")->state, ModelState::failed);
+  EXPECT_EQ(store_->model("m")->problem, job.problem);
+}
+
+TEST_F(StoreTest, LaterVersionOfTheFile_IsRefused) {
+  store_.reset();
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA user_version=99", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  const auto opened = open_sqlite_store(folder_ / "facts.sqlite");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::unsupported);
+}
+
+TEST_F(StoreTest, Blobs_AreNamedByTheirContent) {
+  auto blobs = BlobStore::open(folder_);
+  ASSERT_TRUE(blobs);
+  const auto blob = blobs->put("abc");
+  ASSERT_TRUE(blob);
+  // FIPS 180-2, appendix B.1.
+  EXPECT_EQ(blob->sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(blob->bytes, 3U);
+  EXPECT_TRUE(blobs->find(blob->sha256));
+  EXPECT_EQ(blobs->put("abc")->sha256, blob->sha256);
+  for (const auto& name : {std::string(), std::string("../facts.sqlite"), std::string("BA78"), std::string(64, '/')})
+    EXPECT_FALSE(blobs->find(name));
+  EXPECT_FALSE(blobs->adopt(folder_ / "absent"));
+  const auto other = blobs->put("other");
+  EXPECT_EQ(blobs->sweep({other->sha256}), 1U);
+  EXPECT_FALSE(blobs->find(blob->sha256));
+  EXPECT_TRUE(blobs->find(other->sha256));
+}
+
+}  // namespace
+}  // namespace semblante::store

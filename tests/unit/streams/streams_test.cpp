@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/quantizers.h"
+#include "server/streams/demo_performance.h"
+#include "server/streams/stream_connection.h"
+#include "server/streams/stream_hub.h"
+
+namespace semblante::streams {
+namespace {
+
+using std::chrono::milliseconds;
+
+TimedFrame frame_with(std::int16_t level) {
+  TimedFrame frame;
+  frame.state.level[3] = level;
+  return frame;
+}
+
+/// A stream and one connection in JSON, without a socket.
+class StreamTest : public ::testing::Test {
+ protected:
+  explicit StreamTest() {
+    limits_.pending_messages = 4;
+    limits_.stalled = milliseconds(0);
+    stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0}, limits_);
+  }
+  std::shared_ptr<StreamConnection> connect() {
+    auto connection = std::make_shared<StreamConnection>(stream_, false, false);
+    EXPECT_TRUE(stream_->admit(connection));
+    return connection;
+  }
+  std::shared_ptr<StreamConnection> connect(StreamRole role) {
+    auto connection = connect();
+    connection->receive(encode_json(Hello{1, role, std::nullopt}), false);
+    return connection;
+  }
+  static std::vector<Message> take_all(StreamConnection& connection) {
+    std::vector<Message> messages;
+    while (const auto item = connection.take()) {
+      auto message = decode_json(*item->bytes);
+      EXPECT_TRUE(message);
+      if (message) messages.push_back(*message);
+    }
+    return messages;
+  }
+  void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish(Source::request, 0, {frame_with(level)})); }
+
+  StreamLimits limits_;
+  std::shared_ptr<Stream> stream_;
+};
+
+TEST_F(StreamTest, Behind_NewestStateReplacesWhatWaits) {
+  const auto connection = connect(StreamRole::subscribe);
+  take_all(*connection);
+  for (std::int16_t level = 1; level <= 10; ++level) publish(level);
+  const auto messages = take_all(*connection);
+  ASSERT_EQ(messages.size(), 1U) << "one keyframe instead of ten batches";
+  const auto& keyframe = std::get<Keyframe>(messages[0]);
+  EXPECT_EQ(keyframe.sequence, 10U);
+  EXPECT_EQ(keyframe.state.level[3], 10);
+  publish(11);
+  const auto after = take_all(*connection);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(std::get<Frames>(after[0]).sequence, 11U) << "and from there on without a gap";
+  EXPECT_GT(stream_->counts().messages_replaced, 0U);
+}
+
+TEST_F(StreamTest, Stalled_IsClosedAsSlow) {
+  const auto stalled = connect(StreamRole::subscribe);
+  const auto quick = connect(StreamRole::subscribe);
+  for (std::int16_t level = 1; level <= 3; ++level) {
+    publish(level);
+    take_all(*quick);
+  }
+  stream_->look_after_connections();
+  ASSERT_TRUE(stalled->finished());
+  EXPECT_EQ(stalled->close_reason().code, 1013);
+  EXPECT_FALSE(quick->finished());
+  const auto last = take_all(*stalled);
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(std::get<End>(last[0]).reason, EndReason::slow);
+}
+
+TEST_F(StreamTest, PublisherLeaves_AnotherMayFollow) {
+  const auto first = connect(StreamRole::publish);
+  EXPECT_FALSE(first->finished());
+  const auto second = connect(StreamRole::publish);
+  EXPECT_EQ(second->close_reason().code, 1008);
+  EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
+  first->disconnected();
+  EXPECT_FALSE(connect(StreamRole::publish)->finished());
+}
+
+TEST_F(StreamTest, Demo_GivesWay) {
+  EXPECT_EQ(stream_->publish(Source::demo, 0, {frame_with(1)})->accepted, 1U);
+  publish(2);
+  EXPECT_EQ(stream_->publish(Source::demo, 0, {frame_with(3)})->accepted, 0U);
+  EXPECT_EQ(stream_->info().sequence, 2U);
+}
+
+TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
+  const auto subscriber = connect(StreamRole::subscribe);
+  const auto publisher = connect(StreamRole::publish);
+  take_all(*subscriber);
+  const auto send = [&](std::uint64_t media_time) {
+    publisher->receive(encode_json(Frames{1, media_time, {frame_with(1)}}), false);
+    const auto messages = take_all(*subscriber);
+    return messages.size() == 1 ? std::get<Frames>(messages[0]).media_time : 0;
+  };
+  const auto begin = send(5000);
+  EXPECT_EQ(send(5040), begin + 40);
+  EXPECT_EQ(send(5080), begin + 80);
+  EXPECT_LT(send(900'000), begin + 5'000) << "a clock that jumps is set anew";
+}
+
+TEST_F(StreamTest, Rate_IsLimited) {
+  limits_.frames_burst = 3;
+  limits_.frames_per_second = 0;
+  stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0}, limits_);
+  const auto publisher = connect(StreamRole::publish);
+  take_all(*publisher);
+  publisher->receive(encode_json(Frames{1, 0, {frame_with(1), frame_with(2)}}), false);
+  EXPECT_TRUE(take_all(*publisher).empty());
+  publisher->receive(encode_json(Frames{3, 0, {frame_with(1), frame_with(2)}}), false);
+  EXPECT_EQ(std::get<StreamError>(take_all(*publisher).at(0)).code, StreamErrorCode::throttled);
+  EXPECT_EQ(stream_->info().sequence, 2U);
+}
+
+TEST_F(StreamTest, Ended_TakesNobody) {
+  const auto subscriber = connect(StreamRole::subscribe);
+  stream_->end(EndReason::deleted);
+  EXPECT_EQ(subscriber->close_reason().code, 1000);
+  EXPECT_FALSE(stream_->admit(std::make_shared<StreamConnection>(stream_, true, true)));
+  EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
+}
+
+TEST(Hub, Streams_OpenOnceAndEndOnce) {
+  InProcessHub hub;
+  StreamInfo info;
+  info.id = "a";
+  info.source = "none";
+  EXPECT_TRUE(hub.open(info));
+  EXPECT_FALSE(hub.open(info));
+  const auto epoch = hub.info("a")->epoch;
+  EXPECT_TRUE(hub.publish("a", {frame_with(1)}));
+  EXPECT_FALSE(hub.publish("b", {frame_with(1)}));
+  EXPECT_EQ(std::get<Refusal>(hub.connect("b", "")), Refusal::no_such_stream);
+  EXPECT_TRUE(hub.close("a", EndReason::deleted));
+  EXPECT_FALSE(hub.close("a", EndReason::deleted));
+  EXPECT_EQ(hub.counts().frames, 1U) << "what was counted stays counted";
+  EXPECT_TRUE(hub.open(info));
+  EXPECT_GT(hub.info("a")->epoch, epoch) << "a new life has a new epoch";
+}
+
+TEST(Demo, SameSeed_SameMinute) {
+  const DemoPerformance one(3);
+  const DemoPerformance two(3);
+  const DemoPerformance other(4);
+  int different = 0;
+  for (int t = 0; t < 60'000; t += 40) {
+    EXPECT_EQ(one.frame_at(milliseconds(t)), two.frame_at(milliseconds(t)));
+    EXPECT_EQ(one.frame_at(milliseconds(t)), one.frame_at(milliseconds(t + 60'000)));
+    different += one.frame_at(milliseconds(t)) == other.frame_at(milliseconds(t)) ? 0 : 1;
+  }
+  EXPECT_GT(different, 1000);
+}
+
+TEST(Demo, Minute_TalksBlinksFeelsAndStaysInRange) {
+  const DemoPerformance demo;
+  std::array<int, 15> visemes{};
+  std::array<int, 7> expressions{};
+  int blinks = 0;
+  int before = 0;
+  double longest_turn = 0.0;
+  FaceFrame last = demo.frame_at(milliseconds(0));
+  for (int t = 0; t <= 60'000; t += 40) {
+    const auto frame = demo.frame_at(milliseconds(t));
+    ASSERT_LE(frame.viseme.select1, 14);
+    ASSERT_LE(frame.viseme.select2, 14);
+    ASSERT_LE(frame.viseme.blend, 63);
+    ASSERT_LE(frame.expression.select1, 6);
+    ASSERT_LE(frame.expression.intensity1, 63);
+    ++visemes[frame.viseme.select1];
+    ++expressions[frame.expression.select1];
+    const int shut = frame.level[19] * standard_quantizers()[19] > 500 ? 1 : 0;
+    blinks += shut > before ? 1 : 0;
+    before = shut;
+    for (const int fap : {48, 49, 50}) {
+      const double step = standard_quantizers()[static_cast<std::size_t>(fap)];
+      longest_turn = std::max(
+          longest_turn,
+          std::abs(frame.level[static_cast<std::size_t>(fap)] - last.level[static_cast<std::size_t>(fap)]) * step);
+    }
+    last = frame;
+  }
+  for (std::size_t i = 0; i < visemes.size(); ++i) EXPECT_GT(visemes[i], 0) << "viseme " << i;
+  for (std::size_t i = 0; i < expressions.size(); ++i) EXPECT_GT(expressions[i], 0) << "expression " << i;
+  EXPECT_GE(blinks, 11);
+  EXPECT_LE(blinks, 20);
+  EXPECT_LT(longest_turn, 1500.0) << "the head turns less than 0.9 degrees a frame, over the seam of the loop too";
+}
+
+}  // namespace
+}  // namespace semblante::streams
