@@ -40,7 +40,7 @@ void relax(HalfMesh& mesh, int rounds) {
       }
       // The nose keeps its lines: its cage follows the crease of the wing.
       const Vec3 p = mesh.positions[v];
-      const double near_nose = glm::smoothstep(2.6, 1.2, glm::length(p - Vec3(0.7, -3.9, 10.0)));
+      const double near_nose = glm::smoothstep(1.9, 0.9, glm::length(p - Vec3(0.7, -3.9, 10.0)));
       next[v] = p + (sum / weight - p) * (0.5 * (1.0 - near_nose));
     }
     for (std::size_t v = 0; v < next.size(); ++v) mesh.positions[v] = project_to_head(next[v]);
@@ -78,7 +78,7 @@ Skin make_skin() {
   Skin skin;
   skin.mesh = subdivide(cage.mesh);
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
-  relax(skin.mesh, 4);
+  relax(skin.mesh, 6);
   // Holes first, then their fillings: a filling must not change another hole's border.
   const Loop orbit = boundary_loop(skin.mesh, cage["E0"], {0.0, 1.0, 0.0});
   const Loop around_mouth = boundary_loop(skin.mesh, cage["M5_0"], {1.0, 0.0, 0.0});

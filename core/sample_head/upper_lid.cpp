@@ -51,7 +51,8 @@ UpperLid make_upper_lid() {
       const double drawn_back = (t > 0.0 ? 0.44 : 0.24) * end * (1.0 - 0.6 * std::min(row.rise / 0.6, 1.0)) +
                                 0.05 * t * t * std::min(row.rise, 1.1);
       Paint paint;
-      paint.inner_uv = {row.shade, 3.0};
+      // No lashes in the corners, where the shell only tucks in.
+      paint.inner_uv = {std::max(row.shade, 0.4 * glm::smoothstep(0.80, 0.92, std::abs(t))), 3.0};
       // The ends draw back under the corners of the skin.
       const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise, edge_z - row.back + row.lash * lash - drawn_back);
       loop.push_back(mesh.add(eye_centre + p, paint));
