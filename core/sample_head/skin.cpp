@@ -21,7 +21,9 @@ void relax(HalfMesh& mesh, int rounds) {
   const auto neighbours = neighbours_of(mesh);
   std::vector<int> uses(mesh.positions.size(), 0);
   for (const auto& face : mesh.faces) {
-    for (const int v : face.corner) ++uses[static_cast<std::size_t>(v)];
+    for (const int v : face.corner) {
+      if (v >= 0) ++uses[static_cast<std::size_t>(v)];
+    }
   }
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vec3> next = mesh.positions;
@@ -77,6 +79,9 @@ Skin make_skin() {
   SkinCage cage = make_skin_cage();
   Skin skin;
   skin.mesh = subdivide(cage.mesh);
+  for (auto& p : skin.mesh.positions) p = project_to_head(p);
+  // Jaw and neck make the outline and hold no point that moves: there, more vertices only help.
+  skin.mesh = refine(skin.mesh, [](const Vec3& p) { return p.y < -4.6 && p.z < 6.4; });
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   relax(skin.mesh, 6);
   // Holes first, then their fillings: a filling must not change another hole's border.

@@ -98,6 +98,52 @@ HalfMesh subdivide(const HalfMesh& mesh) {
   return result;
 }
 
+HalfMesh refine(const HalfMesh& mesh, const std::function<bool(const Vec3& centre)>& where) {
+  HalfMesh result;
+  result.positions = mesh.positions;
+  result.paint = mesh.paint;
+  const auto at = [&](int v) { return mesh.positions[static_cast<std::size_t>(v)]; };
+  const auto centre_of = [&](const HalfMesh::Face& face) {
+    const auto& c = face.corner;
+    return (at(c[0]) + at(c[1]) + at(c[2]) + at(c[3])) * 0.25;
+  };
+  std::map<EdgeKey, int> middles;
+  for (const auto& face : mesh.faces) {
+    assert(face.corner[3] >= 0);
+    if (!where(centre_of(face))) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const EdgeKey key = edge_key(face.corner[i], face.corner[(i + 1) % 4]);
+      if (!middles.contains(key)) middles[key] = result.add((at(key.first) + at(key.second)) * 0.5);
+    }
+  }
+  for (const auto& face : mesh.faces) {
+    const auto& c = face.corner;
+    std::array<int, 4> middle{};
+    int split = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto found = middles.find(edge_key(c[i], c[(i + 1) % 4]));
+      middle[i] = found == middles.end() ? -1 : found->second;
+      if (middle[i] >= 0) ++split;
+    }
+    if (split == 0) {
+      result.faces.push_back(face);
+      continue;
+    }
+    const int centre = result.add(centre_of(face));
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (split == 4) {
+        result.add_quad(c[i], middle[i], centre, middle[(i + 3) % 4], face.chart);
+      } else if (middle[i] >= 0) {
+        result.add_triangle(c[i], middle[i], centre, face.chart);
+        result.add_triangle(middle[i], c[(i + 1) % 4], centre, face.chart);
+      } else {
+        result.add_triangle(c[i], c[(i + 1) % 4], centre, face.chart);
+      }
+    }
+  }
+  return result;
+}
+
 Loop boundary_loop(const HalfMesh& mesh, int start, const Vec3& towards) {
   std::map<EdgeKey, int> uses;
   for (const auto& face : mesh.faces) {
