@@ -85,8 +85,8 @@ describe('face package, read by others', () => {
         expect(table.rowPoints[k]).toBeLessThan(84);
         sum += table.rowWeights[k]!;
       }
-      // A tongue follows its own points and the jaw besides: at most 2.
-      expect(sum).toBeLessThanOrEqual(2.0001);
+      // A tongue follows its own points and the jaw besides: at most 2, and half a quantum of 12 bits for each entry.
+      expect(sum).toBeLessThanOrEqual(2.002);
       if (Math.abs(sum - 1) < 1e-4) full += 1;
     }
     expect(full / table.vertexCount).toBeGreaterThan(0.5);
@@ -97,13 +97,15 @@ describe('face package, read by others', () => {
   test('FaceGlb_GltfLoader_ReadsMeshMaterialsWeightsAndRig', async () => {
     // Bundled from three.js as npm ships it; the page is any page of the server's origin, for the decoder beside it.
     const nodeModules = join(root, 'web/node_modules');
-    const bundle = await build({ entryPoints: [join(root, 'tests/browser/pages/read_face.ts')], bundle: true, format: 'iife', globalName: 'reader', write: false, nodePaths: [nodeModules], logLevel: 'silent' });
+    const bundle = await build({ entryPoints: [join(root, 'tests/browser/pages/read_face.ts')], bundle: true, format: 'esm', footer: { js: 'globalThis.reader = { readFace };' }, write: false, nodePaths: [nodeModules], logLevel: 'silent' });
     const page = await browser.newPage();
     const errors: string[] = [];
     page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
     page.on('pageerror', (error) => errors.push(String(error)));
+    await page.route('**/favicon.ico', (route) => route.fulfill({ status: 204 })); // a page of plain JSON names no icon
     await page.goto(`${server.url}/version`);
-    await page.addScriptTag({ content: bundle.outputFiles[0]!.text });
+    await page.addScriptTag({ content: bundle.outputFiles[0]!.text, type: 'module' });
+    await page.waitForFunction(() => 'reader' in window);
     const report = await page.evaluate(() => (window as unknown as { reader: { readFace(url: string, draco: string): Promise<FaceReport> } }).reader.readFace('/v1/models/sample/face.glb', '/draco/'));
     const rig = readRig(new TextDecoder().decode(await artefact('rig.json')));
 
@@ -113,11 +115,14 @@ describe('face package, read by others', () => {
     for (const one of report.primitives) {
       expect(one.finite).toBe(true);
       expect(one.highestIndex).toBeLessThan(one.vertices);
-      expect(one.attributes).toEqual(expect.arrayContaining(['position', 'normal', '_rigid', '_fp_index_0', '_fp_weight_0']));
+      expect(one.attributes).toEqual(expect.arrayContaining(['position', 'normal', '_rigid']));
       expect(one.highestPoint).toBeLessThan(84);
       expect(one.highestSum).toBeLessThanOrEqual(2.001);
       expect(one.highestRigid).toBeLessThanOrEqual(2);
     }
+    // The skin has weights; what only turns or hangs on the head (eyes, upper teeth) needs none.
+    expect(report.primitives.some((one) => one.attributes.includes('_fp_index_0') && one.attributes.includes('_fp_weight_0'))).toBe(true);
+    expect(Math.max(...report.primitives.map((one) => one.highestRigid))).toBe(2);
     expect(report.format).toBe('semblante.rig');
     expect(errors).toEqual([]);
     await page.close();
@@ -127,7 +132,8 @@ describe('face package, read by others', () => {
     const model = (await (await fetch(`${server.url}/v1/models/sample`)).json()) as { counts: { vertices: number } };
     const points = (await (await fetch(`${server.url}/v1/models/sample/feature-points`)).json()) as { points: Record<string, { vertex: number | null }> };
     const vertices = Object.values(points.points).flatMap((point) => (point.vertex === null ? [] : [point.vertex]));
-    expect(vertices).toHaveLength(84);
+    // All but 7.1, the centre of rotation inside the head, lie on a vertex.
+    expect(vertices).toHaveLength(83);
     expect(Math.max(...vertices)).toBeLessThan(model.counts.vertices);
   });
 });

@@ -77,7 +77,7 @@ export class PointsPanel {
   private reveal(id: string): void {
     const row = this.list.querySelector<HTMLElement>(`[data-point="${id}"]`);
     if (!row || this.list.scrollHeight <= this.list.clientHeight) return;
-    const top = row.offsetTop - this.list.offsetTop;
+    const top = row.offsetTop;
     if (top < this.list.scrollTop || top + row.offsetHeight > this.list.scrollTop + this.list.clientHeight) this.list.scrollTop = top - this.list.clientHeight / 3;
   }
 
