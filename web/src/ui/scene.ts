@@ -41,7 +41,7 @@ export class SceneView {
   ) {
     this.quality = chooseQuality();
     this.stage = new Stage(canvas, this.quality);
-    this.markers = new Markers(this.stage.renderer.getPixelRatio());
+    this.markers = new Markers();
     this.markers.object.visible = false;
     this.stage.scene.add(this.markers.object);
     this.stage.onFrame((delta) => this.step(delta));

@@ -24,12 +24,14 @@ export class Markers {
   private readonly geometry = new BufferGeometry();
   private markers: Marker[] = [];
 
-  constructor(pixelRatio: number) {
-    const seen = material(pixelRatio, 1, true);
-    const hidden = material(pixelRatio, 0.22, false);
+  constructor() {
+    const seen = material(1, true);
+    const hidden = material(0.22, false);
     for (const [order, one] of [hidden, seen].entries()) {
       const points = new Points(this.geometry, one);
       points.frustumCulled = false;
+      // Sizes are in pixels of the page, whatever resolution the stage draws in.
+      points.onBeforeRender = (renderer) => (one.uniforms['ratio']!.value = renderer.getPixelRatio());
       points.renderOrder = 10 + order;
       this.object.add(points);
     }
@@ -74,9 +76,9 @@ export class Markers {
 
 const projected = new Vector3();
 
-function material(pixelRatio: number, opacity: number, depthTest: boolean): ShaderMaterial {
+function material(opacity: number, depthTest: boolean): ShaderMaterial {
   return new ShaderMaterial({
-    uniforms: { ratio: { value: pixelRatio }, opacity: { value: opacity } },
+    uniforms: { ratio: { value: 1 }, opacity: { value: opacity } },
     vertexShader: /* glsl */ `
       attribute vec3 color;
       attribute float size;

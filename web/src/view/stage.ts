@@ -27,7 +27,7 @@ const directions: Record<ViewName, [number, number, number]> = {
 };
 
 /** Pixels that tools and messages take at the top and the bottom of the stage. */
-const toolRoom = 150;
+const toolRoom = 124;
 
 /** Something that moves: called once per frame before drawing; returns whether the picture changed. */
 export type FrameHook = (deltaSeconds: number) => boolean;
@@ -222,8 +222,8 @@ export class Stage {
     for (const hook of this.hooks) moves = hook(delta) || moves;
     if (moves) {
       this.dirty = true;
-      if (this.pace.tick(delta) && this.pixelRatioLimit > 0.75) {
-        this.pixelRatioLimit = Math.max(0.75, Math.min(window.devicePixelRatio, this.pixelRatioLimit) * 0.75);
+      if (this.pace.tick(delta) && this.renderer.getPixelRatio() > 1) {
+        this.pixelRatioLimit = Math.max(1, this.renderer.getPixelRatio() * 0.75);
         this.resize();
       }
     }
