@@ -38,7 +38,7 @@ struct LidPlace {
 
 LidPlace place_of(int k) {
   const bool upper = k <= lid_steps / 2;
-  const double along = static_cast<double>(upper ? k : lid_steps - k) / (lid_steps / 2);
+  const double along = static_cast<double>(upper ? k : lid_steps - k) / (0.5 * lid_steps);
   return {along, upper};
 }
 
@@ -142,7 +142,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
       const double azimuth = std::atan2(p.y, p.x);
       const double at_edge = std::acos(std::clamp(p.z / glm::length(p), -1.0, 1.0));
       const double polar = glm::mix(at_edge + 0.05, 0.93 * pi, static_cast<double>(j) / 5.0);
-      const double roof = glm::smoothstep(-0.2, 0.5, std::sin(azimuth));
+      const double roof = glm::smoothstep(0.35, 0.9, std::sin(azimuth));
       const double r = eye_radius + glm::mix(j == 0 ? 0.06 : 0.12, 0.40, roof * std::sin(pi * (j + 1.0) / 7.0));
       Paint paint;
       paint.inner_uv = {static_cast<double>(j) / 5.0, 1.0};

@@ -32,7 +32,7 @@ double spread(double along) {
 
 LipPlace place_of(int k) {
   const bool upper = k <= lip_steps / 2;
-  return {spread(static_cast<double>(upper ? k : lip_steps - k) / (lip_steps / 2)), upper};
+  return {spread(static_cast<double>(upper ? k : lip_steps - k) / (0.5 * lip_steps)), upper};
 }
 
 /// Border of the red (8.x): cupid's bow above, a full curve below.

@@ -81,7 +81,7 @@ Skin make_skin() {
   skin.mesh = subdivide(cage.mesh);
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   // Jaw and neck make the outline and hold no point that moves: there, more vertices only help.
-  skin.mesh = refine(skin.mesh, [](const Vec3& p) { return p.y < -4.6 && p.z < 6.4; });
+  skin.mesh = refine(skin.mesh, [](const Vec3& p) { return p.y < -4.6 && p.z < 5.2; });
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   relax(skin.mesh, 6);
   // Holes first, then their fillings: a filling must not change another hole's border.

@@ -19,6 +19,10 @@ using Colour = Vec3;  ///< sRGB, 0..1
 constexpr int skin_size = 512;
 constexpr int eye_size = 256;
 
+std::size_t texel(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// Repeatable noise in [0, 1) of a grid point.
 double hash_noise(int x, int y) {
   auto h = static_cast<std::uint32_t>(x) * 374761393U + static_cast<std::uint32_t>(y) * 668265263U;
@@ -87,9 +91,9 @@ Colour lining_colour(int kind, double depth) {
 }
 
 void put(SampleHeadImage& image, int x, int y, const Colour& c) {
-  for (int k = 0; k < 3; ++k) {
-    image.rgb[static_cast<std::size_t>(3 * (y * image.width + x) + k)] =
-        static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(c[k], 0.0, 1.0)));
+  for (std::size_t k = 0; k < 3; ++k) {
+    image.rgb[3 * texel(x, y, image.width) + k] =
+        static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(c[static_cast<int>(k)], 0.0, 1.0)));
   }
 }
 
@@ -126,7 +130,7 @@ void paint_triangle(Canvas& canvas, const std::array<Vec2, 3>& uv, const std::ar
       if (std::min({a, b, c}) < -1e-9) continue;
       const Vec3 place = p[0] * a + p[1] * b + p[2] * c;
       const double reach = glm::length(Vec2(place.x, place.z + 1.0));
-      const auto i = static_cast<std::size_t>(y * skin_size + x);
+      const auto i = texel(x, y, skin_size);
       if (reach <= canvas.reach[i]) continue;
       canvas.reach[i] = reach;
       Paint mixed;
@@ -145,7 +149,7 @@ void bleed(Canvas& canvas) {
     const Canvas before = canvas;
     for (int y = 0; y < skin_size; ++y) {
       for (int x = skin_size / 2; x < skin_size; ++x) {
-        const auto i = static_cast<std::size_t>(y * skin_size + x);
+        const auto i = texel(x, y, skin_size);
         if (before.reach[i] >= 0.0) continue;
         Colour sum(0.0);
         int count = 0;
@@ -153,7 +157,7 @@ void bleed(Canvas& canvas) {
           const int nx = x + dx;
           const int ny = y + dy;
           if (nx < skin_size / 2 || ny < 0 || nx >= skin_size || ny >= skin_size) continue;
-          const auto j = static_cast<std::size_t>(ny * skin_size + nx);
+          const auto j = texel(nx, ny, skin_size);
           if (before.reach[j] < 0.0) continue;
           sum += before.colour[j];
           ++count;
@@ -191,7 +195,7 @@ SampleHeadImage paint_skin(const HalfMesh& skin) {
   SampleHeadImage image = blank("skin", skin_size, skin_size);
   for (int y = 0; y < skin_size; ++y) {
     for (int x = skin_size / 2; x < skin_size; ++x) {
-      Colour c = canvas.colour[static_cast<std::size_t>(y * skin_size + x)];
+      Colour c = canvas.colour[texel(x, y, skin_size)];
       const double v = (y + 0.5) / skin_size;
       const double grain = 0.012 * (hash_noise(x, y) - 0.5);
       c += Colour(grain);

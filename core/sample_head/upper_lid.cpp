@@ -27,8 +27,8 @@ struct Row {
 /// From the ball over the tips of the lashes up the front, behind the brow and over the ball to the root.
 constexpr Row rows[] = {
     {0.0, 0.13, 0.0, 0.0},   {0.0, 0.0, 1.0, 0.04},   {0.045, 0.0, 0.0, 0.12}, {0.10, -0.01, 0.0, 0.24},
-    {0.22, -0.02, 0.0, 0.4}, {0.36, -0.02, 0.0, 0.6}, {0.55, -0.01, 0.0, 0.8}, {0.80, 0.03, 0.0, 1.0},
-    {1.10, 0.14, 0.0, 1.0},  {1.38, 0.32, 0.0, 1.0},  {1.45, 0.60, 0.0, 1.0},  {1.40, 1.20, 0.0, 1.0},
+    {0.22, -0.02, 0.0, 0.4}, {0.36, -0.02, 0.0, 0.6}, {0.55, -0.01, 0.0, 0.8}, {0.80, 0.06, 0.0, 1.0},
+    {1.10, 0.22, 0.0, 1.0},  {1.38, 0.46, 0.0, 1.0},  {1.45, 0.75, 0.0, 1.0},  {1.40, 1.20, 0.0, 1.0},
     {1.15, 1.85, 0.0, 1.0},  {0.80, 2.35, 0.0, 1.0},  {0.40, 2.70, 0.0, 1.0},
 };
 constexpr std::size_t tips = 1;
@@ -54,7 +54,8 @@ UpperLid make_upper_lid() {
       // No lashes in the corners, where the shell only tucks in.
       paint.inner_uv = {std::max(row.shade, 0.4 * glm::smoothstep(0.80, 0.92, std::abs(t))), 3.0};
       // The ends draw back under the corners of the skin.
-      const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise, edge_z - row.back + row.lash * lash - drawn_back);
+      const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise,
+                   edge_z - row.back * (1.0 - 0.55 * t * t) + row.lash * lash - drawn_back);
       loop.push_back(mesh.add(eye_centre + p, paint));
     }
     if (!loops.empty()) bridge(mesh, loops.back(), loop, false, Chart::inner);
