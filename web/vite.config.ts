@@ -29,7 +29,8 @@ function runtimeAssets(): Plugin {
     generateBundle() {
       for (const [fileName, file] of Object.entries(assets)) {
         if (!existsSync(file)) {
-          const advice = fileName === 'kernel.wasm' ? ': build the target semblante-kernel-wasm, or set SEMBLANTE_WASM' : '';
+          const advice =
+            fileName === 'kernel.wasm' ? ': build the target semblante-kernel-wasm, or set SEMBLANTE_WASM' : '';
           this.error(`${fileName} is missing${advice}`);
         }
         this.emitFile({ type: 'asset', fileName, source: readFileSync(file) });

@@ -49,7 +49,8 @@ const frames: Record<string, Edit> = {
 /** In the page: the same pose by the shader and by the kernel. */
 async function compare(studio: StudioPage, edit: Edit): Promise<Comparison> {
   return studio.page.evaluate((change) => {
-    const { compareDeformation } = (window as unknown as { semblante: { compareDeformation(edit: Edit): Comparison } }).semblante;
+    const { compareDeformation } = (window as unknown as { semblante: { compareDeformation(edit: Edit): Comparison } })
+      .semblante;
     return compareDeformation(change);
   }, edit);
 }
@@ -76,9 +77,14 @@ describe('deformation', () => {
 
   test.skipIf(faces === null)('Shader_IctHead_AgreesWithTheKernel', async () => {
     const folder = join(faces!, 'ict-facekit');
-    const answer = await fetch(`${server.url}/v1/models?name=ict&filename=neutral.obj`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: readFileSync(join(folder, 'neutral.obj')) });
+    const answer = await fetch(`${server.url}/v1/models?name=ict&filename=neutral.obj`, {
+      method: 'POST',
+      headers: { 'Content-Type': 'model/obj' },
+      body: readFileSync(join(folder, 'neutral.obj')),
+    });
     const { model } = (await answer.json()) as { model: { id: string } };
-    const state = async (): Promise<string> => ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { state: string }).state;
+    const state = async (): Promise<string> =>
+      ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { state: string }).state;
     const until = async (wanted: string): Promise<void> => {
       const deadline = Date.now() + 60_000;
       while ((await state()) !== wanted) {
@@ -87,9 +93,17 @@ describe('deformation', () => {
       }
     };
     await until('ready');
-    const put = await fetch(`${server.url}/v1/models/${model.id}/feature-points`, { method: 'PUT', headers: { 'Content-Type': 'application/json' }, body: readFileSync(join(folder, 'ict-facekit.fps.json')) });
+    const put = await fetch(`${server.url}/v1/models/${model.id}/feature-points`, {
+      method: 'PUT',
+      headers: { 'Content-Type': 'application/json' },
+      body: readFileSync(join(folder, 'ict-facekit.fps.json')),
+    });
     expect(put.status).toBeLessThan(300);
-    await fetch(`${server.url}/v1/models/${model.id}/parametrizations`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{}' });
+    await fetch(`${server.url}/v1/models/${model.id}/parametrizations`, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json' },
+      body: '{}',
+    });
     await until('parametrized');
 
     const studio = await StudioPage.open(browser, `${server.url}/#${model.id}`);

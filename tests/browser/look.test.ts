@@ -32,7 +32,10 @@ describe('look', () => {
           await studio.page.waitForTimeout(800);
           await studio.keep(`${name}-${dark ? 'dark' : 'light'}-${tab}`);
           // Nothing sticks out sideways, and the page itself does not scroll.
-          const overflow = await studio.page.evaluate(() => [document.documentElement.scrollWidth - innerWidth, document.documentElement.scrollHeight - innerHeight]);
+          const overflow = await studio.page.evaluate(() => [
+            document.documentElement.scrollWidth - innerWidth,
+            document.documentElement.scrollHeight - innerHeight,
+          ]);
           expect(overflow).toEqual([0, 0]);
         }
         expect(studio.errors).toEqual([]);

@@ -56,10 +56,12 @@ describe('face package, read by others', () => {
     positions.forEach((value, i) => {
       const axis = i % 3;
       const slack = (rig.bounds.max[axis]! - rig.bounds.min[axis]!) * 1e-3;
-      if (!(value >= rig.bounds.min[axis]! - slack && value <= rig.bounds.max[axis]! + slack)) throw new Error(`position ${i} is ${value}`);
+      if (!(value >= rig.bounds.min[axis]! - slack && value <= rig.bounds.max[axis]! + slack))
+        throw new Error(`position ${i} is ${value}`);
     });
     const normals = floats(rig.mesh.attributes.normal!);
-    for (let v = 0; v < normals.length; v += 3) expect(Math.abs(Math.hypot(normals[v]!, normals[v + 1]!, normals[v + 2]!) - 1)).toBeLessThan(0.01);
+    for (let v = 0; v < normals.length; v += 3)
+      expect(Math.abs(Math.hypot(normals[v]!, normals[v + 1]!, normals[v + 2]!) - 1)).toBeLessThan(0.01);
     const face = new draco.DracoInt32Array();
     let highest = 0;
     for (let i = 0; i < mesh.num_faces(); i += 1) {
@@ -70,12 +72,20 @@ describe('face package, read by others', () => {
     for (const point of rig.feature_points) {
       if (point.vertex === null) continue;
       const at = positions.subarray(point.vertex * 3, point.vertex * 3 + 3);
-      point.position.forEach((value, axis) => expect(Math.abs(value - at[axis]!), point.id).toBeLessThan((rig.bounds.max[axis]! - rig.bounds.min[axis]!) * 1e-3));
+      point.position.forEach((value, axis) =>
+        expect(Math.abs(value - at[axis]!), point.id).toBeLessThan(
+          (rig.bounds.max[axis]! - rig.bounds.min[axis]!) * 1e-3,
+        ),
+      );
     }
   });
 
   test('Weights_OfTheMesh_RowsAreSharesOfKnownPoints', async () => {
-    const [table, mesh, rig] = [await decodeWeights(await artefact('weights')), await artefact('mesh.drc'), readRig(new TextDecoder().decode(await artefact('rig.json')))];
+    const [table, mesh, rig] = [
+      await decodeWeights(await artefact('weights')),
+      await artefact('mesh.drc'),
+      readRig(new TextDecoder().decode(await artefact('rig.json'))),
+    ];
     expect(table.meshSha256).toBe(createHash('sha256').update(mesh).digest('hex'));
     expect(table.vertexCount).toBe(rig.mesh.vertices);
     let full = 0;
@@ -97,7 +107,15 @@ describe('face package, read by others', () => {
   test('FaceGlb_GltfLoader_ReadsMeshMaterialsWeightsAndRig', async () => {
     // Bundled from three.js as npm ships it; the page is any page of the server's origin, for the decoder beside it.
     const nodeModules = join(root, 'web/node_modules');
-    const bundle = await build({ entryPoints: [join(root, 'tests/browser/pages/read_face.ts')], bundle: true, format: 'esm', footer: { js: 'globalThis.reader = { readFace };' }, write: false, nodePaths: [nodeModules], logLevel: 'silent' });
+    const bundle = await build({
+      entryPoints: [join(root, 'tests/browser/pages/read_face.ts')],
+      bundle: true,
+      format: 'esm',
+      footer: { js: 'globalThis.reader = { readFace };' },
+      write: false,
+      nodePaths: [nodeModules],
+      logLevel: 'silent',
+    });
     const page = await browser.newPage();
     const errors: string[] = [];
     page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
@@ -106,7 +124,12 @@ describe('face package, read by others', () => {
     await page.goto(`${server.url}/version`);
     await page.addScriptTag({ content: bundle.outputFiles[0]!.text, type: 'module' });
     await page.waitForFunction(() => 'reader' in window);
-    const report = await page.evaluate(() => (window as unknown as { reader: { readFace(url: string, draco: string): Promise<FaceReport> } }).reader.readFace('/v1/models/sample/face.glb', '/draco/'));
+    const report = await page.evaluate(() =>
+      (window as unknown as { reader: { readFace(url: string, draco: string): Promise<FaceReport> } }).reader.readFace(
+        '/v1/models/sample/face.glb',
+        '/draco/',
+      ),
+    );
     const rig = readRig(new TextDecoder().decode(await artefact('rig.json')));
 
     expect(report.primitives.length).toBeGreaterThan(1);
@@ -121,7 +144,11 @@ describe('face package, read by others', () => {
       expect(one.highestRigid).toBeLessThanOrEqual(2);
     }
     // The skin has weights; what only turns or hangs on the head (eyes, upper teeth) needs none.
-    expect(report.primitives.some((one) => one.attributes.includes('_fp_index_0') && one.attributes.includes('_fp_weight_0'))).toBe(true);
+    expect(
+      report.primitives.some(
+        (one) => one.attributes.includes('_fp_index_0') && one.attributes.includes('_fp_weight_0'),
+      ),
+    ).toBe(true);
     expect(Math.max(...report.primitives.map((one) => one.highestRigid))).toBe(2);
     expect(report.format).toBe('semblante.rig');
     expect(errors).toEqual([]);
@@ -130,7 +157,9 @@ describe('face package, read by others', () => {
 
   test('PreviewGlb_FileVertices_AreThoseOfTheModel', async () => {
     const model = (await (await fetch(`${server.url}/v1/models/sample`)).json()) as { counts: { vertices: number } };
-    const points = (await (await fetch(`${server.url}/v1/models/sample/feature-points`)).json()) as { points: Record<string, { vertex: number | null }> };
+    const points = (await (await fetch(`${server.url}/v1/models/sample/feature-points`)).json()) as {
+      points: Record<string, { vertex: number | null }>;
+    };
     const vertices = Object.values(points.points).flatMap((point) => (point.vertex === null ? [] : [point.vertex]));
     // All but 7.1, the centre of rotation inside the head, lie on a vertex.
     expect(vertices).toHaveLength(83);

@@ -31,7 +31,12 @@ function main(root: HTMLElement): void {
   const points = new PointsModel(studio);
   const frame = neutralFrame();
   const live = new LiveModel(studio, frame);
-  const faceSources = { base: api.base, draco: dracoDecoder, kernel: kernelModule, image: (sha256: string, signal: AbortSignal) => api.content(sha256, signal) };
+  const faceSources = {
+    base: api.base,
+    draco: dracoDecoder,
+    kernel: kernelModule,
+    image: (sha256: string, signal: AbortSignal) => api.content(sha256, signal),
+  };
   const canvas = h('canvas', { class: 'canvas' });
   const scene = new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
@@ -52,7 +57,12 @@ function main(root: HTMLElement): void {
   const livePanel = new LivePanel(studio, live);
   const layout = makeLayout(
     studio,
-    { heads: shelf.element, points: new PointsPanel(studio, points).element, animate: animate.element, live: livePanel.element },
+    {
+      heads: shelf.element,
+      points: new PointsPanel(studio, points).element,
+      animate: animate.element,
+      live: livePanel.element,
+    },
     stagePanel.element,
     theme,
   );
@@ -110,7 +120,14 @@ function main(root: HTMLElement): void {
 function makeMarkers(points: PointsModel): Marker[] {
   const markers: Marker[] = [];
   for (const [id, point] of points.draft.points) {
-    const tone = points.chosen.value === id ? 'selected' : points.problems.has(id) ? 'wrong' : points.draft.isChanged(id) ? 'changed' : 'placed';
+    const tone =
+      points.chosen.value === id
+        ? 'selected'
+        : points.problems.has(id)
+          ? 'wrong'
+          : points.draft.isChanged(id)
+            ? 'changed'
+            : 'placed';
     markers.push({ id, position: point.position, tone });
   }
   return markers;
@@ -129,5 +146,12 @@ const root = document.querySelector<HTMLElement>('#studio');
 try {
   if (root) main(root);
 } catch (error) {
-  root?.replaceChildren(h('div', { class: 'no-stage', role: 'alert' }, h('h1', {}, 'Semblante'), h('p', {}, error instanceof Error ? error.message : String(error))));
+  root?.replaceChildren(
+    h(
+      'div',
+      { class: 'no-stage', role: 'alert' },
+      h('h1', {}, 'Semblante'),
+      h('p', {}, error instanceof Error ? error.message : String(error)),
+    ),
+  );
 }

@@ -1,6 +1,14 @@
 import { describe, expect, test } from 'vitest';
 import { neutralFrame } from '@client/index.ts';
-import { clearFrame, expressionIntensity, fapValue, isNeutral, setExpression, setFap, setVisemes } from '../src/face/frame.ts';
+import {
+  clearFrame,
+  expressionIntensity,
+  fapValue,
+  isNeutral,
+  setExpression,
+  setFap,
+  setVisemes,
+} from '../src/face/frame.ts';
 
 describe('frame by hand', () => {
   test('SetVisemes_HalfShare_BlendsWithSilence', () => {

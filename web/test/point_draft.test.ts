@@ -39,7 +39,10 @@ describe('point draft', () => {
 
   test('Draft_BarePosition_IsSentAsPosition', () => {
     const draft = new PointDraft();
-    draft.reset([['7.1', at(null)], ['2.1', at(5)]]);
+    draft.reset([
+      ['7.1', at(null)],
+      ['2.1', at(5)],
+    ]);
     expect(draft.toBody()).toEqual({ points: { '7.1': { position: [0, 0, 0] }, '2.1': { vertex: 5 } } });
   });
 });

@@ -3,12 +3,25 @@ import { featurePointOf, fieldProblems, problemFrom } from '../src/net/problem.t
 
 describe('problem documents', () => {
   test('ProblemFrom_ProblemJson_KeepsItsMembers', () => {
-    const body = JSON.stringify({ type: '/problems/invalid-feature-point', title: 'Refused', status: 422, detail: 'no such vertex', pointer: '/points/2.1/vertex' });
-    expect(problemFrom(422, 'Unprocessable', 'application/problem+json', body)).toMatchObject({ pointer: '/points/2.1/vertex', detail: 'no such vertex' });
+    const body = JSON.stringify({
+      type: '/problems/invalid-feature-point',
+      title: 'Refused',
+      status: 422,
+      detail: 'no such vertex',
+      pointer: '/points/2.1/vertex',
+    });
+    expect(problemFrom(422, 'Unprocessable', 'application/problem+json', body)).toMatchObject({
+      pointer: '/points/2.1/vertex',
+      detail: 'no such vertex',
+    });
   });
 
   test('ProblemFrom_HtmlOfAProxy_ShowsNoMarkup', () => {
-    expect(problemFrom(502, 'Bad Gateway', 'text/html', '<html>..</html>')).toEqual({ type: 'about:blank', title: 'Bad Gateway', status: 502 });
+    expect(problemFrom(502, 'Bad Gateway', 'text/html', '<html>..</html>')).toEqual({
+      type: 'about:blank',
+      title: 'Bad Gateway',
+      status: 502,
+    });
   });
 
   test('ProblemFrom_CutShortJson_StillIsAProblem', () => {
@@ -16,7 +29,10 @@ describe('problem documents', () => {
   });
 
   test('FieldProblems_SeveralErrors_GivesEach', () => {
-    const errors = [{ pointer: '/points/2.1', detail: 'a' }, { pointer: '/points/9.3/vertex', detail: 'b' }];
+    const errors = [
+      { pointer: '/points/2.1', detail: 'a' },
+      { pointer: '/points/9.3/vertex', detail: 'b' },
+    ];
     expect(fieldProblems({ type: '', title: 'x', status: 422, errors })).toEqual(errors);
   });
 
@@ -26,6 +42,10 @@ describe('problem documents', () => {
   });
 
   test('FeaturePointOf_AnythingElse_IsNull', () => {
-    expect([featurePointOf('/name'), featurePointOf(undefined), featurePointOf('/points/abc/vertex')]).toEqual([null, null, null]);
+    expect([featurePointOf('/name'), featurePointOf(undefined), featurePointOf('/points/abc/vertex')]).toEqual([
+      null,
+      null,
+      null,
+    ]);
   });
 });

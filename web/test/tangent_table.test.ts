@@ -9,15 +9,17 @@ function ramp(n: number): FaceMesh {
   const side = n + 1;
   const positions = new Float32Array(side * side * 3);
   const normals = new Float32Array(side * side * 3);
-  for (let y = 0; y < side; y += 1) for (let x = 0; x < side; x += 1) {
-    positions.set([x, y, 0], (y * side + x) * 3);
-    normals.set([0, 0, 1], (y * side + x) * 3);
-  }
+  for (let y = 0; y < side; y += 1)
+    for (let x = 0; x < side; x += 1) {
+      positions.set([x, y, 0], (y * side + x) * 3);
+      normals.set([0, 0, 1], (y * side + x) * 3);
+    }
   const indices: number[] = [];
-  for (let y = 0; y < n; y += 1) for (let x = 0; x < n; x += 1) {
-    const a = y * side + x;
-    indices.push(a, a + 1, a + side + 1, a, a + side + 1, a + side);
-  }
+  for (let y = 0; y < n; y += 1)
+    for (let x = 0; x < n; x += 1) {
+      const a = y * side + x;
+      indices.push(a, a + 1, a + side + 1, a, a + side + 1, a + side);
+    }
   const count = side * side;
   return {
     vertexCount: count,
@@ -36,7 +38,13 @@ function ramp(n: number): FaceMesh {
 describe('tangent table', () => {
   test('TangentFrame_AnyNormal_IsOrthonormalAndRightHanded', () => {
     const t = new Float64Array(6);
-    for (const [x, y, z] of [[0, 0, 1], [0, 0, -1], [1, 0, 0], [0.6, -0.8, 0], [0.36, 0.48, -0.8]] as const) {
+    for (const [x, y, z] of [
+      [0, 0, 1],
+      [0, 0, -1],
+      [1, 0, 0],
+      [0.6, -0.8, 0],
+      [0.36, 0.48, -0.8],
+    ] as const) {
       tangentFrame(x, y, z, t);
       const [ax, ay, az, bx, by, bz] = t as unknown as [number, number, number, number, number, number];
       expect(ax * bx + ay * by + az * bz).toBeCloseTo(0, 12);

@@ -57,7 +57,16 @@ function describe(mesh: Mesh): PrimitiveReport {
       }
     }
   }
-  return { vertices: position.count, triangles: index.count / 3, attributes: names, finite, highestIndex, highestPoint, highestSum: Math.max(...sums), highestRigid };
+  return {
+    vertices: position.count,
+    triangles: index.count / 3,
+    attributes: names,
+    finite,
+    highestIndex,
+    highestPoint,
+    highestSum: Math.max(...sums),
+    highestRigid,
+  };
 }
 
 function findFormat(json: unknown): string | null {

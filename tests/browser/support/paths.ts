@@ -10,4 +10,5 @@ export const samplePoints = join(buildDir, 'sample/sample-head.fps.json');
 export const chromium = process.env['SEMBLANTE_CHROMIUM'] ?? '/usr/bin/chromium';
 
 /** The folder of real heads, or null where it is not at hand. */
-export const faces = [process.env['SEMBLANTE_FACES_DIR'], join(root, '../shared/faces')].find((dir) => dir && existsSync(dir)) ?? null;
+export const faces =
+  [process.env['SEMBLANTE_FACES_DIR'], join(root, '../shared/faces')].find((dir) => dir && existsSync(dir)) ?? null;

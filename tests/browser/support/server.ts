@@ -29,7 +29,11 @@ export async function startServer(): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
   const url = `http://127.0.0.1:${port}`;
-  const child = spawn(join(buildDir, 'bin/semblante'), ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo'], { stdio: ['ignore', 'pipe', 'pipe'] });
+  const child = spawn(
+    join(buildDir, 'bin/semblante'),
+    ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo'],
+    { stdio: ['ignore', 'pipe', 'pipe'] },
+  );
   let output = '';
   child.stdout.on('data', (chunk: Buffer) => (output += chunk.toString()));
   child.stderr.on('data', (chunk: Buffer) => (output += chunk.toString()));
@@ -38,8 +42,16 @@ export async function startServer(): Promise<RunningServer> {
   for (;;) {
     if (child.exitCode !== null) throw new Error(`the server stopped while starting:\n${output}`);
     if (Date.now() > deadline) throw new Error(`the server is not ready after a minute:\n${output}`);
-    const ready = await fetch(`${url}/readyz`).then((r) => r.ok, () => false);
-    const sample = ready && (await fetch(`${url}/v1/models/sample`).then(async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized', () => false));
+    const ready = await fetch(`${url}/readyz`).then(
+      (r) => r.ok,
+      () => false,
+    );
+    const sample =
+      ready &&
+      (await fetch(`${url}/v1/models/sample`).then(
+        async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized',
+        () => false,
+      ));
     if (sample) break;
     await new Promise((wake) => setTimeout(wake, 100));
   }

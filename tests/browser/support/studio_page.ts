@@ -40,7 +40,8 @@ export class StudioPage {
     page.on('pageerror', (error) => studio.errors.push(String(error)));
     page.on('requestfailed', (request) => {
       // Requests that the page itself gave up (a newer one took over) are no faults.
-      if (request.failure()?.errorText !== 'net::ERR_ABORTED') studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
+      if (request.failure()?.errorText !== 'net::ERR_ABORTED')
+        studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
     });
     await page.goto(url, { waitUntil: 'domcontentloaded', timeout: 90_000 });
     return studio;
@@ -48,11 +49,19 @@ export class StudioPage {
 
   /** Until the stage shows the named state of the scene. */
   async waitForStage(kind: 'ready' | 'failed'): Promise<void> {
-    await this.page.waitForFunction((wanted) => (window as unknown as Inside).semblante?.scene.state.value.kind === wanted, kind, { timeout: 90_000 });
+    await this.page.waitForFunction(
+      (wanted) => (window as unknown as Inside).semblante?.scene.state.value.kind === wanted,
+      kind,
+      { timeout: 90_000 },
+    );
   }
 
   async waitForState(state: string): Promise<void> {
-    await this.page.waitForFunction((wanted) => (window as unknown as Inside).semblante?.studio.selected.value?.state === wanted, state, { timeout: 90_000 });
+    await this.page.waitForFunction(
+      (wanted) => (window as unknown as Inside).semblante?.studio.selected.value?.state === wanted,
+      state,
+      { timeout: 90_000 },
+    );
   }
 
   /** Until the face has come to rest under the sliders. */
@@ -72,7 +81,8 @@ export class StudioPage {
       },
       { content: base64, fileName: name },
     );
-    for (const type of ['dragenter', 'dragover', 'drop']) await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
+    for (const type of ['dragenter', 'dragover', 'drop'])
+      await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
   }
 
   /** The picture of the stage alone. */
@@ -87,7 +97,9 @@ export class StudioPage {
     return this.page.evaluate(
       async ({ first, second, region: [x, y, w, h] }) => {
         const pixels = async (base64: string): Promise<ImageData> => {
-          const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+          const image = await createImageBitmap(
+            new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }),
+          );
           const canvas = new OffscreenCanvas(image.width, image.height);
           const context = canvas.getContext('2d')!;
           context.drawImage(image, 0, 0);
@@ -95,7 +107,8 @@ export class StudioPage {
         };
         const [one, two] = [await pixels(first), await pixels(second)];
         let sum = 0;
-        for (let i = 0; i < one.data.length; i += 4) for (let k = 0; k < 3; k += 1) sum += Math.abs(one.data[i + k]! - two.data[i + k]!);
+        for (let i = 0; i < one.data.length; i += 4)
+          for (let k = 0; k < 3; k += 1) sum += Math.abs(one.data[i + k]! - two.data[i + k]!);
         return sum / ((one.data.length / 4) * 3);
       },
       { first: a.toString('base64'), second: b.toString('base64'), region },
@@ -129,7 +142,9 @@ export interface Inside {
   semblante: {
     scene: {
       state: { value: { kind: string } };
-      markers: { project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number } };
+      markers: {
+        project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
+      };
       stage: { camera: unknown };
     };
     studio: { selected: { value: { id: string; state: string } | null } };

@@ -13,7 +13,8 @@ export function clearFrame(frame: FaceFrame): void {
 export function isNeutral(frame: FaceFrame): boolean {
   const { viseme, expression } = frame;
   const shown = (viseme.select1 > 0 && viseme.blend > 0) || (viseme.select2 > 0 && viseme.blend < maxBlend);
-  const felt = (expression.select1 > 0 && expression.intensity1 > 0) || (expression.select2 > 0 && expression.intensity2 > 0);
+  const felt =
+    (expression.select1 > 0 && expression.intensity1 > 0) || (expression.select2 > 0 && expression.intensity2 > 0);
   return !shown && !felt && frame.levels.every((level) => level === 0);
 }
 
@@ -55,7 +56,8 @@ export function expressionIntensity(frame: FaceFrame, expression: number): numbe
 }
 
 /** In FAP units. */
-export const fapValue = (frame: FaceFrame, number: number): number => frame.levels[number]! * standardQuantizers[number]!;
+export const fapValue = (frame: FaceFrame, number: number): number =>
+  frame.levels[number]! * standardQuantizers[number]!;
 
 /**
  * Sets a FAP (in FAP units, to the nearest level), and its partner on the other side of the face when `both`. Returns

@@ -43,7 +43,11 @@ function normalize(normals: Float32Array): void {
 }
 
 /** Triangles of one material lie together, so that each material is one draw call. */
-export function sortByMaterial(indices: Uint32Array, materials: Uint8Array | null, materialCount: number): { indices: Uint32Array; groups: MaterialGroup[] } {
+export function sortByMaterial(
+  indices: Uint32Array,
+  materials: Uint8Array | null,
+  materialCount: number,
+): { indices: Uint32Array; groups: MaterialGroup[] } {
   if (!materials) return { indices, groups: [{ start: 0, count: indices.length, material: 0 }] };
   const counts = new Uint32Array(materialCount);
   for (let i = 0; i < indices.length; i += 3) counts[materials[indices[i]!]!]! += 3;
@@ -64,14 +68,19 @@ export function sortByMaterial(indices: Uint32Array, materials: Uint8Array | nul
   return { indices: sorted, groups };
 }
 
-async function loadMaterials(rig: RigDocument, fetchImage: (sha256: string) => Promise<Uint8Array>): Promise<FaceMaterial[]> {
+async function loadMaterials(
+  rig: RigDocument,
+  fetchImage: (sha256: string) => Promise<Uint8Array>,
+): Promise<FaceMaterial[]> {
   const types = new Map(rig.images.map((image) => [image.sha256, image.mime_type]));
   const blobs = new Map<string, Promise<Blob>>();
   const image = (sha256: string | null): Promise<Blob | null> => {
     if (sha256 === null) return Promise.resolve(null);
     let blob = blobs.get(sha256);
     if (!blob) {
-      blob = fetchImage(sha256).then((bytes) => new Blob([bytes as Uint8Array<ArrayBuffer>], { type: types.get(sha256) ?? 'image/png' }));
+      blob = fetchImage(sha256).then(
+        (bytes) => new Blob([bytes as Uint8Array<ArrayBuffer>], { type: types.get(sha256) ?? 'image/png' }),
+      );
       blobs.set(sha256, blob);
     }
     return blob;

@@ -112,7 +112,11 @@ export function makeTangentTable(mesh: FaceMesh): TangentTable {
 }
 
 /** For each group (named by its first vertex) the neighbouring groups, each once. */
-function makeRings(indices: Uint32Array, group: Uint32Array, count: number): { offsets: Uint32Array; vertices: Uint32Array } {
+function makeRings(
+  indices: Uint32Array,
+  group: Uint32Array,
+  count: number,
+): { offsets: Uint32Array; vertices: Uint32Array } {
   const degree = new Uint32Array(count + 1);
   for (let i = 0; i + 2 < indices.length; i += 3) {
     for (let k = 0; k < 3; k += 1) degree[group[indices[i + k]!]! + 1]! += 2;

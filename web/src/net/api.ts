@@ -33,7 +33,8 @@ export class Api {
   }
 
   async renameModel(id: string, name: string): Promise<Model> {
-    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { name } })).value;
+    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { name } }))
+      .value;
   }
 
   async deleteModel(id: string): Promise<void> {
@@ -58,14 +59,24 @@ export class Api {
   }
 
   /** Replaces the whole set. `etag` of the set it was made from guards against overwriting someone else's work. */
-  putFeaturePoints(id: string, body: unknown, options: { etag?: string | null; mirror?: boolean } = {}): Promise<Answer<FeaturePointSet>> {
+  putFeaturePoints(
+    id: string,
+    body: unknown,
+    options: { etag?: string | null; mirror?: boolean } = {},
+  ): Promise<Answer<FeaturePointSet>> {
     const query = options.mirror ? '?fill=mirror' : '';
     const headers: Record<string, string> = options.etag ? { 'If-Match': options.etag } : {};
-    return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points${query}`, { method: 'PUT', json: body, headers });
+    return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points${query}`, {
+      method: 'PUT',
+      json: body,
+      headers,
+    });
   }
 
   async parametrize(id: string): Promise<Job> {
-    return (await requestJson<Job>(`${this.base}/v1/models/${segment(id)}/parametrizations`, { method: 'POST', json: {} })).value;
+    return (
+      await requestJson<Job>(`${this.base}/v1/models/${segment(id)}/parametrizations`, { method: 'POST', json: {} })
+    ).value;
   }
 
   async getJob(id: string): Promise<Job> {

@@ -35,7 +35,9 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
   }
   if (!response.ok) {
     const body = await response.text().catch(() => '');
-    throw new ApiError(problemFrom(response.status, response.statusText, response.headers.get('Content-Type') ?? '', body));
+    throw new ApiError(
+      problemFrom(response.status, response.statusText, response.headers.get('Content-Type') ?? '', body),
+    );
   }
   return response;
 }
@@ -50,7 +52,12 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
   try {
     return { value: JSON.parse(text) as T, etag, location };
   } catch {
-    throw new ApiError({ type: 'about:blank', title: 'The server sent an answer that is not JSON', status: response.status, detail: path });
+    throw new ApiError({
+      type: 'about:blank',
+      title: 'The server sent an answer that is not JSON',
+      status: response.status,
+      detail: path,
+    });
   }
 }
 

@@ -11,7 +11,7 @@ export interface LinkStatus {
 export interface LiveStats {
   framesPerSecond: number;
   bytesPerSecond: number;
-  /** Of the stream's own clock now, ms; null before the first answer to a ping. */
+  /** Of the stream's own clock now, ms; null while no ping has come back quickly. */
   mediaTime: number | null;
   sequence: number;
 }
@@ -31,10 +31,13 @@ function report(client: StreamClient, title: string, onStatus: (status: LinkStat
   let named = title;
   client.on('header', (header) => (named = header.title || title));
   client.on('end', ({ reason }) => (ended = endings[reason]));
-  client.on('error', (error) => onStatus({ kind: 'open', title: named, reason: error.where ? `${error.message} (${error.where})` : error.message }));
+  client.on('error', (error) =>
+    onStatus({ kind: 'open', title: named, reason: error.where ? `${error.message} (${error.where})` : error.message }),
+  );
   client.on('state', (state) => {
     if (state === 'closed') onStatus(ended === null ? { kind: 'off' } : { kind: 'ended', title: named, reason: ended });
-    else if (state === 'waiting') onStatus({ kind: 'waiting', title: named, reason: ended ?? 'The connection is gone; trying again.' });
+    else if (state === 'waiting')
+      onStatus({ kind: 'waiting', title: named, reason: ended ?? 'The connection is gone; trying again.' });
     else {
       ended = null;
       onStatus({ kind: state, title: named });
@@ -47,10 +50,15 @@ function countingSocket(count: (bytes: number) => void): typeof WebSocket {
   return class extends WebSocket {
     constructor(url: string | URL, protocols?: string | string[]) {
       super(url, protocols);
-      this.addEventListener('message', (event: MessageEvent<ArrayBuffer | string>) => count(typeof event.data === 'string' ? event.data.length : event.data.byteLength));
+      this.addEventListener('message', (event: MessageEvent<ArrayBuffer | string>) =>
+        count(typeof event.data === 'string' ? event.data.length : event.data.byteLength),
+      );
     }
   };
 }
+
+/** A ping that took longer, ms, says too little about the clock: half of it is the error. */
+const longestRoundTrip = 250;
 
 /** Follows a stream. `client` feeds the player of the face. */
 export class LiveSubscriber {
@@ -87,7 +95,8 @@ export class LiveSubscriber {
       before = now;
       this.stats.framesPerSecond += (this.frames / seconds - this.stats.framesPerSecond) * 0.6;
       this.stats.bytesPerSecond += (this.bytes / seconds - this.stats.bytesPerSecond) * 0.6;
-      this.stats.mediaTime = this.clockOffset === null ? null : now + this.clockOffset;
+      this.stats.mediaTime =
+        this.clockOffset === null || this.bestRoundTrip > longestRoundTrip ? null : now + this.clockOffset;
       this.frames = 0;
       this.bytes = 0;
     }, 1000);

@@ -54,8 +54,10 @@ export function adviceFor(problem: Problem): string | null {
   if (problem.status === 0) return 'Check that the server is running, then try again.';
   if (slug === 'malformed-model') return 'Export the head again as GLB, glTF (zipped), OBJ, PLY or STL.';
   if (slug === 'unsupported-media-type') return 'Use a GLB, a zipped glTF, an OBJ, a PLY or an STL file.';
-  if (problem.status === 413 || slug === 'limit-exceeded') return 'Reduce the mesh or its textures and upload it again.';
-  if (problem.status === 412 || problem.status === 428) return 'Someone else changed it meanwhile: reload, then make the change again.';
+  if (problem.status === 413 || slug === 'limit-exceeded')
+    return 'Reduce the mesh or its textures and upload it again.';
+  if (problem.status === 412 || problem.status === 428)
+    return 'Someone else changed it meanwhile: reload, then make the change again.';
   if (slug === 'invalid-feature-point') return 'Move or remove the points marked in red, then save again.';
   if (problem.status === 404) return 'It may have been deleted: reload the page.';
   if (problem.status === 429 || problem.status === 503) return 'The server is busy: wait a moment and try again.';

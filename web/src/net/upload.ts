@@ -1,7 +1,13 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
 
 /** Sends a file and reports how much has left, which fetch cannot do. `fraction` is 0..1. */
-export function upload<T>(url: string, file: Blob, contentType: string, onProgress: (fraction: number) => void, signal?: AbortSignal): Promise<T> {
+export function upload<T>(
+  url: string,
+  file: Blob,
+  contentType: string,
+  onProgress: (fraction: number) => void,
+  signal?: AbortSignal,
+): Promise<T> {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open('POST', url);
@@ -19,7 +25,13 @@ export function upload<T>(url: string, file: Blob, contentType: string, onProgre
       try {
         resolve(JSON.parse(request.responseText) as T);
       } catch {
-        reject(new ApiError({ type: 'about:blank', title: 'The server sent an answer that is not JSON', status: request.status }));
+        reject(
+          new ApiError({
+            type: 'about:blank',
+            title: 'The server sent an answer that is not JSON',
+            status: request.status,
+          }),
+        );
       }
     };
     request.onerror = () => reject(new ApiError(unreachable('The connection broke during the upload.')));
@@ -32,6 +44,11 @@ export function upload<T>(url: string, file: Blob, contentType: string, onProgre
 /** By the name's ending; the server looks at the content anyway. */
 export function mediaTypeOf(fileName: string): string {
   const ending = fileName.toLowerCase().split('.').pop() ?? '';
-  const types: Record<string, string> = { glb: 'model/gltf-binary', zip: 'application/zip', obj: 'model/obj', stl: 'model/stl' };
+  const types: Record<string, string> = {
+    glb: 'model/gltf-binary',
+    zip: 'application/zip',
+    obj: 'model/obj',
+    stl: 'model/stl',
+  };
   return types[ending] ?? 'application/octet-stream';
 }

@@ -29,15 +29,58 @@ export class AnimatePanel {
 
   constructor(private readonly options: AnimatePanelOptions) {
     this.grid = new VisemeGrid({ onChoose: (viseme) => this.chooseViseme(viseme) });
-    this.strength = new Slider({ label: 'Strength', note: '%', min: 0, max: 100, value: 100, onInput: () => this.applyViseme() });
-    this.second = h('select', { id: 'second-viseme', on: { change: () => this.applyViseme() } }, ...visemes.map((viseme, number) => h('option', { value: number }, number === 0 ? 'Silence' : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`)));
+    this.strength = new Slider({
+      label: 'Strength',
+      note: '%',
+      min: 0,
+      max: 100,
+      value: 100,
+      onInput: () => this.applyViseme(),
+    });
+    this.second = h(
+      'select',
+      { id: 'second-viseme', on: { change: () => this.applyViseme() } },
+      ...visemes.map((viseme, number) =>
+        h(
+          'option',
+          { value: number },
+          number === 0 ? 'Silence' : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`,
+        ),
+      ),
+    );
     this.faps = new FapSliders({ frame: options.frame, onChange: () => this.changed() });
-    this.resetAll = h('button', { type: 'button', class: 'quiet', on: { click: () => this.reset() } }, icon('reset', 16), 'Neutral face');
+    this.resetAll = h(
+      'button',
+      { type: 'button', class: 'quiet', on: { click: () => this.reset() } },
+      icon('reset', 16),
+      'Neutral face',
+    );
     this.element = h(
       'div',
       { class: 'panel animate' },
-      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Visemes'), this.resetAll), this.grid.element, h('div', { class: 'blend' }, this.strength.element, h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, 'Blend with'), this.second))),
-      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Expressions'), h('span', { class: 'muted small' }, 'two at a time')), h('div', { class: 'feelings' }, ...this.makeFeelings())),
+      h(
+        'section',
+        {},
+        h('header', { class: 'section-head' }, h('h2', {}, 'Visemes'), this.resetAll),
+        this.grid.element,
+        h(
+          'div',
+          { class: 'blend' },
+          this.strength.element,
+          h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, 'Blend with'), this.second),
+        ),
+      ),
+      h(
+        'section',
+        {},
+        h(
+          'header',
+          { class: 'section-head' },
+          h('h2', {}, 'Expressions'),
+          h('span', { class: 'muted small' }, 'two at a time'),
+        ),
+        h('div', { class: 'feelings' }, ...this.makeFeelings()),
+      ),
       h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Face parameters')), this.faps.element),
     );
     this.refresh();
@@ -50,7 +93,8 @@ export class AnimatePanel {
     for (const [i, feeling] of this.feelings.entries()) {
       const intensity = expressionIntensity(frame, i + 1);
       // 64 steps against 100: a slider that already stands on the step keeps its place under the finger.
-      if (Math.round((feeling.slider.value / 100) * maxBlend) !== intensity) feeling.slider.set(Math.round((intensity / maxBlend) * 100));
+      if (Math.round((feeling.slider.value / 100) * maxBlend) !== intensity)
+        feeling.slider.set(Math.round((intensity / maxBlend) * 100));
       feeling.row.classList.toggle('on', intensity > 0);
       feeling.button.setAttribute('aria-pressed', String(intensity > 0));
     }
@@ -87,7 +131,19 @@ export class AnimatePanel {
         max: 100,
         onInput: (value) => this.setFeeling(number, value),
       });
-      const button = h('button', { type: 'button', class: 'feeling-button', 'data-expression': number, 'aria-pressed': 'false', 'aria-label': `${capital(expression.name)} on or off`, title: expression.description, on: { click: () => this.setFeeling(number, expressionIntensity(this.options.frame, number) > 0 ? 0 : 100) } }, expressionFace(number));
+      const button = h(
+        'button',
+        {
+          type: 'button',
+          class: 'feeling-button',
+          'data-expression': number,
+          'aria-pressed': 'false',
+          'aria-label': `${capital(expression.name)} on or off`,
+          title: expression.description,
+          on: { click: () => this.setFeeling(number, expressionIntensity(this.options.frame, number) > 0 ? 0 : 100) },
+        },
+        expressionFace(number),
+      );
       const row = h('div', { class: 'feeling-row' }, button, slider.element);
       this.feelings.push({ slider, row, button });
       return row;

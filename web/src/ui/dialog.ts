@@ -13,7 +13,10 @@ interface Question {
 /** Asks in a modal dialog. Resolves with the text (empty where none was asked for), or null when cancelled. */
 export function ask(question: Question): Promise<string | null> {
   return new Promise((resolve) => {
-    const input = question.value === undefined ? null : h('input', { type: 'text', id: 'dialog-value', maxlength: 120, required: true, autocomplete: 'off' });
+    const input =
+      question.value === undefined
+        ? null
+        : h('input', { type: 'text', id: 'dialog-value', maxlength: 120, required: true, autocomplete: 'off' });
     if (input) input.value = question.value ?? '';
     const dialog = h(
       'dialog',

@@ -8,11 +8,16 @@ export interface Props {
 }
 
 /** An element with attributes, listeners and children. `true` sets an empty attribute, `false` and null leave it out. */
-export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  props: Props = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(props)) {
     if (name === 'on') {
-      for (const [event, handler] of Object.entries(value as Handlers)) element.addEventListener(event, handler as EventListener);
+      for (const [event, handler] of Object.entries(value as Handlers))
+        element.addEventListener(event, handler as EventListener);
     } else if (value !== false && value !== null && value !== undefined) {
       element.setAttribute(name, value === true ? '' : String(value));
     }
@@ -40,7 +45,11 @@ export function setText(element: Element, text: string): void {
 }
 
 const svgNamespace = 'http://www.w3.org/2000/svg';
-export function svg(tag: string, attributes: Record<string, string | number> = {}, ...children: (Element | string)[]): SVGElement {
+export function svg(
+  tag: string,
+  attributes: Record<string, string | number> = {},
+  ...children: (Element | string)[]
+): SVGElement {
   const element = document.createElementNS(svgNamespace, tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
   element.append(...children);

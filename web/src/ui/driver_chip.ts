@@ -6,22 +6,57 @@ import type { Signal } from './signal.ts';
 import type { Tab } from './studio.ts';
 
 /** Says on the stage who moves the face, and lets the stream take over again. */
-export function makeDriverChip(live: LiveModel, scene: SceneView, tab: Signal<Tab>, defaultStream: { id: string; title: string }): HTMLElement {
+export function makeDriverChip(
+  live: LiveModel,
+  scene: SceneView,
+  tab: Signal<Tab>,
+  defaultStream: { id: string; title: string },
+): HTMLElement {
   const chip = h('div', { class: 'driver', role: 'status' });
   const draw = (): void => {
     const status = live.status.value;
     chip.hidden = scene.performer.value === null || tab.value === 'points';
     if (chip.hidden) return;
     if (live.driving.value && status.kind !== 'off') {
-      const words = status.kind === 'open' ? `Live: ${status.title ?? ''}` : status.kind === 'ended' ? (status.reason ?? 'The stream ended') : 'Connecting…';
-      replace(chip, h('span', { class: `lamp lamp-${status.kind}` }), h('span', { class: 'driver-text' }, words), h('button', { type: 'button', class: 'quiet square small', 'aria-label': 'Pause the stream', title: 'Pause', on: { click: () => live.driving.set(false) } }, icon('pause', 15)));
+      const words =
+        status.kind === 'open'
+          ? `Live: ${status.title ?? ''}`
+          : status.kind === 'ended'
+            ? (status.reason ?? 'The stream ended')
+            : 'Connecting…';
+      replace(
+        chip,
+        h('span', { class: `lamp lamp-${status.kind}` }),
+        h('span', { class: 'driver-text' }, words),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': 'Pause the stream',
+            title: 'Pause',
+            on: { click: () => live.driving.set(false) },
+          },
+          icon('pause', 15),
+        ),
+      );
       return;
     }
     const resume = (): void => {
       if (live.following.value === null) live.subscribe(defaultStream.id, defaultStream.title);
       else live.driving.set(true);
     };
-    replace(chip, h('span', { class: 'lamp lamp-hand' }), h('span', { class: 'driver-text' }, 'By hand'), h('button', { type: 'button', class: 'quiet small', on: { click: resume } }, icon('play', 14), live.following.value === null ? 'Play the demo' : 'Back to live'));
+    replace(
+      chip,
+      h('span', { class: 'lamp lamp-hand' }),
+      h('span', { class: 'driver-text' }, 'By hand'),
+      h(
+        'button',
+        { type: 'button', class: 'quiet small', on: { click: resume } },
+        icon('play', 14),
+        live.following.value === null ? 'Play the demo' : 'Back to live',
+      ),
+    );
   };
   live.status.watch(draw);
   live.driving.watch(draw);

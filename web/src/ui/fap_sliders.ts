@@ -24,7 +24,8 @@ export class FapSliders {
   constructor(private readonly options: FapSlidersOptions) {
     const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
     this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
-    for (const group of fapGroups) if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
+    for (const group of fapGroups)
+      if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
   }
 
   /** Shows the frame's values. */
@@ -40,18 +41,38 @@ export class FapSliders {
     const count = h('span', { class: 'badge quiet-badge' });
     this.counts.set(group, count);
     const title = fapGroupTitles[group] ?? `Group ${group}`;
-    const reset = h('button', {
-      type: 'button', class: 'quiet square small', 'aria-label': `Reset ${title}`, title: `Reset ${title}`,
-      on: {
-        click: (event) => {
-          event.preventDefault();
-          for (const fap of list) this.options.frame.levels[fap.number] = 0;
-          this.changed();
+    const reset = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet square small',
+        'aria-label': `Reset ${title}`,
+        title: `Reset ${title}`,
+        on: {
+          click: (event) => {
+            event.preventDefault();
+            for (const fap of list) this.options.frame.levels[fap.number] = 0;
+            this.changed();
+          },
         },
       },
-    }, icon('reset', 15));
+      icon('reset', 15),
+    );
     const body = h('div', { class: 'fap-list' });
-    const details = h('details', { class: 'fap-group', 'data-group': group }, h('summary', {}, icon('chevron', 14), h('span', { class: 'grow' }, title), count, h('span', { class: 'muted small' }, String(list.length)), reset), body);
+    const details = h(
+      'details',
+      { class: 'fap-group', 'data-group': group },
+      h(
+        'summary',
+        {},
+        icon('chevron', 14),
+        h('span', { class: 'grow' }, title),
+        count,
+        h('span', { class: 'muted small' }, String(list.length)),
+        reset,
+      ),
+      body,
+    );
     // Built when first opened: 65 sliders at once are felt on a phone.
     details.addEventListener('toggle', () => {
       if (details.open && body.childElementCount === 0) {

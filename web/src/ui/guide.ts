@@ -19,7 +19,9 @@ export class Guide {
   constructor(private readonly options: GuideOptions) {
     this.element = h('div', { class: 'guide' }, this.picture, this.switcher);
     for (const view of Object.keys(drawings) as GuideView[]) {
-      this.switcher.append(h('button', { type: 'button', 'data-view': view, on: { click: () => this.show(view) } }, drawings[view].title));
+      this.switcher.append(
+        h('button', { type: 'button', 'data-view': view, on: { click: () => this.show(view) } }, drawings[view].title),
+      );
     }
     this.draw();
   }
@@ -44,11 +46,23 @@ export class Guide {
 
   private draw(): void {
     const drawing = drawings[this.view];
-    const root = svg('svg', { viewBox: drawing.viewBox, class: 'guide-drawing', role: 'group', 'aria-label': `${drawing.title}: feature points` });
+    const root = svg('svg', {
+      viewBox: drawing.viewBox,
+      class: 'guide-drawing',
+      role: 'group',
+      'aria-label': `${drawing.title}: feature points`,
+    });
     for (const stroke of drawing.strokes) {
-      root.append(svg('path', { d: stroke.d, class: `line${stroke.soft ? ' soft' : ''}${stroke.fill ? ` fill-${stroke.fill}` : ''}` }));
+      root.append(
+        svg('path', {
+          d: stroke.d,
+          class: `line${stroke.soft ? ' soft' : ''}${stroke.fill ? ` fill-${stroke.fill}` : ''}`,
+        }),
+      );
     }
-    const order = Object.entries(drawing.spots).sort(([a], [b]) => Number(a === this.selected) - Number(b === this.selected));
+    const order = Object.entries(drawing.spots).sort(
+      ([a], [b]) => Number(a === this.selected) - Number(b === this.selected),
+    );
     for (const [id, [x, y]] of order) root.append(this.spot(id, x, y));
     replace(this.picture, root);
     for (const button of this.switcher.querySelectorAll('button')) {
@@ -60,9 +74,20 @@ export class Guide {
     const state = this.wrong.has(id) ? 'wrong' : this.placed.has(id) ? 'placed' : 'open';
     const selected = id === this.selected;
     const label = `${id} ${featurePoints.find((point) => point.id === id)?.name ?? ''}`;
-    const group = svg('g', { class: `spot ${state}${selected ? ' selected' : ''}`, role: 'button', 'aria-label': `${label} (${state === 'open' ? 'not placed' : state})` }, svg('title', {}, label));
-    if (selected) group.append(svg('circle', { cx: x, cy: y, r: 8.500, class: 'halo' }));
-    group.append(svg('circle', { cx: x, cy: y, r: 7, class: 'reach' }), svg('circle', { cx: x, cy: y, r: selected ? 4.200 : 2.600, class: 'dot' }));
+    const group = svg(
+      'g',
+      {
+        class: `spot ${state}${selected ? ' selected' : ''}`,
+        role: 'button',
+        'aria-label': `${label} (${state === 'open' ? 'not placed' : state})`,
+      },
+      svg('title', {}, label),
+    );
+    if (selected) group.append(svg('circle', { cx: x, cy: y, r: 8.5, class: 'halo' }));
+    group.append(
+      svg('circle', { cx: x, cy: y, r: 7, class: 'reach' }),
+      svg('circle', { cx: x, cy: y, r: selected ? 4.2 : 2.6, class: 'dot' }),
+    );
     group.addEventListener('click', () => this.options.onSelect(id));
     return group;
   }

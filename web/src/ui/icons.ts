@@ -2,8 +2,10 @@ import { svg } from './dom.ts';
 
 /** Our own line icons on a grid of 20. */
 const paths = {
-  upload: 'M10 13.500V4M6.200 7.500 10 3.700l3.800 3.800M3.500 13v2a1.500 1.500 0 0 0 1.500 1.500h10a1.500 1.500 0 0 0 1.500-1.500v-2',
-  download: 'M10 4v9.500M6.200 9.800 10 13.600l3.800-3.800M3.500 13.500V15A1.500 1.500 0 0 0 5 16.500h10a1.500 1.500 0 0 0 1.500-1.500v-1.500',
+  upload:
+    'M10 13.500V4M6.200 7.500 10 3.700l3.800 3.800M3.500 13v2a1.500 1.500 0 0 0 1.500 1.500h10a1.500 1.500 0 0 0 1.500-1.500v-2',
+  download:
+    'M10 4v9.500M6.200 9.800 10 13.600l3.800-3.800M3.500 13.500V15A1.500 1.500 0 0 0 5 16.500h10a1.500 1.500 0 0 0 1.500-1.500v-1.500',
   sun: 'M10 6.600a3.400 3.400 0 1 0 0 6.800 3.400 3.400 0 0 0 0-6.800M10 2.500v1.400M10 16.100v1.400M2.500 10h1.400M16.100 10h1.400M4.700 4.700l1 1M14.300 14.300l1 1M4.700 15.300l1-1M14.300 5.700l1-1',
   moon: 'M16.200 12.100A6.800 6.800 0 0 1 7.900 3.800a6.800 6.800 0 1 0 8.300 8.300Z',
   more: 'M4.900 10h.2M9.900 10h.2M14.900 10h.2',
@@ -36,7 +38,18 @@ export type IconName = keyof typeof paths;
 export function icon(name: IconName, size = 18): SVGElement {
   return svg(
     'svg',
-    { viewBox: '0 0 20 20', width: size, height: size, fill: 'none', stroke: 'currentColor', 'stroke-width': name === 'more' ? 2.4 : 1.5, 'stroke-linecap': 'round', 'stroke-linejoin': 'round', 'aria-hidden': 'true', class: 'icon' },
+    {
+      viewBox: '0 0 20 20',
+      width: size,
+      height: size,
+      fill: 'none',
+      stroke: 'currentColor',
+      'stroke-width': name === 'more' ? 2.4 : 1.5,
+      'stroke-linecap': 'round',
+      'stroke-linejoin': 'round',
+      'aria-hidden': 'true',
+      class: 'icon',
+    },
     svg('path', { d: paths[name] }),
   );
 }

@@ -16,11 +16,16 @@ interface Edit {
 
 /** What the tests and a developer's console see of the page as `window.semblante`. Nothing on the page uses it. */
 export function exposeInspection(scene: SceneView, studio: Studio): void {
-  Object.assign(window, { semblante: { scene, studio, compareDeformation: (edit: Edit) => compareDeformation(scene, edit) } });
+  Object.assign(window, {
+    semblante: { scene, studio, compareDeformation: (edit: Edit) => compareDeformation(scene, edit) },
+  });
 }
 
 /** One frame through the shader and through the kernel: differences of positions (in diagonals) and normals (degrees). */
-function compareDeformation(scene: SceneView, edit: Edit): { worstPosition: number; worstNormal: number; meanAgainstTriangles: number; moved: number } {
+function compareDeformation(
+  scene: SceneView,
+  edit: Edit,
+): { worstPosition: number; worstNormal: number; meanAgainstTriangles: number; moved: number } {
   const performer = scene.performer.value;
   const { face } = scene;
   if (!performer || !face) throw new Error('no face on the stage');
@@ -61,10 +66,12 @@ function compareDeformation(scene: SceneView, edit: Edit): { worstPosition: numb
   return { worstPosition, worstNormal, meanAgainstTriangles: sum / Math.max(counted, 1), moved };
 }
 
-const distance = (a: Float32Array, b: Float32Array, v: number): number => Math.hypot(a[v * 3]! - b[v * 3]!, a[v * 3 + 1]! - b[v * 3 + 1]!, a[v * 3 + 2]! - b[v * 3 + 2]!);
+const distance = (a: Float32Array, b: Float32Array, v: number): number =>
+  Math.hypot(a[v * 3]! - b[v * 3]!, a[v * 3 + 1]! - b[v * 3 + 1]!, a[v * 3 + 2]! - b[v * 3 + 2]!);
 
 /** Between two unit vectors, degrees; by the chord, which keeps its digits at small angles. */
-const angle = (a: Float32Array, b: Float32Array, v: number): number => (2 * Math.asin(Math.min(1, distance(a, b, v) / 2)) * 180) / Math.PI;
+const angle = (a: Float32Array, b: Float32Array, v: number): number =>
+  (2 * Math.asin(Math.min(1, distance(a, b, v) / 2)) * 180) / Math.PI;
 
 function diagonalOf(positions: Float32Array): number {
   const low = [Infinity, Infinity, Infinity];

@@ -21,7 +21,19 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
   const buttons = new Map<Tab, HTMLButtonElement>();
   const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': 'Work on the head' });
   for (const { tab, title, icon: name } of tabs) {
-    const button = h('button', { type: 'button', role: 'tab', id: `tab-${tab}`, 'aria-controls': `panel-${tab}`, class: `tab tab-${tab}`, on: { click: () => studio.tab.set(tab) } }, icon(name), h('span', {}, title));
+    const button = h(
+      'button',
+      {
+        type: 'button',
+        role: 'tab',
+        id: `tab-${tab}`,
+        'aria-controls': `panel-${tab}`,
+        class: `tab tab-${tab}`,
+        on: { click: () => studio.tab.set(tab) },
+      },
+      icon(name),
+      h('span', {}, title),
+    );
     buttons.set(tab, button);
     tabList.append(button);
   }
@@ -71,10 +83,26 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
   return h(
     'div',
     { class: 'studio' },
-    h('header', { class: 'top' }, h('a', { class: 'brand', href: './' }, h('img', { src: './favicon.svg', alt: '', width: 26, height: 26 }), h('h1', {}, 'Semblante')), crumb, h('span', { class: 'grow' }), extras),
+    h(
+      'header',
+      { class: 'top' },
+      h(
+        'a',
+        { class: 'brand', href: './' },
+        h('img', { src: './favicon.svg', alt: '', width: 26, height: 26 }),
+        h('h1', {}, 'Semblante'),
+      ),
+      crumb,
+      h('span', { class: 'grow' }),
+      extras,
+    ),
     shelfHome,
     h('main', { class: 'stage' }, stage),
     inspector,
-    h('div', { class: 'drop-veil', 'aria-hidden': 'true' }, h('div', {}, icon('upload', 40), h('p', {}, 'Drop the head here'))),
+    h(
+      'div',
+      { class: 'drop-veil', 'aria-hidden': 'true' },
+      h('div', {}, icon('upload', 40), h('p', {}, 'Drop the head here')),
+    ),
   );
 }

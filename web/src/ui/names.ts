@@ -1,6 +1,16 @@
 /** The standard's names in plain words. */
 
-const words: Record<string, string> = { l: 'left', r: 'right', t: 'upper', b: 'lower', lm: 'left of middle', rm: 'right of middle', i: 'inner', m: 'middle', o: 'outer' };
+const words: Record<string, string> = {
+  l: 'left',
+  r: 'right',
+  t: 'upper',
+  b: 'lower',
+  lm: 'left of middle',
+  rm: 'right of middle',
+  i: 'inner',
+  m: 'middle',
+  o: 'outer',
+};
 const joined: Record<string, string> = { midlip: 'lip middle', cornerlip: 'lip corner', cornerlips: 'lip corners' };
 
 /** "stretch_l_cornerlip_o" -> "Stretch left lip corner"; the group says that it is the outer contour. */

@@ -75,7 +75,11 @@ export class PointsModel {
   }
 
   save(mirror = false): Promise<boolean> {
-    return this.put(this.draft.toBody(), mirror ? 'The missing sides were not filled in' : 'The feature points were not saved', { mirror, guarded: true });
+    return this.put(
+      this.draft.toBody(),
+      mirror ? 'The missing sides were not filled in' : 'The feature points were not saved',
+      { mirror, guarded: true },
+    );
   }
 
   /** A file in the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server reads it. */
@@ -110,7 +114,8 @@ export class PointsModel {
   show(error: unknown): void {
     const problem = problemOf(error);
     const byPoint: Record<string, string[]> = {};
-    for (const { pointer, detail } of fieldProblems(problem)) (byPoint[featurePointOf(pointer) ?? ''] ??= []).push(pointer ? `${detail} (${pointer})` : detail);
+    for (const { pointer, detail } of fieldProblems(problem))
+      (byPoint[featurePointOf(pointer) ?? ''] ??= []).push(pointer ? `${detail} (${pointer})` : detail);
     this.setProblems(byPoint);
     const first = Object.keys(byPoint).find((id) => id !== '');
     if (first) this.chosen.set(first);
@@ -121,7 +126,10 @@ export class PointsModel {
     if (!model) return false;
     this.busy.set(true);
     try {
-      const answer = await this.studio.api.putFeaturePoints(model.id, body, { etag: options.guarded ? this.etag : null, mirror: options.mirror });
+      const answer = await this.studio.api.putFeaturePoints(model.id, body, {
+        etag: options.guarded ? this.etag : null,
+        mirror: options.mirror,
+      });
       this.clearProblems();
       if (answer.value?.points) this.take(answer.value, answer.etag);
       else {

@@ -19,7 +19,12 @@ export class PointsPanel {
   private readonly card = h('div', { class: 'point-card', 'aria-live': 'polite' });
   private readonly notices = h('div', { class: 'notices' });
   private readonly list = h('div', { class: 'point-groups' });
-  private readonly search = h('input', { type: 'search', placeholder: 'Search: 2.1, chin, left…', 'aria-label': 'Search feature points', on: { input: () => this.drawList() } });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Search: 2.1, chin, left…',
+    'aria-label': 'Search feature points',
+    on: { input: () => this.drawList() },
+  });
   private readonly onlyOpen = h('input', { type: 'checkbox', on: { change: () => this.drawList() } });
   private readonly save: HTMLButtonElement;
   private readonly go: HTMLButtonElement;
@@ -33,27 +38,63 @@ export class PointsPanel {
     private readonly points: PointsModel,
   ) {
     this.guide = new Guide({ onSelect: (id) => this.choose(id) });
-    const file = h('input', { type: 'file', accept: '.json,application/json', class: 'visually-hidden', id: 'points-file', tabindex: -1, 'aria-label': 'Feature point file' });
+    const file = h('input', {
+      type: 'file',
+      accept: '.json,application/json',
+      class: 'visually-hidden',
+      id: 'points-file',
+      tabindex: -1,
+      'aria-label': 'Feature point file',
+    });
     file.addEventListener('change', () => {
       const chosen = file.files?.[0];
       if (chosen) void this.importFile(chosen);
       file.value = '';
     });
-    const tool = (label: string, name: Parameters<typeof icon>[0], click: () => void): HTMLButtonElement => h('button', { type: 'button', class: 'quiet square', 'aria-label': label, title: label, on: { click } }, icon(name));
+    const tool = (label: string, name: Parameters<typeof icon>[0], click: () => void): HTMLButtonElement =>
+      h(
+        'button',
+        { type: 'button', class: 'quiet square', 'aria-label': label, title: label, on: { click } },
+        icon(name),
+      );
     this.undo = tool('Undo', 'undo', () => points.undo());
     this.redo = tool('Redo', 'redo', () => points.redo());
     this.mirror = tool('Fill the missing side by mirroring', 'mirror', () => void points.save(true));
     this.save = h('button', { type: 'button', on: { click: () => void points.save() } }, 'Save');
-    this.go = h('button', { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } }, 'Parametrize');
+    this.go = h(
+      'button',
+      { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } },
+      'Parametrize',
+    );
     this.element = h(
       'div',
       { class: 'panel points' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Feature points'), h('div', { class: 'row tight' }, this.undo, this.redo, this.mirror, tool('Import points from a file', 'upload', () => file.click()), tool('Export points to a file', 'download', () => points.exportFile()), file)),
+      h(
+        'header',
+        { class: 'section-head' },
+        h('h2', {}, 'Feature points'),
+        h(
+          'div',
+          { class: 'row tight' },
+          this.undo,
+          this.redo,
+          this.mirror,
+          tool('Import points from a file', 'upload', () => file.click()),
+          tool('Export points to a file', 'download', () => points.exportFile()),
+          file,
+        ),
+      ),
       h('div', { class: 'meter' }, this.meter, this.count),
       this.guide.element,
       this.card,
       this.notices,
-      h('div', { class: 'search' }, icon('search', 16), this.search, h('label', { class: 'check small' }, this.onlyOpen, 'Not placed')),
+      h(
+        'div',
+        { class: 'search' },
+        icon('search', 16),
+        this.search,
+        h('label', { class: 'check small' }, this.onlyOpen, 'Not placed'),
+      ),
       this.list,
       h('footer', { class: 'panel-foot' }, this.progress, h('div', { class: 'row' }, this.save, this.go)),
     );
@@ -78,7 +119,8 @@ export class PointsPanel {
     const row = this.list.querySelector<HTMLElement>(`[data-point="${id}"]`);
     if (!row || this.list.scrollHeight <= this.list.clientHeight) return;
     const top = row.offsetTop;
-    if (top < this.list.scrollTop || top + row.offsetHeight > this.list.scrollTop + this.list.clientHeight) this.list.scrollTop = top - this.list.clientHeight / 3;
+    if (top < this.list.scrollTop || top + row.offsetHeight > this.list.scrollTop + this.list.clientHeight)
+      this.list.scrollTop = top - this.list.clientHeight / 3;
   }
 
   private draw(): void {
@@ -93,7 +135,22 @@ export class PointsPanel {
     replace(
       this.notices,
       general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), text)),
-      wrong.length > 0 ? h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('span', {}, `Refused: ${wrong.length === 1 ? 'point' : 'points'} `, wrong.map((id) => h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id)), '. Move or remove, then save again.')) : null,
+      wrong.length > 0
+        ? h(
+            'p',
+            { class: 'notice error', role: 'alert' },
+            icon('warning', 16),
+            h(
+              'span',
+              {},
+              `Refused: ${wrong.length === 1 ? 'point' : 'points'} `,
+              wrong.map((id) =>
+                h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id),
+              ),
+              '. Move or remove, then save again.',
+            ),
+          )
+        : null,
       [...warnings, ...modelWarnings].slice(0, 4).map((text) => h('p', { class: 'notice' }, icon('warning', 16), text)),
     );
     this.drawCard();
@@ -111,25 +168,81 @@ export class PointsPanel {
     this.redo.disabled = !draft.canRedo;
     this.mirror.disabled = busy || !usable || draft.points.size === 0;
     this.save.disabled = busy || !usable || draft.changes === 0;
-    setText(this.save, draft.changes === 0 ? 'Saved' : `Save ${draft.changes} ${draft.changes === 1 ? 'change' : 'changes'}`);
+    setText(
+      this.save,
+      draft.changes === 0 ? 'Saved' : `Save ${draft.changes} ${draft.changes === 1 ? 'change' : 'changes'}`,
+    );
     this.go.disabled = busy || !usable || draft.points.size === 0;
-    replace(this.progress, activity ? h('div', { class: 'row small' }, h('span', { class: 'grow' }, activity.title), activity.progress !== null ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`) : null, activity.cancel ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, 'Cancel') : null) : null, activity ? bar(activity) : null);
+    replace(
+      this.progress,
+      activity
+        ? h(
+            'div',
+            { class: 'row small' },
+            h('span', { class: 'grow' }, activity.title),
+            activity.progress !== null
+              ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`)
+              : null,
+            activity.cancel
+              ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, 'Cancel')
+              : null,
+          )
+        : null,
+      activity ? bar(activity) : null,
+    );
   }
 
   private drawCard(): void {
     const id = this.points.chosen.value;
     const point = id === null ? undefined : pointById(id);
     if (!point) {
-      replace(this.card, h('p', { class: 'muted' }, 'Choose a point in the drawing or the list, then click where it lies on the head.'));
+      replace(
+        this.card,
+        h('p', { class: 'muted' }, 'Choose a point in the drawing or the list, then click where it lies on the head.'),
+      );
       return;
     }
     const place = this.points.draft.points.get(point.id);
     const reasons = this.points.problems.get(point.id) ?? [];
-    const where = !place ? 'Click on the head to place it.' : place.vertex === null ? `At ${place.position.map((value) => value.toPrecision(4)).join(', ')}` : `On vertex ${place.vertex}. Click elsewhere to move it.`;
+    const where = !place
+      ? 'Click on the head to place it.'
+      : place.vertex === null
+        ? `At ${place.position.map((value) => value.toPrecision(4)).join(', ')}`
+        : `On vertex ${place.vertex}. Click elsewhere to move it.`;
     replace(
       this.card,
-      h('div', { class: 'row' }, h('code', { class: 'id' }, point.id), h('strong', { class: 'grow' }, capital(point.name)), place ? h('button', { type: 'button', class: 'quiet square small', 'aria-label': `Remove point ${point.id}`, title: 'Remove (Delete)', on: { click: () => this.points.remove(point.id) } }, icon('trash', 16)) : null),
-      h('div', { class: 'row' }, h('p', { class: 'muted small grow' }, where), this.points.draft.points.size < this.points.total ? h('button', { type: 'button', class: 'quiet small next', on: { click: () => this.points.chooseNext() } }, 'Next', icon('chevron', 14)) : null),
+      h(
+        'div',
+        { class: 'row' },
+        h('code', { class: 'id' }, point.id),
+        h('strong', { class: 'grow' }, capital(point.name)),
+        place
+          ? h(
+              'button',
+              {
+                type: 'button',
+                class: 'quiet square small',
+                'aria-label': `Remove point ${point.id}`,
+                title: 'Remove (Delete)',
+                on: { click: () => this.points.remove(point.id) },
+              },
+              icon('trash', 16),
+            )
+          : null,
+      ),
+      h(
+        'div',
+        { class: 'row' },
+        h('p', { class: 'muted small grow' }, where),
+        this.points.draft.points.size < this.points.total
+          ? h(
+              'button',
+              { type: 'button', class: 'quiet small next', on: { click: () => this.points.chooseNext() } },
+              'Next',
+              icon('chevron', 14),
+            )
+          : null,
+      ),
       reasons.map((text) => h('p', { class: 'reason', role: 'alert' }, icon('warning', 15), text)),
     );
   }
@@ -137,7 +250,11 @@ export class PointsPanel {
   private drawList(): void {
     const words = this.search.value.trim().toLowerCase();
     const { draft, problems } = this.points;
-    const show = (point: FeaturePoint): boolean => (!this.onlyOpen.checked || !draft.points.has(point.id)) && (words === '' || point.id.startsWith(words) || `${point.id} ${point.name} ${point.side}`.toLowerCase().includes(words));
+    const show = (point: FeaturePoint): boolean =>
+      (!this.onlyOpen.checked || !draft.points.has(point.id)) &&
+      (words === '' ||
+        point.id.startsWith(words) ||
+        `${point.id} ${point.name} ${point.side}`.toLowerCase().includes(words));
     const groups = pointGroups.map((group) => {
       const shown = group.points.filter(show);
       if (shown.length === 0) return null;
@@ -145,12 +262,29 @@ export class PointsPanel {
       return h(
         'section',
         { class: 'point-group' },
-        h('h3', {}, h('span', { class: 'grow' }, group.name), h('span', { class: 'number muted' }, `${placed}/${group.points.length}`)),
-        h('ul', {}, shown.map((point) => this.row(point, draft.points.has(point.id), problems.get(point.id)))),
+        h(
+          'h3',
+          {},
+          h('span', { class: 'grow' }, group.name),
+          h('span', { class: 'number muted' }, `${placed}/${group.points.length}`),
+        ),
+        h(
+          'ul',
+          {},
+          shown.map((point) => this.row(point, draft.points.has(point.id), problems.get(point.id))),
+        ),
       );
     });
     const top = this.list.scrollTop;
-    if (groups.every((group) => group === null)) replace(this.list, h('p', { class: 'empty' }, this.onlyOpen.checked && words === '' ? 'All points are placed.' : 'No point matches.'));
+    if (groups.every((group) => group === null))
+      replace(
+        this.list,
+        h(
+          'p',
+          { class: 'empty' },
+          this.onlyOpen.checked && words === '' ? 'All points are placed.' : 'No point matches.',
+        ),
+      );
     else replace(this.list, groups);
     this.list.scrollTop = top;
   }
@@ -163,7 +297,13 @@ export class PointsPanel {
       {},
       h(
         'button',
-        { type: 'button', class: `point-row ${state}`, 'data-point': point.id, 'aria-pressed': String(chosen), on: { click: () => this.choose(point.id) } },
+        {
+          type: 'button',
+          class: `point-row ${state}`,
+          'data-point': point.id,
+          'aria-pressed': String(chosen),
+          on: { click: () => this.choose(point.id) },
+        },
         h('span', { class: 'dot', 'aria-hidden': 'true' }),
         h('code', { class: 'id' }, point.id),
         h('span', { class: 'grow name' }, capital(point.name)),
@@ -175,7 +315,11 @@ export class PointsPanel {
 
   private async importFile(file: File): Promise<void> {
     if (this.points.draft.points.size > 0) {
-      const yes = await ask({ title: 'Replace the feature points?', text: `${file.name} takes the place of the ${this.points.draft.points.size} points of this head.`, accept: 'Replace' });
+      const yes = await ask({
+        title: 'Replace the feature points?',
+        text: `${file.name} takes the place of the ${this.points.draft.points.size} points of this head.`,
+        accept: 'Replace',
+      });
       if (yes === null) return;
     }
     await this.points.importFile(file);

@@ -11,7 +11,8 @@ import { chooseQuality, type Quality } from '../view/quality.ts';
 import { Stage } from '../view/stage.ts';
 import { Signal } from './signal.ts';
 
-export type SceneState = { kind: 'empty' } | { kind: 'loading'; title: string } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
+export type SceneState =
+  { kind: 'empty' } | { kind: 'loading'; title: string } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
 
 export interface SceneSources {
   preview: (model: Model, signal: AbortSignal) => Promise<Uint8Array>;
@@ -52,7 +53,9 @@ export class SceneView {
 
   /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
   async open(model: Model | null): Promise<void> {
-    const key = model ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${model.source?.sha256 ?? ''}` : '';
+    const key = model
+      ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${model.source?.sha256 ?? ''}`
+      : '';
     if (key === this.shown) return;
     const sameModel = key.split(':')[0] === this.shown.split(':')[0];
     this.shown = key;
@@ -71,12 +74,18 @@ export class SceneView {
     }
     if (model.state === 'failed') {
       this.clear();
-      this.state.set({ kind: 'failed', problem: model.problem ?? { type: 'about:blank', title: 'The file could not be read', status: 422 } });
+      this.state.set({
+        kind: 'failed',
+        problem: model.problem ?? { type: 'about:blank', title: 'The file could not be read', status: 422 },
+      });
       return;
     }
     this.state.set({ kind: 'loading', title: 'Opening the head' });
     try {
-      const parts = { preview: this.openPreview(model, opening.signal, sameModel), face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null) };
+      const parts = {
+        preview: this.openPreview(model, opening.signal, sameModel),
+        face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null),
+      };
       const [preview, face] = await Promise.all([parts.preview, parts.face]);
       if (opening.signal.aborted) return;
       this.install(preview, face);

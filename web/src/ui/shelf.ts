@@ -7,13 +7,26 @@ import { icon } from './icons.ts';
 import type { Activity, Studio } from './studio.ts';
 
 const accepted = '.glb,.zip,.obj,.ply,.stl';
-const stateWords: Record<Model['state'], string> = { importing: 'Importing', ready: 'Needs points', parametrized: 'Ready to move', failed: 'Failed' };
+const stateWords: Record<Model['state'], string> = {
+  importing: 'Importing',
+  ready: 'Needs points',
+  parametrized: 'Ready to move',
+  failed: 'Failed',
+};
 
 /** The list of heads: upload, choose, rename, delete. */
 export class Shelf {
   readonly element: HTMLElement;
   private readonly list = h('ul', { class: 'heads', 'aria-label': 'Heads' });
-  private readonly input = h('input', { type: 'file', accept: accepted, multiple: true, class: 'visually-hidden', id: 'file', tabindex: -1, 'aria-label': 'Model files' });
+  private readonly input = h('input', {
+    type: 'file',
+    accept: accepted,
+    multiple: true,
+    class: 'visually-hidden',
+    id: 'file',
+    tabindex: -1,
+    'aria-label': 'Model files',
+  });
 
   constructor(
     private readonly studio: Studio,
@@ -27,9 +40,30 @@ export class Shelf {
     this.element = h(
       'div',
       { class: 'panel shelf-panel' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Heads'), h('button', { type: 'button', class: 'quiet square', 'aria-label': 'Upload a head', title: 'Upload a head', on: { click: choose } }, icon('plus'))),
+      h(
+        'header',
+        { class: 'section-head' },
+        h('h2', {}, 'Heads'),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square',
+            'aria-label': 'Upload a head',
+            title: 'Upload a head',
+            on: { click: choose },
+          },
+          icon('plus'),
+        ),
+      ),
       this.list,
-      h('button', { type: 'button', class: 'drop', on: { click: choose } }, icon('upload', 22), h('span', {}, h('strong', {}, 'Choose a head'), ' or drop it here'), h('small', {}, 'GLB, glTF (zip), OBJ, PLY, STL')),
+      h(
+        'button',
+        { type: 'button', class: 'drop', on: { click: choose } },
+        icon('upload', 22),
+        h('span', {}, h('strong', {}, 'Choose a head'), ' or drop it here'),
+        h('small', {}, 'GLB, glTF (zip), OBJ, PLY, STL'),
+      ),
       this.input,
     );
     const draw = (): void => this.draw();
@@ -51,12 +85,24 @@ export class Shelf {
       const advice = adviceFor(state.problem);
       replace(
         this.list,
-        h('li', { class: 'notice error', role: 'alert' }, icon('warning'), h('div', {}, h('strong', {}, state.problem.title), advice ? h('p', {}, advice) : null, h('button', { type: 'button', on: { click: () => void studio.start() } }, 'Try again'))),
+        h(
+          'li',
+          { class: 'notice error', role: 'alert' },
+          icon('warning'),
+          h(
+            'div',
+            {},
+            h('strong', {}, state.problem.title),
+            advice ? h('p', {}, advice) : null,
+            h('button', { type: 'button', on: { click: () => void studio.start() } }, 'Try again'),
+          ),
+        ),
       );
       return;
     }
     const items: HTMLElement[] = [];
-    for (const [key, activity] of studio.activities.value) if (key.startsWith('upload-')) items.push(this.uploadItem(activity));
+    for (const [key, activity] of studio.activities.value)
+      if (key.startsWith('upload-')) items.push(this.uploadItem(activity));
     for (const model of studio.models.value) items.push(this.item(model, studio.activities.value.get(model.id)));
     if (items.length === 0) items.push(h('li', { class: 'empty' }, 'No heads yet.'));
     replace(this.list, ...items);
@@ -66,19 +112,71 @@ export class Shelf {
   private item(model: Model, activity: Activity | undefined): HTMLElement {
     const selected = this.studio.selected.value?.id === model.id;
     const picture = this.thumbnails.get(model.id);
-    const facts = model.counts ? `${formatCount(model.counts.vertices)} vertices` : model.source ? formatBytes(model.source.bytes) : '';
+    const facts = model.counts
+      ? `${formatCount(model.counts.vertices)} vertices`
+      : model.source
+        ? formatBytes(model.source.bytes)
+        : '';
     return h(
       'li',
       { class: `head${selected ? ' selected' : ''}`, 'data-model': model.id },
       h(
         'button',
-        { type: 'button', class: 'open', 'aria-current': selected ? 'true' : null, on: { click: () => this.studio.select(model.id) } },
-        h('span', { class: 'thumb' }, picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24)),
-        h('span', { class: 'head-text' }, h('strong', {}, model.name || 'Unnamed'), activity ? h('span', { class: 'muted small' }, activity.title) : h('span', { class: 'muted small' }, h('span', { class: `state state-${model.state}` }, stateWords[model.state]), facts ? ` · ${facts}` : '')),
+        {
+          type: 'button',
+          class: 'open',
+          'aria-current': selected ? 'true' : null,
+          on: { click: () => this.studio.select(model.id) },
+        },
+        h(
+          'span',
+          { class: 'thumb' },
+          picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24),
+        ),
+        h(
+          'span',
+          { class: 'head-text' },
+          h('strong', {}, model.name || 'Unnamed'),
+          activity
+            ? h('span', { class: 'muted small' }, activity.title)
+            : h(
+                'span',
+                { class: 'muted small' },
+                h('span', { class: `state state-${model.state}` }, stateWords[model.state]),
+                facts ? ` · ${facts}` : '',
+              ),
+        ),
       ),
-      h('div', { class: 'head-actions' }, h('button', { type: 'button', class: 'quiet square small', 'aria-label': `Rename ${model.name}`, title: 'Rename', on: { click: () => void this.rename(model) } }, icon('edit', 16)), h('button', { type: 'button', class: 'quiet square small', 'aria-label': `Delete ${model.name}`, title: 'Delete', on: { click: () => void this.remove(model) } }, icon('trash', 16))),
+      h(
+        'div',
+        { class: 'head-actions' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': `Rename ${model.name}`,
+            title: 'Rename',
+            on: { click: () => void this.rename(model) },
+          },
+          icon('edit', 16),
+        ),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': `Delete ${model.name}`,
+            title: 'Delete',
+            on: { click: () => void this.remove(model) },
+          },
+          icon('trash', 16),
+        ),
+      ),
       activity ? bar(activity) : null,
-      selected && model.state === 'failed' && model.problem ? h('p', { class: 'head-problem' }, model.problem.detail ?? model.problem.title) : null,
+      selected && model.state === 'failed' && model.problem
+        ? h('p', { class: 'head-problem' }, model.problem.detail ?? model.problem.title)
+        : null,
     );
   }
 
@@ -86,8 +184,29 @@ export class Shelf {
     return h(
       'li',
       { class: 'head uploading' },
-      h('div', { class: 'open' }, h('span', { class: 'thumb' }, icon('upload', 22)), h('span', { class: 'head-text' }, h('strong', {}, activity.title), h('span', { class: 'muted small' }, `${Math.round((activity.progress ?? 0) * 100)} %`))),
-      activity.cancel ? h('button', { type: 'button', class: 'quiet square small', 'aria-label': 'Cancel upload', on: { click: activity.cancel } }, icon('close', 16)) : null,
+      h(
+        'div',
+        { class: 'open' },
+        h('span', { class: 'thumb' }, icon('upload', 22)),
+        h(
+          'span',
+          { class: 'head-text' },
+          h('strong', {}, activity.title),
+          h('span', { class: 'muted small' }, `${Math.round((activity.progress ?? 0) * 100)} %`),
+        ),
+      ),
+      activity.cancel
+        ? h(
+            'button',
+            {
+              type: 'button',
+              class: 'quiet square small',
+              'aria-label': 'Cancel upload',
+              on: { click: activity.cancel },
+            },
+            icon('close', 16),
+          )
+        : null,
       bar(activity),
     );
   }
@@ -98,7 +217,12 @@ export class Shelf {
   }
 
   private async remove(model: Model): Promise<void> {
-    const yes = await ask({ title: `Delete ${model.name}?`, text: 'Its feature points and its face package go with it. This cannot be undone.', accept: 'Delete', danger: true });
+    const yes = await ask({
+      title: `Delete ${model.name}?`,
+      text: 'Its feature points and its face package go with it. This cannot be undone.',
+      accept: 'Delete',
+      danger: true,
+    });
     if (yes !== null) await this.studio.remove(model);
   }
 }
@@ -108,7 +232,18 @@ export function bar(activity: Activity): HTMLElement {
   const percent = activity.progress === null ? null : Math.round(activity.progress * 100);
   const fill = h('span', {});
   if (percent !== null) fill.style.width = `${percent}%`;
-  return h('div', { class: `bar${percent === null ? ' unknown' : ''}`, role: 'progressbar', 'aria-label': activity.title, 'aria-valuemin': 0, 'aria-valuemax': 100, 'aria-valuenow': percent }, fill);
+  return h(
+    'div',
+    {
+      class: `bar${percent === null ? ' unknown' : ''}`,
+      role: 'progressbar',
+      'aria-label': activity.title,
+      'aria-valuemin': 0,
+      'aria-valuemax': 100,
+      'aria-valuenow': percent,
+    },
+    fill,
+  );
 }
 
 /** Files may be dropped anywhere on the page. */

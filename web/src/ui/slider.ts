@@ -20,9 +20,29 @@ export class Slider {
 
   constructor(private readonly options: SliderOptions) {
     const { label, note, title, min, max, step = 1 } = options;
-    this.range = h('input', { type: 'range', min, max, step, 'aria-label': label, on: { input: () => this.take(Number(this.range.value)), dblclick: () => this.take(0) } });
-    this.number = h('input', { type: 'number', min, max, step, 'aria-label': `${label}, value`, on: { change: () => this.take(Number(this.number.value) || 0) } });
-    this.element = h('div', { class: 'slider', title: title ?? null }, h('span', { class: 'slider-label' }, label, note ? h('small', {}, note) : null), this.number, this.range);
+    this.range = h('input', {
+      type: 'range',
+      min,
+      max,
+      step,
+      'aria-label': label,
+      on: { input: () => this.take(Number(this.range.value)), dblclick: () => this.take(0) },
+    });
+    this.number = h('input', {
+      type: 'number',
+      min,
+      max,
+      step,
+      'aria-label': `${label}, value`,
+      on: { change: () => this.take(Number(this.number.value) || 0) },
+    });
+    this.element = h(
+      'div',
+      { class: 'slider', title: title ?? null },
+      h('span', { class: 'slider-label' }, label, note ? h('small', {}, note) : null),
+      this.number,
+      this.range,
+    );
     this.set(options.value ?? 0);
   }
 

@@ -1,6 +1,7 @@
 import { adviceFor } from '../net/problem.ts';
 import type { ViewName } from '../view/stage.ts';
 import { h, replace, setText } from './dom.ts';
+import { formatBytes } from './format.ts';
 import { icon, type IconName } from './icons.ts';
 import { pointById } from '../face/feature_points.ts';
 import type { PointsModel } from './points_model.ts';
@@ -34,8 +35,20 @@ export class StagePanel {
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'application');
     canvas.setAttribute('aria-label', 'The head. Arrow keys turn it, plus and minus zoom, 1 to 4 choose a view.');
-    this.element = h('div', { class: 'stage-holder' }, canvas, this.label, h('div', { class: 'stage-top' }, driver, this.hint), this.overlay, this.makeTools(), this.figures);
-    canvas.addEventListener('pointerdown', (event) => (this.down = { x: event.clientX, y: event.clientY, time: event.timeStamp }));
+    this.element = h(
+      'div',
+      { class: 'stage-holder' },
+      canvas,
+      this.label,
+      h('div', { class: 'stage-top' }, driver, this.hint),
+      this.overlay,
+      this.makeTools(),
+      this.figures,
+    );
+    canvas.addEventListener(
+      'pointerdown',
+      (event) => (this.down = { x: event.clientX, y: event.clientY, time: event.timeStamp }),
+    );
     canvas.addEventListener('pointerup', (event) => this.click(event));
     canvas.addEventListener('pointermove', (event) => this.hover(event));
     canvas.addEventListener('pointerleave', () => (this.label.hidden = true));
@@ -53,7 +66,17 @@ export class StagePanel {
 
   private makeTools(): HTMLElement {
     const wire = toggle('Wireframe', 'wire', (on) => (this.scene.wireframe = on));
-    const path = h('button', { type: 'button', class: 'tool path', title: 'Where the vertices are moved: by the graphics card or by the WebAssembly kernel', 'aria-label': 'Deform on the GPU', on: {} }, 'GPU');
+    const path = h(
+      'button',
+      {
+        type: 'button',
+        class: 'tool path',
+        title: 'Where the vertices are moved: by the graphics card or by the WebAssembly kernel',
+        'aria-label': 'Deform on the GPU',
+        on: {},
+      },
+      'GPU',
+    );
     path.addEventListener('click', () => {
       this.scene.deformPath = this.scene.deformPath === 'gpu' ? 'wasm' : 'gpu';
       const gpu = this.scene.deformPath === 'gpu';
@@ -63,7 +86,18 @@ export class StagePanel {
     return h(
       'div',
       { class: 'tools', role: 'toolbar', 'aria-label': 'View' },
-      views.map(({ name, label, key }) => h('button', { type: 'button', class: 'tool', title: `${label} view (${key})`, on: { click: () => this.scene.stage.look(name) } }, name === 'three-quarter' ? '3/4' : label)),
+      views.map(({ name, label, key }) =>
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'tool',
+            title: `${label} view (${key})`,
+            on: { click: () => this.scene.stage.look(name) },
+          },
+          name === 'three-quarter' ? '3/4' : label,
+        ),
+      ),
       h('span', { class: 'divider' }),
       wire,
       path,
@@ -73,7 +107,13 @@ export class StagePanel {
   private click(event: PointerEvent): void {
     const { down } = this;
     this.down = null;
-    if (!down || event.button !== 0 || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 5 || event.timeStamp - down.time > 600) return;
+    if (
+      !down ||
+      event.button !== 0 ||
+      Math.hypot(event.clientX - down.x, event.clientY - down.y) > 5 ||
+      event.timeStamp - down.time > 600
+    )
+      return;
     if (this.studio.tab.value !== 'points' || !this.scene.preview) return;
     const { x, y, width, height } = this.place(event);
     if (this.points.chosen.value === null) {
@@ -133,7 +173,11 @@ export class StagePanel {
     this.canvas.classList.toggle('placing', !this.hint.hidden && id !== null);
     if (this.hint.hidden) return;
     const name = id === null ? '' : (pointById(id)?.name ?? '');
-    replace(this.hint, icon('point', 16), h('span', {}, id === null ? 'Choose a point, then click on the head.' : `Click where ${id} lies: ${name}`));
+    replace(
+      this.hint,
+      icon('point', 16),
+      h('span', {}, id === null ? 'Choose a point, then click on the head.' : `Click where ${id} lies: ${name}`),
+    );
   }
 
   private drawOverlay(): void {
@@ -143,17 +187,49 @@ export class StagePanel {
     const activity = model ? this.studio.activities.value.get(model.id) : undefined;
     this.overlay.hidden = state.kind === 'ready';
     if (state.kind === 'ready') return;
-    if (state.kind === 'empty') replace(this.overlay, h('div', { class: 'stage-card' }, icon('head', 40), h('h2', {}, 'No head on the stage'), h('p', {}, 'Choose one from the list, or drop a GLB, OBJ, PLY or STL file anywhere on this page.')));
+    if (state.kind === 'empty')
+      replace(
+        this.overlay,
+        h(
+          'div',
+          { class: 'stage-card' },
+          icon('head', 40),
+          h('h2', {}, 'No head on the stage'),
+          h('p', {}, 'Choose one from the list, or drop a GLB, OBJ, PLY or STL file anywhere on this page.'),
+        ),
+      );
     if (state.kind === 'loading') {
-      const percent = activity?.progress === null || activity?.progress === undefined ? '' : ` ${Math.round(activity.progress * 100)} %`;
-      replace(this.overlay, h('div', { class: 'stage-card', role: 'status' }, h('div', { class: 'spinner', 'aria-hidden': 'true' }), h('p', {}, `${activity?.title ?? state.title}…${percent}`)));
+      const percent =
+        activity?.progress === null || activity?.progress === undefined
+          ? ''
+          : ` ${Math.round(activity.progress * 100)} %`;
+      replace(
+        this.overlay,
+        h(
+          'div',
+          { class: 'stage-card', role: 'status' },
+          h('div', { class: 'spinner', 'aria-hidden': 'true' }),
+          h('p', {}, `${activity?.title ?? state.title}…${percent}`),
+        ),
+      );
     }
     if (state.kind === 'failed') {
       const { problem } = state;
       const advice = adviceFor(problem);
       replace(
         this.overlay,
-        h('div', { class: 'stage-card error', role: 'alert' }, icon('warning', 32), h('h2', {}, problem.title), problem.detail ? h('p', {}, problem.detail) : null, problem.pointer ? h('code', {}, problem.pointer) : null, advice ? h('p', { class: 'advice' }, advice) : null, model && model.state !== 'failed' ? h('button', { type: 'button', on: { click: () => void this.scene.open(model) } }, 'Try again') : null),
+        h(
+          'div',
+          { class: 'stage-card error', role: 'alert' },
+          icon('warning', 32),
+          h('h2', {}, problem.title),
+          problem.detail ? h('p', {}, problem.detail) : null,
+          problem.pointer ? h('code', {}, problem.pointer) : null,
+          advice ? h('p', { class: 'advice' }, advice) : null,
+          model && model.state !== 'failed'
+            ? h('button', { type: 'button', on: { click: () => void this.scene.open(model) } }, 'Try again')
+            : null,
+        ),
       );
     }
   }
@@ -163,13 +239,19 @@ export class StagePanel {
     if (now - this.lastFigures < 500) return;
     this.lastFigures = now;
     const rate = this.scene.stage.framesPerSecond;
+    const bytes = this.scene.packageBytes.value;
     // At rest the stage draws only on demand: a rate would say nothing.
-    setText(this.figures, rate > 4 ? `${rate} fps` : '');
+    const words = [bytes > 0 ? `${formatBytes(bytes)} face` : '', rate > 4 ? `${rate} fps` : ''];
+    setText(this.figures, words.filter((word) => word !== '').join(' · '));
   }
 }
 
 function toggle(label: string, name: IconName, change: (on: boolean) => void): HTMLElement {
-  const button = h('button', { type: 'button', class: 'tool', 'aria-label': label, title: label, 'aria-pressed': 'false' }, icon(name));
+  const button = h(
+    'button',
+    { type: 'button', class: 'tool', 'aria-label': label, title: label, 'aria-pressed': 'false' },
+    icon(name),
+  );
   button.addEventListener('click', () => {
     const on = button.getAttribute('aria-pressed') !== 'true';
     button.setAttribute('aria-pressed', String(on));

@@ -37,7 +37,11 @@ export class Studio {
     if (!(await this.refresh())) return;
     const wanted = decodeURIComponent(location.hash.slice(1));
     const { value: models } = this.models;
-    const first = models.find((m) => m.id === wanted) ?? models.find((m) => m.id === 'sample') ?? models.find((m) => m.state === 'parametrized') ?? models[0];
+    const first =
+      models.find((m) => m.id === wanted) ??
+      models.find((m) => m.id === 'sample') ??
+      models.find((m) => m.state === 'parametrized') ??
+      models[0];
     if (first) this.select(first.id);
     for (const model of models) if (model.state === 'importing') void this.waitForImport(model.id);
   }
@@ -71,7 +75,8 @@ export class Studio {
     this.uploads += 1;
     const key = `upload-${this.uploads}`;
     const abort = new AbortController();
-    const show = (fraction: number): void => this.setActivity(key, { title: `Sending ${file.name}`, progress: fraction, cancel: () => abort.abort() });
+    const show = (fraction: number): void =>
+      this.setActivity(key, { title: `Sending ${file.name}`, progress: fraction, cancel: () => abort.abort() });
     show(0);
     try {
       const { model, job } = await this.api.uploadModel(file, show, abort.signal);
@@ -80,16 +85,20 @@ export class Studio {
       this.select(model.id);
       await this.follow(job, 'Reading the file');
       const finished = await this.reload(model.id);
-      if (finished?.state === 'failed' && finished.problem) this.toasts.problem(`${file.name} could not be read`, finished.problem);
+      if (finished?.state === 'failed' && finished.problem)
+        this.toasts.problem(`${file.name} could not be read`, finished.problem);
     } catch (error) {
-      if (!(error instanceof DOMException && error.name === 'AbortError')) this.toasts.problem(`${file.name} was not accepted`, problemOf(error));
+      if (!(error instanceof DOMException && error.name === 'AbortError'))
+        this.toasts.problem(`${file.name} was not accepted`, problemOf(error));
     } finally {
       this.setActivity(key, null);
     }
   }
 
   async rename(model: Model, name: string): Promise<void> {
-    await this.attempt('The head was not renamed', async () => this.replaceModel(await this.api.renameModel(model.id, name)));
+    await this.attempt('The head was not renamed', async () =>
+      this.replaceModel(await this.api.renameModel(model.id, name)),
+    );
   }
 
   async remove(model: Model): Promise<void> {
@@ -110,7 +119,8 @@ export class Studio {
     const job = await this.api.parametrize(model.id);
     const last = await this.follow(job, 'Parametrizing');
     await this.reload(model.id);
-    if (last.state === 'failed') throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
+    if (last.state === 'failed')
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
     return last.state === 'done';
   }
 
@@ -140,7 +150,11 @@ export class Studio {
     const cancel = (): void => void this.attempt('The work was not stopped', () => this.api.cancelJob(job.id));
     try {
       return await followJob(this.api, job, (now) =>
-        this.setActivity(now.model, { title: now.stage ? stageTitle(now.stage) : title, progress: now.state === 'queued' ? null : now.progress, cancel }),
+        this.setActivity(now.model, {
+          title: now.stage ? stageTitle(now.stage) : title,
+          progress: now.state === 'queued' ? null : now.progress,
+          cancel,
+        }),
       );
     } finally {
       this.setActivity(job.model, null);
@@ -166,7 +180,9 @@ export class Studio {
 
   private replaceModel(model: Model): void {
     const known = this.models.value.some((m) => m.id === model.id);
-    this.models.set(known ? this.models.value.map((m) => (m.id === model.id ? model : m)) : [model, ...this.models.value]);
+    this.models.set(
+      known ? this.models.value.map((m) => (m.id === model.id ? model : m)) : [model, ...this.models.value],
+    );
     const open = this.selected.value;
     if (open?.id !== model.id) return;
     this.selected.set(model);

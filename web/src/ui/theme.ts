@@ -7,7 +7,11 @@ const system = (): Theme => (matchMedia('(prefers-color-scheme: dark)').matches 
 
 /** Follows the system until the button is used; then keeps what was chosen. */
 export function themeButton(): HTMLElement {
-  const button = h('button', { class: 'quiet square', type: 'button', on: { click: () => choose(current() === 'dark' ? 'light' : 'dark') } });
+  const button = h('button', {
+    class: 'quiet square',
+    type: 'button',
+    on: { click: () => choose(current() === 'dark' ? 'light' : 'dark') },
+  });
   const apply = (theme: Theme): void => {
     document.documentElement.dataset['theme'] = theme;
     const label = theme === 'dark' ? 'Use light colours' : 'Use dark colours';

@@ -18,7 +18,14 @@ export class Toasts {
     this.show(
       'error',
       icon('warning'),
-      h('div', {}, h('strong', {}, what), h('p', {}, detail), problem.pointer ? h('p', { class: 'pointer' }, h('code', {}, problem.pointer)) : null, advice ? h('p', { class: 'advice' }, advice) : null),
+      h(
+        'div',
+        {},
+        h('strong', {}, what),
+        h('p', {}, detail),
+        problem.pointer ? h('p', { class: 'pointer' }, h('code', {}, problem.pointer)) : null,
+        advice ? h('p', { class: 'advice' }, advice) : null,
+      ),
     );
   }
 
@@ -29,7 +36,13 @@ export class Toasts {
     }
     const toast = h('div', { class: `toast toast-${kind}`, role: kind === 'error' ? 'alert' : 'status' }, ...content);
     if (kind === 'error') {
-      toast.append(h('button', { class: 'quiet square', 'aria-label': 'Close message', on: { click: () => toast.remove() } }, icon('close', 16)));
+      toast.append(
+        h(
+          'button',
+          { class: 'quiet square', 'aria-label': 'Close message', on: { click: () => toast.remove() } },
+          icon('close', 16),
+        ),
+      );
     }
     this.element.append(toast);
     while (this.element.childElementCount > 4) this.element.firstElementChild?.remove();

@@ -16,7 +16,15 @@ export class VisemeGrid {
       const word = viseme.examples[0] ?? 'silence';
       const button = h(
         'button',
-        { type: 'button', class: 'viseme', 'data-viseme': number, 'aria-pressed': 'false', 'aria-label': `Viseme ${number}: ${number === 0 ? 'silence' : `${sounds}, as in ${viseme.examples.join(', ')}`}`, title: viseme.examples.join(', '), on: { click: () => options.onChoose(number) } },
+        {
+          type: 'button',
+          class: 'viseme',
+          'data-viseme': number,
+          'aria-pressed': 'false',
+          'aria-label': `Viseme ${number}: ${number === 0 ? 'silence' : `${sounds}, as in ${viseme.examples.join(', ')}`}`,
+          title: viseme.examples.join(', '),
+          on: { click: () => options.onChoose(number) },
+        },
         h('span', { class: 'sound' }, sounds),
         h('span', { class: 'word' }, word),
       );

@@ -1,4 +1,13 @@
-import { DataTexture, FloatType, NearestFilter, RGBAFormat, Vector3, Vector4, type IUniform, type Material } from 'three';
+import {
+  DataTexture,
+  FloatType,
+  NearestFilter,
+  RGBAFormat,
+  Vector3,
+  Vector4,
+  type IUniform,
+  type Material,
+} from 'three';
 import type { Pose } from '@client/index.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
@@ -100,7 +109,8 @@ void faceDeform(inout vec3 p, inout vec3 n) {
 export function deformByShader(material: Material, uniforms: DeformUniforms): void {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
-    const deform = 'vec3 facePosition = position; vec3 faceNormal = vec3(normal); faceDeform(facePosition, faceNormal);';
+    const deform =
+      'vec3 facePosition = position; vec3 faceNormal = vec3(normal); faceDeform(facePosition, faceNormal);';
     // Lit materials need the normal before the position; unlit ones have no use for it.
     const lit = shader.vertexShader.includes('#define STANDARD');
     const normals = lit ? `${deform} vec3 objectNormal = faceNormal;` : '#include <beginnormal_vertex>';

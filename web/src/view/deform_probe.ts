@@ -1,4 +1,16 @@
-import { BufferGeometry, FloatType, GLSL3, NoBlending, OrthographicCamera, Points, RGBAFormat, Scene, ShaderMaterial, WebGLRenderTarget, type WebGLRenderer } from 'three';
+import {
+  BufferGeometry,
+  FloatType,
+  GLSL3,
+  NoBlending,
+  OrthographicCamera,
+  Points,
+  RGBAFormat,
+  Scene,
+  ShaderMaterial,
+  WebGLRenderTarget,
+  type WebGLRenderer,
+} from 'three';
 import { deformDeclarations } from './deform_material.ts';
 import type { FaceView } from './face_view.ts';
 
@@ -6,7 +18,10 @@ import type { FaceView } from './face_view.ts';
  * Reads back what the shader makes of the current pose: one point per vertex, drawn into the pixel of its number with
  * position or normal as its colour. For tests and diagnosis, not for the frame loop.
  */
-export function readDeformed(renderer: WebGLRenderer, face: FaceView): { positions: Float32Array; normals: Float32Array } {
+export function readDeformed(
+  renderer: WebGLRenderer,
+  face: FaceView,
+): { positions: Float32Array; normals: Float32Array } {
   return { positions: readOne(renderer, face, 'p'), normals: readOne(renderer, face, 'n') };
 }
 
@@ -39,7 +54,8 @@ function readOne(renderer: WebGLRenderer, face: FaceView, what: 'p' | 'n'): Floa
     depthWrite: false,
   });
   const geometry = new BufferGeometry();
-  for (const name of ['position', 'normal', 'faceRow']) geometry.setAttribute(name, face.object.geometry.getAttribute(name));
+  for (const name of ['position', 'normal', 'faceRow'])
+    geometry.setAttribute(name, face.object.geometry.getAttribute(name));
   const points = new Points(geometry, material);
   points.frustumCulled = false;
   const scene = new Scene();

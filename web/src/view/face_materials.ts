@@ -1,4 +1,13 @@
-import { Color, LinearSRGBColorSpace, MeshStandardMaterial, SRGBColorSpace, Texture, Vector2, RepeatWrapping, type Material } from 'three';
+import {
+  Color,
+  LinearSRGBColorSpace,
+  MeshStandardMaterial,
+  SRGBColorSpace,
+  Texture,
+  Vector2,
+  RepeatWrapping,
+  type Material,
+} from 'three';
 import { studioMaterial } from './materials.ts';
 
 /** What the view needs to know of a material; images as encoded files. */

@@ -1,4 +1,13 @@
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshDepthMaterial, RGBADepthPacking, Uint32BufferAttribute, type Material } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Mesh,
+  MeshDepthMaterial,
+  RGBADepthPacking,
+  Uint32BufferAttribute,
+  type Material,
+} from 'three';
 import { deformNormals } from '../face/deform_reference.ts';
 import type { FaceMesh } from '../face/mesh.ts';
 import type { Pose } from '@client/index.ts';

@@ -68,7 +68,12 @@ export class Markers {
     return best;
   }
 
-  project(position: readonly [number, number, number], camera: Camera, width: number, height: number): { x: number; y: number } {
+  project(
+    position: readonly [number, number, number],
+    camera: Camera,
+    width: number,
+    height: number,
+  ): { x: number; y: number } {
     projected.set(...position).project(camera);
     return { x: ((projected.x + 1) / 2) * width, y: ((1 - projected.y) / 2) * height };
   }

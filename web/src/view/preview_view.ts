@@ -1,4 +1,15 @@
-import { BufferAttribute, Group, Mesh, Raycaster, Vector2, Vector3, type BufferGeometry, type Camera, type Material, type Object3D } from 'three';
+import {
+  BufferAttribute,
+  Group,
+  Mesh,
+  Raycaster,
+  Vector2,
+  Vector3,
+  type BufferGeometry,
+  type Camera,
+  type Material,
+  type Object3D,
+} from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from './materials.ts';
 
@@ -42,7 +53,10 @@ export class PreviewView {
       const raw = node.material as Material;
       let material = polished.get(raw);
       if (!material) {
-        material = raw.name === '' && !gltf.parser.associations.has(raw) ? defaultMaterial(richSkin) : studioMaterial(raw, richSkin);
+        material =
+          raw.name === '' && !gltf.parser.associations.has(raw)
+            ? defaultMaterial(richSkin)
+            : studioMaterial(raw, richSkin);
         polished.set(raw, material);
       }
       node.material = material;
@@ -54,7 +68,8 @@ export class PreviewView {
   }
 
   set wireframe(on: boolean) {
-    for (const mesh of this.meshes) if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
+    for (const mesh of this.meshes)
+      if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
   }
 
   /** `x`, `y` in -1..1 from the lower left. */
@@ -67,7 +82,10 @@ export class PreviewView {
     let best = -1;
     let bestDistance = Infinity;
     for (const vertex of [hit.face.a, hit.face.b, hit.face.c]) {
-      const distance = corner.fromBufferAttribute(position, vertex).applyMatrix4(mesh.matrixWorld).distanceTo(hit.point);
+      const distance = corner
+        .fromBufferAttribute(position, vertex)
+        .applyMatrix4(mesh.matrixWorld)
+        .distanceTo(hit.point);
       if (distance < bestDistance) {
         bestDistance = distance;
         best = vertex;
@@ -86,7 +104,10 @@ export class PreviewView {
         for (let v = 0; v < position.count; v += 1) {
           const number = fileVertexOf(mesh.geometry, v);
           if (this.positionOfFileVertex.has(number)) continue;
-          this.positionOfFileVertex.set(number, new Vector3().fromBufferAttribute(position, v).applyMatrix4(mesh.matrixWorld));
+          this.positionOfFileVertex.set(
+            number,
+            new Vector3().fromBufferAttribute(position, v).applyMatrix4(mesh.matrixWorld),
+          );
         }
       }
     }

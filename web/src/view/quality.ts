@@ -15,7 +15,10 @@ const light: Quality = { antialias: false, shadows: false, richSkin: false, room
 /** Light where the browser draws without a graphics card; there every shaded pixel costs. Throws where WebGL 2 is missing. */
 export function chooseQuality(): Quality {
   const context = document.createElement('canvas').getContext('webgl2');
-  if (!context) throw new Error('This browser gives no WebGL 2, which drawing a head needs. Turn on hardware acceleration, or try another browser.');
+  if (!context)
+    throw new Error(
+      'This browser gives no WebGL 2, which drawing a head needs. Turn on hardware acceleration, or try another browser.',
+    );
   const facts = context.getExtension('WEBGL_debug_renderer_info');
   const name = facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : '';
   context.getExtension('WEBGL_lose_context')?.loseContext();

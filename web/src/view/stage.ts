@@ -64,7 +64,12 @@ export class Stage {
     private readonly quality: Quality,
   ) {
     this.pixelRatioLimit = quality.maxPixelRatio;
-    this.renderer = new WebGLRenderer({ canvas, antialias: quality.antialias, alpha: true, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: quality.antialias,
+      alpha: true,
+      powerPreference: 'high-performance',
+    });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
@@ -169,7 +174,17 @@ export class Stage {
     const to = document.createElement('canvas');
     to.width = size;
     to.height = size;
-    to.getContext('2d')?.drawImage(from, (from.width - side) / 2, (from.height - side) / 2, side, side, 0, 0, size, size);
+    to.getContext('2d')?.drawImage(
+      from,
+      (from.width - side) / 2,
+      (from.height - side) / 2,
+      side,
+      side,
+      0,
+      0,
+      size,
+      size,
+    );
     return to.toDataURL('image/webp', 0.8);
   }
 
