@@ -128,9 +128,8 @@ Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
   }
   for (const auto& material : head.materials) model.materials.push_back(material_of(material));
 
-  tinygltf::Mesh mesh;
-  mesh.name = "head";
-  tinygltf::Value::Array names;
+  // A mesh and a node for each part: glTF gives names to these, not to primitives.
+  tinygltf::Scene scene;
   for (const auto& part : head.meshes) {
     if (part.positions.size() > 0xFFFF) return Error{ErrorCode::too_large, part.name, "over 65535 vertices in a part"};
     tinygltf::Primitive primitive;
@@ -140,18 +139,16 @@ Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
     primitive.attributes["NORMAL"] = buffer.add_vectors(part.normals, TINYGLTF_TYPE_VEC3, false);
     primitive.attributes["TEXCOORD_0"] = buffer.add_vectors(part.uvs, TINYGLTF_TYPE_VEC2, false);
     primitive.indices = buffer.add_indices(part.triangles);
-    tinygltf::Value::Object extras;
-    extras["name"] = tinygltf::Value(part.name);  // glTF names meshes, not primitives
-    primitive.extras = tinygltf::Value(extras);
+    tinygltf::Mesh mesh;
+    mesh.name = part.name;
     mesh.primitives.push_back(primitive);
+    tinygltf::Node node;
+    node.name = part.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.meshes.push_back(mesh);
+    model.nodes.push_back(node);
   }
-  model.meshes.push_back(mesh);
-  tinygltf::Node node;
-  node.name = "head";
-  node.mesh = 0;
-  model.nodes.push_back(node);
-  tinygltf::Scene scene;
-  scene.nodes.push_back(0);
   model.scenes.push_back(scene);
   model.defaultScene = 0;
 

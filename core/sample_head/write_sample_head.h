@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// The head as a binary glTF: one node and mesh, one primitive per SampleHeadMesh in order, textures as PNG inside.
+/// The head as a binary glTF: a node and a mesh of one primitive per SampleHeadMesh, in order, textures as PNG inside.
 Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head);
 
 /// Its feature points as JSON: {"points": {"2.1": {"vertex": n, "position": [x, y, z]}, ...}}, `vertex` counted over
