@@ -39,6 +39,7 @@ Eyeball make_eyeball(bool right, std::size_t material) {
   std::vector<std::uint32_t> before;
   for (const double degrees : ring_angles) {
     std::vector<std::uint32_t> ring;
+    ring.reserve(around);
     for (int k = 0; k < around; ++k) ring.push_back(add(degrees * pi / 180.0, 2.0 * pi * k / around));
     for (std::size_t k = 0; k < around; ++k) {
       const std::size_t next = (k + 1) % around;
