@@ -7,13 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include <glm/geometric.hpp>
+
 namespace semblante {
 namespace {
 
 constexpr std::size_t max_materials = 255;
 
 /// The plain materials, in linear RGB.
-enum class Plain : std::uint8_t { skin, sclera, iris, teeth, mouth, hair, fluid };
+enum class Plain : std::uint8_t { skin, sclera, iris, pupil, teeth, mouth, hair, lashes, fluid };
 
 struct PlainMaterial {
   std::string_view name;
@@ -21,13 +23,15 @@ struct PlainMaterial {
   float roughness;
 };
 
-constexpr std::array<PlainMaterial, 7> plain_materials = {{
+constexpr std::array<PlainMaterial, 9> plain_materials = {{
     {"skin", {0.72F, 0.46F, 0.35F, 1.0F}, 0.55F},
     {"sclera", {0.85F, 0.84F, 0.81F, 1.0F}, 0.15F},
     {"iris", {0.12F, 0.20F, 0.24F, 1.0F}, 0.15F},
+    {"pupil", {0.01F, 0.01F, 0.01F, 1.0F}, 0.10F},
     {"teeth", {0.84F, 0.80F, 0.72F, 1.0F}, 0.30F},
     {"mouth", {0.48F, 0.13F, 0.12F, 1.0F}, 0.40F},
     {"hair", {0.035F, 0.022F, 0.016F, 1.0F}, 0.70F},
+    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips that a texture would make hairs: a shade, not a mask
     {"fluid", {1.0F, 1.0F, 1.0F, 0.06F}, 0.05F},
 }};
 
@@ -38,7 +42,7 @@ struct Hint {
 
 /// First match wins: "EyeLashes" must meet "lash" before "eye" could.
 constexpr std::array<Hint, 15> hints = {{
-    {"lash", Plain::hair},
+    {"lash", Plain::lashes},
     {"brow", Plain::hair},
     {"hair", Plain::hair},
     {"fluid", Plain::fluid},
@@ -47,7 +51,7 @@ constexpr std::array<Hint, 15> hints = {{
     {"eyeblend", Plain::fluid},
     {"cornea", Plain::fluid},
     {"iris", Plain::iris},
-    {"pupil", Plain::iris},
+    {"pupil", Plain::pupil},
     {"sclera", Plain::sclera},
     {"teeth", Plain::teeth},
     {"tooth", Plain::teeth},
@@ -81,13 +85,23 @@ Plain plain_of(std::string_view material, std::string_view primitive, PartRole r
   return Plain::skin;
 }
 
+/// What a triangle of a plain eyeball shows: by the neutral face, a pupil is a third of the iris.
+Plain painted(const glm::vec3& center, PartRole role, const EyeLook& eyes) {
+  const std::optional<glm::vec3>& pupil = eyes.pupils[role == PartRole::left_eye ? 0 : 1];
+  if (!pupil) return Plain::sclera;
+  const float distance = glm::distance(center, *pupil);
+  if (distance < eyes.iris_diameter / 6.0F) return Plain::pupil;
+  return distance < eyes.iris_diameter / 2.0F ? Plain::iris : Plain::sclera;
+}
+
 bool says_nothing(const Material& material) {
   return material.base_color_image < 0 && glm::vec3(material.base_color) == glm::vec3(1.0F);
 }
 
 }  // namespace
 
-MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts) {
+MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
+                                    const EyeLook& eyes) {
   MaterialAssignment out;
   out.of_triangle.resize(model.triangles.size());
   // Numbered in order of first use, so that unused materials cost nothing. Keys below zero are the plain ones.
@@ -109,8 +123,12 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
       }
       const PartId part = surface.part_of[surface.surface_of[model.triangles[t][0]].value()];
       const PartRole role = part.value() < parts.size() ? parts[part.value()].role : PartRole::skin;
-      const Plain plain =
-          plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
+      Plain plain = plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
+      if (plain == Plain::sclera && (role == PartRole::left_eye || role == PartRole::right_eye)) {
+        const Triangle& corners = model.triangles[t];
+        const glm::vec3 sum = model.positions[corners[0]] + model.positions[corners[1]] + model.positions[corners[2]];
+        plain = painted(sum / 3.0F, role, eyes);
+      }
       const PlainMaterial& look = plain_materials[static_cast<std::size_t>(plain)];
       Material material;
       material.name = look.name;

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
@@ -17,10 +21,17 @@ struct MaterialAssignment {
   std::vector<std::uint8_t> of_triangle;  ///< #T
 };
 
+/// Where to paint irises on eyeballs that have no colours of their own.
+struct EyeLook {
+  std::array<std::optional<glm::vec3>, 2> pupils;  ///< centres (3.5, 3.6): left, right
+  float iris_diameter = 0.0F;                      ///< model units; 0: unknown, nothing is painted
+};
+
 /// Keeps the model's materials. Triangles whose material says nothing (none at all, or white without a texture, as when
 /// an OBJ comes without its .mtl) get a plain one by what they are: by name first ("Iris", "lashes"), then by the role
-/// of their part, so that eyes and teeth do not wear skin. `parts` is by PartId and may be empty: then names alone
-/// decide.
-MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts);
+/// of their part, so that eyes and teeth do not wear skin. On plain eyeballs the triangles around the pupil become iris
+/// and pupil. `parts` is by PartId and may be empty: then names alone decide.
+MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
+                                    const EyeLook& eyes = {});
 
 }  // namespace semblante

@@ -1,6 +1,7 @@
 #include "server/package/package.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/expressions/library.h"
@@ -84,6 +85,19 @@ RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig&
   return out;
 }
 
+EyeLook eye_look(const Rig& rig) {
+  static const std::array<FeaturePointId, 2> pupils = {*parse_feature_point("3.5"), *parse_feature_point("3.6")};
+  EyeLook look;
+  for (const FeaturePoint& point : rig.points) {
+    for (std::size_t eye = 0; eye < pupils.size(); ++eye) {
+      if (point.id == pupils[eye]) look.pupils[eye] = point.position;
+    }
+  }
+  // The neutral face has its lids tangent to the iris, so the unit of the eyes is the diameter of the iris.
+  look.iris_diameter = static_cast<float>(rig.fapu[FapuUnit::irisd].value_or(0.0) * 1024.0);
+  return look;
+}
+
 void describe_influence(const InfluenceTable& table, const Artefact& weights, int bits, double max_error,
                         RigDocument::Weights& out) {
   std::size_t influenced = 0;
@@ -104,7 +118,7 @@ void describe_influence(const InfluenceTable& table, const Artefact& weights, in
 
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options) {
-  const MaterialAssignment materials = assign_materials(model, surface, rig.parts);
+  const MaterialAssignment materials = assign_materials(model, surface, rig.parts, eye_look(rig));
   const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle);
   auto encoded = encode_mesh(mesh);
   if (!encoded) return encoded.error();

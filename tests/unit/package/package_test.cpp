@@ -116,7 +116,7 @@ TEST(Materials, BlankOnes_AreChosenByNameThenByRole) {
   Model model = make_model();
   model.primitives[0].name = "EyeLashes_left";
   const Surface surface = build_surface(model);
-  EXPECT_EQ(assign_materials(model, surface, {}).materials[0].name, "hair");
+  EXPECT_EQ(assign_materials(model, surface, {}).materials[0].name, "lashes");
   model.primitives[0].name = "";
   std::vector<Part> parts(surface.part_count());
   EXPECT_EQ(assign_materials(model, surface, parts).materials[0].name, "skin");
@@ -124,6 +124,22 @@ TEST(Materials, BlankOnes_AreChosenByNameThenByRole) {
   const MaterialAssignment assigned = assign_materials(model, surface, parts);
   EXPECT_EQ(assigned.materials[0].name, "teeth");
   EXPECT_EQ(assigned.materials[assigned.of_triangle.back()].name, "green") << "what the file says is kept";
+}
+
+TEST(Materials, PlainEyeball_GetsAnIrisAroundThePupil) {
+  const Model model = make_model();
+  const Surface surface = build_surface(model);
+  std::vector<Part> parts(surface.part_count());
+  parts[0].role = PartRole::right_eye;
+  EyeLook eyes;
+  eyes.pupils[1] = glm::vec3(2.0F, 2.0F, std::sin(2.0F) * std::cos(2.0F));
+  eyes.iris_diameter = 4.0F;
+  const MaterialAssignment assigned = assign_materials(model, surface, parts, eyes);
+  const auto name_at = [&](std::size_t triangle) { return assigned.materials[assigned.of_triangle[triangle]].name; };
+  // Two triangles a square, eight squares a row: triangle 2 (y 8 + x). The one with corners (2,2) (3,2) (3,3) has its
+  // centre 0.9 from the pupil in the plane; a third of the radius is 0.67.
+  EXPECT_EQ(name_at(2 * (2 * 8 + 2)), "iris");
+  EXPECT_EQ(name_at(2 * (7 * 8 + 7)), "sclera");
 }
 
 TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {
