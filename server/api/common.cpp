@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/conditional.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::api {
 
@@ -66,7 +66,7 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   std::string whole = request.method + " " + request.path;
   for (const auto& [name, value] : request.query) whole.append("&").append(name).append("=").append(value);
   whole.append("\n").append(body_hash);
-  store::IdempotencyRecord record{std::string(*key), store::sha256_hex(whole), {}};
+  store::IdempotencyRecord record{std::string(*key), sha256_hex(whole), {}};
   const auto earlier = context.store.idempotency(*key);
   if (!earlier) return {std::move(record), std::nullopt};
   if (earlier->fingerprint != record.fingerprint)

@@ -4,7 +4,7 @@
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
 #include "server/api/routes.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {
@@ -43,7 +43,7 @@ store::JobRecord job_of(Context& context, const http::Request& request) {
 http::Response create_parametrization(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   const auto options = read_options(body_object(request));
-  auto check = check_idempotency(context, request, store::sha256_hex(request.body));
+  auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) {
     if (const auto job = context.jobs.find(*check.earlier)) return accepted(*job);
     refuse("conflict", "what this key made has been removed");

@@ -5,7 +5,7 @@
 #include "protocol/cpp/json_codec.h"
 #include "server/api/common.h"
 #include "server/api/routes.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {
@@ -55,7 +55,7 @@ http::Response create_stream(Context& context, http::Request& request) {
   info.created = store::timestamp_now();
   info.source = "none";
 
-  auto check = check_idempotency(context, request, store::sha256_hex(request.body));
+  auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) {
     if (const auto earlier = context.hub.info(*check.earlier)) return created(*earlier);
     refuse("conflict", "what this key made has been removed");

@@ -5,7 +5,7 @@
 #include "server/api/openapi.h"
 #include "server/api/routes.h"
 #include "server/http/conditional.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {
@@ -29,7 +29,7 @@ http::Response get_version(Context& context, http::Request&) {
 }
 
 http::Response get_openapi(Context&, http::Request& request) {
-  static const std::string etag = "\"sha256-" + store::sha256_hex(openapi_document()) + "\"";
+  static const std::string etag = "\"sha256-" + sha256_hex(openapi_document()) + "\"";
   http::Response response;
   response.headers["Content-Type"] = "application/json";
   response.headers["Cache-Control"] = "no-cache";

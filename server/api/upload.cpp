@@ -9,7 +9,7 @@
 #include "server/api/routes.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {
@@ -88,7 +88,7 @@ http::Response create_model(Context& context, http::Request& request) {
     if (mapped.bytes().empty()) refuse("empty-model", "the file is empty", "/file");
     if (!detect_format(mapped.bytes(), upload.file_name))
       refuse("unsupported-media-type", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL", "/file");
-    hash = store::sha256_hex(mapped.text());
+    hash = sha256_hex(mapped.text());
   }
   auto check = check_idempotency(context, request, hash + upload.name + upload.file_name);
   if (check.earlier) {

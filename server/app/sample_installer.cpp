@@ -10,7 +10,7 @@
 #include "server/api/new_parametrization.h"
 #include "server/app/command_failure.h"
 #include "server/log/log.h"
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante {
 namespace {
@@ -42,7 +42,7 @@ SampleInstaller::SampleInstaller(store::Store& store, store::BlobStore& blobs, j
 
 void SampleInstaller::begin() {
   if (file_.empty()) return;
-  const auto hash = store::sha256_hex(read_text(file_));
+  const auto hash = sha256_hex(read_text(file_));
   points_ = read_points(std::filesystem::path(file_).replace_extension(".fps.json"));
   const auto model = store_.model(sample_model_id);
   if (!model || model->source_sha256 != hash || model->state == store::ModelState::failed) {

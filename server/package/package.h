@@ -9,7 +9,7 @@
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
-#include "server/package/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante {
 

@@ -5,11 +5,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <span>
 #include <system_error>
 #include <unistd.h>
 #include <vector>
 
-#include "server/store/sha256.h"
+#include "server/hash/sha256.h"
 
 namespace semblante::store {
 namespace {
@@ -60,16 +61,16 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
   if (!file.ok()) return io_error(path);
   Sha256Stream hash;
   Blob blob;
-  std::vector<char> piece(1U << 18U);
+  std::vector<std::uint8_t> piece(1U << 18U);
   while (true) {
     const auto got = ::read(file.get(), piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return io_error(path);
     if (got == 0) break;
-    hash.update({piece.data(), static_cast<std::size_t>(got)});
+    hash.update(std::span(piece).first(static_cast<std::size_t>(got)));
     blob.bytes += static_cast<std::uint64_t>(got);
   }
-  blob.sha256 = hash.hex();
+  blob.sha256 = to_hex(hash.finish());
   const auto target = path_of(blob.sha256);
   std::error_code error;
   if (fs::exists(target, error)) {  // the same content is there already, whole and durable
