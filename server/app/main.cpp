@@ -21,6 +21,12 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RequiredError& fault) {
+    const bool has_command = !app.get_subcommands().empty();
+    std::cerr << "semblante: "
+              << (has_command ? fault.what() : "give a subcommand: parametrize, deform or serve (see semblante --help)")
+              << "\n";
+    return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";
     return CommandFailure::bad_input;

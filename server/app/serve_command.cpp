@@ -15,8 +15,12 @@ void add_serve_command(CLI::App& app) {
                              const std::string& variable) {
     return command->add_option(name, value, help)->envname("SEMBLANTE_" + variable)->capture_default_str();
   };
+  // Without a range a negative number would wrap into a huge one.
+  const CLI::Range count(1, 1'000'000);
+  constexpr std::uint64_t max_size = std::uint64_t{1} << 50U;
   add("--address", options->address, "Address to listen on; loopback only", "ADDRESS");
-  add("--port", options->port, "Port to listen on; 0 takes any that is free and says which", "PORT");
+  add("--port", options->port, "Port to listen on; 0 takes any that is free and says which", "PORT")
+      ->check(CLI::Range(0, 65535));
   add("--data", options->data, "Folder for models, packages and facts; made if missing", "DATA");
   add("--web-root", options->web_root, "Folder of the studio's built pages, served at /; none if left out", "WEB_ROOT");
   add("--sample", options->sample,
@@ -28,16 +32,19 @@ void add_serve_command(CLI::App& app) {
   add("--workers", options->workers, "Jobs that run at a time, each in a process of its own", "WORKERS")
       ->check(CLI::Range(1, 64));
   add("--max-upload-bytes", options->max_upload_bytes, "Largest model file taken", "MAX_UPLOAD_BYTES")
-      ->transform(CLI::AsSizeValue(false));
-  add("--max-models", options->max_models, "Models kept at most", "MAX_MODELS");
-  add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS");
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(std::uint64_t{1}, max_size));
+  add("--max-models", options->max_models, "Models kept at most", "MAX_MODELS")->check(count);
+  add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS")->check(count);
   add("--max-connections", options->max_connections, "Connections served at a time", "MAX_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
   add("--worker-memory", options->worker_memory, "Address space of one job's process, bytes (or 4GB); 0: no limit",
       "WORKER_MEMORY")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(std::uint64_t{0}, max_size));
   add("--worker-cpu-seconds", options->worker_cpu_seconds, "Processor time of one job, seconds; 0: no limit",
-      "WORKER_CPU_SECONDS");
+      "WORKER_CPU_SECONDS")
+      ->check(CLI::Range(0, 1'000'000));
   add("--allow-origin", options->allowed_origins,
       "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
       "be given more than once",

@@ -224,7 +224,10 @@ TEST_F(Sheet, BadInput_IsRefused_InOneLineThatNamesIt) {
   };
   const std::vector<Case> cases = {
       {"no subcommand", {}, {"subcommand"}},
-      {"unknown subcommand", {"dance"}, {}},
+      {"unknown subcommand", {"dance"}, {"parametrize, deform or serve", "--help"}},
+      {"a port that is none", {"serve", "--port", "70000"}, {"--port", "65535"}},
+      {"fewer than no models", {"serve", "--max-models", "-1"}, {"--max-models"}},
+      {"fewer than no bytes", {"serve", "--max-upload-bytes=-1"}, {"--max-upload-bytes"}},
       {"unknown option", with_face({"--dance"}), {"--dance"}},
       {"parametrize to nowhere", {"parametrize", model, "--feature-points", points}, {"--weights-json", "--out"}},
       {"no feature points", {"parametrize", model, "--out", out}, {"--feature-points"}},
