@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ class WebSocketPeer : public Feed {
  public:
   /// The subprotocol to echo; empty when the client offered none of ours.
   [[nodiscard]] virtual std::string_view subprotocol() const = 0;
+  /// A longer message closes the connection.
+  [[nodiscard]] virtual std::size_t max_message_bytes() const = 0;
   /// One whole message from the client.
   virtual void receive(std::string_view bytes, bool binary) = 0;
   /// Meaningful once finished().

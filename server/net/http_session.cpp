@@ -248,7 +248,22 @@ class Session {
     return problem;
   }
 
+  /// Beast would answer these in plain text.
+  static std::optional<http::Response> handshake_fault(const http::Request& request) {
+    constexpr std::size_t key_characters = 24;  // 16 bytes in base64
+    if (request.header("Sec-WebSocket-Version").value_or("") != "13") {
+      auto response = http::to_response(
+          http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the one that is spoken here"));
+      response.headers["Sec-WebSocket-Version"] = "13";
+      return response;
+    }
+    if (request.header("Sec-WebSocket-Key").value_or("").size() != key_characters)
+      return http::to_response(http::make_problem("malformed-request", "Sec-WebSocket-Key must be 16 bytes in base64"));
+    return std::nullopt;
+  }
+
   asio::awaitable<Next> upgrade(Parser& parser, const http::Request& request) {
+    if (auto fault = handshake_fault(request)) co_return co_await answer(request, std::move(*fault), 11, false);
     auto opened = state_->application.open_websocket(request);
     if (auto* refusal = std::get_if<http::Response>(&opened))
       co_return co_await answer(request, std::move(*refusal), 11, false);

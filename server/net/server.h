@@ -15,12 +15,11 @@ namespace semblante::net {
 struct ServerLimits {
   std::uint32_t max_connections = 1024;
   std::uint32_t max_header_bytes = 16 * 1024;
-  std::uint32_t max_message_bytes = 256 * 1024;  ///< one WebSocket message
-  std::chrono::seconds idle_timeout{60};         ///< between requests; a WebSocket is pinged at half of it
-  std::chrono::seconds header_timeout{10};       ///< from the first byte of a request to the end of its header
-  std::chrono::seconds read_timeout{30};         ///< between two pieces of a body
-  std::chrono::seconds write_timeout{30};        ///< between two pieces of an answer
-  std::chrono::seconds shutdown_grace{3};        ///< for answers under way when the server stops
+  std::chrono::seconds idle_timeout{60};    ///< between requests; a WebSocket is pinged at half of it
+  std::chrono::seconds header_timeout{10};  ///< from the first byte of a request to the end of its header
+  std::chrono::seconds read_timeout{30};    ///< between two pieces of a body
+  std::chrono::seconds write_timeout{30};   ///< between two pieces of an answer
+  std::chrono::seconds shutdown_grace{3};   ///< for answers under way when the server stops
 };
 
 struct ServerConfig {

@@ -96,7 +96,7 @@ asio::awaitable<void> serve_websocket(beast::tcp_stream stream, beast::http::req
   clocks.idle_timeout = state->config.limits.idle_timeout;
   clocks.keep_alive_pings = true;
   ws.set_option(clocks);
-  ws.read_message_max(state->config.limits.max_message_bytes);
+  ws.read_message_max(connection->peer->max_message_bytes());
   ws.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
     const auto name = connection->peer->subprotocol();
     if (!name.empty())

@@ -98,6 +98,10 @@ std::string_view StreamConnection::subprotocol() const {
   return binary_ ? binary_subprotocol : json_subprotocol;
 }
 
+std::size_t StreamConnection::max_message_bytes() const {
+  return binary_ ? max_binary_message_bytes : max_json_message_bytes;
+}
+
 http::CloseReason StreamConnection::close_reason() const {
   const std::lock_guard lock(mutex_);
   return closing_.value_or(http::CloseReason{});
@@ -149,7 +153,8 @@ void StreamConnection::handle_hello(const Hello& hello) {
     refuse(StreamErrorCode::invalid_argument, "", "the hello was said already");
     return;
   }
-  if (hello.version != protocol_version) {
+  // The hello names the highest version the client knows; the header then says which one is spoken.
+  if (hello.version < protocol_version) {
     close(Message(StreamError{StreamErrorCode::unsupported, "/version",
                               "this server speaks version " + std::to_string(protocol_version)}),
           {1008, "unsupported version"});

@@ -26,6 +26,7 @@ class StreamConnection : public http::WebSocketPeer {
   std::optional<http::FeedItem> take() override;
   [[nodiscard]] bool finished() const override;
   [[nodiscard]] std::string_view subprotocol() const override;
+  [[nodiscard]] std::size_t max_message_bytes() const override;
   void receive(std::string_view bytes, bool binary) override;
   [[nodiscard]] http::CloseReason close_reason() const override;
   void disconnected() override;
