@@ -45,6 +45,11 @@ bool takes(BodyKind kind, std::string_view media_type) {
   return std::find(uploads.begin(), uploads.end(), media_type) != uploads.end();
 }
 
+std::string_view taken_types(BodyKind kind) {
+  if (kind == BodyKind::upload) return "application/octet-stream, a type of the model's own, or multipart/form-data";
+  return "application/json";
+}
+
 bool is_page(const ApiConfig& config, std::string_view path) {
   return !config.web_root.empty() && path.substr(0, 4) != "/v1/";
 }
@@ -100,7 +105,9 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
   const auto content_type = http::essence(head.header("Content-Type").value_or(""));
   if (!takes(route->body, content_type))
-    return to_response(make_problem("unsupported-media-type", content_type + " is not read here"));
+    return to_response(make_problem(
+        "unsupported-media-type",
+        content_type + " is not read here; send it with Content-Type: " + std::string(taken_types(route->body))));
 
   const auto& limits = context_.config.limits;
   switch (route->body) {

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/http/conditional.h"
 #include "server/hash/sha256.h"
+#include "server/http/conditional.h"
 
 namespace semblante::api {
 
@@ -37,7 +37,8 @@ Json body_object(const http::Request& request) {
 void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known) {
   for (const auto& [name, value] : object.items())
     if (std::find(known.begin(), known.end(), name) == known.end())
-      refuse("invalid-field", "there is no field \"" + name + "\" here", "/" + name);
+      refuse("invalid-field", "there is no field \"" + name + "\" here",
+             std::string("/").append(http::pointer_segment(name)));
 }
 
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer) {

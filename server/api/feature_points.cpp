@@ -20,7 +20,7 @@ constexpr std::size_t max_faults = 32;
 /// Reads one entry of "points"; what is wrong with it goes to `faults`.
 std::optional<store::FeaturePointRecord> read_point(const std::string& id, const Json& value, std::uint32_t vertices,
                                                     std::vector<http::Fault>& faults) {
-  const auto at = "/points/" + id;
+  const auto at = std::string("/points/").append(http::pointer_segment(id));
   const auto fault = [&](const std::string& where, std::string detail) {
     faults.push_back({at + where, std::move(detail)});
     return std::nullopt;
@@ -71,6 +71,18 @@ std::vector<store::FeaturePointRecord> read_points(const Json& body, std::uint32
   return points;
 }
 
+/// A file of feature points may say how its model stands and how it counts. The server reads models as they stand: what
+/// it would have to turn it refuses, instead of making a face that is wrong without a sign.
+void refuse_other_frames(const Json& body) {
+  static const Json identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  if (body.contains("to_mpeg4_axes") && !body["to_mpeg4_axes"].is_null() && body["to_mpeg4_axes"] != identity)
+    refuse("invalid-field",
+           "only models that stand in MPEG-4's axes are taken: +X to the face's left, +Y up, +Z out of it",
+           "/to_mpeg4_axes");
+  if (body.contains("vertex_index_base") && body["vertex_index_base"] != 0)
+    refuse("invalid-field", "it must be 0: vertices count from 0", "/vertex_index_base");
+}
+
 http::Response represent_points(Context& context, const store::ModelRecord& model) {
   const VertexPositions positions(context, model);
   Json json = {{"model", model.id}, {"points", Json::object()}};
@@ -103,7 +115,9 @@ http::Response put_feature_points(Context& context, http::Request& request) {
     refuse("conflict", "the model is still being imported: its vertices are not known yet");
   if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
   check_if_match(request, points_etag(model));
-  auto points = read_points(body_object(request), model.vertices);
+  const auto body = body_object(request);
+  refuse_other_frames(body);
+  auto points = read_points(body, model.vertices);
   if (const auto fill = request.query_value("fill")) {
     if (*fill != "mirror") refuse("invalid-argument", "the only way to fill is \"mirror\"", "?fill");
     fill_by_mirror(points, VertexPositions(context, model));

@@ -30,7 +30,7 @@ std::vector<store::RoleChange> role_changes(const Json& roles, std::size_t part_
   if (!roles.is_object()) refuse("invalid-field", "roles is an object of part indices", "/roles");
   std::vector<store::RoleChange> changes;
   for (const auto& [key, value] : roles.items()) {
-    const auto pointer = "/roles/" + key;
+    const auto pointer = std::string("/roles/").append(http::pointer_segment(key));
     std::uint32_t part = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), part);
     if (error != std::errc() || end != key.data() + key.size() || part >= part_count)

@@ -94,6 +94,19 @@ nlohmann::ordered_json document(const Problem& problem) {
 
 }  // namespace
 
+std::string pointer_segment(std::string_view name) {
+  std::string segment;
+  for (const char c : name) {
+    if (c == '~')
+      segment.append("~0");
+    else if (c == '/')
+      segment.append("~1");
+    else
+      segment.push_back(c);
+  }
+  return segment;
+}
+
 std::vector<ProblemKind> problem_kinds() { return {kinds.begin(), kinds.end()}; }
 
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer) {

@@ -35,12 +35,23 @@ Status write_artefact(const WorkerRequest& request, WorkerResult& result, const 
   return Unit{};
 }
 
+/// What a model file lacks or contradicts is a fault of the file. Elsewhere in a job the same codes are about the
+/// feature points and fields of the request, and problem_from names them so.
+Error about_the_file(Error error) {
+  if (error.code == ErrorCode::missing || error.code == ErrorCode::mismatch ||
+      error.code == ErrorCode::invalid_argument)
+    error.code = ErrorCode::malformed;
+  return error;
+}
+
 Result<Model> read_model(const WorkerRequest& request) {
   auto bytes = read_file(request.source);
   if (!bytes) return bytes.error();
   const auto format = detect_format(*bytes, request.file_name);
   if (!format) return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
-  return import_model(*bytes, *format);
+  auto model = import_model(*bytes, *format);
+  if (!model) return about_the_file(model.error());
+  return model;
 }
 
 std::vector<store::PartRecord> records_of(std::span<const Part> parts) {

@@ -1,0 +1,142 @@
+// Bad input that a first user sends: files that lack what they name, points of another frame, handshakes of another
+// time. Each answer names the field, in a form that can be read, and the server goes on.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/integration/server/model_flow.h"
+
+namespace semblante::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+
+class BadInput : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    server_ = new ServerProcess(folder_->path() / "data");
+  }
+  static void TearDownTestSuite() {
+    delete server_;
+    delete folder_;
+  }
+  void TearDown() override { EXPECT_EQ(request(port(), "GET", "/healthz").status, 200) << "the server goes on"; }
+  static int port() { return server_->port(); }
+
+  static json put(const std::string& model, const std::string& text) {
+    return json_of(request(port(), "PUT", "/v1/models/" + model + "/feature-points", text, json_type));
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline ServerProcess* server_ = nullptr;
+};
+
+/// A zip with one stored file: local header, directory, end. The CRC is of the content given here.
+std::string stored_zip(const std::string& name, const std::string& content, std::uint32_t crc) {
+  const auto number = [](std::uint64_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text.push_back(static_cast<char>((value >> (8 * i)) & 0xFFU));
+    return text;
+  };
+  const auto sizes = number(crc, 4) + number(content.size(), 4) + number(content.size(), 4) + number(name.size(), 2);
+  const auto local = "PK\x03\x04" + number(20, 2) + number(0, 8) + sizes + number(0, 2) + name + content;
+  const auto entry = "PK\x01\x02" + number(20, 2) + number(20, 2) + number(0, 8) + sizes + number(0, 16) + name;
+  return local + entry + "PK\x05\x06" + number(0, 4) + number(1, 2) + number(1, 2) + number(entry.size(), 4) +
+         number(local.size(), 4) + number(0, 2);
+}
+
+/// What a file lacks is the file's fault, not that of feature points nobody has sent yet.
+TEST_F(BadInput, ZipWithoutModel_IsAMalformedModel) {
+  const auto zip = stored_zip("readme.txt", "hi", 0xD8932AAC);  // CRC-32 of "hi"
+  const auto made =
+      json_of(request(port(), "POST", "/v1/models?filename=a.zip", zip, {{"Content-Type", "application/zip"}}));
+  const auto problem = wait_for_job(port(), made["job"]["id"])["problem"];
+  EXPECT_EQ(problem["type"], "/problems/malformed-model") << problem;
+  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf or .glb"));
+}
+
+TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {
+  const auto model = import_grid(port());
+  EXPECT_EQ(put(model, R"({"points":{"a/b~c":{"vertex":1}}})")["pointer"], "/points/a~1b~0c");
+  EXPECT_EQ(json_of(request(port(), "PATCH", "/v1/models/" + model, R"({"x/y":1})", json_type))["pointer"], "/x~1y");
+  EXPECT_EQ(
+      json_of(request(port(), "PATCH", "/v1/models/" + model, R"({"roles":{"0/1":"skin"}})", json_type))["pointer"],
+      "/roles/0~11");
+}
+
+/// Points of a model that stands otherwise would make a face that is wrong without a sign.
+TEST_F(BadInput, PointsOfAnotherFrame_AreRefused) {
+  const auto model = import_grid(port());
+  const std::string points = R"("points":{"2.1":{"vertex":4}})";
+  EXPECT_TRUE(put(model, R"({"to_mpeg4_axes":[[1,0,0],[0,1,0],[0,0,1]],"vertex_index_base":0,)" + points + "}")
+                  .contains("points"));
+  const auto turned = put(model, R"({"to_mpeg4_axes":[[1,0,0],[0,0,1],[0,-1,0]],)" + points + "}");
+  EXPECT_EQ(turned["type"], "/problems/invalid-field");
+  EXPECT_EQ(turned["pointer"], "/to_mpeg4_axes");
+  EXPECT_EQ(put(model, R"({"vertex_index_base":1,)" + points + "}")["pointer"], "/vertex_index_base");
+}
+
+/// curl --data sends a form's type unless it is told otherwise.
+TEST_F(BadInput, WrongMediaType_IsToldTheRightOne) {
+  const Fields form = {{"Content-Type", "application/x-www-form-urlencoded"}};
+  const auto frames = request(port(), "POST", "/v1/streams", R"({"name":"form"})", form);
+  EXPECT_EQ(frames.status, 415);
+  EXPECT_THAT(json_of(frames).value("detail", ""), HasSubstr("application/json"));
+  const auto model = request(port(), "POST", "/v1/models?filename=a.obj", grid_obj(4), form);
+  EXPECT_EQ(model.status, 415);
+  EXPECT_THAT(json_of(model).value("detail", ""), HasSubstr("application/octet-stream"));
+}
+
+TEST_F(BadInput, BrokenHandshakes_GetProblemDocuments) {
+  request(port(), "POST", "/v1/streams", R"({"name":"shake"})", json_type);
+  const auto handshake = [](const std::string& version, const std::string& key) {
+    return parse_reply(raw_exchange(port(),
+                                    "GET /v1/streams/shake HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\n"
+                                    "Connection: Upgrade\r\nSec-WebSocket-Version: " +
+                                        version + "\r\nSec-WebSocket-Key: " + key + "\r\n\r\n"));
+  };
+  const auto old = handshake("8", "AAAAAAAAAAAAAAAAAAAAAA==");
+  EXPECT_EQ(old.status, 426);
+  EXPECT_EQ(old.headers.at("sec-websocket-version"), "13");
+  EXPECT_EQ(json_of(old)["type"], "/problems/upgrade-required");
+  const auto short_key = handshake("13", "abc");
+  EXPECT_EQ(short_key.status, 400);
+  EXPECT_EQ(json_of(short_key)["type"], "/problems/malformed-request");
+}
+
+/// SPEC.md: `version` is the highest the client knows; the header says which one is spoken.
+TEST_F(BadInput, HelloOfALaterVersion_IsAnsweredInOurs) {
+  request(port(), "POST", "/v1/streams", R"({"name":"later"})", json_type);
+  WebSocket later(port(), "/v1/streams/later", "semblante.v1.json");
+  later.send_text(R"({"type":"hello","version":99,"role":"subscribe"})");
+  const auto header = json::parse(later.receive().value_or("{}"));
+  EXPECT_EQ(header["type"], "header");
+  EXPECT_EQ(header["version"], 1);
+  WebSocket never(port(), "/v1/streams/later", "semblante.v1.json");
+  never.send_text(R"({"type":"hello","version":0,"role":"subscribe"})");
+  EXPECT_EQ(json::parse(never.receive().value_or("{}"))["where"], "/version");
+}
+
+/// The limits are those of SPEC.md: 256 KiB of binary, 1 MiB of JSON.
+TEST_F(BadInput, LongMessages_AreTakenUpToTheLimitOfTheirSubprotocol) {
+  request(port(), "POST", "/v1/streams", R"({"name":"long"})", json_type);
+  WebSocket json_socket(port(), "/v1/streams/long", "semblante.v1.json");
+  json_socket.send_text(R"({"type":"hello","version":1,"role":"subscribe","pad":")" + std::string(900'000, ' ') +
+                        "\"}");
+  EXPECT_EQ(json::parse(json_socket.receive().value_or("{}"))["type"], "header");
+  WebSocket too_long(port(), "/v1/streams/long", "semblante.v1.json");
+  too_long.send_text(std::string((1U << 20U) + 1, ' '));
+  EXPECT_EQ(too_long.receive(), std::nullopt);
+  EXPECT_EQ(too_long.close_code(), 1009);
+  WebSocket binary(port(), "/v1/streams/long", "semblante.v1");
+  binary.send(std::string((1U << 18U) + 1, ' '), true);
+  EXPECT_EQ(binary.receive(), std::nullopt);
+  EXPECT_EQ(binary.close_code(), 1009);
+}
+
+}  // namespace
+}  // namespace semblante::test
