@@ -80,6 +80,35 @@ TEST_F(BadInput, PointsOfAnotherFrame_AreRefused) {
   EXPECT_EQ(put(model, R"({"vertex_index_base":1,)" + points + "}")["pointer"], "/vertex_index_base");
 }
 
+/// What the documentation shows as right must be taken: each JSON body's example goes to its route.
+TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
+  const auto document = json_of(request(port(), "GET", "/openapi.json"));
+  const auto model = import_grid(port());
+  std::size_t sent = 0;
+  // Put before post: a parametrization needs points.
+  for (const std::string method : {"put", "patch", "post"}) {
+    for (const auto& [path, item] : document["paths"].items()) {
+      if (!item.contains(method) || path == "/v1/models") continue;
+      SCOPED_TRACE(method + " " + path);
+      auto example = item[method]["requestBody"]["content"]["application/json"]["example"];
+      ASSERT_TRUE(example.is_object()) << "a body without an example";
+      // The document speaks of a real head; here is a grid of one part and 81 vertices, and no sample.
+      if (example.contains("points")) example["points"] = {{"2.1", {{"vertex", 4}}}, {"7.1", example["points"]["7.1"]}};
+      if (example.contains("roles")) example["roles"] = {{"0", example["roles"]["3"]}};
+      if (example.contains("model")) example["model"] = model;
+      auto target = path;
+      if (const auto at = target.find("{model}"); at != std::string::npos) target.replace(at, 7, model);
+      if (const auto at = target.find("{stream}"); at != std::string::npos) target.replace(at, 8, "hello");
+      auto upper = method;
+      for (auto& c : upper) c = static_cast<char>(std::toupper(c));
+      const auto reply = request(port(), upper, target, example.dump(), json_type);
+      EXPECT_LT(reply.status, 300) << example << " " << reply.body;
+      ++sent;
+    }
+  }
+  EXPECT_EQ(sent, 5U);
+}
+
 /// curl --data sends a form's type unless it is told otherwise.
 TEST_F(BadInput, WrongMediaType_IsToldTheRightOne) {
   const Fields form = {{"Content-Type", "application/x-www-form-urlencoded"}};
