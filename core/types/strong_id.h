@@ -20,7 +20,7 @@ class StrongId {
     ++value_;
     return *this;
   }
-  friend constexpr auto operator<=>(StrongId, StrongId) = default;
+  friend constexpr auto operator<=>(StrongId, StrongId) = default;  // NOLINT(modernize-use-nullptr): of the default
 
  private:
   Int value_{};

@@ -37,11 +37,14 @@ add_custom_target(fuzz_targets)
 
 # semblante_test(NAME SOURCES ... DEPENDS ... [THREADS] [PROCESSES] [TIMEOUT seconds]): a GoogleTest program whose cases
 # ctest runs one by one. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs, so it belongs to the
-# normal build and not to the sanitizers' unit runs.
+# normal build and not to AddressSanitizer's unit runs.
 function(semblante_test name)
   cmake_parse_arguments(ARG "THREADS;PROCESSES" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  if(SEMBLANTE_SANITIZE)
+    math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * 4")
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main GTest::gmock semblante_flags)

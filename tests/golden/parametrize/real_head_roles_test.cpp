@@ -1,6 +1,7 @@
 // Guessed roles on heads made by others, held to what their makers say about them.
 
 #include <algorithm>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -20,6 +21,7 @@ struct Hints {
   bool points;
   bool names;
 };
+void PrintTo(const Hints& hints, std::ostream* out) { *out << hints.name; }
 
 class RealHeadRoles : public ::testing::TestWithParam<Hints> {
  protected:

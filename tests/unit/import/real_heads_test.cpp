@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <set>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct Expected {
   std::size_t vertices;
   std::size_t triangles;
 };
+void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
 
 class RealHeads : public ::testing::TestWithParam<Expected> {};
 
