@@ -4,8 +4,8 @@
 #include "server/api/common.h"
 #include "server/api/openapi.h"
 #include "server/api/routes.h"
-#include "server/http/conditional.h"
 #include "server/hash/sha256.h"
+#include "server/http/conditional.h"
 
 namespace semblante::api {
 namespace {

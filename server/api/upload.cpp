@@ -7,9 +7,9 @@
 #include "server/api/mapped_file.h"
 #include "server/api/new_model.h"
 #include "server/api/routes.h"
+#include "server/hash/sha256.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
-#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {

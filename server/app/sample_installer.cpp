@@ -9,8 +9,8 @@
 #include "server/api/new_model.h"
 #include "server/api/new_parametrization.h"
 #include "server/app/command_failure.h"
-#include "server/log/log.h"
 #include "server/hash/sha256.h"
+#include "server/log/log.h"
 
 namespace semblante {
 namespace {

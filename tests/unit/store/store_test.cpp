@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "server/store/blob_store.h"
 #include "server/hash/sha256.h"
+#include "server/store/blob_store.h"
 #include "server/store/sqlite_store.h"
 
 namespace semblante::store {
