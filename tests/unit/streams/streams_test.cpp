@@ -28,6 +28,7 @@ class StreamTest : public ::testing::Test {
   std::shared_ptr<StreamConnection> connect() {
     auto connection = std::make_shared<StreamConnection>(stream_, false, false);
     EXPECT_TRUE(stream_->admit(connection));
+    connections_.push_back(connection);
     return connection;
   }
   std::shared_ptr<StreamConnection> connect(StreamRole role) {
@@ -46,8 +47,14 @@ class StreamTest : public ::testing::Test {
   }
   void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish(Source::request, 0, {frame_with(level)})); }
 
+  /// As net does when a socket is gone: a stream and its connections hold each other until then.
+  void TearDown() override {
+    for (const auto& connection : connections_) connection->disconnected();
+  }
+
   StreamLimits limits_;
   std::shared_ptr<Stream> stream_;
+  std::vector<std::shared_ptr<StreamConnection>> connections_;
 };
 
 TEST_F(StreamTest, Behind_NewestStateReplacesWhatWaits) {
