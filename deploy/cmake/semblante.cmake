@@ -68,6 +68,8 @@ function(semblante_test name)
     list(APPEND labels threads)
     add_dependencies(threads_tests test_${name})
   endif()
+  # One word: gtest_discover_tests would take a list apart into further properties. `ctest -L` searches within it.
+  list(JOIN labels "-" labels)
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
