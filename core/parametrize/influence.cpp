@@ -13,6 +13,7 @@ namespace {
 /// One row being put together: ids rise, equal ids add up.
 class Row {
  public:
+  explicit Row(WeightMethod method) : method_(method) {}
   void add(FeaturePointId id, double weight) {
     if (!(weight > 0.0)) return;
     const auto at = std::lower_bound(entries_.begin(), entries_.end(), id,
@@ -23,12 +24,13 @@ class Row {
       entries_.insert(at, {id, weight});
     }
   }
-  void add_quotient(const WeightTable<double>& weights, SurfaceVertexId vertex, double share) {
+  void add_row(const WeightTable<double>& weights, SurfaceVertexId vertex, double share) {
     const auto ids = weights.points_of(vertex.value());
     const auto values = weights.weights_of(vertex.value());
     double sum = 0.0;
     for (const double w : values) sum += w;
-    if (!(sum > 0.0)) return;  // no influencer: it stays where it is
+    if (method_ == WeightMethod::smooth) sum = sum > 0.0 ? 1.0 : 0.0;  // they are shares already, the root has the rest
+    if (!(sum > 0.0)) return;                                          // no influencer: it stays where it is
     for (std::size_t k = 0; k < ids.size(); ++k) add(ids[k], share * (values[k] / sum));
   }
   void write_to(WeightTable<float>& table) {
@@ -42,6 +44,7 @@ class Row {
     FeaturePointId id;
     double weight;
   };
+  WeightMethod method_;
   std::vector<Entry> entries_;
 };
 
@@ -113,25 +116,26 @@ class AttachedVertices {
 }  // namespace
 
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights) {
+                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights,
+                                        WeightMethod method) {
   const std::optional<FeaturePointId> jaw = parse_feature_point("2.1");
   const bool has_jaw = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.id == *jaw; });
   const AttachedVertices attached(surface, parts);
   const std::vector<MouthShare> mouth = share_of_jaw(surface, parts, points);
 
   WeightTable<float> table;
-  Row row;
+  Row row(method);
   for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
     const SurfaceVertexId vertex(s);
     switch (parts[surface.part_of[s].value()].role) {
       case PartRole::skin:
-        row.add_quotient(weights, vertex, 1.0);
+        row.add_row(weights, vertex, 1.0);
         break;
       case PartRole::attached:
-        if (const auto followed = attached.followed_by(vertex)) row.add_quotient(weights, *followed, 1.0);
+        if (const auto followed = attached.followed_by(vertex)) row.add_row(weights, *followed, 1.0);
         break;
       case PartRole::tongue:
-        row.add_quotient(weights, vertex, mouth[s].tongue);
+        row.add_row(weights, vertex, mouth[s].tongue);
         if (has_jaw) row.add(*jaw, mouth[s].jaw);
         break;
       case PartRole::lower_teeth:

@@ -5,6 +5,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_lookup.h"
+#include "core/parametrize/weight_method.h"
 #include "core/types/rig.h"
 #include "core/types/weight_table.h"
 
@@ -18,9 +19,12 @@ namespace semblante {
 ///     attached      the row of the nearest skin vertex
 ///     eyes, upper teeth, rest: no row; they move rigidly, with the eye or with the head
 ///
+/// Weights of `smooth` are shares as they are: their rows are not divided by the sum.
+///
 /// A part that holds both rows of teeth (gums with the tongue on them, joined at the throat) follows the jaw in full
 /// where it holds the lower teeth, not at all where it holds the upper ones, and in between by the distance to either.
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights);
+                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights,
+                                        WeightMethod method = WeightMethod::paper);
 
 }  // namespace semblante

@@ -60,18 +60,20 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
                         const ParametrizeOptions& options) {
   if (model.triangles.empty()) return Error{ErrorCode::empty, "", "the model has no triangles"};
   const std::vector<SurfacePoint> on_surface = surface_points(surface, points);
-  const Result<WeightTable<double>> weights = surface_weights(surface, on_surface, options.progress);
-  if (!weights) return weights.error();
-
   Rig rig;
   rig.points = points;
   rig.fapu = compute_fapu(points);
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
     if (options.fapu_by_user.value[unit]) rig.fapu.value[unit] = options.fapu_by_user.value[unit];
   }
+  const WeightOptions weight_options{options.weights, 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0)};
+  const Result<WeightTable<double>> weights = surface_weights(surface, on_surface, options.progress, weight_options);
+  if (!weights) return weights.error();
+
   rig.parts = describe_parts(model, surface, points, options.roles_by_user);
   rig.weights = rows_of_file_vertices(surface, *weights);
-  rig.influence = rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights));
+  rig.influence =
+      rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights, options.weights));
   rig.part_of_vertex.reserve(surface.surface_of.size());
   rig.rigid_of_vertex.reserve(surface.surface_of.size());
   for (const SurfaceVertexId vertex : surface.surface_of) {

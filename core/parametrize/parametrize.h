@@ -17,6 +17,7 @@ struct ParametrizeOptions {
   std::vector<std::optional<PartRole>> roles_by_user;
   /// Units given by hand, in model units, already divided by 1024; they replace what the points give.
   Fapu fapu_by_user;
+  WeightMethod weights = WeightMethod::paper;
   ProgressCallback progress;
 };
 

@@ -5,12 +5,13 @@
 #include "core/geometry/edge_path_search.h"
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/point_distances.h"
+#include "core/parametrize/smooth_weights.h"
 #include "core/parametrize/weights.h"
 
 namespace semblante {
 
 Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
-                                            const ProgressCallback& progress) {
+                                            const ProgressCallback& progress, const WeightOptions& options) {
   std::vector<std::size_t> points_on(surface.part_count(), 0);
   std::size_t work = 0;  // searches weighted by the size of their part
   for (const SurfacePoint& point : points) {
@@ -32,6 +33,12 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
     const std::size_t share = points_on[p] * surface.members_of(part).size();
     if (!go_on(0, "distances")) return Error{ErrorCode::cancelled, "", "stopped on request"};
     const PointDistances distances = measure_distances(surface, part, points, search);
+    if (options.method == WeightMethod::smooth) {
+      if (!go_on(share / 2, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
+      of_part[p] = smooth_part_weights(surface, distances, options.eye_separation);
+      done += share - share / 2;
+      continue;
+    }
     if (!go_on(share / 2, "regions of influence")) return Error{ErrorCode::cancelled, "", "stopped on request"};
     const std::vector<SlotSet> regions = influence_regions(surface, distances);
     if (!go_on(share / 4, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};

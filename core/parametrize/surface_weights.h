@@ -6,6 +6,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_lookup.h"
+#include "core/parametrize/weight_method.h"
 #include "core/types/result.h"
 #include "core/types/weight_table.h"
 
@@ -14,10 +15,16 @@ namespace semblante {
 /// Told how far a parametrization is (0..1) and what it is at; answers false to stop it.
 using ProgressCallback = std::function<bool(double progress, std::string_view stage)>;
 
-/// W of Eq. 4 for every surface vertex (#S rows): distances, regions, neighbours and weights, part by part.
-/// Fails only with `cancelled`. `progress` may be empty.
+struct WeightOptions {
+  WeightMethod method = WeightMethod::paper;
+  /// ES0 in model units, for `smooth`; 0 where it is not known.
+  double eye_separation = 0.0;
+};
+
+/// Weights of every surface vertex (#S rows), part by part: distances, then with `paper` regions, neighbours and W of
+/// Eq. 4, with `smooth` the shares of smooth_weights.h. Fails only with `cancelled`. `progress` may be empty.
 Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
-                                            const ProgressCallback& progress = {});
+                                            const ProgressCallback& progress = {}, const WeightOptions& options = {});
 
 /// Gives each file vertex the row of its surface vertex: #V rows.
 template <class W>

@@ -38,8 +38,9 @@ inline constexpr std::size_t rigid_motion_count = 3;
 struct Rig {
   FeaturePointSet points;
   Fapu fapu;
-  WeightTable<double> weights;   ///< #V rows: W of Eq. 4, surface weights alone, before roles and the quotient of Eq. 7
-  WeightTable<float> influence;  ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
+  /// #V rows: W of Eq. 4, surface weights alone, before roles and the quotient of Eq. 7; with `smooth` weights shares.
+  WeightTable<double> weights;
+  WeightTable<float> influence;              ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
   std::vector<PartId> part_of_vertex;        ///< #V
   std::vector<Part> parts;                   ///< by PartId

@@ -1,0 +1,107 @@
+#include "core/parametrize/non_negative_kriging.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace semblante {
+namespace {
+/// A gradient below this is rounding, not a site that wants in. The covariance of a site with itself is 1.
+constexpr double least_gain = 1e-10;
+}  // namespace
+
+NonNegativeKriging::NonNegativeKriging(std::vector<double> covariance, std::size_t site_count)
+    : covariance_(std::move(covariance)), site_count_(site_count), factor_(site_count * site_count) {
+  assert(covariance_.size() == site_count * site_count);
+}
+
+void NonNegativeKriging::extend_factor(std::size_t row) {
+  double* const own = &factor_[row * site_count_];
+  const std::size_t site = sites_[passive_[row]];
+  double rest = covariance(site, site);
+  for (std::size_t c = 0; c < row; ++c) {
+    const double* const other = &factor_[c * site_count_];
+    double sum = covariance(site, sites_[passive_[c]]);
+    for (std::size_t i = 0; i < c; ++i) sum -= own[i] * other[i];
+    own[c] = sum / other[c];
+    rest -= own[c] * own[c];
+  }
+  own[row] = std::sqrt(std::max(rest, least_gain));
+}
+
+void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
+  const std::size_t count = passive_.size();
+  trial_.resize(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    const double* const row = &factor_[r * site_count_];
+    double sum = to_target[passive_[r]];
+    for (std::size_t i = 0; i < r; ++i) sum -= row[i] * trial_[i];
+    trial_[r] = sum / row[r];
+  }
+  for (std::size_t r = count; r-- > 0;) {
+    double sum = trial_[r];
+    for (std::size_t i = r + 1; i < count; ++i) sum -= factor_[i * site_count_ + r] * trial_[i];
+    trial_[r] = sum / factor_[r * site_count_ + r];
+  }
+}
+
+// The active-set method of Lawson and Hanson, on the normal equations (K is well conditioned). `passive_` keeps the
+// order in which sites came in, so that Cholesky's factor only grows; it is built again from the first site that
+// leaves.
+std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> sites,
+                                                  std::span<const double> to_target) {
+  assert(sites.size() == to_target.size());
+  sites_ = sites;
+  weights_.assign(sites.size(), 0.0);
+  is_passive_.assign(sites.size(), false);
+  passive_.clear();
+  // Every turn lowers the objective and no passive set comes twice; the bound is for rounding alone.
+  for (std::size_t turn = 0; turn < 3 * sites.size(); ++turn) {
+    std::size_t best = sites.size();
+    double best_gain = least_gain;
+    for (std::size_t s = 0; s < sites.size(); ++s) {
+      if (is_passive_[s]) continue;
+      double gain = to_target[s];
+      for (const std::size_t p : passive_) gain -= covariance(sites[s], sites[p]) * weights_[p];
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = s;
+      }
+    }
+    if (best == sites.size()) break;
+    passive_.push_back(best);
+    is_passive_[best] = true;
+    extend_factor(passive_.size() - 1);
+    solve_passive(to_target);
+    while (std::any_of(trial_.begin(), trial_.end(), [](double w) { return !(w > 0.0); })) {
+      double step = 1.0;  // how far towards the trial all weights stay positive
+      for (std::size_t p = 0; p < passive_.size(); ++p) {
+        const double from = weights_[passive_[p]];
+        if (!(trial_[p] > 0.0)) step = std::min(step, from > 0.0 ? from / (from - trial_[p]) : 0.0);
+      }
+      std::size_t kept = 0;
+      std::size_t first_left = passive_.size();
+      for (std::size_t p = 0; p < passive_.size(); ++p) {
+        const std::size_t s = passive_[p];
+        double& weight = weights_[s];
+        const bool leaves =
+            !(trial_[p] > 0.0) && (!(weight > 0.0) || weight / (weight - trial_[p]) <= step * (1.0 + 1e-12));
+        weight += step * (trial_[p] - weight);
+        if (leaves) {
+          weight = 0.0;
+          is_passive_[s] = false;
+          first_left = std::min(first_left, p);
+        } else {
+          passive_[kept++] = s;
+        }
+      }
+      passive_.resize(kept);
+      for (std::size_t row = first_left; row < kept; ++row) extend_factor(row);
+      solve_passive(to_target);
+    }
+    for (std::size_t p = 0; p < passive_.size(); ++p) weights_[passive_[p]] = trial_[p];
+  }
+  return weights_;
+}
+
+}  // namespace semblante

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace semblante {
+
+/// Solves min 1/2 w'Kw - k'w, w >= 0, many times over for rows and columns picked from one K: kriging whose weights
+/// cannot be negative. K is positive definite, so there is one solution, and it is continuous in k: sites enter and
+/// leave it with weight zero. Far sites behind nearer ones get nothing, so that few weights are positive.
+class NonNegativeKriging {
+ public:
+  /// `covariance`: #F x #F, row by row, symmetric, positive definite.
+  NonNegativeKriging(std::vector<double> covariance, std::size_t site_count);
+
+  /// `sites`: rows and columns of K to use; `to_target`: k, as many. Returns w, as many; valid until the next call.
+  std::span<const double> solve(std::span<const std::size_t> sites, std::span<const double> to_target);
+
+ private:
+  /// Cholesky's factor of K over the passive sites grown by its last row.
+  void extend_factor(std::size_t row);
+  void solve_passive(std::span<const double> to_target);
+  [[nodiscard]] double covariance(std::size_t a, std::size_t b) const { return covariance_[a * site_count_ + b]; }
+
+  std::vector<double> covariance_;
+  std::size_t site_count_;
+  std::vector<double> weights_;       ///< of all sites asked for
+  std::vector<std::size_t> passive_;  ///< places in `sites` whose weight may be positive
+  std::vector<bool> is_passive_;
+  std::vector<double> trial_;   ///< weights of passive_ if they were free
+  std::vector<double> factor_;  ///< lower triangle, row by row, #F wide
+  std::span<const std::size_t> sites_;
+};
+
+}  // namespace semblante

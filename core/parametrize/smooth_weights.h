@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/point_distances.h"
+#include "core/types/weight_table.h"
+
+namespace semblante {
+
+inline constexpr std::size_t max_smooth_influences = 8;
+
+/// The weights of `WeightMethod::smooth` for the members of one part: #M rows of at most `max_smooth_influences`
+/// positive weights. Unlike W of Eq. 4 they are the shares themselves: D_P = sum(w D), and what a row lacks to one
+/// hangs on a root that does not move. They vary continuously over the surface, reach exactly zero about one
+/// `eye_separation` away from the last point, and are exactly (id, 1) at a point's own vertex (points that share a
+/// vertex share the one equally).
+///
+/// `eye_separation`: ES0 in model units, the length that makes the weights independent of scale; not positive where it
+/// is not known, then the spread of the points stands in for it.
+WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation);
+
+}  // namespace semblante
