@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 
@@ -22,6 +23,7 @@ struct Arguments {
   std::vector<std::string> shots = {"front:face", "three-quarter:face"};
   std::vector<std::string> faps;
   std::string size = "340x400";
+  WeightMethod weights = WeightMethod::paper;
   bool only_faps = false;
 };
 
@@ -101,7 +103,7 @@ Status run(const Arguments& arguments) {
   if (!list) {
     return std::move(list).error();
   }
-  auto head = load_posed_head(arguments.model, arguments.feature_points);
+  auto head = load_posed_head(arguments.model, arguments.feature_points, arguments.weights);
   if (!head) {
     return std::move(head).error();
   }
@@ -155,6 +157,10 @@ int main(int argc, char** argv) {
   app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();
   app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
   app.add_option("--frame", arguments.faps, "a face of one's own, NUMBER=VALUE,... in FAP units; repeatable");
+  const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
+                                                                  {"smooth", semblante::WeightMethod::smooth}};
+  app.add_option("--weights", arguments.weights, "how weights are computed: paper, smooth")
+      ->transform(CLI::CheckedTransformer(methods));
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::tools::run(arguments); !done) {

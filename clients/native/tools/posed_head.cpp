@@ -33,8 +33,8 @@ std::vector<PartRole> PosedHead::roles() const {
   return roles;
 }
 
-Result<PosedHead> load_posed_head(const std::filesystem::path& model_path,
-                                  const std::filesystem::path& feature_points) {
+Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const std::filesystem::path& feature_points,
+                                  WeightMethod weights) {
   auto model = load_model(model_path);
   if (!model) {
     return std::move(model).error();
@@ -59,7 +59,9 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model_path,
   if (!placed) {
     return std::move(placed).error();
   }
-  auto rig = parametrize(*model, surface, *placed);
+  ParametrizeOptions options;
+  options.weights = weights;
+  auto rig = parametrize(*model, surface, *placed, options);
   if (!rig) {
     return std::move(rig).error();
   }

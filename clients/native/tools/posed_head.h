@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/expressions/kernel_rig.h"
+#include "core/parametrize/weight_method.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
@@ -27,7 +28,8 @@ struct PosedHead {
 };
 
 /// Reads a model file and its feature points and parametrizes.
-Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points);
+Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
+                                  WeightMethod weights = WeightMethod::paper);
 
 /// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
 Result<semblante_frame> parse_faps(const std::string& text);
