@@ -1,0 +1,158 @@
+// Weights against what real faces do, and what they cost: two tables on standard output.
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "core/parametrize/influence_regions.h"
+#include "core/parametrize/smooth_weights.h"
+#include "core/parametrize/weights.h"
+#include "tests/bench/weights/candidate_weights.h"
+#include "tests/bench/weights/expression_study.h"
+#include "tests/oracle/real_heads.h"
+
+namespace semblante::bench {
+namespace {
+
+Shares to_shares(const ExpressionStudy& study, const WeightTable<double>& table, bool quotient) {
+  const std::size_t points = study.point_count();
+  Shares shares(study.member_count() * points, 0.0);
+  for (std::size_t m = 0; m < study.member_count(); ++m) {
+    double sum = quotient ? 0.0 : 1.0;
+    for (const double w : table.weights_of(m)) sum += quotient ? w : 0.0;
+    for (std::size_t k = 0; k < table.points_of(m).size(); ++k) {
+      for (std::size_t f = 0; f < points; ++f) {
+        if (study.distances.points[f].id != table.points_of(m)[k]) continue;
+        shares[m * points + f] = sum > 0.0 ? table.weights_of(m)[k] / sum : 0.0;
+      }
+    }
+  }
+  return shares;
+}
+
+void print(const char* name, const ExpressionStudy& study, const Shares& shares) {
+  const Figures f = measure(study, shares);
+  std::printf("%-22s %6.3f %9.4f %6.1f %5zu %9.3f %9.3f %9.3f\n", name, f.error, f.roughness, f.mean_influences,
+              f.max_influences, f.lip_leak, f.lid_leak, f.least);
+  std::fflush(stdout);
+}
+
+template <class Work>
+double seconds(Work work) {
+  double best = 1e9;
+  for (int turn = 0; turn < 3; ++turn) {
+    const auto before = std::chrono::steady_clock::now();
+    work();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
+  }
+  return best;
+}
+
+/// The baseline: one Dijkstra with std::priority_queue a point.
+double plain_distances(const Surface& surface, std::span<const SurfacePoint> points) {
+  double check = 0.0;
+  for (const SurfacePoint& point : points) {
+    std::vector<double> distances(surface.vertex_count(), std::numeric_limits<double>::infinity());
+    std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>, std::greater<>>
+        queue;
+    distances[point.vertex.value()] = 0.0;
+    queue.emplace(0.0, point.vertex.value());
+    while (!queue.empty()) {
+      const auto [distance, at] = queue.top();
+      queue.pop();
+      if (distance > distances[at]) continue;
+      check = distance;
+      for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(at))) {
+        if (distance + step.length >= distances[step.to.value()]) continue;
+        distances[step.to.value()] = distance + step.length;
+        queue.emplace(distance + step.length, step.to.value());
+      }
+    }
+  }
+  return check;
+}
+
+/// Every triangle of the skin in four; points stay vertices.
+Model refined_skin(const ExpressionStudy& study) {
+  Model model;
+  for (std::size_t m = 0; m < study.member_count(); ++m) model.positions.emplace_back(study.position(m));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [at, is_new] =
+        middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(model.positions.size()));
+    if (is_new) model.positions.push_back((model.positions[a] + model.positions[b]) / 2.0F);
+    return at->second;
+  };
+  for (const Triangle& t : study.triangles) {
+    const std::uint32_t ab = middle(t[0], t[1]);
+    const std::uint32_t bc = middle(t[1], t[2]);
+    const std::uint32_t ca = middle(t[2], t[0]);
+    for (const Triangle& part : {Triangle{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}}) {
+      model.triangles.push_back(part);
+    }
+  }
+  return model;
+}
+
+void print_cost(const char* name, const ExpressionStudy& study, const Model& model) {
+  const Surface surface = build_surface(model);
+  std::vector<SurfacePoint> points = study.distances.points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].vertex = surface.surface_of[study.member_of_point[i]];
+  const PartId part = surface.part_of[points[0].vertex.value()];
+  const double baseline = seconds([&] { plain_distances(surface, points); });
+  PointDistances distances;
+  const double measured = seconds([&] {
+    EdgePathSearch search(surface);
+    distances = measure_distances(surface, part, points, search);
+  });
+  const double paper = seconds([&] { part_weights(surface, distances, influence_regions(surface, distances)); });
+  const double smooth = seconds([&] { smooth_part_weights(surface, distances, study.eye_separation); });
+  std::printf("%-14s %8zu %8zu %9.3f %9.3f %7.2f %7.2f\n", name, surface.vertex_count(), points.size(), baseline,
+              measured, (measured + paper) / baseline, (measured + smooth) / baseline);
+}
+
+void run(const std::filesystem::path& folder) {
+  const ExpressionStudy study = read_expression_study(folder);
+  std::printf("%s: skin of %zu vertices, %zu points, %zu expressions\n\n", folder.filename().c_str(),
+              study.member_count(), study.point_count(), study.expressions.size());
+  std::printf("%-22s %6s %9s %6s %5s %9s %9s %9s\n", "weights", "E", "rough", "infl", "max", "lip leak", "lid leak",
+              "least");
+  const auto regions = influence_regions(study.surface, study.distances);
+  print("paper", study, to_shares(study, part_weights(study.surface, study.distances, regions), true));
+  const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation);
+  print("smooth", study, to_shares(study, smooth, false));
+  print("harmonic", study, harmonic_shares(study));
+  print("linear RBF", study, linear_rbf_shares(study));
+  for (const double length : {0.3, 0.5, 0.7}) {
+    print(("kriging, " + std::to_string(length).substr(0, 3) + " ES0").c_str(), study, kriging_shares(study, length));
+  }
+  std::printf("\nseconds for all points, and whole parametrizations as multiples of the baseline's distances\n");
+  std::printf("%-14s %8s %8s %9s %9s %7s %7s\n", "mesh", "vertices", "points", "baseline", "distances", "paper",
+              "smooth");
+  Model skin;
+  for (std::size_t m = 0; m < study.member_count(); ++m) skin.positions.emplace_back(study.position(m));
+  skin.triangles = study.triangles;
+  print_cost("skin", study, skin);
+  print_cost("skin, refined", study, refined_skin(study));
+}
+
+}  // namespace
+}  // namespace semblante::bench
+
+int main() {
+  const auto faces = semblante::oracle::faces_folder();
+  if (!faces) {
+    std::puts("no folder of real heads: set SEMBLANTE_FACES_DIR");
+    return 0;
+  }
+  try {
+    semblante::bench::run(*faces / "ict-facekit");
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "bench_weights: %s\n", problem.what());
+    return 1;
+  }
+  return 0;
+}
