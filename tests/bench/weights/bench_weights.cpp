@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/smooth_weights.h"
 #include "core/parametrize/weights.h"
@@ -124,6 +125,14 @@ void run(const std::filesystem::path& folder) {
   print("paper", study, to_shares(study, part_weights(study.surface, study.distances, regions), true));
   const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation);
   print("smooth", study, to_shares(study, smooth, false));
+  const Surface unfolded = with_unfolded_diagonals(study.surface, study.model.triangles);
+  EdgePathSearch search(unfolded);
+  const PartId part = study.surface.part_of[study.distances.members[0].value()];
+  const PointDistances nearer = measure_distances(study.surface, part, study.distances.points, search);
+  print("paper, unfolded", study,
+        to_shares(study, part_weights(study.surface, nearer, influence_regions(study.surface, nearer)), true));
+  print("smooth, unfolded", study,
+        to_shares(study, smooth_part_weights(study.surface, nearer, study.eye_separation), false));
   print("harmonic", study, harmonic_shares(study));
   print("linear RBF", study, linear_rbf_shares(study));
   for (const double length : {0.3, 0.5, 0.7}) {

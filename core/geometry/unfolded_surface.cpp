@@ -1,0 +1,102 @@
+#include "core/geometry/unfolded_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace semblante {
+namespace {
+
+/// A triangle seen across one of its edges.
+struct Wing {
+  std::uint32_t low, high;  ///< the edge's ends, low < high
+  std::uint32_t apex;
+
+  auto operator<=>(const Wing&) const = default;
+};
+
+struct Link {
+  std::uint32_t from, to;
+  double length;
+};
+
+std::vector<Wing> wings_of(const Surface& surface, std::span<const Triangle> triangles) {
+  std::vector<Wing> wings;
+  wings.reserve(triangles.size() * 3);
+  for (const Triangle& t : triangles) {
+    std::array<std::uint32_t, 3> s{};
+    for (std::size_t c = 0; c < 3; ++c) s[c] = surface.surface_of[t[c]].value();
+    if (s[0] == s[1] || s[1] == s[2] || s[2] == s[0]) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(s[c], s[(c + 1) % 3]);
+      wings.push_back({low, high, s[(c + 2) % 3]});
+    }
+  }
+  std::sort(wings.begin(), wings.end());
+  wings.erase(std::unique(wings.begin(), wings.end()), wings.end());  // a triangle given twice is one
+  return wings;
+}
+
+/// Length of the diagonal from `first`'s apex to `second`'s over their common edge laid flat; 0 where the straight way
+/// leaves the two triangles.
+double diagonal(const Surface& surface, const Wing& first, const Wing& second) {
+  const glm::dvec3& origin = surface.positions[first.low];
+  const glm::dvec3 edge = surface.positions[first.high] - origin;
+  const double length = glm::length(edge);
+  if (!(length > 0.0)) return 0.0;
+  const auto laid_flat = [&](std::uint32_t apex) {
+    const glm::dvec3 to = surface.positions[apex] - origin;
+    return glm::dvec2(glm::dot(to, edge) / length, glm::length(glm::cross(edge, to)) / length);
+  };
+  const glm::dvec2 a = laid_flat(first.apex);
+  const glm::dvec2 b = laid_flat(second.apex);
+  const double height = a.y + b.y;
+  if (!(height > 0.0)) return 0.0;
+  const double crossing = a.x + (b.x - a.x) * (a.y / height);
+  if (!(crossing > 0.0 && crossing < length)) return 0.0;
+  return std::hypot(b.x - a.x, height);
+}
+
+}  // namespace
+
+Surface with_unfolded_diagonals(const Surface& surface, std::span<const Triangle> triangles) {
+  std::vector<Link> links;
+  links.reserve(surface.steps.size() * 2);
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(s))) {
+      links.push_back({s, step.to.value(), step.length});
+    }
+  }
+  const std::vector<Wing> wings = wings_of(surface, triangles);
+  for (std::size_t first = 0; first < wings.size(); ++first) {
+    for (std::size_t second = first + 1; second < wings.size(); ++second) {
+      if (wings[second].low != wings[first].low || wings[second].high != wings[first].high) break;
+      const double length = diagonal(surface, wings[first], wings[second]);
+      if (!(length > 0.0)) continue;
+      links.push_back({wings[first].apex, wings[second].apex, length});
+      links.push_back({wings[second].apex, wings[first].apex, length});
+    }
+  }
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
+  });
+  // Of several ways between two vertices the shortest, which the order puts first.
+  const auto same_ends = [](const Link& a, const Link& b) { return a.from == b.from && a.to == b.to; };
+  links.erase(std::unique(links.begin(), links.end(), same_ends), links.end());
+
+  Surface unfolded = surface;
+  unfolded.steps.clear();
+  unfolded.step_offsets.assign(surface.vertex_count() + 1, 0);
+  for (const Link& link : links) {
+    unfolded.steps.push_back({link.length, SurfaceVertexId(link.to)});
+    ++unfolded.step_offsets[link.from + 1];
+  }
+  for (std::size_t s = 0; s < surface.vertex_count(); ++s) unfolded.step_offsets[s + 1] += unfolded.step_offsets[s];
+  return unfolded;
+}
+
+}  // namespace semblante
