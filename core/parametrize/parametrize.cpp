@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
 #include "core/parametrize/part_roles.h"
@@ -66,7 +67,14 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
     if (options.fapu_by_user.value[unit]) rig.fapu.value[unit] = options.fapu_by_user.value[unit];
   }
-  const WeightOptions weight_options{options.weights, 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0)};
+  WeightOptions weight_options;
+  weight_options.method = options.weights;
+  weight_options.eye_separation = 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0);
+  std::optional<Surface> unfolded;
+  if (options.metric == DistanceMetric::unfolded) {
+    unfolded = with_unfolded_diagonals(surface, model.triangles);
+    weight_options.distance_graph = &*unfolded;
+  }
   const Result<WeightTable<double>> weights = surface_weights(surface, on_surface, options.progress, weight_options);
   if (!weights) return weights.error();
 

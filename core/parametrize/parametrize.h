@@ -18,6 +18,7 @@ struct ParametrizeOptions {
   /// Units given by hand, in model units, already divided by 1024; they replace what the points give.
   Fapu fapu_by_user;
   WeightMethod weights = WeightMethod::paper;
+  DistanceMetric metric = DistanceMetric::edge;
   ProgressCallback progress;
 };
 

@@ -21,7 +21,7 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
   }
 
   std::vector<WeightTable<double>> of_part(surface.part_count());
-  EdgePathSearch search(surface);
+  EdgePathSearch search(options.distance_graph != nullptr ? *options.distance_graph : surface);
   std::size_t done = 0;
   const auto go_on = [&](std::size_t more, std::string_view stage) {
     done += more;

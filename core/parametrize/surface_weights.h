@@ -19,6 +19,8 @@ struct WeightOptions {
   WeightMethod method = WeightMethod::paper;
   /// ES0 in model units, for `smooth`; 0 where it is not known.
   double eye_separation = 0.0;
+  /// Where distances are searched, if not in `surface` itself: the same vertices and parts with other steps.
+  const Surface* distance_graph = nullptr;
 };
 
 /// Weights of every surface vertex (#S rows), part by part: distances, then with `paper` regions, neighbours and W of

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace semblante {
@@ -12,5 +13,24 @@ enum class WeightMethod : std::uint8_t {
   smooth,  ///< kriging without negative weights: continuous over the surface, at most 8 points a vertex
 };
 inline constexpr std::array<std::string_view, 2> weight_method_names = {"paper", "smooth"};
+
+/// What the surface distance is measured along.
+enum class DistanceMetric : std::uint8_t {
+  edge,      ///< mesh edges, as in the paper
+  unfolded,  ///< and the diagonals of neighbouring triangles laid flat: nearer to the geodesic
+};
+inline constexpr std::array<std::string_view, 2> distance_metric_names = {"edge", "unfolded"};
+
+/// The method or metric of that name; empty for any other.
+inline std::optional<WeightMethod> parse_weight_method(std::string_view name) {
+  if (name == weight_method_names[0]) return WeightMethod::paper;
+  if (name == weight_method_names[1]) return WeightMethod::smooth;
+  return std::nullopt;
+}
+inline std::optional<DistanceMetric> parse_distance_metric(std::string_view name) {
+  if (name == distance_metric_names[0]) return DistanceMetric::edge;
+  if (name == distance_metric_names[1]) return DistanceMetric::unfolded;
+  return std::nullopt;
+}
 
 }  // namespace semblante
