@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -88,22 +87,35 @@ std::vector<double> covariances(std::span<const Site> sites, double unit) {
   return matrix;
 }
 
-/// Takes what the greatest weight that has no place is worth off all of them and gives it back in proportion, so that a
-/// weight is zero when it loses its place.
-void keep_greatest(std::vector<double>& weights, std::vector<double>& scratch) {
-  scratch = weights;
+/// Leaves the greatest weights and their sum. What the greatest weight without a place is worth is taken off all of
+/// them, so that a weight is zero when it loses its place. Where that would leave almost nothing (many points equally
+/// far) no choice is continuous: there the greatest are kept as they are, at equal weight those of lower ids.
+void keep_greatest(std::vector<double>& weights, std::vector<std::size_t>& order) {
   if (weights.size() <= max_smooth_influences) return;
-  std::nth_element(scratch.begin(), scratch.begin() + max_smooth_influences, scratch.end(), std::greater<>());
-  const double first_out = scratch[max_smooth_influences];
+  order.resize(weights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::partial_sort(
+      order.begin(), order.begin() + max_smooth_influences + 1, order.end(),
+      [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
+  const double first_out = weights[order[max_smooth_influences]];
   if (!(first_out > 0.0)) return;
-  double before = 0.0;
-  double after = 0.0;
-  for (double& w : weights) {
-    before += w;
-    w = std::max(0.0, w - first_out);
-    after += w;
+  double all = 0.0;
+  double kept = 0.0;
+  double lowered = 0.0;
+  for (const double w : weights) all += w;
+  for (std::size_t k = 0; k < max_smooth_influences; ++k) {
+    kept += weights[order[k]];
+    lowered += weights[order[k]] - first_out;
   }
-  for (double& w : weights) w *= after > 0.0 ? before / after : 0.0;
+  const double share = std::min(1.0, lowered / (all / 4.0));  // of the continuous choice
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    double& w = weights[order[k]];
+    if (k >= max_smooth_influences) {
+      w = 0.0;
+    } else {
+      w = all * ((share > 0.0 ? share * (w - first_out) / lowered : 0.0) + (1.0 - share) * w / kept);
+    }
+  }
 }
 
 /// Brings the sum to 1 - (1 - sum)^root_power.
@@ -128,7 +140,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   std::vector<std::size_t> candidates;
   std::vector<double> to_target;
   std::vector<double> weights;
-  std::vector<double> scratch;
+  std::vector<std::size_t> order;
   std::vector<std::pair<FeaturePointId, double>> row;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
     const SurfaceVertexId vertex = distances.members[m];
@@ -154,7 +166,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     } else {
       const std::span<const double> solution = kriging.solve(candidates, to_target);
       weights.assign(solution.begin(), solution.end());
-      keep_greatest(weights, scratch);
+      keep_greatest(weights, order);
       raise_sum(weights);
     }
     for (std::size_t c = 0; c < candidates.size(); ++c) {

@@ -1,0 +1,40 @@
+// Smooth weights against fourteen real expressions of a head made by others.
+
+#include <gtest/gtest.h>
+
+#include "core/parametrize/smooth_weights.h"
+#include "tests/bench/weights/expression_study.h"
+#include "tests/oracle/real_heads.h"
+
+namespace semblante {
+namespace {
+
+TEST(RealExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) GTEST_SKIP() << "no folder of real heads";
+  const bench::ExpressionStudy study = bench::read_expression_study(*faces / "ict-facekit");
+  ASSERT_EQ(study.expressions.size(), 14U);
+  const WeightTable<double> table = smooth_part_weights(study.surface, study.distances, study.eye_separation);
+  bench::Shares shares(study.member_count() * study.point_count(), 0.0);
+  for (std::size_t m = 0; m < study.member_count(); ++m) {
+    for (std::size_t k = 0; k < table.points_of(m).size(); ++k) {
+      for (std::size_t f = 0; f < study.point_count(); ++f) {
+        if (study.distances.points[f].id == table.points_of(m)[k]) {
+          shares[m * study.point_count() + f] = table.weights_of(m)[k];
+        }
+      }
+    }
+  }
+
+  const bench::Figures figures = bench::measure(study, shares);
+
+  EXPECT_LE(figures.error, 0.20);
+  EXPECT_LE(figures.roughness, 0.008);
+  EXPECT_LE(figures.max_influences, 8U);
+  EXPECT_LE(figures.lip_leak, 0.10);
+  EXPECT_LE(figures.lid_leak, 0.10);
+  EXPECT_GE(figures.least, 0.0);
+}
+
+}  // namespace
+}  // namespace semblante
