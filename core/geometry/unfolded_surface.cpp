@@ -16,7 +16,7 @@ struct Wing {
   std::uint32_t low, high;  ///< the edge's ends, low < high
   std::uint32_t apex;
 
-  auto operator<=>(const Wing&) const = default;
+  [[nodiscard]] auto key() const { return std::tie(low, high, apex); }
 };
 
 struct Link {
@@ -36,8 +36,9 @@ std::vector<Wing> wings_of(const Surface& surface, std::span<const Triangle> tri
       wings.push_back({low, high, s[(c + 2) % 3]});
     }
   }
-  std::sort(wings.begin(), wings.end());
-  wings.erase(std::unique(wings.begin(), wings.end()), wings.end());  // a triangle given twice is one
+  std::sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) { return a.key() < b.key(); });
+  const auto same = [](const Wing& a, const Wing& b) { return a.key() == b.key(); };
+  wings.erase(std::unique(wings.begin(), wings.end(), same), wings.end());  // a triangle given twice is one
   return wings;
 }
 
