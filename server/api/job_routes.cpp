@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "core/parametrize/weight_method.h"
 #include "server/api/common.h"
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
@@ -12,10 +13,16 @@ namespace {
 ParametrizationOptions read_options(const Json& body) {
   refuse_unknown_members(body, {"metric", "weights", "weight_bits"});
   ParametrizationOptions options;
-  if (body.contains("metric") && body["metric"] != "edge")
-    refuse("invalid-field", "the only metric is \"edge\"", "/metric");
-  if (body.contains("weights") && body["weights"] != "paper")
-    refuse("invalid-field", "the only weights are \"paper\"", "/weights");
+  if (body.contains("metric")) {
+    if (!body["metric"].is_string() || !parse_distance_metric(body["metric"].get<std::string>()))
+      refuse("invalid-field", "it must be \"edge\" or \"unfolded\"", "/metric");
+    options.metric = body["metric"].get<std::string>();
+  }
+  if (body.contains("weights")) {
+    if (!body["weights"].is_string() || !parse_weight_method(body["weights"].get<std::string>()))
+      refuse("invalid-field", "it must be \"paper\" or \"smooth\"", "/weights");
+    options.weights = body["weights"].get<std::string>();
+  }
   if (body.contains("weight_bits")) {
     const auto& bits = body["weight_bits"];
     if (!bits.is_number_integer() || bits < 8 || bits > 16)

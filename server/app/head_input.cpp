@@ -70,6 +70,18 @@ void add_head_options(CLI::App& command, HeadOptions& options) {
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
       ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
       ->envname("SEMBLANTE_FORMAT");
+  command
+      .add_option("--weights", options.weights,
+                  "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
+      ->check(CLI::IsMember({"paper", "smooth"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_WEIGHTS");
+  command
+      .add_option("--metric", options.metric,
+                  "What the surface distance is measured along: edge, or unfolded (nearer to the geodesic)")
+      ->check(CLI::IsMember({"edge", "unfolded"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_METRIC");
   command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
 }
 
@@ -97,6 +109,8 @@ Head load_head(const HeadOptions& options) {
 
   const ProgressLine line(options.quiet);
   ParametrizeOptions parametrize_options;
+  parametrize_options.weights = parse_weight_method(options.weights).value_or(WeightMethod::paper);
+  parametrize_options.metric = parse_distance_metric(options.metric).value_or(DistanceMetric::edge);
   parametrize_options.progress = [&line](double progress, std::string_view stage) {
     line.show(progress, stage);
     return true;

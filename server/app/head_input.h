@@ -18,11 +18,13 @@ namespace semblante {
 struct HeadOptions {
   std::string model_path;
   std::string feature_points_path;
-  std::string format;  ///< empty: by content and name
+  std::string format;             ///< empty: by content and name
+  std::string weights = "paper";  ///< a name of weight_method_names
+  std::string metric = "edge";    ///< a name of distance_metric_names
   bool quiet = false;
 };
 
-/// Declares MODEL, --feature-points, --format and --quiet.
+/// Declares MODEL, --feature-points, --format, --weights, --metric and --quiet.
 void add_head_options(CLI::App& command, HeadOptions& options);
 
 /// A parametrized head, in the MPEG-4 frame; model.to_file_frame leads back to the file's.

@@ -151,6 +151,13 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
 
   ParametrizeOptions options;
   options.roles_by_user = roles;
+  const auto weights = parse_weight_method(request.weights);
+  if (!weights)
+    return Error{ErrorCode::invalid_argument, "/weights", "there are no weights \"" + request.weights + "\""};
+  options.weights = *weights;
+  const auto metric = parse_distance_metric(request.metric);
+  if (!metric) return Error{ErrorCode::invalid_argument, "/metric", "there is no metric \"" + request.metric + "\""};
+  options.metric = *metric;
   options.progress = [&](double share, std::string_view stage) { return progress(0.08 + 0.72 * share, stage); };
   auto rig = parametrize(*model, surface, *points, options);
   if (!rig) return rig.error();
