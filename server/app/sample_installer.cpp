@@ -80,7 +80,9 @@ void SampleInstaller::parametrize() {
     }
     store_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
   }
-  queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), {}, std::nullopt));
+  api::ParametrizationOptions options;
+  options.weights = "smooth";  // the first face people see wears the better skin
+  queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), options, std::nullopt));
 }
 
 void SampleInstaller::job_finished(const store::JobRecord& job) {

@@ -1,7 +1,16 @@
 import { streamUrl } from '@client/index.ts';
 import { requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf, upload } from './upload.ts';
-import type { FeaturePointSet, Job, Model, ModelAndJob, ModelPage, StreamInfo, VersionInfo } from './types.ts';
+import type {
+  FeaturePointSet,
+  Job,
+  Model,
+  ModelAndJob,
+  ModelPage,
+  StreamInfo,
+  VersionInfo,
+  WeightMethod,
+} from './types.ts';
 
 const segment = encodeURIComponent;
 
@@ -73,10 +82,9 @@ export class Api {
     });
   }
 
-  async parametrize(id: string): Promise<Job> {
-    return (
-      await requestJson<Job>(`${this.base}/v1/models/${segment(id)}/parametrizations`, { method: 'POST', json: {} })
-    ).value;
+  async parametrize(id: string, weights: WeightMethod): Promise<Job> {
+    const url = `${this.base}/v1/models/${segment(id)}/parametrizations`;
+    return (await requestJson<Job>(url, { method: 'POST', json: { weights } })).value;
   }
 
   async getJob(id: string): Promise<Job> {

@@ -15,6 +15,9 @@ export interface Problem {
   errors?: FieldProblem[];
 }
 
+/** How a head's weights are computed: without steps between regions of influence, or exactly as in the paper. */
+export type WeightMethod = 'smooth' | 'paper';
+
 export type ModelState = 'importing' | 'ready' | 'parametrized' | 'failed';
 
 export interface ModelPart {

@@ -1,6 +1,7 @@
 import type { FeaturePoint } from '@protocol/generated/mpeg4.ts';
 import { pointById, pointGroups } from '../face/feature_points.ts';
 import { problemOf } from '../net/problem.ts';
+import type { WeightMethod } from '../net/types.ts';
 import { ask } from './dialog.ts';
 import { h, replace, setText } from './dom.ts';
 import { Guide } from './guide.ts';
@@ -27,6 +28,7 @@ export class PointsPanel {
   });
   private readonly onlyOpen = h('input', { type: 'checkbox', on: { change: () => this.drawList() } });
   private readonly save: HTMLButtonElement;
+  private readonly weights: HTMLSelectElement;
   private readonly go: HTMLButtonElement;
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
@@ -66,6 +68,12 @@ export class PointsPanel {
       { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } },
       'Parametrize',
     );
+    this.weights = h(
+      'select',
+      { 'aria-label': 'Weights', title: 'How the skin follows its points' },
+      h('option', { value: 'smooth' }, 'Smooth skin'),
+      h('option', { value: 'paper' }, 'As in the paper'),
+    );
     this.element = h(
       'div',
       { class: 'panel points' },
@@ -96,7 +104,7 @@ export class PointsPanel {
         h('label', { class: 'check small' }, this.onlyOpen, 'Not placed'),
       ),
       this.list,
-      h('footer', { class: 'panel-foot' }, this.progress, h('div', { class: 'row' }, this.save, this.go)),
+      h('footer', { class: 'panel-foot' }, this.progress, h('div', { class: 'row' }, this.weights, this.save, this.go)),
     );
     points.changed.watch(() => this.draw());
     points.chosen.watch((id) => {
@@ -330,7 +338,7 @@ export class PointsPanel {
     if (!model) return;
     if (this.points.draft.changes > 0 && !(await this.points.save())) return;
     try {
-      if (await this.studio.parametrize(model)) {
+      if (await this.studio.parametrize(model, this.weights.value as WeightMethod)) {
         this.studio.toasts.say(`${model.name} can move now.`);
         this.studio.tab.set('animate');
       }

@@ -1,7 +1,7 @@
 import type { Api } from '../net/api.ts';
 import { followJob } from '../net/jobs.ts';
 import { ApiError, problemOf } from '../net/problem.ts';
-import type { Job, Model, Problem } from '../net/types.ts';
+import type { Job, Model, Problem, WeightMethod } from '../net/types.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
@@ -115,8 +115,8 @@ export class Studio {
   }
 
   /** Computes weights and package. Resolves with whether the face can now move; throws ApiError where points are refused. */
-  async parametrize(model: Model): Promise<boolean> {
-    const job = await this.api.parametrize(model.id);
+  async parametrize(model: Model, weights: WeightMethod): Promise<boolean> {
+    const job = await this.api.parametrize(model.id, weights);
     const last = await this.follow(job, 'Parametrizing');
     await this.reload(model.id);
     if (last.state === 'failed')
