@@ -15,6 +15,9 @@ const stateWords = {
   ended: 'Ended',
 } as const;
 
+/** Milliseconds; a face that plays never lags so far. */
+const longestDelay = 2000;
+
 /** Streams: what there is, what the face follows, how it goes, and sending one's own. */
 export class LivePanel {
   readonly element: HTMLElement;
@@ -110,12 +113,9 @@ export class LivePanel {
     const open = this.live.status.value.kind === 'open';
     setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
-    setText(
-      this.figures.latency,
-      open && stats.mediaTime !== null && playhead > 0
-        ? `${Math.max(0, Math.round(stats.mediaTime - playhead))} ms`
-        : '–',
-    );
+    // While the face is moved by hand the playhead rests, and how far the stream is ahead says nothing.
+    const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
+    setText(this.figures.latency, delay !== null && delay < longestDelay ? `${Math.max(0, delay)} ms` : '–');
     setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
   }
 
