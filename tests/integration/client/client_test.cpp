@@ -95,7 +95,8 @@ TEST(NativeClient, FollowingAFedStream_WritesWhatTheKernelGives) {
   ASSERT_EQ(json.wait(patience), 0);
 
   // The same frames in this process, on the model file itself: full precision, no package between.
-  const auto head = tools::load_posed_head(server.model_file(), server.points_file());
+  // The server gives its sample smooth weights.
+  const auto head = tools::load_posed_head(server.model_file(), server.points_file(), WeightMethod::smooth);
   ASSERT_TRUE(head) << head.error().message;
   semblante_frame faps{};
   // On the wire a FAP is a whole number of quantizer steps.
