@@ -10,13 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "server/package/draco_mesh.h"
+#include "server/package/quantization.h"
 
 namespace semblante {
 namespace {
 
-constexpr int positions_bits = 14;
-constexpr int normals_bits = 10;
-constexpr int uvs_bits = 12;
 constexpr int weights_bits = 12;
 
 tinygltf::Value to_value(const nlohmann::json& json) {
@@ -99,12 +97,12 @@ std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Sl
   using Type = DracoAttribute::Type;
   std::vector<SliceAttribute> attributes;
   attributes.push_back(
-      {"POSITION", Kind::position, Type::float32, 3, positions_bits,
+      {"POSITION", Kind::position, Type::float32, 3, position_bits,
        gather<float>(slice, 3, [&](auto v, auto c) { return mesh.positions[v][static_cast<int>(c)]; })});
-  attributes.push_back({"NORMAL", Kind::normal, Type::float32, 3, normals_bits,
+  attributes.push_back({"NORMAL", Kind::normal, Type::float32, 3, normal_bits,
                         gather<float>(slice, 3, [&](auto v, auto c) { return mesh.normals[v][static_cast<int>(c)]; })});
   if (!mesh.uvs.empty()) {
-    attributes.push_back({"TEXCOORD_0", Kind::uv, Type::float32, 2, uvs_bits,
+    attributes.push_back({"TEXCOORD_0", Kind::uv, Type::float32, 2, uv_bits,
                           gather<float>(slice, 2, [&](auto v, auto c) { return mesh.uvs[v][static_cast<int>(c)]; })});
   }
   return attributes;

@@ -6,15 +6,13 @@
 #include <span>
 
 #include "server/package/draco_mesh.h"
+#include "server/package/quantization.h"
 
 namespace semblante {
 namespace {
 
-constexpr int position_bits = 14;
-constexpr int normal_bits = 10;
 /// Smallest, and still 0.1 s for 27k vertices; the speed of decoding hardly depends on it.
 constexpr int encoding_speed = 0;
-constexpr int uv_bits = 12;
 
 /// Triangles as file vertices, each rotated so that its least number is first: comparable across renumberings.
 std::vector<Triangle> canonical(std::span<const Triangle> triangles, std::span<const std::uint32_t> file_vertex) {
