@@ -22,35 +22,6 @@ struct Overloaded : T... {
 template <class... T>
 Overloaded(T...) -> Overloaded<T...>;
 
-StreamErrorCode stream_code(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::malformed:
-      return StreamErrorCode::malformed;
-    case ErrorCode::truncated:
-      return StreamErrorCode::truncated;
-    case ErrorCode::out_of_range:
-      return StreamErrorCode::out_of_range;
-    case ErrorCode::not_finite:
-      return StreamErrorCode::not_finite;
-    case ErrorCode::too_large:
-      return StreamErrorCode::too_large;
-    case ErrorCode::unsupported:
-      return StreamErrorCode::unsupported;
-    case ErrorCode::mismatch:
-      return StreamErrorCode::mismatch;
-    case ErrorCode::missing:
-    case ErrorCode::empty:
-      return StreamErrorCode::missing;
-    case ErrorCode::invalid_argument:
-      return StreamErrorCode::invalid_argument;
-    case ErrorCode::cancelled:
-    case ErrorCode::io:
-    case ErrorCode::internal:
-      return StreamErrorCode::internal;
-  }
-  return StreamErrorCode::other;
-}
-
 }  // namespace
 
 StreamConnection::StreamConnection(std::shared_ptr<Stream> stream, bool binary, bool subprotocol_offered)
@@ -122,7 +93,7 @@ void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (decoded)
     handle(std::move(*decoded));
   else
-    refuse(stream_code(decoded.error().code), decoded.error().where, decoded.error().message);
+    send(Message(to_stream_error(decoded.error())));
 }
 
 void StreamConnection::handle(Message message) {
@@ -200,7 +171,7 @@ void StreamConnection::handle_frames(std::uint64_t media_time, const std::vector
     return;
   }
   if (auto taken = stream_->publish(Source::connection, media_time, frames); !taken)
-    refuse(stream_code(taken.error().code), taken.error().where, taken.error().message);
+    send(Message(to_stream_error(taken.error())));
 }
 
 // ---- the stream's side
