@@ -91,13 +91,9 @@ Status run(const Arguments& arguments) {
   if (!size) {
     return size.error();
   }
-  std::vector<Shot> shots;
-  for (const std::string& text : arguments.shots) {
-    auto shot = parse_shot(text);
-    if (!shot) {
-      return std::move(shot).error();
-    }
-    shots.push_back(*std::move(shot));
+  const auto shots = parse_shots(arguments.shots);
+  if (!shots) {
+    return shots.error();
   }
   auto list = sheets(arguments);
   if (!list) {
@@ -120,22 +116,22 @@ Status run(const Arguments& arguments) {
   }
   std::filesystem::create_directories(arguments.out);
   for (const Sheet& sheet : *list) {
-    std::vector<std::vector<render::LabelledPicture>> pictures(shots.size());
+    std::vector<std::vector<render::LabelledPicture>> pictures(shots->size());
     for (const NamedFrame& named : sheet.frames) {
       if (auto set = renderer->set_positions(head->pose(named.frame)); !set) {
         return set;
       }
-      for (std::size_t s = 0; s < shots.size(); ++s) {
-        auto picture = renderer->draw(shots[s].view, shots[s].subject, *size);
+      for (std::size_t s = 0; s < shots->size(); ++s) {
+        auto picture = renderer->draw((*shots)[s].view, (*shots)[s].subject, *size);
         if (!picture) {
           return std::move(picture).error();
         }
         pictures[s].push_back({named.name, *std::move(picture)});
       }
     }
-    for (std::size_t s = 0; s < shots.size(); ++s) {
-      const std::string title = arguments.model.filename().string() + "  " + sheet.name + "  " + shots[s].name;
-      const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + shots[s].name);
+    for (std::size_t s = 0; s < shots->size(); ++s) {
+      const std::string title = arguments.model.filename().string() + "  " + sheet.name + "  " + (*shots)[s].name;
+      const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + (*shots)[s].name);
       if (auto written = write_png(contact_sheet(pictures[s], title, sheet.columns), path); !written) {
         return written;
       }

@@ -28,13 +28,9 @@ Status run(const Arguments& arguments) {
   if (!size) {
     return size.error();
   }
-  std::vector<Shot> shots;
-  for (const std::string& text : arguments.shots) {
-    auto shot = parse_shot(text);
-    if (!shot) {
-      return std::move(shot).error();
-    }
-    shots.push_back(*std::move(shot));
+  const auto shots = parse_shots(arguments.shots);
+  if (!shots) {
+    return shots.error();
   }
   auto model = load_model(arguments.model);
   if (!model) {
@@ -52,7 +48,7 @@ Status run(const Arguments& arguments) {
     std::cerr << "semblante-render: " << warning << '\n';
   }
   std::vector<render::LabelledPicture> pictures;
-  for (const Shot& shot : shots) {
+  for (const Shot& shot : *shots) {
     auto picture = renderer->draw(shot.view, shot.subject, *size);
     if (!picture) {
       return std::move(picture).error();

@@ -17,6 +17,18 @@ Result<Shot> parse_shot(const std::string& text) {
   return Shot{text, *view, *subject};
 }
 
+Result<std::vector<Shot>> parse_shots(const std::vector<std::string>& texts) {
+  std::vector<Shot> shots;
+  for (const std::string& text : texts) {
+    auto shot = parse_shot(text);
+    if (!shot) {
+      return std::move(shot).error();
+    }
+    shots.push_back(*std::move(shot));
+  }
+  return shots;
+}
+
 Result<render::PictureSize> parse_size(const std::string& text) {
   const auto read = [](std::string_view digits, int& value) {
     const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);

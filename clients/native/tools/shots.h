@@ -17,6 +17,8 @@ struct Shot {
 
 /// Errors: invalid_argument, naming the word and the words that would do.
 Result<Shot> parse_shot(const std::string& text);
+/// Several, in their order; the first that is none is the error.
+Result<std::vector<Shot>> parse_shots(const std::vector<std::string>& texts);
 /// "640x480" or "512" for a square. Errors: invalid_argument.
 Result<render::PictureSize> parse_size(const std::string& text);
 
