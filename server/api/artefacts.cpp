@@ -23,9 +23,10 @@ http::Response get_model_artefact(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   const auto name = request.path.substr(request.path.rfind('/') + 1);
   const auto artefact = context.store.artefact(model.id, name);
-  if (!artefact)
-    refuse("not-found", name == "preview.glb" ? "the model has no preview: it is not imported"
-                                              : "the model has no " + name + ": it is not parametrized");
+  if (!artefact) {
+    const bool of_import = name == "preview.glb" || name == "report.json";
+    refuse("not-found", "the model has no " + name + (of_import ? ": it is not imported" : ": it is not parametrized"));
+  }
   // The name stays, what it names changes with each parametrization: to be asked for again, cheaply, by the tag.
   return file_response(context, request, *artefact, "no-cache");
 }

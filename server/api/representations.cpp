@@ -66,11 +66,16 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
                      {"bounds", box(part.box_min, part.box_max)}});
   }
   json["warnings"] = model.warnings;
+  json["findings"] = nullptr;
+  if (model.findings)
+    json["findings"] = {
+        {"errors", model.findings->errors}, {"warnings", model.findings->warnings}, {"notes", model.findings->notes}};
   json["feature_point_count"] = model.feature_point_count;
   json["package"] = represent_package(model, artefacts);
   json["links"] = {{"self", self},
                    {"feature_points", self + "/feature-points"},
-                   {"preview", imported ? Json(self + "/preview.glb") : Json(nullptr)}};
+                   {"preview", imported ? Json(self + "/preview.glb") : Json(nullptr)},
+                   {"report", model.findings ? Json(self + "/report.json") : Json(nullptr)}};
   return json;
 }
 

@@ -27,6 +27,7 @@ constexpr auto table = std::to_array<Route>({
     {"GET", "/v1/models/{model}/weights", BodyKind::none, "*/*", get_model_artefact},
     {"GET", "/v1/models/{model}/rig.json", BodyKind::none, "*/*", get_model_artefact},
     {"GET", "/v1/models/{model}/face.glb", BodyKind::none, "*/*", get_model_artefact},
+    {"GET", "/v1/models/{model}/report.json", BodyKind::none, json, get_model_artefact},
     {"GET", "/v1/artefacts/{sha256}", BodyKind::none, "*/*", get_artefact},
     {"GET", "/v1/jobs/{job}", BodyKind::none, json, get_job},
     {"DELETE", "/v1/jobs/{job}", BodyKind::none, json, cancel_job},

@@ -57,15 +57,15 @@ class ProgressLine {
 
 }  // namespace
 
-void add_head_options(CLI::App& command, HeadOptions& options) {
+void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
   command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
       ->required()
       ->envname("SEMBLANTE_MODEL");
   command
-      .add_option("--feature-points", options.feature_points_path,
+      .add_option("--feature-points,--points", options.feature_points_path,
                   "JSON: {\"points\": {\"2.1\": {\"vertex\": 966}, ...}}, vertices as the model file numbers them, or "
                   "positions")
-      ->required()
+      ->required(points == PointsOption::required)
       ->envname("SEMBLANTE_FEATURE_POINTS");
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
       ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
@@ -90,21 +90,33 @@ void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
   for (const std::string& warning : warnings) std::cerr << "semblante: warning: " << warning << "\n";
 }
 
-Head load_head(const HeadOptions& options) {
-  const auto json = read_file(options.feature_points_path, max_feature_points_bytes);
-  auto file = parse_feature_points({reinterpret_cast<const char*>(json.data()), json.size()});
-  if (!file) fail(options.feature_points_path, file.error());
-
-  Head head;
-  head.model = read_model(options);
-  if (file->to_mpeg4_axes) {
-    head.to_mpeg4 = *file->to_mpeg4_axes;
-    change_axes(head.model, head.to_mpeg4);
-    change_axes(*file);
+HeadFiles read_head(const HeadOptions& options) {
+  FeaturePointsFile file;
+  if (!options.feature_points_path.empty()) {
+    const auto json = read_file(options.feature_points_path, max_feature_points_bytes);
+    auto parsed = parse_feature_points({reinterpret_cast<const char*>(json.data()), json.size()});
+    if (!parsed) fail(options.feature_points_path, parsed.error());
+    file = std::move(*parsed);
   }
+  HeadFiles head;
+  head.model = read_model(options);
+  if (file.to_mpeg4_axes) {
+    head.to_mpeg4 = *file.to_mpeg4_axes;
+    change_axes(head.model, head.to_mpeg4);
+    change_axes(file);
+  }
+  head.marked = std::move(file.points);
+  return head;
+}
+
+Head load_head(const HeadOptions& options) {
+  HeadFiles files = read_head(options);
+  Head head;
+  head.model = std::move(files.model);
+  head.to_mpeg4 = files.to_mpeg4;
   head.warnings = head.model.warnings;
   head.surface = build_surface(head.model);
-  const auto points = place_feature_points(head.model, head.surface, file->points, &head.warnings);
+  const auto points = place_feature_points(head.model, head.surface, files.marked, &head.warnings);
   if (!points) fail(options.feature_points_path, points.error());
 
   const ProgressLine line(options.quiet);

@@ -24,8 +24,20 @@ struct HeadOptions {
   bool quiet = false;
 };
 
+enum class PointsOption : bool { required, optional };
+
 /// Declares MODEL, --feature-points, --format, --weights, --metric and --quiet.
-void add_head_options(CLI::App& command, HeadOptions& options);
+void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
+
+/// What the files say, brought into the MPEG-4 frame.
+struct HeadFiles {
+  Model model;
+  std::vector<MarkedPoint> marked;  ///< empty without a file of feature points
+  glm::dmat3 to_mpeg4{1.0};         ///< what "to_mpeg4_axes" of the feature point file said
+};
+
+/// Reads both files. Throws CommandFailure, naming the file and the place in it.
+HeadFiles read_head(const HeadOptions& options);
 
 /// A parametrized head, in the MPEG-4 frame; model.to_file_frame leads back to the file's.
 struct Head {

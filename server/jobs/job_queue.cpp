@@ -313,11 +313,13 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
     facts.box_max = result.box_max;
     facts.parts = std::move(result.parts);
     facts.warnings = std::move(result.warnings);
+    facts.findings = result.findings;
     store_.finish_import(job, facts, result.artefacts);
     return;
   }
   const store::PackageRecord package{job.id, store::timestamp_now(), job.metric, job.weights, job.weight_bits};
-  const auto orphans = store_.finish_parametrization(job, package, result.parts, result.warnings, result.artefacts);
+  const auto orphans =
+      store_.finish_parametrization(job, package, result.parts, result.warnings, result.findings, result.artefacts);
   if (orphans)
     for (const auto& hash : *orphans) blobs_.remove(hash);
 }

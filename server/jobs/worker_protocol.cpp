@@ -36,6 +36,10 @@ json to_value(const WorkerResult& result) {
   json value = {{"format", result.format}, {"vertices", result.vertices}, {"triangles", result.triangles},
                 {"min", result.box_min},   {"max", result.box_max},       {"warnings", result.warnings},
                 {"parts", json::array()},  {"artefacts", json::array()}};
+  if (result.findings)
+    value["findings"] = {{"errors", result.findings->errors},
+                         {"warnings", result.findings->warnings},
+                         {"notes", result.findings->notes}};
   for (const auto& part : result.parts) value["parts"].push_back(to_value(part));
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
@@ -50,6 +54,10 @@ WorkerResult result_from(const json& value) {
   result.box_min = value.at("min");
   result.box_max = value.at("max");
   result.warnings = value.at("warnings").get<std::vector<std::string>>();
+  if (value.contains("findings")) {
+    const auto& counts = value["findings"];
+    result.findings = store::FindingCounts{counts.at("errors"), counts.at("warnings"), counts.at("notes")};
+  }
   result.parts = list_from<store::PartRecord>(value.at("parts"), part_from);
   result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
     return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,7 @@ struct WorkerResult {
   std::array<double, 3> box_min{}, box_max{};
   std::vector<store::PartRecord> parts;
   std::vector<std::string> warnings;
+  std::optional<store::FindingCounts> findings;  ///< of the report
   std::vector<store::ArtefactRecord> artefacts;
 };
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "core/doctor/examine.h"
 #include "core/geometry/surface.h"
 #include "core/import/import.h"
 #include "core/parametrize/parametrize.h"
@@ -13,6 +14,7 @@
 #include "core/parametrize/place_feature_points.h"
 #include "protocol/cpp/rig_document.h"
 #include "server/package/package.h"
+#include "server/report/report_json.h"
 
 namespace semblante::jobs {
 namespace {
@@ -33,6 +35,18 @@ Status write_artefact(const WorkerRequest& request, WorkerResult& result, const 
   if (!stream.flush()) return Error{ErrorCode::io, "", name + " cannot be written"};
   result.artefacts.push_back({name, "", bytes.size(), content_type});
   return Unit{};
+}
+
+/// Adds report.json and its counts.
+Status write_report_artefact(const WorkerRequest& request, WorkerResult& result, const Report& report,
+                             std::span<const ReportSection> sections = {}) {
+  const auto counts = report.counts();
+  result.findings =
+      store::FindingCounts{static_cast<std::uint32_t>(counts.errors), static_cast<std::uint32_t>(counts.warnings),
+                           static_cast<std::uint32_t>(counts.notes)};
+  const auto json = write_report(report, sections);
+  return write_artefact(request, result, "report.json", "application/json",
+                        {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
 }
 
 /// What a model file lacks or contradicts is a fault of the file. Elsewhere in a job the same codes are about the
@@ -123,6 +137,10 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   result.parts = records_of(parts);
   result.warnings = model->warnings;
 
+  progress(0.6, "report");
+  if (auto written = write_report_artefact(request, result, examine_mesh(*model, surface)); !written)
+    return written.error();
+
   progress(0.7, "preview");
   const auto preview = build_preview(*model, surface, parts);
   if (!preview) return preview.error();
@@ -163,6 +181,8 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   if (!rig) return rig.error();
   rig->warnings.insert(rig->warnings.begin(), warnings.begin(), warnings.end());
 
+  progress(0.8, "report");
+  const auto report = examine(*model, surface, *rig, options.weights);
   progress(0.82, "package");
   const auto package = build_package(*model, surface, *rig, {request.name, request.weight_bits});
   if (!package) return package.error();
@@ -185,6 +205,7 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   for (const auto& file : files)
     if (auto written = write_artefact(request, result, file.name, file.content_type, file.artefact.bytes); !written)
       return written.error();
+  if (auto written = write_report_artefact(request, result, report); !written) return written.error();
   for (std::size_t i = 0; i < package->images.size(); ++i) {
     const auto& image = package->images[i];
     const auto info = std::find_if(rig_json->images.begin(), rig_json->images.end(),

@@ -10,11 +10,11 @@ namespace semblante::jobs {
 /// Told how far the work is (0..1) and at what; false stops it.
 using Progress = std::function<bool(double share, std::string_view stage)>;
 
-/// Model bytes -> counts, parts, warnings, and the files `preview.glb` and `positions` (float32 x, y, z of each file
-/// vertex, little-endian, MPEG-4 frame) in the output directory.
+/// Model bytes -> counts, parts, warnings, and the files `preview.glb`, `positions` (float32 x, y, z of each file
+/// vertex, little-endian, MPEG-4 frame) and `report.json` (what the mesh alone shows) in the output directory.
 Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& progress);
 
-/// Model bytes and feature points -> the files of the face package in the output directory.
+/// Model bytes and feature points -> the files of the face package and `report.json` in the output directory.
 Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progress& progress);
 
 }  // namespace semblante::jobs

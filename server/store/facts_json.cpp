@@ -9,6 +9,9 @@ std::string write_facts(const ModelRecord& model) {
   json["min"] = model.box_min;
   json["max"] = model.box_max;
   json["warnings"] = model.warnings;
+  if (model.findings)
+    json["findings"] = {
+        {"errors", model.findings->errors}, {"warnings", model.findings->warnings}, {"notes", model.findings->notes}};
   auto& parts = json["parts"] = nlohmann::json::array();
   for (const auto& part : model.parts)
     parts.push_back({{"name", part.name},
@@ -27,6 +30,11 @@ void read_facts(std::string_view text, ModelRecord& model) {
     model.box_min = json.at("min");
     model.box_max = json.at("max");
     model.warnings = json.at("warnings").get<std::vector<std::string>>();
+    model.findings.reset();
+    if (json.contains("findings")) {  // a store of before there was a doctor has none
+      const auto& item = json["findings"];
+      model.findings = FindingCounts{item.at("errors"), item.at("warnings"), item.at("notes")};
+    }
     for (const auto& item : json.at("parts")) {
       PartRecord part;
       part.name = item.at("name");
@@ -40,6 +48,7 @@ void read_facts(std::string_view text, ModelRecord& model) {
     }
   } catch (const nlohmann::json::exception&) {
     model.parts.clear();
+    model.findings.reset();
     model.warnings.clear();
   }
 }

@@ -7,7 +7,7 @@
 
 namespace semblante::store {
 
-/// The lists of a model that are always read whole (box, parts, warnings) as one JSON text.
+/// The lists of a model that are always read whole (box, parts, warnings, findings) as one JSON text.
 std::string write_facts(const ModelRecord& model);
 /// The reverse, into `model`. A text that is not of this form (never written by us) leaves the lists empty.
 void read_facts(std::string_view json, ModelRecord& model);

@@ -20,13 +20,21 @@ struct PartRecord {
   bool operator==(const PartRecord&) const = default;
 };
 
+/// How much the fit doctor found; the findings are the artefact report.json.
+struct FindingCounts {
+  std::uint32_t errors = 0, warnings = 0, notes = 0;
+
+  bool operator==(const FindingCounts&) const = default;
+};
+
 enum class ModelState { importing, ready, parametrized, failed };
 enum class JobKind { import, parametrize };
 enum class JobState { queued, running, done, failed, cancelled };
 
 /// An immutable thing a model has, by name; the bytes are in the blob folder under the hash.
 struct ArtefactRecord {
-  std::string name;  ///< "source", "positions", "preview.glb", "mesh.drc", "weights", "rig.json", "face.glb", "image-0"
+  std::string name;  ///< "source", "positions", "preview.glb", "mesh.drc", "weights", "rig.json", "face.glb",
+                     ///< "image-0", "report.json"
   std::string sha256;
   std::uint64_t bytes = 0;
   std::string content_type;
@@ -57,6 +65,7 @@ struct ModelRecord {
   std::array<double, 3> box_min{}, box_max{};
   std::vector<PartRecord> parts;
   std::vector<std::string> warnings;
+  std::optional<FindingCounts> findings;  ///< of the last import or parametrization; empty: never examined
   std::uint32_t feature_point_count = 0;
   std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
   std::optional<PackageRecord> package;

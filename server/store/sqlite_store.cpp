@@ -197,7 +197,7 @@ class SqliteStore : public Store {
   std::optional<std::vector<std::string>> remove_model(std::string_view id) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
-    const auto hashes = hashes_of(id, false);
+    const auto hashes = hashes_of(id);
     Statement(db_, "DELETE FROM models WHERE id = ?").bind(id).run();
     if (db_.changes() == 0) return std::nullopt;
     auto orphans = without_reference(hashes);
@@ -338,12 +338,13 @@ class SqliteStore : public Store {
 
   std::optional<std::vector<std::string>> finish_parametrization(
       const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
-      const std::vector<std::string>& warnings, const std::vector<ArtefactRecord>& artefacts) override {
+      const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
+      const std::vector<ArtefactRecord>& artefacts) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     auto model = locked_model(job.model);
     if (!model) return std::nullopt;
-    const auto old_hashes = hashes_of(job.model, true);
+    const auto old_hashes = hashes_of(job.model);
     Statement(db_, "DELETE FROM artefacts WHERE model = ? AND of_package = 1").bind(job.model).run();
     for (const auto& artefact : artefacts) insert_artefact(job.model, artefact, true);
     Statement(db_, "INSERT OR REPLACE INTO packages VALUES(?,?,?,?,?,?)")
@@ -353,6 +354,7 @@ class SqliteStore : public Store {
     for (std::size_t i = 0; i < parts.size() && i < model->parts.size(); ++i)
       if (!model->parts[i].role_by_user) model->parts[i].role = parts[i].role;
     model->warnings = warnings;
+    model->findings = findings;
     Statement(db_,
               "UPDATE models SET state = ?, problem = '', facts = ?, revision = revision + 1, updated = ? WHERE id = ?")
         .bind(static_cast<int>(ModelState::parametrized), write_facts(*model), timestamp_now(), job.model)
@@ -452,10 +454,10 @@ class SqliteStore : public Store {
         .run();
   }
 
-  std::vector<std::string> hashes_of(std::string_view model, bool of_package_only) {
+  std::vector<std::string> hashes_of(std::string_view model) {
     std::vector<std::string> hashes;
-    Statement statement(db_, "SELECT DISTINCT sha256 FROM artefacts WHERE model = ? AND of_package >= ?");
-    statement.bind(model, of_package_only ? 1 : 0);
+    Statement statement(db_, "SELECT DISTINCT sha256 FROM artefacts WHERE model = ?");
+    statement.bind(model);
     while (statement.step()) hashes.push_back(statement.text(0));
     return hashes;
   }

@@ -59,11 +59,13 @@ class Store {
   /// The end of an import: job, facts of the model, and its artefacts, in one step. False when the model is gone.
   virtual bool finish_import(const JobRecord& job, const ModelRecord& facts,
                              const std::vector<ArtefactRecord>& artefacts) = 0;
-  /// The end of a parametrization, likewise: replaces the package that was there; roles are the final guesses. Hashes
+  /// The end of a parametrization, likewise: replaces the package that was there and artefacts of
+  /// the import of the same names; roles are the final guesses. Hashes
   /// no one refers to any more are returned; nullopt when the model is gone.
   virtual std::optional<std::vector<std::string>> finish_parametrization(
       const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
-      const std::vector<std::string>& warnings, const std::vector<ArtefactRecord>& artefacts) = 0;
+      const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
+      const std::vector<ArtefactRecord>& artefacts) = 0;
   /// The end of a job without a result; a failed or cancelled import fails its model.
   virtual void finish_without_result(const JobRecord& job) = 0;
 

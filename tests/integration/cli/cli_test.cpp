@@ -301,8 +301,21 @@ TEST_F(Sheet, BadInput_IsRefused_InOneLineThatNamesIt) {
   }
 }
 
+TEST_F(Sheet, Examine_SaysWhatIsWrong_AndItsExitStatusWhetherItIsAnError) {
+  const Outcome words = run_semblante({"examine", model});
+  EXPECT_EQ(words.exit_code, 0) << words.err;
+  EXPECT_NE(words.out.find("note unused-vertices: 1 vertex belongs to no triangle"), std::string::npos) << words.out;
+  EXPECT_NE(words.out.find("where: vertex 81"), std::string::npos) << words.out;
+  EXPECT_NE(words.out.find("remedy: "), std::string::npos) << words.out;
+
+  const Outcome data = run_semblante({"examine", model, "--points", points, "--json"});
+  const json report = json::parse(data.out);
+  EXPECT_EQ(report["version"], 1);
+  EXPECT_EQ(data.exit_code, report["summary"]["errors"] == 0 ? 0 : 1) << data.err;
+}
+
 TEST(Cli, Help_NamesTheEnvironment_OfEveryOption) {
-  for (const char* const command : {"parametrize", "deform"}) {
+  for (const char* const command : {"parametrize", "deform", "examine"}) {
     const Outcome outcome = run_semblante({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     std::istringstream lines(outcome.out);

@@ -25,7 +25,7 @@ TEST(Durability, Acknowledged_SurvivesKill) {
     ServerProcess server(folder.path() / "data");
     model = import_grid(server.port());
     ASSERT_EQ(parametrize_grid(server.port(), model).value("state", ""), "done");
-    for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb", "preview.glb"})
+    for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb", "preview.glb", "report.json"})
       artefacts[name] = request(server.port(), "GET", "/v1/models/" + model + "/" + name);
     const auto put = request(server.port(), "PUT", "/v1/models/" + model + "/feature-points",
                              R"({"points":{"2.1":{"vertex":7}}})", json_type);

@@ -3,6 +3,7 @@
 
 #include "server/api/routes.h"
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
@@ -140,7 +141,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
 TEST_F(Routes, Package_IsServedByTagRangeAndHash) {
   const auto model = import_grid(port());
   ASSERT_EQ(parametrize_grid(port(), model).value("state", ""), "done");
-  for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb"}) {
+  for (const std::string name : {"mesh.drc", "weights", "rig.json", "face.glb", "report.json"}) {
     SCOPED_TRACE(name);
     const auto target = "/v1/models/" + model + "/" + name;
     const auto whole = request(port(), "GET", target);
@@ -164,6 +165,36 @@ TEST_F(Routes, Package_IsServedByTagRangeAndHash) {
     EXPECT_THAT(by_hash.headers.at("cache-control"), HasSubstr("immutable"));
   }
   EXPECT_EQ(request(port(), "GET", "/v1/models/" + model + "/preview.glb").body.substr(0, 4), "glTF");
+}
+
+TEST_F(Routes, Report_IsThereFromTheImportOn) {
+  auto obj = grid_obj(9);
+  obj += "v 0 0 50\n";  // used by no face
+  const auto made =
+      json_of(request(port(), "POST", "/v1/models?filename=grid.obj", obj, {{"Content-Type", "model/obj"}}));
+  ASSERT_EQ(wait_for_job(port(), made["job"]["id"]).value("state", ""), "done");
+  const std::string model = made["model"]["id"];
+  const auto target = "/v1/models/" + model + "/report.json";
+  const auto expect_report = [&] {
+    const auto reply = request(port(), "GET", target);
+    EXPECT_EQ(reply.headers.at("content-type"), "application/json");
+    const auto report = json_of(reply);
+    EXPECT_EQ(report["version"], 1);
+    const auto found = std::find_if(report["findings"].begin(), report["findings"].end(),
+                                    [](const json& finding) { return finding["code"] == "unused-vertices"; });
+    EXPECT_NE(found, report["findings"].end()) << report;
+    if (found == report["findings"].end()) return reply;
+    EXPECT_EQ((*found)["severity"], "note");
+    EXPECT_EQ((*found)["place"]["vertices"], json({{"sample", {81}}, {"count", 1}}));
+    EXPECT_EQ((*found)["place"]["position"], json({0, 0, 50}));
+    const auto represented = json_of(request(port(), "GET", "/v1/models/" + model));
+    EXPECT_EQ(represented["findings"], report["summary"]);
+    EXPECT_EQ(represented["links"]["report"], target);
+    return reply;
+  };
+  expect_report();
+  ASSERT_EQ(parametrize_grid(port(), model).value("state", ""), "done");
+  expect_report();
 }
 
 TEST_F(Routes, JobEvents_EndWithDone) {

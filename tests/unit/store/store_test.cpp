@@ -5,6 +5,7 @@
 
 #include "server/hash/sha256.h"
 #include "server/store/blob_store.h"
+#include "server/store/facts_json.h"
 #include "server/store/sqlite_store.h"
 
 namespace semblante::store {
@@ -47,8 +48,11 @@ class StoreTest : public ::testing::Test {
     facts.box_max = {1.0, 2.0, 0.1};
     facts.parts = {{"face", "skin", false, 8, 4, {0, 0, 0}, {1, 1, 1}}, {"eye", "left_eye", false, 4, 2, {}, {}}};
     facts.warnings = {"a warning with \xff bad bytes"};
+    facts.findings = FindingCounts{1, 2, 3};
     job.state = JobState::done;
-    EXPECT_TRUE(store_->finish_import(job, facts, {{"preview.glb", std::string(64, 'b'), 5, "model/gltf-binary"}}));
+    EXPECT_TRUE(store_->finish_import(job, facts,
+                                      {{"preview.glb", std::string(64, 'b'), 5, "model/gltf-binary"},
+                                       {"report.json", std::string(64, 'c'), 5, "application/json"}}));
   }
 
   std::filesystem::path folder_;
@@ -62,6 +66,7 @@ TEST_F(StoreTest, Model_ComesBackAfterReopening) {
   EXPECT_EQ(before->state, ModelState::ready);
   EXPECT_EQ(before->parts.size(), 2U);
   EXPECT_EQ(before->box_max[2], 0.1);
+  EXPECT_EQ(before->findings, (FindingCounts{1, 2, 3}));
   reopen();
   EXPECT_EQ(store_->model("m"), before);
   EXPECT_FALSE(store_->model("n"));
@@ -105,7 +110,7 @@ TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   job.state = JobState::done;
   std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
                                      {"eye", "left_eye", false, 4, 2, {}, {}}};
-  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, guesses, {},
+  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, guesses, {}, std::nullopt,
                                              {{"mesh.drc", std::string(64, 'd'), 3, "x"}}));
   const auto model = *store_->model("m");
   EXPECT_EQ(model.name, "Renamed");
@@ -123,7 +128,7 @@ TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
     job.model = "m";
     job.kind = JobKind::parametrize;
     store_->create_job(job, std::nullopt);
-    return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12}, {}, {},
+    return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12}, {}, {}, std::nullopt,
                                            {{"mesh.drc", std::string(64, hash), 3, "x"}});
   };
   EXPECT_TRUE(finish("one", 'd').empty());
@@ -133,10 +138,34 @@ TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
   EXPECT_FALSE(store_->public_artefact(std::string(64, 'a'))) << "uploads are not for everyone";
 }
 
+TEST_F(StoreTest, ReportOfTheParametrization_ReplacesThatOfTheImport) {
+  import(add("m"));
+  JobRecord job;
+  job.id = "p";
+  job.model = "m";
+  job.kind = JobKind::parametrize;
+  store_->create_job(job, std::nullopt);
+  const auto freed = store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, {}, {}, FindingCounts{},
+                                                    {{"report.json", std::string(64, 'e'), 3, "application/json"}});
+  EXPECT_EQ(freed, std::vector<std::string>{std::string(64, 'c')});
+  EXPECT_EQ(store_->artefact("m", "report.json")->sha256, std::string(64, 'e'));
+  EXPECT_TRUE(store_->artefact("m", "preview.glb"));
+  EXPECT_EQ(store_->model("m")->findings, FindingCounts{});
+}
+
+TEST_F(StoreTest, FactsWithoutFindings_AreOfAModelNeverExamined) {
+  ModelRecord model;
+  model.findings = FindingCounts{};
+  read_facts(R"({"min":[0,0,0],"max":[1,1,1],"warnings":["w"],"parts":[]})", model);
+  EXPECT_EQ(model.warnings.size(), 1U);
+  EXPECT_FALSE(model.findings);
+}
+
 TEST_F(StoreTest, RemovedModel_TakesEverythingButSharedBytes) {
   import(add("m", std::string(64, 'a')));
   add("n", std::string(64, 'a'));
-  EXPECT_EQ(store_->remove_model("m"), std::vector<std::string>{std::string(64, 'b')}) << "the source is n's too";
+  EXPECT_EQ(store_->remove_model("m"), (std::vector{std::string(64, 'b'), std::string(64, 'c')}))
+      << "the source is n's too";
   EXPECT_FALSE(store_->job("job-m"));
   EXPECT_TRUE(store_->artefacts("m").empty());
   EXPECT_FALSE(store_->remove_model("m"));

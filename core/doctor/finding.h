@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+/// How much a finding matters: an error makes the face move wrongly or not at all, a warning makes it look worse than
+/// it could, a note is worth knowing.
+enum class Severity : std::uint8_t { error, warning, note };
+inline constexpr std::array<std::string_view, 3> severity_names = {"error", "warning", "note"};
+
+/// What can be found. Each has a name for programs (finding_code_names), which never changes once it has been given
+/// out.
+enum class FindingCode : std::uint8_t {
+  degenerate_triangles,
+  duplicate_triangles,
+  non_manifold_edges,
+  unused_vertices,
+};
+inline constexpr std::array finding_code_names = std::to_array<std::string_view>({
+    "degenerate-triangles",
+    "duplicate-triangles",
+    "non-manifold-edges",
+    "unused-vertices",
+});
+constexpr std::string_view to_string(FindingCode code) { return finding_code_names[static_cast<std::size_t>(code)]; }
+
+/// File vertices, of which a report names a few and counts all: a bad model may have a million.
+struct VertexSample {
+  static constexpr std::size_t capacity = 32;
+
+  std::vector<VertexId> vertices;  ///< the first `capacity` that were added, each once if they were added so
+  std::size_t count = 0;           ///< all that were added
+
+  void add(VertexId vertex) {
+    if (count++ < capacity) vertices.push_back(vertex);
+  }
+};
+
+/// Where a finding is; what it does not concern is empty.
+struct Place {
+  std::optional<PartId> part;
+  std::vector<FeaturePointId> points;  ///< as the finding tells them
+  VertexSample vertices;
+  std::optional<glm::dvec3> position;  ///< what to look at; model units, MPEG-4 frame
+};
+
+/// What was measured, and the value from which it is a finding.
+struct Measurement {
+  std::string what;  ///< with its unit: "distance as a share of ES0"
+  double value = 0.0;
+  double threshold = 0.0;
+};
+
+/// One thing that is wrong with a head, in words and as data.
+struct Finding {
+  FindingCode code{};
+  Severity severity = Severity::warning;
+  std::string words;   ///< what is wrong and what comes of it: a sentence without a full stop
+  std::string remedy;  ///< what to do about it, likewise
+  Place place;
+  std::optional<Measurement> measured;
+};
+
+}  // namespace semblante

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/doctor/finding.h"
+#include "core/geometry/surface.h"
+#include "core/types/model.h"
+
+namespace semblante {
+
+// How findings speak and where they point.
+
+/// "1 triangle has", "5 triangles have".
+std::string count_of(std::size_t count, std::string_view one, std::string_view many);
+/// "2.2, 2.3 and 8.1".
+std::string list_of(std::span<const FeaturePointId> ids);
+/// "12 %".
+std::string percent(double share);
+
+/// The place of these vertices: their part if the sample lies on one, and the first of them to look at.
+Place place_of(const Model& model, const Surface& surface, VertexSample vertices);
+
+}  // namespace semblante
