@@ -10,6 +10,9 @@ namespace semblante {
 void change_axes(Model& model, const glm::dmat3& to_mpeg4) {
   if (to_mpeg4 == glm::dmat3(1.0)) return;
   for (glm::vec3& position : model.positions) position = glm::vec3(to_mpeg4 * glm::dvec3(position));
+  for (Example& example : model.examples) {
+    for (glm::vec3& displacement : example.displacements) displacement = glm::vec3(to_mpeg4 * glm::dvec3(displacement));
+  }
   const glm::dmat3 to_file = glm::inverse(to_mpeg4);
   const glm::dmat3 turn = glm::transpose(to_file);
   for (glm::vec3& normal : model.normals) {

@@ -1,8 +1,11 @@
 #include "core/import/gltf_document.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+
+#include "core/import/gltf_meshopt.h"
 
 namespace semblante::import {
 namespace {
@@ -109,13 +112,7 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
   return bytes.first(announced);
 }
 
-std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
-  const JsonCursor where = item("bufferViews", index);
-  if (failed()) return {};
-  if (where.has("extensions") && where["extensions"].has("EXT_meshopt_compression")) {
-    where.fail(ErrorCode::unsupported, "uses EXT_meshopt_compression, which is not read");
-    return {};
-  }
+std::span<const std::uint8_t> GltfDocument::slice(const JsonCursor& where) {
   const std::size_t buffer_index = where.required_index("buffer", count("buffers"));
   const std::uint64_t offset = where.integer_or("byteOffset", 0);
   const std::uint64_t length = where["byteLength"].integer();
@@ -129,6 +126,37 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
     return {};
   }
   return bytes.subspan(offset, length);
+}
+
+std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
+  const JsonCursor where = item("bufferViews", index);
+  if (failed()) return {};
+  constexpr const char* meshopt = "EXT_meshopt_compression";
+  if (!where.has("extensions") || !where["extensions"].has(meshopt)) return slice(where);
+  const JsonCursor compressed = where["extensions"][meshopt];
+  if (decoded_views_.empty()) decoded_views_.resize(count("bufferViews"));
+  if (!decoded_views_[index]) {
+    const MeshoptLayout layout = read_meshopt_layout(compressed);
+    if (where.integer_or("byteStride", layout.stride) != layout.stride)
+      compressed["byteStride"].fail(ErrorCode::mismatch, "is not the byteStride of its buffer view");
+    const auto bytes = slice(compressed);
+    if (failed()) return {};
+    auto decoded =
+        decode_meshopt(bytes, layout, limits_.max_file_bytes - std::min(resource_bytes_, limits_.max_file_bytes));
+    if (!decoded) {
+      compressed.fail(decoded.error().code, decoded.error().message);
+      return {};
+    }
+    resource_bytes_ += decoded->size();
+    decoded_views_[index] = std::move(*decoded);
+  }
+  const std::span<const std::uint8_t> bytes = *decoded_views_[index];
+  if (const std::uint64_t length = where["byteLength"].integer(); !failed() && length > bytes.size()) {
+    where["byteLength"].fail(
+        ErrorCode::out_of_range,
+        "is " + std::to_string(length) + ", its meshopt data decodes to " + std::to_string(bytes.size()) + " bytes");
+  }
+  return failed() ? std::span<const std::uint8_t>{} : bytes;
 }
 
 GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t count, std::size_t element_size) {
@@ -190,49 +218,100 @@ void GltfDocument::for_each_sparse(const JsonCursor& accessor, std::size_t count
   }
 }
 
-std::vector<float> GltfDocument::floats(std::size_t accessor, std::size_t components, std::size_t count) {
-  const JsonCursor where = item("accessors", accessor);
-  const std::uint64_t type = where["componentType"].integer();
-  const std::size_t component_size = size_of_component(type);
+GltfDocument::Elements GltfDocument::elements(const JsonCursor& where, std::size_t components, std::size_t count) {
+  Elements elements;
+  elements.type = where["componentType"].integer();
+  elements.normalized = where.boolean_or("normalized", false);
+  elements.components = components;
+  const std::size_t component_size = size_of_component(elements.type);
   const std::string shape = where["type"].text();
-  const bool normalized = where.boolean_or("normalized", false);
-  const std::size_t announced = accessor_count(accessor, limits_.max_vertices);
+  const std::uint64_t announced = where["count"].integer(~std::uint64_t{0});
   if (failed()) return {};
   if (component_size == 0) where["componentType"].fail(ErrorCode::malformed, "is not a component type");
   if (components_of(shape) != components) {
     where["type"].fail(ErrorCode::malformed, "must have " + std::to_string(components) + " components");
+  }
+  if (announced > limits_.max_vertices) {
+    where["count"].fail(ErrorCode::too_large, "is " + std::to_string(announced) + ", at most " +
+                                                  std::to_string(limits_.max_vertices) + " are allowed");
   }
   if (announced != count) {
     where["count"].fail(ErrorCode::mismatch,
                         "is " + std::to_string(announced) + ", it must be " + std::to_string(count));
   }
   if (failed()) return {};
+  elements.size = components * component_size;
+  elements.has_view = where.has("bufferView");
+  if (elements.has_view) elements.layout = layout(where, count, elements.size);
+  return elements;
+}
 
-  const std::size_t element_size = components * component_size;
-  const auto convert = [&](const std::uint8_t* from, float* to) {
-    for (std::size_t c = 0; c < components; ++c) to[c] = to_float(from + c * component_size, type, normalized);
-  };
-  const bool has_view = where.has("bufferView");
-  const Layout elements = has_view ? layout(where, count, element_size) : Layout{};
+bool GltfDocument::read_row(const JsonCursor& where, const Elements& elements, std::size_t row,
+                            const std::uint8_t* from, float* to) {
+  const std::size_t component_size = elements.size / elements.components;
+  for (std::size_t c = 0; c < elements.components; ++c) {
+    to[c] = to_float(from + c * component_size, elements.type, elements.normalized);
+    if (!std::isfinite(to[c])) {
+      where.fail(ErrorCode::not_finite, "element " + std::to_string(row) + " is not a finite number");
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<float> GltfDocument::floats(std::size_t accessor, std::size_t components, std::size_t count) {
+  const JsonCursor where = item("accessors", accessor);
+  const Elements source = elements(where, components, count);
   if (failed()) return {};
   std::vector<float> values(count * components, 0.0F);
-  if (has_view) {
-    for (std::size_t i = 0; i < count; ++i) {
-      convert(elements.bytes.data() + i * elements.stride, values.data() + i * components);
-    }
+  for (std::size_t i = 0; source.has_view && i < count; ++i) {
+    const std::uint8_t* const from = source.layout.bytes.data() + i * source.layout.stride;
+    if (!read_row(where, source, i, from, values.data() + i * components)) return {};
   }
   if (where.has("sparse")) {
-    for_each_sparse(where, count, element_size, [&](std::size_t index, const std::uint8_t* from) {
-      convert(from, values.data() + index * components);
+    for_each_sparse(where, count, source.size, [&](std::size_t index, const std::uint8_t* from) {
+      read_row(where, source, index, from, values.data() + index * components);
     });
   }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) {
-      where.fail(ErrorCode::not_finite, "element " + std::to_string(i / components) + " is not a finite number");
-      return {};
-    }
-  }
   return failed() ? std::vector<float>{} : values;
+}
+
+std::vector<GltfDocument::Row> GltfDocument::rows(std::size_t accessor, std::size_t count, std::size_t& budget) {
+  const JsonCursor where = item("accessors", accessor);
+  const Elements source = elements(where, 3, count);
+  if (failed()) return {};
+  const std::uint64_t replaced = where.has("sparse") ? where["sparse"]["count"].integer(count) : 0;
+  const std::size_t cost = (source.has_view ? count : 0) + static_cast<std::size_t>(replaced) + 1;
+  if (failed() || cost > budget) {
+    budget = 0;
+    return {};
+  }
+  budget -= cost;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; source.has_view && i < count; ++i) {
+    std::array<float, 3> value{};
+    if (!read_row(where, source, i, source.layout.bytes.data() + i * source.layout.stride, value.data())) return {};
+    if (value != std::array<float, 3>{}) rows.push_back({static_cast<std::uint32_t>(i), value});
+  }
+  if (where.has("sparse")) {
+    const auto first = static_cast<std::ptrdiff_t>(rows.size());
+    for_each_sparse(where, count, source.size, [&](std::size_t index, const std::uint8_t* from) {
+      std::array<float, 3> value{};
+      if (read_row(where, source, index, from, value.data()))
+        rows.push_back({static_cast<std::uint32_t>(index), value});
+    });
+    // A file lists its sparse rows in rising order; one that does not is read all the same, the last of equals counts.
+    const auto by_index = [](const Row& a, const Row& b) { return a.index < b.index; };
+    std::stable_sort(rows.begin() + first, rows.end(), by_index);
+    std::inplace_merge(rows.begin(), rows.begin() + first, rows.end(), by_index);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i + 1 < rows.size() && rows[i + 1].index == rows[i].index) continue;
+      if (rows[i].value != std::array<float, 3>{}) rows[kept++] = rows[i];
+    }
+    rows.resize(kept);
+  }
+  return failed() ? std::vector<Row>{} : rows;
 }
 
 std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor, std::size_t end, std::size_t max_count) {

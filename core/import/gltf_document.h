@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -31,7 +32,7 @@ class GltfDocument {
   /// Element `index` of a top-level array; a fault if it is not there.
   [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root()[array].element(index); }
 
-  /// The bytes of a buffer view.
+  /// The bytes of a buffer view, decoded where EXT_meshopt_compression has compressed them.
   std::span<const std::uint8_t> view(std::size_t index);
   /// The bytes a "uri" member stands for: a data: URI, or a file of the same zip.
   Result<std::vector<std::uint8_t>> resource(const std::string& uri);
@@ -41,6 +42,14 @@ class GltfDocument {
   /// `count` rows of `components` floats: normalized integers divided, sparse values put in. `components` must be what
   /// the accessor's type says. Holds the fault "mismatch" if the accessor has another count.
   std::vector<float> floats(std::size_t accessor, std::size_t components, std::size_t count);
+  /// The rows of a VEC3 accessor of `count` elements that are not zero, in rising order: a sparse accessor costs what
+  /// it lists, not what it announces. Looking at a row takes one from `budget`; one that is too small becomes 0, and
+  /// nothing is read.
+  struct Row {
+    std::uint32_t index = 0;
+    std::array<float, 3> value{};
+  };
+  std::vector<Row> rows(std::size_t accessor, std::size_t count, std::size_t& budget);
   /// Unsigned scalars, each below `end`; at most `max_count`.
   std::vector<std::uint32_t> indices(std::size_t accessor, std::size_t end, std::size_t max_count);
 
@@ -51,7 +60,22 @@ class GltfDocument {
     std::size_t stride = 0;
   };
 
+  /// What an accessor's elements are; `layout` is empty without a buffer view: all zeros.
+  struct Elements {
+    std::uint64_t type = 0;
+    bool normalized = false;
+    bool has_view = false;
+    std::size_t components = 0;
+    std::size_t size = 0;  ///< bytes of one
+    Layout layout;
+  };
+
   std::span<const std::uint8_t> buffer(std::size_t index);
+  /// The bytes that "buffer", "byteOffset" and "byteLength" of an object name.
+  std::span<const std::uint8_t> slice(const JsonCursor& where);
+  Elements elements(const JsonCursor& where, std::size_t components, std::size_t count);
+  static bool read_row(const JsonCursor& where, const Elements& elements, std::size_t row, const std::uint8_t* from,
+                       float* to);
   Layout layout(const JsonCursor& where, std::size_t count, std::size_t element_size);
   template <class Put>
   void for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put);
@@ -61,8 +85,9 @@ class GltfDocument {
   ResourceReader resources_;
   ImportLimits limits_;
   std::optional<Error> fault_;
-  std::size_t resource_bytes_ = 0;  ///< decoded so far, bounded by limits_.max_file_bytes
-  std::vector<std::optional<std::vector<std::uint8_t>>> loaded_;
+  std::size_t resource_bytes_ = 0;                                ///< decoded so far, bounded by limits_.max_file_bytes
+  std::vector<std::optional<std::vector<std::uint8_t>>> loaded_;  ///< by buffer
+  std::vector<std::optional<std::vector<std::uint8_t>>> decoded_views_;  ///< by buffer view
 };
 
 }  // namespace semblante::import

@@ -7,6 +7,7 @@
 #include "core/import/gltf_document.h"
 #include "core/import/gltf_draco.h"
 #include "core/import/gltf_materials.h"
+#include "core/import/gltf_morph_targets.h"
 #include "core/import/gltf_scene.h"
 #include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
@@ -19,10 +20,11 @@ enum Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, tri
 
 /// Extensions we read, or that change only how a surface looks. Any other that a file *requires* is refused: without it
 /// the geometry would be wrong.
-constexpr std::array<std::string_view, 9> known_extensions = {
-    "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_lights_punctual",        "KHR_texture_basisu",    "EXT_texture_webp",
-    "EXT_texture_avif",           "KHR_xmp_json_ld",       "KHR_materials_pbrSpecularGlossiness"};
+constexpr std::array<std::string_view, 12> known_extensions = {
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",
+    "KHR_texture_transform",      "KHR_animation_pointer",   "EXT_lights_image_based",
+    "KHR_lights_punctual",        "KHR_texture_basisu",      "EXT_texture_webp",
+    "EXT_texture_avif",           "KHR_xmp_json_ld",         "KHR_materials_pbrSpecularGlossiness"};
 
 bool is_known_extension(std::string_view name) {
   return name.starts_with("KHR_materials_") ||
@@ -115,7 +117,8 @@ class PrimitiveData {
 
 class GltfReader {
  public:
-  GltfReader(GltfDocument& document, const ImportLimits& limits) : document_(document), builder_(limits) {}
+  GltfReader(GltfDocument& document, const ImportLimits& limits)
+      : document_(document), builder_(limits), morph_targets_(document, builder_) {}
 
   Result<Model> read(const char* format) {
     check_asset(document_);
@@ -142,11 +145,11 @@ class GltfReader {
     }
     const JsonCursor primitives = mesh["primitives"];
     for (std::size_t i = 0; !document_.failed() && i < primitives.size(); ++i) {
-      read_primitive(primitives.element(i), name, placement);
+      read_primitive(mesh, primitives.element(i), name, placement);
     }
   }
 
-  void read_primitive(const JsonCursor& primitive, const std::string& name,
+  void read_primitive(const JsonCursor& mesh, const JsonCursor& primitive, const std::string& name,
                       const std::optional<MeshPlacement>& placement) {
     const PrimitiveData data(document_, primitive, builder_.limits());
     if (document_.failed()) return;
@@ -177,6 +180,7 @@ class GltfReader {
     const bool has_uvs = read_uvs(data, material, count);
     const bool has_normals = read_normals(data, transform, count);
     if (document_.failed() || !placement) return;
+    morph_targets_.read(mesh, primitive, first, count, transform);
 
     builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1);
     add_triangles(primitive, data,
@@ -264,6 +268,7 @@ class GltfReader {
 
   GltfDocument& document_;
   ModelBuilder builder_;
+  MorphTargets morph_targets_;
   std::vector<UvSource> uv_sources_;
   std::vector<std::optional<MeshPlacement>> placements_;
 };

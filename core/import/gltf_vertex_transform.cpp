@@ -56,6 +56,11 @@ glm::vec3 VertexTransform::position(std::size_t vertex, const glm::vec3& value) 
   return glm::vec3(glm::dvec3(matrix(vertex) * glm::dvec4(value, 1.0)));
 }
 
+glm::vec3 VertexTransform::displacement(std::size_t vertex, const glm::vec3& value) const {
+  if (!moves()) return value;
+  return glm::vec3(glm::dmat3(matrix(vertex)) * glm::dvec3(value));
+}
+
 glm::vec3 VertexTransform::normal(std::size_t vertex, const glm::vec3& value) const {
   if (!moves()) return value;
   const glm::dvec3 turned = normal_matrix(matrix(vertex)) * glm::dvec3(value);

@@ -24,6 +24,8 @@ class VertexTransform {
 
   /// Leaves every bit alone where nothing moves.
   [[nodiscard]] glm::vec3 position(std::size_t vertex, const glm::vec3& value) const;
+  /// Where a small step from a vertex leads.
+  [[nodiscard]] glm::vec3 displacement(std::size_t vertex, const glm::vec3& value) const;
   /// Unit length, or zero where the normal has no direction, where something moves.
   [[nodiscard]] glm::vec3 normal(std::size_t vertex, const glm::vec3& value) const;
 

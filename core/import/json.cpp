@@ -246,6 +246,13 @@ std::size_t JsonCursor::required_index(const char* key, std::size_t count) const
 
 std::size_t JsonCursor::size_of(const char* key) const { return has(key) ? (*this)[key].size() : 0; }
 
+std::vector<std::string> JsonCursor::texts(const char* key) const {
+  std::vector<std::string> texts;
+  if (!has(key) || !(*value_)[key].is_array()) return texts;
+  for (const json& item : (*value_)[key]) texts.push_back(item.is_string() ? item.get<std::string>() : std::string());
+  return texts;
+}
+
 void JsonCursor::fail(ErrorCode code, std::string message) const {
   if (!*fault_) *fault_ = Error{code, pointer_, std::move(message)};
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -53,6 +54,8 @@ class JsonCursor {
   [[nodiscard]] std::optional<std::size_t> index(const char* key, std::size_t count) const;
   /// Size of a member that is an array or absent.
   [[nodiscard]] std::size_t size_of(const char* key) const;
+  /// Of a member that follows no rules ("extras"): the texts of an array, "" for what is none; empty for anything else.
+  [[nodiscard]] std::vector<std::string> texts(const char* key) const;
 
   /// Keeps this fault at this place, unless there is one already.
   void fail(ErrorCode code, std::string message) const;

@@ -10,6 +10,9 @@ struct ImportLimits {
   std::size_t max_file_bytes = std::size_t{256} << 20;  ///< of the file, and of everything inflated from a zip
   std::size_t max_vertices = 2'000'000;                 ///< file vertices, and apart from them UVs and normals
   std::size_t max_triangles = 4'000'000;                ///< after polygons and strips are split
+  /// Rows of morph targets that are looked at, moving or not: what examples may cost in time, and 16 bytes each at most
+  /// in memory.
+  std::size_t max_example_rows = 32'000'000;
   std::size_t max_image_bytes = std::size_t{64} << 20;  ///< of one texture image; all together: max_file_bytes
 };
 

@@ -55,6 +55,18 @@ Status check_positions(const Model& model) {
   return Unit{};
 }
 
+/// A displacement is bounded as a position is: it came through the same matrices.
+Status check_examples(const Model& model) {
+  for (const Example& example : model.examples) {
+    for (const glm::vec3& d : example.displacements) {
+      if (std::abs(d.x) <= max_coordinate && std::abs(d.y) <= max_coordinate && std::abs(d.z) <= max_coordinate)
+        continue;
+      return Error{ErrorCode::out_of_range, "morph target " + shown(example.name), "moves a vertex by more than 1e15"};
+    }
+  }
+  return Unit{};
+}
+
 bool has_extent(const Model& model) {
   for (const Triangle& triangle : model.triangles) {
     for (const std::uint32_t index : triangle) {
@@ -108,6 +120,7 @@ void ModelBuilder::warn(std::string message) {
 
 Result<Model> ModelBuilder::finish(std::string format) && {
   if (Status status = check_positions(model); !status) return status.error();
+  if (Status status = check_examples(model); !status) return status.error();
   if (model.triangles.empty()) {
     return Error{
         ErrorCode::empty, "",

@@ -10,6 +10,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/types/example.h"
+
 namespace semblante {
 
 /// Three corner indices, counter-clockwise seen from outside.
@@ -58,6 +60,8 @@ struct Model {
   std::vector<Primitive> primitives;  ///< cover all triangles, in order
   std::vector<Material> materials;
   std::vector<Image> images;
+
+  std::vector<Example> examples;  ///< shapes beside the neutral one; most models have none
 
   /// Takes positions back to the axes and unit of the file. Identity where the file was in the MPEG-4 frame already.
   glm::mat4 to_file_frame{1.0F};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -53,6 +54,20 @@ INSTANTIATE_TEST_SUITE_P(All, RealHeads,
                                            Expected{"makehuman/head.glb", 5295, 9844},
                                            Expected{"mediapipe-canonical/canonical_face_model.obj", 468, 898},
                                            Expected{"mediapipe-canonical/face_model_with_iris.obj", 478, 906}));
+
+TEST(RealHeads, MorphTargets_OfAllMeshes_AreExamplesByName) {
+  const auto path = faces_directory() / "makehuman" / "head.glb";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  const auto model = import_head(path);
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->examples.size(), 19U);
+  for (const Example& example : model->examples) {
+    EXPECT_FALSE(example.vertices.empty()) << example.name;
+    EXPECT_TRUE(std::is_sorted(example.vertices.begin(), example.vertices.end())) << example.name;
+    EXPECT_EQ(example.vertices.size(), example.displacements.size()) << example.name;
+    EXPECT_LT(example.vertices.size(), model->positions.size()) << example.name;
+  }
+}
 
 /// makehuman's GLB was made from its OBJ by fans, so the two must have the same triangles, corner by corner: an own
 /// way of splitting quads would give every weight other edges.

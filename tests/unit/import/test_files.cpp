@@ -6,6 +6,8 @@
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 
+#include "tests/unit/import/compressed_quads.h"
+
 namespace semblante::test {
 namespace {
 
@@ -189,6 +191,9 @@ std::vector<NamedFile> all_quads() {
           {"glb", ModelFormat::glb, quad_glb()},
           {"draco_sequential", ModelFormat::glb, quad_draco_glb(false)},
           {"draco_edgebreaker", ModelFormat::glb, quad_draco_glb(true)},
+          {"meshopt_triangles", ModelFormat::glb, compressed_quad(true).glb()},
+          {"meshopt_indices", ModelFormat::glb, compressed_quad(false).glb()},
+          {"quantized", ModelFormat::glb, quantized_quad().glb()},
           {"zip", ModelFormat::gltf_zip, quad_zip()}};
 }
 

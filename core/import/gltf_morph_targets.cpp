@@ -1,0 +1,71 @@
+#include "core/import/gltf_morph_targets.h"
+
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+/// ARKit has 52, a game head a few hundred.
+constexpr std::size_t max_examples = 4096;
+
+}  // namespace
+
+std::vector<std::string> MorphTargets::names_of(const JsonCursor& mesh, const JsonCursor& primitive) {
+  for (const JsonCursor* const owner : {&mesh, &primitive}) {
+    if (!owner->has("extras")) continue;
+    auto names = (*owner)["extras"].texts("targetNames");
+    if (!names.empty()) return names;
+  }
+  return {};
+}
+
+Example& MorphTargets::example(const std::string& name) {
+  auto& examples = builder_.model.examples;
+  const auto [entry, is_new] = by_name_.try_emplace(name, examples.size());
+  if (is_new) examples.push_back({name, {}, {}});
+  return examples[entry->second];
+}
+
+void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t first, std::size_t count,
+                        const VertexTransform& transform) {
+  const std::size_t target_count = primitive.size_of("targets");
+  if (target_count == 0 || document_.failed()) return;
+  if (target_count > max_examples || by_name_.size() > max_examples) {
+    primitive["targets"].fail(ErrorCode::too_large, "more than " + std::to_string(max_examples) + " morph targets");
+    return;
+  }
+  const std::vector<std::string> names = names_of(mesh, primitive);
+  for (std::size_t i = 0; i < target_count && !document_.failed(); ++i) {
+    const JsonCursor target = primitive["targets"].element(i);
+    const auto accessor = target.index("POSITION", document_.count("accessors"));
+    if (document_.failed()) return;
+    if (!accessor) continue;
+    if (document_.item("accessors", *accessor)["count"].integer(~std::uint64_t{0}) != count) {
+      // Draco may have merged vertices that a target still tells apart.
+      builder_.warn(target.pointer() + " has another number of vertices than its primitive and is left out");
+      continue;
+    }
+    const auto rows = document_.rows(*accessor, count, rows_left_);
+    if (document_.failed()) return;
+    if (rows_left_ == 0) {
+      if (!has_warned_) builder_.warn("the file has more morph targets than are kept; the last are left out");
+      has_warned_ = true;
+      return;
+    }
+    const std::string name =
+        i < names.size() && !names[i].empty() ? printable(names[i]) : "target " + std::to_string(i);
+    Example& kept = example(name);
+    // A name that one mesh uses twice would give a vertex twice: the first stands.
+    const bool follows = kept.vertices.empty() || kept.vertices.back() < first;
+    for (const auto& [index, value] : rows) {
+      if (!follows) break;
+      const auto vertex = static_cast<std::uint32_t>(first + index);
+      kept.vertices.push_back(vertex);
+      kept.displacements.push_back(transform.displacement(index, glm::vec3(value[0], value[1], value[2])));
+    }
+    if (!follows && !rows.empty())
+      builder_.warn(target.pointer() + " has the name " + shown(name) + " again and is left out");
+  }
+}
+
+}  // namespace semblante::import
