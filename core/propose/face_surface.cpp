@@ -1,0 +1,92 @@
+#include "core/propose/face_surface.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace semblante {
+namespace {
+
+/// How much farther a vertex seems for each unit off a plane that it should lie on.
+constexpr double off_plane = 3.0;
+/// A vertex nearer to the plane than this share of its edges' length lies on it.
+constexpr double on_plane = 0.35;
+
+}  // namespace
+
+FaceSurface::FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame)
+    : surface_(surface), unit_(frame.scale) {
+  places_.reserve(surface.vertex_count());
+  for (const glm::dvec3& p : surface.positions) places_.push_back(frame(p));
+  for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
+    if (surface.steps_from(SurfaceVertexId(v)).empty()) continue;
+    by_role_[static_cast<std::size_t>(parts[surface.part_of[v].value()].role)].push_back(v);
+  }
+}
+
+const std::vector<std::uint32_t>& FaceSurface::with_role(PartRole role) const {
+  return by_role_[static_cast<std::size_t>(role)];
+}
+
+std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec3& place, const MirrorPlane* on) const {
+  std::optional<std::uint32_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t v : with_role(role)) {
+    const glm::dvec3 away = places_[v] - place;
+    double squared = glm::dot(away, away);
+    if (squared >= least) continue;
+    if (on != nullptr) {
+      const double off = off_plane * on->distance(places_[v]);
+      squared += off * off;
+      if (squared >= least) continue;
+    }
+    least = squared;
+    best = v;
+  }
+  return best;
+}
+
+std::uint32_t FaceSurface::climb(std::uint32_t start, const glm::dvec3& direction, double within,
+                                 const MirrorPlane* on) const {
+  std::uint32_t at = start;
+  for (;;) {
+    std::uint32_t best = at;
+    const auto consider = [&](std::uint32_t v) {
+      if (glm::distance(places_[v], places_[start]) > within) return;
+      if (on != nullptr && !is_on(*on, v)) return;
+      if (glm::dot(direction, places_[v]) > glm::dot(direction, places_[best])) best = v;
+    };
+    for (const Surface::Step& step : surface_.steps_from(SurfaceVertexId(at))) {
+      consider(step.to.value());
+      for (const Surface::Step& next : surface_.steps_from(step.to)) consider(next.to.value());
+    }
+    if (best == at) return at;
+    at = best;
+  }
+}
+
+std::optional<std::uint32_t> FaceSurface::farthest(PartRole role, const glm::dvec3& place, double within,
+                                                   const glm::dvec3& direction, const MirrorPlane* on) const {
+  std::optional<std::uint32_t> best;
+  for (const std::uint32_t v : with_role(role)) {
+    if (glm::distance(places_[v], place) > within) continue;
+    if (best && glm::dot(direction, places_[v]) <= glm::dot(direction, places_[*best])) continue;
+    if (on != nullptr && !is_on(*on, v)) continue;
+    best = v;
+  }
+  return best;
+}
+
+double FaceSurface::spacing(std::uint32_t vertex) const {
+  const auto steps = surface_.steps_from(SurfaceVertexId(vertex));
+  double sum = 0.0;
+  for (const Surface::Step& step : steps) sum += step.length;
+  return steps.empty() ? 0.0 : unit_ * sum / static_cast<double>(steps.size());
+}
+
+bool FaceSurface::is_on(const MirrorPlane& plane, std::uint32_t vertex) const {
+  return std::abs(plane.distance(places_[vertex])) <= on_plane * spacing(vertex);
+}
+
+}  // namespace semblante

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace semblante {
+
+/// Carries places of one head over to another, of which some points are known: the displacement from head to head is
+/// taken for a smooth random field (a stretch that is the same everywhere plus bumps that fade with the distance), and
+/// its best guess given the known displacements is kriging. All lengths in ES0.
+class ProportionField {
+ public:
+  struct Sample {
+    glm::dvec3 from, to;
+    double noise;  ///< standard deviation of `to`
+  };
+  struct Guess {
+    glm::dvec3 place;
+    double deviation;  ///< standard deviation of each coordinate, as the field's model has it
+  };
+
+  explicit ProportionField(std::vector<Sample> samples);
+
+  [[nodiscard]] Guess at(const glm::dvec3& from) const;
+
+ private:
+  /// Solves L y = b in place.
+  void solve_lower(std::vector<double>& b) const;
+
+  std::vector<Sample> samples_;
+  std::vector<double> lower_;        ///< #samples by #samples, row by row: Cholesky factor of the covariance
+  std::vector<glm::dvec3> weights_;  ///< #samples: covariance^-1 * displacements
+};
+
+}  // namespace semblante

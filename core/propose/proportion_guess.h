@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "core/propose/reference_heads.h"
+#include "core/propose/relations.h"
+#include "core/propose/similarity.h"
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+struct KnownPlace {
+  FeaturePointId id;
+  glm::dvec3 place{0.0};
+  double noise = 0.0;  ///< standard deviation, in ES0
+};
+
+struct Guess {
+  glm::dvec3 place{0.0};
+  double error = 0.0;  ///< expected, in ES0: what the known points leave open, and how much heads differ
+};
+
+/// Where every point would be by the proportions of the references, each bent to the known places (ProportionField);
+/// the median of what they say. Empty for points that no reference has. Places in an upright frame of unit ES0.
+std::array<std::optional<Guess>, feature_point_count> guess_by_proportions(std::span<const KnownPlace> known,
+                                                                           std::span<const ReferenceHead> references);
+
+/// Takes `known` into an upright frame where one unit is about ES0, by the mean proportions of the references. Empty
+/// where the points do not settle it.
+std::optional<Similarity> fit_to_references(const Places& known, std::span<const ReferenceHead> references);
+
+}  // namespace semblante

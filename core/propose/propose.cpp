@@ -1,0 +1,223 @@
+#include "core/propose/propose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/propose/face_surface.h"
+#include "core/propose/mirror_plane.h"
+#include "core/propose/mouth_and_eyes.h"
+#include "core/propose/proportion_guess.h"
+#include "core/propose/quick_set.h"
+#include "core/propose/relations.h"
+#include "core/propose/shape_rules.h"
+#include "core/propose/similarity.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+// All in ES0.
+constexpr double marking_noise = 0.015;  ///< of a point a person marked
+constexpr double mirror_noise = 0.02;    ///< of the mirror image of one
+constexpr double surely = 0.07;          ///< an expected error of `high` confidence
+constexpr double about = 0.15;           ///< of `medium`
+
+std::uint8_t mirror_of(std::size_t id) { return mpeg4::feature_points[id].mirror; }
+bool is_middle(std::size_t id) { return mirror_of(id) == id; }
+FeaturePointId id_of(std::size_t id) { return FeaturePointId(static_cast<std::uint8_t>(id)); }
+std::size_t index_of(std::string_view name) { return parse_feature_point(name)->value(); }
+
+/// A turn by quarters about the axes, if `rotation` is nearly one. Heads come upright; proportions alone would tilt
+/// them by some degrees, and the highest vertex would be another one.
+glm::dmat3 to_quarter_turns(const glm::dmat3& rotation) {
+  constexpr double near = 0.9;  // cosine
+  glm::dmat3 turned{0.0};
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      if (std::abs(rotation[c][r]) > near) turned[c][r] = rotation[c][r] < 0.0 ? -1.0 : 1.0;
+    }
+  }
+  return glm::determinant(turned) > 0.5 ? turned : rotation;
+}
+
+/// Places of the face by which it is compared with its mirror image.
+std::vector<glm::dvec3> front_of(const FaceSurface& face) {
+  constexpr double behind_eyes = -0.8;
+  constexpr double above_and_below = 2.0;
+  std::vector<glm::dvec3> front;
+  for (const std::uint32_t v : face.with_role(PartRole::skin)) {
+    const glm::dvec3& p = face.at(v);
+    if (p.z > behind_eyes && std::abs(p.y) < above_and_below) front.push_back(p);
+  }
+  return front;
+}
+
+/// Every n-th of them, so that there are no more than `enough`.
+std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& places, std::size_t enough) {
+  std::vector<glm::dvec3> some;
+  for (std::size_t i = 0; i < places.size(); i += places.size() / enough + 1) some.push_back(places[i]);
+  return some;
+}
+
+class Proposer {
+ public:
+  Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const Places& known,
+           std::span<const ReferenceHead> references)
+      : surface_(surface), parts_(parts), frame_(frame), face_(surface, parts, frame), references_(references) {
+    for (std::size_t id = 0; id < feature_point_count; ++id) {
+      if (known[id]) settled_[id] = frame(*known[id]);
+    }
+  }
+
+  Proposals run() {
+    find_mirror_plane();
+    guess();
+    // What relations lean on comes before what leans on it.
+    for (const bool related : {false, true}) {
+      for (std::size_t id = 0; id < feature_point_count; ++id) {
+        if (!settled_[id] && has_relation(id_of(id)) == related) propose(id);
+      }
+    }
+    std::sort(proposals_.points.begin(), proposals_.points.end(),
+              [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
+    std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),
+              [](const NotProposed& a, const NotProposed& b) { return a.id < b.id; });
+    return std::move(proposals_);
+  }
+
+ private:
+  void find_mirror_plane() {
+    std::vector<MirrorPair> pairs;
+    std::vector<glm::dvec3> middle;
+    for (std::size_t id = 0; id < feature_point_count; ++id) {
+      if (!settled_[id]) continue;
+      if (is_middle(id)) middle.push_back(*settled_[id]);
+      if (mpeg4::feature_points[id].side == mpeg4::Side::left && settled_[mirror_of(id)]) {
+        pairs.push_back({*settled_[id], *settled_[mirror_of(id)]});
+      }
+    }
+    constexpr std::size_t compared = 4000;
+    const std::vector<glm::dvec3> front = front_of(face_);
+    plane_ = refine_mirror_plane(fit_mirror_plane(pairs, middle), pairs, middle, thinned(front, compared), front);
+  }
+
+  void guess() {
+    std::vector<KnownPlace> samples;
+    for (std::size_t id = 0; id < feature_point_count; ++id) {
+      if (settled_[id]) {
+        samples.push_back({id_of(id), *settled_[id], marking_noise});
+      } else if (settled_[mirror_of(id)]) {
+        images_[id] = plane_.image(*settled_[mirror_of(id)]);
+        samples.push_back({id_of(id), *images_[id], mirror_noise});
+      }
+    }
+    guesses_ = guess_by_proportions(samples, references_);
+  }
+
+  void propose(std::size_t id) {
+    if (!guesses_[id]) return refuse(id, "no head it could be compared with has this point");
+    if (id_of(id) == parse_feature_point("11.5")) return refuse(id, "the thickness of hair cannot be told from a face");
+    const double error = guesses_[id]->error;
+    const glm::dvec3 place = images_[id] ? *images_[id] : related(id, guesses_[id]->place);
+    if (id == index_of("7.1")) return settle(id, {place, std::nullopt}, ProposalMethod::proportion, error);
+    if (id == index_of("3.5") || id == index_of("3.6")) {
+      return settle(id, find_pupil(face_, parts_, role_of_point(id_of(id)), place), ProposalMethod::shape, error);
+    }
+    const PartRole role = role_of_point(id_of(id));
+    if (face_.with_role(role).empty()) return refuse(id, "the model has no " + name_of(role));
+    if (!images_[id]) {
+      if (const auto vertex = find_on_shape(id, place)) {
+        return settle(id, {face_.at(*vertex), vertex}, ProposalMethod::shape, error);
+      }
+    }
+    const auto vertex = face_.nearest(role, place, is_middle(id) ? &plane_ : nullptr);
+    const double off = glm::distance(face_.at(*vertex), place);
+    if (off > 0.15 + error) return refuse(id, "the model has no surface where it would be");
+    settle(id, {face_.at(*vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
+           std::max(error, 0.5 * off));
+  }
+
+  std::optional<std::uint32_t> find_on_shape(std::size_t id, const glm::dvec3& place) const {
+    const auto& tongue = settled_[index_of("6.2")];
+    const bool left = id == index_of("6.3");
+    if ((left || id == index_of("6.4")) && tongue && is_tongue_alone(face_)) {
+      return border_of_tongue(face_, *tongue, left ? 1.0 : -1.0);
+    }
+    return find_extreme(face_, plane_, id_of(id), place);
+  }
+
+  glm::dvec3 related(std::size_t id, const glm::dvec3& place) const {
+    if (id == index_of("6.2") && settled_[index_of("6.1")] && is_tongue_alone(face_)) {
+      return middle_of_tongue(face_, plane_, *settled_[index_of("6.1")], place);
+    }
+    return apply_relations(id_of(id), place, settled_);
+  }
+
+  static std::string name_of(PartRole role) {
+    std::string name(part_role_names[static_cast<std::size_t>(role)]);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
+
+  void refuse(std::size_t id, std::string reason) { proposals_.not_proposed.push_back({id_of(id), std::move(reason)}); }
+
+  void settle(std::size_t id, const Spot& spot, ProposalMethod method, double error) {
+    settled_[id] = spot.place;
+    Proposal proposal;
+    proposal.point.id = id_of(id);
+    proposal.method = method;
+    proposal.expected_error = error;
+    proposal.confidence = error < surely ? Confidence::high : error < about ? Confidence::medium : Confidence::low;
+    if (spot.vertex) {
+      proposal.point.vertex = surface_.file_vertex_of[*spot.vertex];
+      proposal.point.position = glm::vec3(surface_.positions[*spot.vertex]);
+    } else {
+      const glm::dvec3 back = glm::transpose(frame_.rotation) * (spot.place - frame_.to) / frame_.scale;
+      proposal.point.position = glm::vec3(frame_.from + back);
+    }
+    proposals_.points.push_back(proposal);
+  }
+
+  const Surface& surface_;
+  std::span<const Part> parts_;
+  Similarity frame_;
+  FaceSurface face_;
+  std::span<const ReferenceHead> references_;
+  MirrorPlane plane_;
+  Places settled_;  ///< known, and proposed so far
+  Places images_;   ///< mirror images of known points whose partner is not known
+  std::array<std::optional<Guess>, feature_point_count> guesses_;
+  Proposals proposals_;
+};
+
+}  // namespace
+
+Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
+                                         const FeaturePointSet& known, std::span<const ReferenceHead> references) {
+  Places places;
+  for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
+  std::string missing;
+  for (const std::string_view name : quick_set) {
+    if (!places[index_of(name)]) missing += (missing.empty() ? "" : ", ") + std::string(name);
+  }
+  if (known.size() < least_known_points) {
+    return Error{ErrorCode::missing, "/points",
+                 "only " + std::to_string(known.size()) + " points are marked, proposals need at least " +
+                     std::to_string(least_known_points) + "; of the quick set these are missing: " + missing};
+  }
+  std::optional<Similarity> frame = fit_to_references(places, references);
+  if (!frame) {
+    return Error{
+        ErrorCode::missing, "/points",
+        "the marked points lie in one line or one place, which does not tell how the head stands; of the quick "
+        "set these are missing: " +
+            missing};
+  }
+  frame->rotation = to_quarter_turns(frame->rotation);
+  return Proposer(surface, parts, *frame, places, references).run();
+}
+
+}  // namespace semblante

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace semblante {
+
+/// p -> to + scale * rotation * (p - from).
+struct Similarity {
+  double scale = 1.0;
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 from{0.0}, to{0.0};
+
+  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const { return to + scale * (rotation * (p - from)); }
+};
+
+/// The similarity that takes `from[i]` nearest to `to[i]` in the least squares (Horn 1987). Empty for fewer than three
+/// points, or points that lie on a line or in one place.
+std::optional<Similarity> fit_similarity(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to);
+
+/// Unit eigenvector of the largest eigenvalue of a symmetric matrix; any of them where the largest is double.
+glm::dvec4 principal_axis(const glm::dmat4& symmetric);
+
+}  // namespace semblante

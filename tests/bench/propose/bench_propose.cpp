@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <random>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/propose/propose.h"
+#include "core/propose/quick_set.h"
+#include "tests/bench/propose/proposal_study.h"
+#include "tests/oracle/real_heads.h"
+
+// How far proposals are from points that people placed with care. See tests/bench/README.md.
+
+namespace {
+
+using namespace semblante;
+using namespace semblante::bench;
+
+void print_line(const std::string& name, std::vector<ProposalError> errors) {
+  if (errors.empty()) return;
+  std::printf("  %-24s %5zu   %6.1f   %6.1f   %6.1f\n", name.c_str(), errors.size(), 100 * share_within(errors, 0.5),
+              100 * share_within(errors, 0.9), 100 * share_within(errors, 1.0));
+}
+
+void print_set(const std::vector<std::string_view>& set, std::span<const ProposalStudy> studies,
+               std::map<std::string, std::vector<std::string>>& by_point) {
+  std::printf("From %zu points, off the placed ones in %% of ES0; no head is measured against its own proportions\n",
+              set.size());
+  std::printf("  %-24s %5s   %6s   %6s   %6s\n", "", "", "median", "9 in 10", "worst");
+  std::vector<ProposalError> all;
+  for (const ProposalStudy& study : studies) {
+    const std::vector<ProposalError> errors = errors_from(study, set);
+    print_line(study.name, errors);
+    std::vector<ProposalError> own;
+    std::copy_if(errors.begin(), errors.end(), std::back_inserter(own),
+                 [](const ProposalError& e) { return e.method != ProposalMethod::mirror; });
+    print_line("  without mirror images", own);
+    for (const Confidence placed : {Confidence::high, Confidence::medium, Confidence::low}) {
+      std::vector<ProposalError> some;
+      std::copy_if(errors.begin(), errors.end(), std::back_inserter(some),
+                   [&](const ProposalError& e) { return e.placed == placed; });
+      print_line("  placed: " + std::string(confidence_names[static_cast<std::size_t>(placed)]), some);
+    }
+    for (const ProposalError& e : errors) {
+      std::array<char, 48> text{};
+      std::snprintf(text.data(), text.size(), "%5.1f %-10s %-6s", 100 * e.error,
+                    proposal_method_names[static_cast<std::size_t>(e.method)].data(),
+                    confidence_names[static_cast<std::size_t>(e.confidence)].data());
+      auto& line = by_point[to_string(e.id)];
+      line.resize(studies.size());
+      line[static_cast<std::size_t>(&study - studies.data())] = text.data();
+    }
+    all.insert(all.end(), errors.begin(), errors.end());
+  }
+  print_line("all", all);
+}
+
+void print_random_sets(std::span<const ProposalStudy> studies) {
+  constexpr int draws = 300;
+  std::printf("\nFrom %d random sets of 15 to 40 points a head\n", draws);
+  std::printf("  %-24s %5s   %6s   %6s   %6s   beyond 50 %%: high, medium, low confidence\n", "", "", "median",
+              "9 in 10", "worst");
+  for (const ProposalStudy& study : studies) {
+    std::mt19937 random(1);
+    std::vector<ProposalError> all;
+    std::array<int, 3> absurd{};
+    for (int draw = 0; draw < draws; ++draw) {
+      const auto errors = errors_from(study, random_names(study, 15 + random() % 26, random));
+      for (const ProposalError& e : errors) absurd[static_cast<std::size_t>(e.confidence)] += e.error > 0.5 ? 1 : 0;
+      all.insert(all.end(), errors.begin(), errors.end());
+    }
+    for (const Confidence c : {Confidence::high, Confidence::medium, Confidence::low}) {
+      std::vector<ProposalError> some;
+      std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+                   [&](const ProposalError& e) { return e.confidence == c; });
+      print_line(study.name + " " + std::string(confidence_names[static_cast<std::size_t>(c)]), some);
+    }
+    std::printf("  %-24s beyond 50 %%: %d, %d, %d\n", study.name.c_str(), absurd[0], absurd[1], absurd[2]);
+  }
+}
+
+void print_time(const ProposalStudy& study) {
+  double best = 1e9;
+  const FeaturePointSet known = some_points(study, {quick_set.begin(), quick_set.end()});
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    (void)propose_feature_points(study.surface, study.parts_from(known), known, study.other_heads);
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::printf("  %-24s %zu vertices: %.3f s, roles of parts included\n", study.name.c_str(),
+              study.surface.vertex_count(), best);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) {
+    std::printf("no folder of real heads: set SEMBLANTE_FACES_DIR\n");
+    return 1;
+  }
+  const std::vector<ProposalStudy> studies = read_proposal_studies(*faces);
+  std::map<std::string, std::vector<std::string>> by_point;
+  std::vector<std::string_view> set;
+  bool points = false;
+  for (const std::string_view word : std::span(argv + 1, argv + argc)) {
+    if (word == "--points")
+      points = true;
+    else
+      set.push_back(word);
+  }
+  const bool quick = set.empty();
+  if (quick) set.assign(quick_set.begin(), quick_set.end());
+  print_set(set, studies, by_point);
+  if (quick) {
+    print_random_sets(studies);
+    std::printf("\nTime\n");
+    for (const ProposalStudy& study : studies) print_time(study);
+  }
+  if (points) {
+    std::printf("\nPoint by point\n  %-6s", "");
+    for (const ProposalStudy& study : studies) std::printf(" %-24s", study.name.c_str());
+    std::printf("\n");
+    for (std::size_t i = 0; i < feature_point_count; ++i) {
+      const auto line = by_point.find(to_string(FeaturePointId(static_cast<std::uint8_t>(i))));
+      if (line == by_point.end()) continue;
+      std::printf("  %-6s", line->first.c_str());
+      for (const std::string& text : line->second) std::printf(" %-24s", text.c_str());
+      std::printf("\n");
+    }
+  }
+  return 0;
+}

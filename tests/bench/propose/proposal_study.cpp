@@ -1,0 +1,127 @@
+#include "tests/bench/propose/proposal_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/parametrize/part_roles.h"
+#include "core/parametrize/place_feature_points.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/tables/mpeg4.h"
+#include "tests/oracle/real_heads.h"
+
+namespace semblante::bench {
+namespace {
+
+/// A file of `v` lines alone: another person in the vertex order of a model.
+void replace_positions(Model& model, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::size_t vertex = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind != "v" || vertex == model.positions.size()) continue;
+    glm::vec3& p = model.positions[vertex++];
+    words >> p.x >> p.y >> p.z;
+  }
+  if (vertex != model.positions.size()) throw std::runtime_error(file.string() + " belongs to another model");
+}
+
+ProposalStudy read_study(std::string name, const std::string& own_proportions, const std::filesystem::path& obj,
+                         const std::filesystem::path& points, const std::filesystem::path& other_positions = {}) {
+  ProposalStudy study;
+  study.name = std::move(name);
+  study.model = oracle::import_head(obj);
+  std::vector<MarkedPoint> marked = oracle::read_trusted_points(points);
+  if (!other_positions.empty()) {
+    replace_positions(study.model, other_positions);
+    std::erase_if(marked, [](const MarkedPoint& m) { return !m.vertex; });
+    for (MarkedPoint& m : marked) m.position.reset();
+  }
+  study.surface = build_surface(study.model);
+  auto placed = place_feature_points(study.model, study.surface, marked, nullptr);
+  if (!placed) throw std::runtime_error(placed.error().message);
+  study.placed = std::move(*placed);
+
+  const auto json = nlohmann::json::parse(std::ifstream(points));
+  for (const auto& [id, point] : json.at("points").items()) {
+    const std::string sure = point.at("confidence");
+    const auto found = std::find(confidence_names.begin(), confidence_names.end(), sure);
+    study.placed_confidence[parse_feature_point(id)->value()] =
+        static_cast<Confidence>(found - confidence_names.begin());
+  }
+  study.eye_separation =
+      std::abs(find_point(study.placed, "3.5")->position.x - find_point(study.placed, "3.6")->position.x);
+  for (const ReferenceHead& head : reference_heads()) {
+    if (head.name != own_proportions) study.other_heads.push_back(head);
+  }
+  return study;
+}
+
+}  // namespace
+
+std::vector<Part> ProposalStudy::parts_from(const FeaturePointSet& known) const {
+  return describe_parts(model, surface, known);
+}
+
+std::vector<ProposalStudy> read_proposal_studies(const std::filesystem::path& faces) {
+  const auto ict = faces / "ict-facekit";
+  const auto makehuman = faces / "makehuman";
+  const auto mask = faces / "mediapipe-canonical";
+  std::vector<ProposalStudy> studies;
+  studies.push_back(read_study("ict-facekit", "ict-facekit", ict / "neutral.obj", ict / "ict-facekit.fps.json"));
+  studies.push_back(read_study("makehuman", "makehuman", makehuman / "head.obj", makehuman / "makehuman.fps.json"));
+  studies.push_back(read_study("mediapipe-canonical", "mediapipe-canonical", mask / "face_model_with_iris.obj",
+                               mask / "mediapipe-canonical.fps.json"));
+  studies.push_back(read_study("ict-facekit, other person", "ict-facekit", ict / "neutral.obj",
+                               ict / "ict-facekit.fps.json", ict / "identity-sample.obj"));
+  return studies;
+}
+
+FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::string_view>& names) {
+  FeaturePointSet some;
+  for (const std::string_view name : names) {
+    if (const FeaturePoint* const point = find_point(study.placed, name)) some.push_back(*point);
+  }
+  return some;
+}
+
+std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::vector<std::string_view>& names) {
+  const FeaturePointSet known = some_points(study, names);
+  const auto proposals = propose_feature_points(study.surface, study.parts_from(known), known, study.other_heads);
+  if (!proposals) throw std::runtime_error(study.name + ": " + proposals.error().message);
+  std::vector<ProposalError> errors;
+  for (const Proposal& proposal : proposals->points) {
+    const FeaturePoint* const placed = find_point(study.placed, to_string(proposal.point.id));
+    if (placed == nullptr) continue;
+    const double off = glm::distance(glm::dvec3(proposal.point.position), glm::dvec3(placed->position));
+    errors.push_back({proposal.point.id, off / study.eye_separation, proposal.method, proposal.confidence,
+                      study.placed_confidence.at(proposal.point.id.value())});
+  }
+  return errors;
+}
+
+std::vector<std::string_view> random_names(const ProposalStudy& study, std::size_t count, std::mt19937& random) {
+  std::vector<std::string_view> names;
+  for (const FeaturePoint& point : study.placed) names.push_back(mpeg4::feature_points[point.id.value()].id);
+  // Not std::shuffle: the same draw with every standard library.
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) std::swap(names[i], names[i + random() % (names.size() - i)]);
+  names.resize(std::min(count, names.size()));
+  return names;
+}
+
+double share_within(std::vector<ProposalError> errors, double share) {
+  if (errors.empty()) return 0.0;
+  std::sort(errors.begin(), errors.end(),
+            [](const ProposalError& a, const ProposalError& b) { return a.error < b.error; });
+  const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(errors.size())));
+  return errors[std::max<std::size_t>(at, 1) - 1].error;
+}
+
+}  // namespace semblante::bench

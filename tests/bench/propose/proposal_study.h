@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/propose/propose.h"
+#include "core/types/feature_points.h"
+#include "core/types/model.h"
+
+namespace semblante::bench {
+
+/// A real head with points that somebody placed on it, to hold proposals against.
+struct ProposalStudy {
+  std::string name;
+  Model model;
+  Surface surface;
+  FeaturePointSet placed;
+  std::map<std::uint8_t, Confidence> placed_confidence;  ///< how sure the placed points are, by id
+  double eye_separation = 1.0;                           ///< ES0, model units
+  std::vector<ReferenceHead> other_heads;                ///< the proportions of all heads but this one
+
+  [[nodiscard]] std::vector<Part> parts_from(const FeaturePointSet& known) const;
+};
+
+/// The three heads, and another person on the mesh of the first.
+std::vector<ProposalStudy> read_proposal_studies(const std::filesystem::path& faces);
+
+struct ProposalError {
+  FeaturePointId id;
+  double error = 0.0;  ///< distance of the proposed from the placed point, in ES0
+  ProposalMethod method = ProposalMethod::proportion;
+  Confidence confidence = Confidence::low;
+  Confidence placed = Confidence::low;
+};
+
+/// The placed points of those names, as far as the head has them.
+FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::string_view>& names);
+
+/// Proposes from those points and compares with the others. Points that nobody placed are not counted.
+std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::vector<std::string_view>& names);
+
+/// `count` different points of the head.
+std::vector<std::string_view> random_names(const ProposalStudy& study, std::size_t count, std::mt19937& random);
+
+/// The least distance that this share of them (0.5: the median) stays within.
+double share_within(std::vector<ProposalError> errors, double share);
+
+}  // namespace semblante::bench

@@ -1,0 +1,43 @@
+// Proposals against points placed with care on heads made by others, none measured against its own proportions.
+
+#include <gtest/gtest.h>
+
+#include "core/propose/quick_set.h"
+#include "tests/bench/propose/proposal_study.h"
+#include "tests/oracle/real_heads.h"
+
+namespace semblante::bench {
+namespace {
+
+TEST(RealHeadProposals, FromTheQuickSetAreWithinTheirBounds) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) GTEST_SKIP() << "no folder of real heads";
+  std::vector<ProposalError> all;
+  for (const ProposalStudy& study : read_proposal_studies(*faces)) {
+    const auto errors = errors_from(study, {quick_set.begin(), quick_set.end()});
+    EXPECT_GE(errors.size(), 40U) << study.name;
+    EXPECT_LE(share_within(errors, 0.5), 0.05) << study.name;
+    EXPECT_LE(share_within(errors, 0.9), 0.15) << study.name;
+    EXPECT_LE(share_within(errors, 1.0), 0.5) << study.name;
+    all.insert(all.end(), errors.begin(), errors.end());
+  }
+  EXPECT_LE(share_within(all, 0.5), 0.05);
+  EXPECT_LE(share_within(all, 0.9), 0.15);
+}
+
+TEST(RealHeadProposals, FromRandomSetsAreNeverAbsurdUnlessTheySaySo) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) GTEST_SKIP() << "no folder of real heads";
+  for (const ProposalStudy& study : read_proposal_studies(*faces)) {
+    std::mt19937 random(2);
+    for (int draw = 0; draw < 30; ++draw) {
+      for (const ProposalError& e : errors_from(study, random_names(study, 15 + random() % 26, random))) {
+        if (e.confidence == Confidence::low) continue;
+        EXPECT_LT(e.error, e.confidence == Confidence::high ? 0.25 : 0.5) << study.name << " " << to_string(e.id);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace semblante::bench

@@ -1,0 +1,163 @@
+#include "core/propose/propose.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/part_roles.h"
+#include "core/propose/quick_set.h"
+#include "tests/support/meshes.h"
+#include "tests/support/sample_head_model.h"
+
+namespace semblante {
+namespace {
+
+using testing::fp;
+
+/// The sample head, whose points the references know: what is tested here is how proposals are made and reported.
+class Propose : public ::testing::Test {
+ protected:
+  Propose()
+      : model_(testing::sample_head_model()), surface_(build_surface(model_)), all_(testing::sample_head_points()) {}
+
+  [[nodiscard]] FeaturePointSet some(std::span<const std::string_view> names) const {
+    FeaturePointSet points;
+    for (const FeaturePoint& p : all_) {
+      if (std::find(names.begin(), names.end(), to_string(p.id)) != names.end()) points.push_back(p);
+    }
+    return points;
+  }
+  [[nodiscard]] Result<Proposals> propose(const FeaturePointSet& known) const {
+    return propose_feature_points(surface_, describe_parts(model_, surface_, known), known);
+  }
+
+  Model model_;
+  Surface surface_;
+  FeaturePointSet all_;
+};
+
+const Proposal* find(const Proposals& proposals, FeaturePointId id) {
+  const auto found = std::find_if(proposals.points.begin(), proposals.points.end(),
+                                  [&](const Proposal& p) { return p.point.id == id; });
+  return found == proposals.points.end() ? nullptr : &*found;
+}
+
+TEST_F(Propose, FromTheQuickSetGivesOrExplainsEveryOtherPointOnce) {
+  const FeaturePointSet known = some(quick_set);
+  ASSERT_EQ(known.size(), quick_set.size());
+  const auto proposals = propose(known);
+  ASSERT_TRUE(proposals) << proposals.error().message;
+  std::array<int, feature_point_count> seen{};
+  for (const FeaturePoint& p : known) ++seen[p.id.value()];
+  for (const Proposal& p : proposals->points) ++seen[p.point.id.value()];
+  for (const NotProposed& p : proposals->not_proposed) ++seen[p.id.value()];
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+  ASSERT_EQ(proposals->not_proposed.size(), 1U);
+  EXPECT_EQ(to_string(proposals->not_proposed[0].id), "11.5");
+  EXPECT_NE(proposals->not_proposed[0].reason.find("hair"), std::string::npos);
+}
+
+TEST_F(Propose, LiesNearThePointsTheHeadWasMadeWith) {
+  const auto proposals = propose(some(quick_set));
+  ASSERT_TRUE(proposals);
+  int near = 0;
+  for (const Proposal& p : proposals->points) {
+    const auto placed =
+        std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& q) { return q.id == p.point.id; });
+    if (glm::distance(p.point.position, placed->position) < 0.15F * 0.064F) ++near;
+  }
+  EXPECT_GE(near, static_cast<int>(0.9 * static_cast<double>(proposals->points.size())));
+}
+
+TEST_F(Propose, NamesTheWayAndTheVertex) {
+  const auto proposals = propose(some(quick_set));
+  ASSERT_TRUE(proposals);
+  const Proposal* const mirrored = find(*proposals, fp("8.4"));
+  ASSERT_NE(mirrored, nullptr);
+  EXPECT_EQ(mirrored->method, ProposalMethod::mirror);
+  EXPECT_EQ(mirrored->confidence, Confidence::high);
+  ASSERT_TRUE(mirrored->point.vertex);
+  EXPECT_EQ(model_.positions[mirrored->point.vertex->value()], mirrored->point.position);
+  EXPECT_EQ(find(*proposals, fp("11.6"))->method, ProposalMethod::shape);
+  EXPECT_EQ(find(*proposals, fp("9.12"))->method, ProposalMethod::proportion);
+  EXPECT_EQ(find(*proposals, fp("11.3"))->confidence, Confidence::low);
+  EXPECT_FALSE(find(*proposals, fp("7.1"))->point.vertex);
+}
+
+TEST_F(Propose, NothingWhenAllAreKnown) {
+  const auto proposals = propose(all_);
+  ASSERT_TRUE(proposals);
+  EXPECT_TRUE(proposals->points.empty());
+  EXPECT_TRUE(proposals->not_proposed.empty());
+}
+
+TEST_F(Propose, SaysWhichPartIsMissing) {
+  // The skin alone: no teeth, no tongue, no eyes to look at.
+  Model skin = model_;
+  skin.primitives.resize(1);
+  skin.triangles.resize(skin.primitives[0].triangle_count);
+  const Surface surface = build_surface(skin);
+  const FeaturePointSet known = some(quick_set);
+  const auto proposals = propose_feature_points(surface, describe_parts(skin, surface, known), known);
+  ASSERT_TRUE(proposals);
+  const auto reason = [&](const char* name) {
+    for (const NotProposed& p : proposals->not_proposed) {
+      if (p.id == fp(name)) return p.reason;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(reason("6.1"), "the model has no tongue");
+  EXPECT_EQ(reason("9.10"), "the model has no upper teeth");
+  const Proposal* const pupil = find(*proposals, fp("3.5"));
+  ASSERT_NE(pupil, nullptr);
+  EXPECT_FALSE(pupil->point.vertex);
+}
+
+TEST_F(Propose, LeavesOutWhatTheModelEndsBefore) {
+  // A mask: nothing behind the cheeks.
+  Model mask = model_;
+  std::erase_if(mask.triangles, [&](const Triangle& t) { return mask.positions[t[0]].z < 0.02F; });
+  mask.primitives.assign(1, Primitive{"mask", -1, 0, static_cast<std::uint32_t>(mask.triangles.size())});
+  const Surface surface = build_surface(mask);
+  FeaturePointSet known = some(quick_set);
+  std::erase_if(known, [&](const FeaturePoint& p) { return p.position.z < 0.025F; });
+  const auto proposals = propose_feature_points(surface, describe_parts(mask, surface, known), known);
+  ASSERT_TRUE(proposals) << proposals.error().message;
+  EXPECT_EQ(find(*proposals, fp("11.6")), nullptr);
+  EXPECT_EQ(find(*proposals, fp("10.3")), nullptr);
+}
+
+TEST_F(Propose, RefusesTooFewPointsAndNamesTheMissing) {
+  const FeaturePointSet known = some(std::span(quick_set).first(least_known_points - 1));
+  const auto proposals = propose(known);
+  ASSERT_FALSE(proposals);
+  EXPECT_EQ(proposals.error().code, ErrorCode::missing);
+  EXPECT_EQ(proposals.error().where, "/points");
+  EXPECT_NE(proposals.error().message.find("10.5"), std::string::npos);
+  EXPECT_NE(proposals.error().message.find("at least 8"), std::string::npos);
+  EXPECT_FALSE(propose({}));
+}
+
+TEST_F(Propose, RefusesPointsInOnePlace) {
+  FeaturePointSet known = some(quick_set);
+  for (FeaturePoint& p : known) p.position = {0.0F, 0.0F, 0.1F};
+  const auto proposals = propose(known);
+  ASSERT_FALSE(proposals);
+  EXPECT_EQ(proposals.error().code, ErrorCode::missing);
+}
+
+TEST_F(Propose, BearsAModelWithoutSurface) {
+  Model points_only = model_;
+  points_only.triangles.clear();
+  points_only.primitives.clear();
+  const Surface surface = build_surface(points_only);
+  const FeaturePointSet known = some(quick_set);
+  const auto proposals = propose_feature_points(surface, describe_parts(points_only, surface, known), known);
+  ASSERT_TRUE(proposals);
+  for (const Proposal& p : proposals->points) EXPECT_FALSE(p.point.vertex);
+}
+
+}  // namespace
+}  // namespace semblante
