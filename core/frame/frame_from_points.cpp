@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/frame/frame_guess.h"
+#include "core/frame/human_size.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+/// The middle of the points of some kind; nullopt when none is marked.
+template <class Wanted>
+std::optional<glm::dvec3> middle(std::span<const PlacedPoint> points, Wanted wanted) {
+  glm::dvec3 sum(0.0);
+  int count = 0;
+  for (const PlacedPoint& point : points) {
+    if (!wanted(group_of(point.id), number_of(point.id))) continue;
+    sum += point.position;
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
+/// A direction that several pairs of places agree on more or less; zero without any.
+class Evidence {
+ public:
+  void add(const std::optional<glm::dvec3>& from, const std::optional<glm::dvec3>& to) {
+    if (!from || !to) return;
+    const double length = glm::distance(*from, *to);
+    if (length > 0.0 && std::isfinite(length)) sum_ += (*to - *from) / length;
+  }
+  [[nodiscard]] glm::dvec3 direction() const {
+    const double length = glm::length(sum_);
+    return length > 1e-3 ? sum_ / length : glm::dvec3(0.0);
+  }
+
+ private:
+  glm::dvec3 sum_{0.0};
+};
+
+glm::dvec3 left_of(std::span<const PlacedPoint> points) {
+  Evidence evidence;
+  for (const PlacedPoint& point : points) {
+    const mpeg4::FeaturePoint& info = mpeg4::feature_points[point.id.value()];
+    if (info.side != mpeg4::Side::left) continue;
+    for (const PlacedPoint& other : points) {
+      if (other.id.value() == info.mirror) evidence.add(other.position, point.position);
+    }
+  }
+  return evidence.direction();
+}
+
+/// Each level of the face against every level below it. Pairs count as their middle, so that one side alone tilts the
+/// sum only a little.
+glm::dvec3 up_of(std::span<const PlacedPoint> points) {
+  const std::array<std::optional<glm::dvec3>, 5> levels = {
+      middle(points, [](int group, int number) { return group == 4 || (group == 11 && number <= 3); }),
+      middle(points, [](int group, int) { return group == 3; }),
+      middle(points, [](int group, int number) { return group == 9 && (number <= 5 || number == 15); }),
+      middle(points, [](int group, int number) { return group == 8 || (group == 2 && number >= 2 && number <= 9); }),
+      middle(points,
+             [](int group, int number) { return group == 2 && (number == 1 || number >= 10) && number <= 12; })};
+  Evidence evidence;
+  for (std::size_t above = 0; above < levels.size(); ++above) {
+    for (std::size_t below = above + 1; below < levels.size(); ++below) evidence.add(levels[below], levels[above]);
+  }
+  return evidence.direction();
+}
+
+/// What stands out against what lies behind it, at about the same height.
+glm::dvec3 front_of(std::span<const PlacedPoint> points) {
+  const auto nose = middle(points, [](int group, int number) { return group == 9 && number == 3; });
+  const auto around = [&points](int a, int a1, int a2, int b, int b1, int b2) {
+    return middle(points, [=](int group, int number) {
+      return (group == a && (number == a1 || number == a2)) || (group == b && (number == b1 || number == b2));
+    });
+  };
+  Evidence evidence;
+  evidence.add(middle(points, [](int group, int) { return group == 10; }), nose);
+  evidence.add(around(3, 7, 12, 8, 3, 4), nose);  // outer corners of the eyes, and of the mouth
+  evidence.add(middle(points, [](int group, int number) { return group == 9 && (number == 1 || number == 2); }), nose);
+  evidence.add(middle(points, [](int group, int number) { return group == 8 && (number == 3 || number == 4); }),
+               middle(points, [](int group, int number) { return group == 8 && (number == 1 || number == 2); }));
+  evidence.add(middle(points, [](int group, int number) { return group == 2 && (number == 13 || number == 14); }),
+               middle(points, [](int group, int) { return group == 8; }));
+  evidence.add(middle(points, [](int group, int number) { return group == 11 && number == 6; }), nose);
+  return evidence.direction();
+}
+
+bool is_known(const glm::dvec3& direction) { return direction != glm::dvec3(0.0); }
+
+void guess_axes(std::span<const PlacedPoint> points, FrameGuess& guess) {
+  glm::dvec3 left = left_of(points);
+  const glm::dvec3 up = up_of(points);
+  const glm::dvec3 front = front_of(points);
+  if (is_known(left) && is_known(up) && is_known(front) && glm::dot(glm::cross(up, front), left) < -0.1) {
+    guess.reasons.emplace_back(
+        "The points of the left side lie on the right, seen from up and front: left and right are exchanged, or the "
+        "model is a mirror image");
+    left = glm::dvec3(0.0);
+  }
+  const int known = (is_known(left) ? 1 : 0) + (is_known(up) ? 1 : 0) + (is_known(front) ? 1 : 0);
+  // Two directions give the third. One alone does not, and a front without an up may lean either way.
+  if (known < 2 || !is_known(up)) return;
+  const auto score = [&](const Axes& axes) {
+    const glm::dvec3 u = to_vector(axes.up);
+    const glm::dvec3 f = to_vector(axes.front);
+    return glm::dot(u, up) + glm::dot(f, front) + glm::dot(glm::cross(u, f), left);
+  };
+  const auto candidates = all_axes();
+  const Axes best = *std::max_element(candidates.begin(), candidates.end(),
+                                      [&](const Axes& a, const Axes& b) { return score(a) < score(b); });
+  double second = -3.0;
+  for (const Axes& axes : candidates) {
+    if (axes != best) second = std::max(second, score(axes));
+  }
+  // A head tilted by 45 degrees stands between two axes; far from that the choice is plain.
+  constexpr double least_lead = 0.3;
+  guess.axes = best;
+  guess.axes_sure = score(best) - second > least_lead;
+  std::string reason = "The feature points stand " + std::string(to_string(best.up)) + " up";
+  if (is_known(left))
+    reason += ", their pairs apart along " + std::string(1, "XYZ"[3 - axis_of(best.up) - axis_of(best.front)]);
+  reason += ", the face towards " + std::string(to_string(best.front));
+  if (!guess.axes_sure) reason += ", but so tilted that it might be another way";
+  guess.reasons.push_back(std::move(reason));
+}
+
+/// Pupils, or the middles of the eyes' corners.
+std::optional<double> eye_separation(std::span<const PlacedPoint> points) {
+  const auto eye = [&points](int pupil, int corner, int other) {
+    if (auto at = middle(points, [=](int g, int n) { return g == 3 && n == pupil; })) return at;
+    const auto a = middle(points, [=](int g, int n) { return g == 3 && n == corner; });
+    const auto b = middle(points, [=](int g, int n) { return g == 3 && n == other; });
+    return a && b ? std::optional(0.5 * (*a + *b)) : std::nullopt;
+  };
+  const auto left = eye(5, 7, 11);
+  const auto right = eye(6, 8, 12);
+  return left && right ? std::optional(glm::distance(*left, *right)) : std::nullopt;
+}
+
+void guess_unit(std::span<const PlacedPoint> points, FrameGuess& guess) {
+  const auto separation = eye_separation(points);
+  if (!separation || !(*separation > 0.0)) return;
+  const auto unit = unit_of_eye_separation(*separation);
+  guess.unit_sure = unit.has_value();
+  if (!unit) {
+    guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
+                            " apart, which is no head's size in m, dm, cm, mm or in");
+    return;
+  }
+  guess.unit = *unit;
+  guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
+                          " apart: " + std::to_string(std::lround(*separation * metres_per(*unit) * 1000.0)) +
+                          " mm if the unit is " + std::string(to_string(*unit)));
+}
+
+}  // namespace
+
+FrameGuess guess_frame(std::span<const PlacedPoint> points, const FrameGuess& before) {
+  FrameGuess guess = before;
+  guess.reasons.clear();
+  guess_axes(points, guess);
+  guess_unit(points, guess);
+  if (guess.reasons.empty()) guess.reasons = before.reasons;
+  return guess;
+}
+
+}  // namespace semblante

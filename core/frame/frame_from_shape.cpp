@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/frame/frame_guess.h"
+#include "core/frame/head_landmarks.h"
+#include "core/frame/human_size.h"
+
+namespace semblante {
+namespace {
+
+std::string letter(int axis) { return {"XYZ"[axis]}; }
+std::string name(Direction direction) { return std::string(to_string(direction)); }
+
+/// What can be seen of a head without marked points, gathered from the surest sign to the least.
+class ShapeGuess {
+ public:
+  ShapeGuess(const Model& model, const Surface& surface)
+      : model_(model), surface_(surface), shapes_(measure_parts(model, surface)) {}
+
+  FrameGuess guess() {
+    if (!shapes_.empty()) {
+      skin_ = largest_part();
+      eyes_ = find_eyes(shapes_);
+      find_across();
+      if (across_) find_up();
+      if (up_) find_front();
+    }
+    guess_.axes_sure = across_ && up_ && front_;
+    if (guess_.axes_sure) {
+      guess_.axes = {*up_, *front_};
+    } else if (guess_.axes_sure = stands_by_rule(); !guess_.axes_sure) {
+      guess_.reasons.emplace_back(
+          "How the head stands cannot be told for certain without feature points: it is taken to stand along +Y and to "
+          "face +Z");
+    }
+    guess_unit();
+    return std::move(guess_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t largest_part() const {
+    std::size_t best = 0;
+    for (std::size_t p = 1; p < shapes_.size(); ++p) {
+      if (shapes_[p].triangles > shapes_[best].triangles) best = p;
+    }
+    return best;
+  }
+  [[nodiscard]] const PartShape& skin() const { return shapes_[skin_]; }
+  [[nodiscard]] PartId skin_id() const { return PartId(static_cast<std::uint32_t>(skin_)); }
+  [[nodiscard]] bool is_gltf() const { return model_.format == "glb" || model_.format == "gltf"; }
+  void say(std::string reason) { guess_.reasons.push_back(std::move(reason)); }
+
+  /// glTF says how a model stands; only a file that shows otherwise is not believed.
+  bool stands_by_rule() {
+    if (!is_gltf() || (up_ && *up_ != Direction::plus_y)) return false;
+    say("glTF models stand along +Y and face +Z");
+    return true;
+  }
+
+  void find_across() {
+    if (eyes_) {
+      across_ = eyes_->axis;
+      say(std::string(eyes_->by_name ? "Parts named as eyes" : "Two equal balls, taken for eyes,") +
+          " lie apart along " + letter(eyes_->axis));
+      return;
+    }
+    across_ = find_mirror_axis(skin());
+    if (across_) say("The largest part is its own mirror image across " + letter(*across_));
+  }
+
+  void find_up() {
+    const auto mouth = eyes_ ? find_mouth(shapes_) : std::nullopt;
+    if (mouth) {
+      const glm::dvec3 rise = eyes_->middle - *mouth;
+      const int a = (*across_ + 1) % 3;
+      const int b = (*across_ + 2) % 3;
+      const int axis = std::abs(rise[a]) > std::abs(rise[b]) ? a : b;
+      if (std::abs(rise[axis]) < 1.5 * std::abs(rise[a + b - axis])) return;
+      up_ = direction_along(axis, rise[axis]);
+      say("The eyes are " + name(*up_) + " of the teeth or tongue");
+      return;
+    }
+    const auto neck = find_neck(model_, surface_, skin_id());
+    if (!neck || neck->axis == *across_) return;
+    up_ = direction_along(neck->axis, -neck->sign);
+    say("The largest part ends open and flat at its " + name(direction_along(neck->axis, neck->sign)) +
+        " end, as a neck does");
+  }
+
+  void find_front() {
+    const int axis = 3 - *across_ - axis_of(*up_);
+    if (eyes_) {
+      // Against the head at the height of the eyes: the rest of a body lies behind them as often as before them.
+      const int height = axis_of(*up_);
+      double low = 1e300;
+      double high = -1e300;
+      for (const glm::dvec3& p : skin().positions) {
+        if (std::abs(p[height] - eyes_->middle[height]) > 0.5 * eyes_->separation) continue;
+        if (std::abs(p[*across_] - eyes_->middle[*across_]) > 1.5 * eyes_->separation) continue;
+        low = std::min(low, p[axis]);
+        high = std::max(high, p[axis]);
+      }
+      const double ahead = eyes_->middle[axis] - 0.5 * (low + high);
+      if (!(high > low) || std::abs(ahead) < 0.1 * (high - low)) return;
+      front_ = direction_along(axis, ahead);
+      say("The eyes lie towards " + name(*front_) + " in the head");
+      return;
+    }
+    constexpr double least_crowding = 0.06;
+    const double crowded = crowding(model_, surface_, skin_id(), skin(), axis);
+    if (std::abs(crowded) < least_crowding) return;
+    front_ = direction_along(axis, crowded);
+    say("The vertices crowd towards " + name(*front_) + ", as they do in a face");
+  }
+
+  void guess_unit() {
+    if (eyes_) {
+      if (const auto unit = unit_of_eye_separation(eyes_->separation)) {
+        take_unit(*unit, true,
+                  "The eyes are " + std::to_string(eyes_->separation) + " apart, which is a face's if the unit is " +
+                      std::string(to_string(*unit)));
+        return;
+      }
+    }
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const PartShape& shape : shapes_) {
+      if (shape.triangles == 0) continue;
+      low = glm::min(low, shape.low);
+      high = glm::max(high, shape.high);
+    }
+    const glm::dvec3 size = high - low;
+    const double height = guess_.axes_sure ? size[axis_of(guess_.axes.up)] : std::max({size.x, size.y, size.z});
+    if (is_gltf() && height >= 0.1 && height <= 2.6) {
+      take_unit(LengthUnit::metre, true,
+                "glTF counts in metres, and " + std::to_string(height) + " m fits a head or a body");
+    } else if (const auto by_size = unit_of_height(height)) {
+      take_unit(by_size->unit, by_size->is_sure && !is_gltf(),
+                "The model is " + std::to_string(height) +
+                    " tall, which is a head's, a bust's or a body's size if the unit is " +
+                    std::string(to_string(by_size->unit)));
+    } else {
+      take_unit(LengthUnit::metre, false,
+                "The model is " + std::to_string(height) + " tall, which fits no one unit: taken for metres");
+    }
+  }
+
+  void take_unit(LengthUnit unit, bool sure, std::string reason) {
+    guess_.unit = unit;
+    guess_.unit_sure = sure;
+    say(std::move(reason));
+  }
+
+  const Model& model_;
+  const Surface& surface_;
+  std::vector<PartShape> shapes_;
+  std::size_t skin_ = 0;
+  std::optional<EyePair> eyes_;
+  std::optional<int> across_;
+  std::optional<Direction> up_;
+  std::optional<Direction> front_;
+  FrameGuess guess_;
+};
+
+}  // namespace
+
+FrameGuess guess_frame(const Model& model, const Surface& surface) { return ShapeGuess(model, surface).guess(); }
+
+}  // namespace semblante

@@ -1,0 +1,90 @@
+// Feature points decide how a head stands: every head, in all 24 positions.
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/frame/turned_heads.h"
+
+namespace semblante::test {
+namespace {
+
+/// A point or two of each region: what somebody in a hurry marks.
+bool is_quick(FeaturePointId id) {
+  static const std::set<std::string> quick = {"2.1", "2.2",  "2.3",  "2.4", "2.5", "3.1", "3.2", "3.3", "3.4",  "3.7",
+                                              "3.8", "3.11", "3.12", "4.3", "4.4", "8.3", "8.4", "9.3", "9.15", "5.1"};
+  return quick.count(to_string(id)) == 1;
+}
+
+TEST(FrameFromPoints, AllHeads_InAll24Positions_AreRecovered) {
+  for (const Head& upright : upright_heads()) {
+    if (upright.points.empty()) continue;
+    for (const Axes& axes : all_axes()) {
+      auto points = turned(upright.points, axes);
+      const FrameGuess all = guess_frame(points, {});
+      EXPECT_TRUE(all.axes_sure) << upright.name;
+      EXPECT_EQ(all.axes, axes) << upright.name << " " << to_string(axes.up) << to_string(axes.front);
+      std::erase_if(points, [](const PlacedPoint& p) { return !is_quick(p.id); });
+      const FrameGuess quick = guess_frame(points, {});
+      EXPECT_TRUE(quick.axes_sure) << upright.name;
+      EXPECT_EQ(quick.axes, axes) << upright.name << " quick set";
+    }
+  }
+}
+
+TEST(FrameFromPoints, UnitsOfTheHeads_AreThoseTheyWereMadeIn) {
+  for (const Head& head : upright_heads()) {
+    if (head.points.empty()) continue;
+    const FrameGuess guess = guess_frame(head.points, {});
+    EXPECT_TRUE(guess.unit_sure) << head.name;
+    const LengthUnit expected = head.name == "sample"          ? LengthUnit::metre
+                                : head.name == "makehuman obj" ? LengthUnit::decimetre
+                                                               : LengthUnit::centimetre;
+    EXPECT_EQ(guess.unit, expected) << head.name;
+  }
+}
+
+TEST(FrameFromPoints, LeftAndRightExchanged_IsSaid_AndDoesNotTurnTheHeadRound) {
+  Head head = upright_heads().front();
+  for (PlacedPoint& point : head.points) point.position.x = -point.position.x;
+  const FrameGuess guess = guess_frame(head.points, {});
+  EXPECT_TRUE(guess.axes_sure);
+  EXPECT_EQ(guess.axes, Axes{});
+  EXPECT_NE(guess.reasons.front().find("left and right"), std::string::npos);
+}
+
+TEST(FrameFromPoints, TooFewPoints_LeaveTheGuessAsItWas) {
+  const Head head = upright_heads().front();
+  FrameGuess before;
+  before.axes = {Direction::plus_z, Direction::minus_y};
+  before.unit = LengthUnit::inch;
+  before.reasons = {"seen before"};
+  EXPECT_EQ(guess_frame(std::span<const PlacedPoint>{}, before).axes, before.axes);
+  for (const char* const only : {"9.3", "2.1"}) {
+    std::vector<PlacedPoint> few;
+    for (const PlacedPoint& point : head.points) {
+      if (to_string(point.id) == only) few.push_back(point);
+    }
+    const FrameGuess guess = guess_frame(few, before);
+    EXPECT_EQ(guess.axes, before.axes);
+    EXPECT_FALSE(guess.axes_sure);
+    EXPECT_EQ(guess.unit, LengthUnit::inch);
+    EXPECT_EQ(guess.reasons, before.reasons);
+  }
+}
+
+TEST(FrameFromPoints, AHeadTiltedByHalfARightAngle_IsNotSure) {
+  Head head = upright_heads().front();
+  for (PlacedPoint& p : head.points) {
+    const double y = p.position.y;
+    p.position.y = (y - p.position.z) * 0.7071;
+    p.position.z = (y + p.position.z) * 0.7071;
+  }
+  const Axes forward{Direction::plus_z, Direction::minus_y};
+  const FrameGuess guess = guess_frame(head.points, {});
+  EXPECT_FALSE(guess.axes_sure);
+  EXPECT_TRUE(guess.axes == Axes{} || guess.axes == forward);
+}
+
+}  // namespace
+}  // namespace semblante::test

@@ -1,0 +1,69 @@
+#include "core/frame/frame.h"
+
+#include <set>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <gtest/gtest.h>
+
+#include "core/frame/human_size.h"
+
+namespace semblante {
+namespace {
+
+TEST(Frame, All24Axes_AreDifferentRotations) {
+  std::set<std::string> seen;
+  for (const Axes& axes : all_axes()) {
+    ASSERT_TRUE(are_valid(axes));
+    const glm::dmat3 m = to_mpeg4(axes);
+    EXPECT_EQ(glm::determinant(m), 1.0);
+    EXPECT_EQ(m * to_vector(axes.up), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(m * to_vector(axes.front), glm::dvec3(0, 0, 1));
+    seen.insert(std::string(to_string(axes.up)) + std::string(to_string(axes.front)));
+  }
+  EXPECT_EQ(seen.size(), 24U);
+  EXPECT_EQ(to_mpeg4({}), glm::dmat3(1.0));
+  EXPECT_FALSE(are_valid({Direction::plus_y, Direction::minus_y}));
+}
+
+TEST(Frame, Names_AreRead_AndNothingElse) {
+  for (std::size_t i = 0; i < direction_names.size(); ++i)
+    EXPECT_EQ(parse_direction(direction_names[i]), static_cast<Direction>(i));
+  EXPECT_EQ(parse_direction("z"), Direction::plus_z);
+  EXPECT_EQ(parse_direction("-x"), Direction::minus_x);
+  for (const char* const text : {"", "+", "-", "W", "+YY", "++Y", "up", " Y"})
+    EXPECT_EQ(parse_direction(text), std::nullopt);
+  for (std::size_t i = 0; i < length_unit_names.size(); ++i)
+    EXPECT_EQ(parse_length_unit(length_unit_names[i]), static_cast<LengthUnit>(i));
+  EXPECT_EQ(parse_length_unit("km"), std::nullopt);
+}
+
+TEST(HumanSize, Eyes_AreAFaceApart_InOneUnitOnly) {
+  EXPECT_EQ(unit_of_eye_separation(0.063), LengthUnit::metre);
+  EXPECT_EQ(unit_of_eye_separation(0.61), LengthUnit::decimetre);
+  EXPECT_EQ(unit_of_eye_separation(6.5), LengthUnit::centimetre);
+  EXPECT_EQ(unit_of_eye_separation(66.0), LengthUnit::millimetre);
+  EXPECT_EQ(unit_of_eye_separation(2.5), LengthUnit::inch);
+  EXPECT_EQ(unit_of_eye_separation(1000.0), std::nullopt);
+}
+
+TEST(HumanSize, Height_OfAHeadABustOrABody_TellsTheUnit) {
+  const auto shown = [](double height) {
+    const auto by_size = unit_of_height(height);
+    return by_size ? std::string(to_string(by_size->unit)) + (by_size->is_sure ? "" : "?") : std::string();
+  };
+  EXPECT_EQ(shown(0.28), "m");
+  EXPECT_EQ(shown(2.9), "dm");
+  EXPECT_EQ(shown(28.0), "cm");
+  EXPECT_EQ(shown(280.0), "mm");
+  EXPECT_EQ(shown(1800.0), "mm") << "a body";
+  EXPECT_EQ(shown(1.8), "m?") << "a body, or a head in dm";
+  EXPECT_EQ(shown(180.0), "cm?") << "a body, or a head in mm";
+  EXPECT_EQ(shown(9.0), "in");
+  EXPECT_EQ(shown(1e9), "");
+  EXPECT_EQ(shown(0.0), "");
+}
+
+}  // namespace
+}  // namespace semblante
