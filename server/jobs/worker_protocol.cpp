@@ -2,28 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/record_json.h"
+
 namespace semblante::jobs {
 namespace {
 
 using nlohmann::json;
-
-json to_value(const store::PartRecord& part) {
-  return {{"name", part.name},         {"role", part.role},           {"by_user", part.role_by_user},
-          {"vertices", part.vertices}, {"triangles", part.triangles}, {"min", part.box_min},
-          {"max", part.box_max}};
-}
-
-store::PartRecord part_from(const json& value) {
-  store::PartRecord part;
-  part.name = value.at("name");
-  part.role = value.at("role");
-  part.role_by_user = value.at("by_user");
-  part.vertices = value.at("vertices");
-  part.triangles = value.at("triangles");
-  part.box_min = value.at("min");
-  part.box_max = value.at("max");
-  return part;
-}
 
 template <class T, class Make>
 std::vector<T> list_from(const json& values, Make make) {
@@ -35,12 +19,8 @@ std::vector<T> list_from(const json& values, Make make) {
 json to_value(const WorkerResult& result) {
   json value = {{"format", result.format}, {"vertices", result.vertices}, {"triangles", result.triangles},
                 {"min", result.box_min},   {"max", result.box_max},       {"warnings", result.warnings},
-                {"parts", json::array()},  {"artefacts", json::array()}};
-  if (result.findings)
-    value["findings"] = {{"errors", result.findings->errors},
-                         {"warnings", result.findings->warnings},
-                         {"notes", result.findings->notes}};
-  for (const auto& part : result.parts) value["parts"].push_back(to_value(part));
+                {"parts", result.parts},   {"artefacts", json::array()}};
+  if (result.findings) value["findings"] = *result.findings;
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
   return value;
@@ -54,11 +34,8 @@ WorkerResult result_from(const json& value) {
   result.box_min = value.at("min");
   result.box_max = value.at("max");
   result.warnings = value.at("warnings").get<std::vector<std::string>>();
-  if (value.contains("findings")) {
-    const auto& counts = value["findings"];
-    result.findings = store::FindingCounts{counts.at("errors"), counts.at("warnings"), counts.at("notes")};
-  }
-  result.parts = list_from<store::PartRecord>(value.at("parts"), part_from);
+  if (value.contains("findings")) result.findings = value["findings"].get<store::FindingCounts>();
+  value.at("parts").get_to(result.parts);
   result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
     return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};
   });
@@ -79,14 +56,13 @@ std::string to_json(const WorkerRequest& request) {
                 {"weights", request.weights},
                 {"weight_bits", request.weight_bits},
                 {"points", json::array()},
-                {"parts", json::array()}};
+                {"parts", request.parts}};
   for (const auto& point : request.points) {
     json item = {{"id", point.id}};
     if (point.vertex) item["vertex"] = *point.vertex;
     if (point.position) item["position"] = *point.position;
     value["points"].push_back(std::move(item));
   }
-  for (const auto& part : request.parts) value["parts"].push_back(to_value(part));
   return dump(value);
 }
 
@@ -109,7 +85,7 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
       if (item.contains("position")) point.position = item["position"].get<std::array<double, 3>>();
       return point;
     });
-    request.parts = list_from<store::PartRecord>(value.at("parts"), part_from);
+    value.at("parts").get_to(request.parts);
     return request;
   } catch (const json::exception& fault) {
     return Error{ErrorCode::malformed, "", fault.what()};

@@ -1,0 +1,33 @@
+#include "server/store/record_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace semblante::store {
+
+void to_json(nlohmann::json& json, const PartRecord& part) {
+  json = {{"name", part.name},         {"role", part.role},           {"by_user", part.role_by_user},
+          {"vertices", part.vertices}, {"triangles", part.triangles}, {"min", part.box_min},
+          {"max", part.box_max}};
+}
+
+void from_json(const nlohmann::json& json, PartRecord& part) {
+  json.at("name").get_to(part.name);
+  json.at("role").get_to(part.role);
+  json.at("by_user").get_to(part.role_by_user);
+  json.at("vertices").get_to(part.vertices);
+  json.at("triangles").get_to(part.triangles);
+  json.at("min").get_to(part.box_min);
+  json.at("max").get_to(part.box_max);
+}
+
+void to_json(nlohmann::json& json, const FindingCounts& counts) {
+  json = {{"errors", counts.errors}, {"warnings", counts.warnings}, {"notes", counts.notes}};
+}
+
+void from_json(const nlohmann::json& json, FindingCounts& counts) {
+  json.at("errors").get_to(counts.errors);
+  json.at("warnings").get_to(counts.warnings);
+  json.at("notes").get_to(counts.notes);
+}
+
+}  // namespace semblante::store

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "server/store/records.h"
+
+namespace semblante::store {
+
+// What the store keeps of a model and what a worker process says of it are the same JSON. nlohmann::json finds these
+// pairs by itself, also for vectors; the reading ones throw nlohmann::json::exception on another form.
+
+void to_json(nlohmann::json& json, const PartRecord& part);
+void from_json(const nlohmann::json& json, PartRecord& part);
+
+void to_json(nlohmann::json& json, const FindingCounts& counts);
+void from_json(const nlohmann::json& json, FindingCounts& counts);
+
+}  // namespace semblante::store
