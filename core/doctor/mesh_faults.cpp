@@ -43,12 +43,13 @@ void find_repeated(const Model& model, const Surface& surface, const MeshSides& 
   out.push_back(std::move(finding));
 }
 
-void find_non_manifold(const Model& model, const Surface& surface, const MeshSides& mesh, std::vector<Finding>& out) {
+void find_non_manifold(const Model& model, const Surface& surface, std::span<const Part> parts, const MeshSides& mesh,
+                       std::vector<Finding>& out) {
   VertexSample vertices;
   std::size_t edges = 0;
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     const auto sides = mesh.sides_of(e);
-    if (sides.size() <= 2) continue;
+    if (sides.size() <= 2 || !is_skin(surface, parts, sides[0].low)) continue;
     ++edges;
     vertices.add(surface.file_vertex_of[sides[0].low]);
   }
@@ -78,9 +79,10 @@ void find_unused(const Model& model, const Surface& surface, std::vector<Finding
 
 }  // namespace
 
-std::vector<Finding> find_mesh_faults(const Model& model, const Surface& surface, const MeshSides& mesh) {
+std::vector<Finding> find_mesh_faults(const Model& model, const Surface& surface, std::span<const Part> parts,
+                                      const MeshSides& mesh) {
   std::vector<Finding> findings;
-  find_non_manifold(model, surface, mesh, findings);
+  find_non_manifold(model, surface, parts, mesh, findings);
   find_repeated(model, surface, mesh, findings);
   find_degenerate(model, surface, mesh, findings);
   find_unused(model, surface, findings);

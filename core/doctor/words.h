@@ -7,6 +7,7 @@
 #include "core/doctor/finding.h"
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
+#include "core/types/rig.h"
 
 namespace semblante {
 
@@ -21,5 +22,10 @@ std::string percent(double share);
 
 /// The place of these vertices: their part if the sample lies on one, and the first of them to look at.
 Place place_of(const Model& model, const Surface& surface, VertexSample vertices);
+
+/// Whether a surface vertex is on a part of that role. `parts` by PartId.
+inline bool is_skin(const Surface& surface, std::span<const Part> parts, std::uint32_t surface_vertex) {
+  return parts[surface.part_of[surface_vertex].value()].role == PartRole::skin;
+}
 
 }  // namespace semblante

@@ -5,8 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include "core/doctor/examine.h"
+#include "core/doctor/marked_points.h"
 #include "core/parametrize/parametrize.h"
-#include "core/parametrize/place_feature_points.h"
+#include "core/parametrize/part_roles.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/head_input.h"
@@ -23,15 +24,18 @@ struct ExamineCommand {
 Report examine_files(const HeadOptions& options) {
   const HeadFiles files = read_head(options);
   const Surface surface = build_surface(files.model);
-  if (files.marked.empty()) return examine_mesh(files.model, surface);
-  const auto points = place_feature_points(files.model, surface, files.marked, nullptr);
-  if (!points) fail(options.feature_points_path, points.error());
+  if (options.feature_points_path.empty())
+    return examine_mesh(files.model, surface, describe_parts(files.model, surface, {}));
+  PlacedPoints placed = place_what_can_be(files.model, surface, files.marked);
+  print_warnings(placed.warnings, options.quiet);
   ParametrizeOptions parametrize_options;
   parametrize_options.weights = parse_weight_method(options.weights).value_or(WeightMethod::paper);
   parametrize_options.metric = parse_distance_metric(options.metric).value_or(DistanceMetric::edge);
-  const auto rig = parametrize(files.model, surface, *points, parametrize_options);
+  const auto rig = parametrize(files.model, surface, placed.points, parametrize_options);
   if (!rig) fail(options.model_path, rig.error());
-  return examine(files.model, surface, *rig, parametrize_options.weights);
+  Report report = examine(files.model, surface, *rig, parametrize_options.weights);
+  report.findings.insert(report.findings.begin(), placed.refused.begin(), placed.refused.end());
+  return report;
 }
 
 void print(const Report& report, std::ostream& out) {

@@ -138,7 +138,7 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   result.warnings = model->warnings;
 
   progress(0.6, "report");
-  if (auto written = write_report_artefact(request, result, examine_mesh(*model, surface)); !written)
+  if (auto written = write_report_artefact(request, result, examine_mesh(*model, surface, parts)); !written)
     return written.error();
 
   progress(0.7, "preview");

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/doctor/part_checks.h"
+#include "core/doctor/words.h"
+
+namespace semblante {
+namespace {
+
+/// Borders closer than this share of their edges were meant to be one: a twentieth is no gap that anybody modelled.
+constexpr double gap_share = 0.05;
+/// Vertices looked at in one cell: a heap of vertices at one place must not cost their square.
+constexpr std::size_t most_in_cell = 16;
+
+/// Vertices by cubes of space.
+class Cells {
+ public:
+  Cells(const Surface& surface, double size) : surface_(surface), size_(size) {}
+
+  void insert(std::uint32_t vertex) {
+    auto& cell = cells_[key(surface_.positions[vertex], 0, 0, 0)];
+    if (cell.size() < most_in_cell) cell.push_back(vertex);
+  }
+
+  template <class Visit>
+  void visit_near(std::uint32_t vertex, Visit visit) const {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto cell = cells_.find(key(surface_.positions[vertex], x, y, z));
+          if (cell == cells_.end()) continue;
+          for (const std::uint32_t other : cell->second) visit(other);
+        }
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t key(const glm::dvec3& p, int x, int y, int z) const {
+    // Different cubes may share a key: that costs a comparison, never a wrong answer.
+    const auto along = [&](double value, int step) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / size_)) + step);
+    };
+    return along(p.x, x) * 73856093U ^ along(p.y, y) * 19349663U ^ along(p.z, z) * 83492791U;
+  }
+
+  const Surface& surface_;
+  double size_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+struct Border {
+  std::uint32_t a, b;
+};
+
+std::vector<Border> borders_of(const MeshSides& mesh) {
+  std::vector<Border> borders;
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.sides_of(e).size() == 1) borders.push_back({mesh.sides_of(e)[0].low, mesh.sides_of(e)[0].high});
+  return borders;
+}
+
+}  // namespace
+
+std::vector<Finding> find_open_seams(const Model& model, const Surface& surface, std::span<const Part> parts,
+                                     const MeshSides& mesh) {
+  const std::vector<Border> borders = borders_of(mesh);
+  if (borders.empty()) return {};
+
+  std::vector<double> lengths;
+  std::unordered_map<std::uint32_t, double> shortest_at;  // of the border edges that end at a vertex
+  for (const auto& [a, b] : borders) {
+    const double length = glm::distance(surface.positions[a], surface.positions[b]);
+    lengths.push_back(length);
+    for (const std::uint32_t v : {a, b}) {
+      auto& shortest = shortest_at.try_emplace(v, length).first->second;
+      shortest = std::min(shortest, length);
+    }
+  }
+  const auto half = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), half, lengths.end());
+  const double widest = gap_share * *half;
+  // Nothing can be closer than a width of nothing, and cubes must not be more than 64 bits can count.
+  const double extent = glm::length(surface.positions.front()) + 1.0;
+  if (!(widest > extent * 1e-12)) return {};
+
+  Cells cells(surface, widest);
+  for (const auto& [vertex, length] : shortest_at) cells.insert(vertex);
+
+  constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  const auto partner_of = [&](std::uint32_t vertex) {
+    std::uint32_t partner = nobody;
+    double nearest = std::min(widest, gap_share * shortest_at.at(vertex));
+    cells.visit_near(vertex, [&](std::uint32_t other) {
+      if (other == vertex) return;
+      const double distance = glm::distance(surface.positions[vertex], surface.positions[other]);
+      if (distance > nearest || distance > gap_share * shortest_at.at(other)) return;
+      for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(vertex)))
+        if (step.to.value() == other) return;
+      nearest = distance;
+      partner = other;
+    });
+    return partner;
+  };
+
+  // A vertex that touches another border is a contact; an edge of which both ends do is a seam.
+  VertexSample vertices;
+  std::size_t count = 0;
+  double gap = 0.0;
+  for (const auto& [a, b] : borders) {
+    const std::uint32_t pa = partner_of(a);
+    if (pa == nobody) continue;
+    const std::uint32_t pb = partner_of(b);
+    if (pb == nobody || pa == pb) continue;
+    // The piece that was cut off the skin may pass for anything, but what it was cut off is skin.
+    if (!is_skin(surface, parts, a) && !is_skin(surface, parts, pa)) continue;
+    ++count;
+    gap = std::max({gap, glm::distance(surface.positions[a], surface.positions[pa]),
+                    glm::distance(surface.positions[b], surface.positions[pb])});
+    vertices.add(surface.file_vertex_of[a]);
+  }
+  if (count == 0) return {};
+  Finding finding;
+  finding.code = FindingCode::open_seam;
+  finding.severity = Severity::warning;
+  finding.place = place_of(model, surface, std::move(vertices));
+  finding.words = count_of(count, "border edge of the skin lies", "border edges of the skin lie") +
+                  " next to another border without being joined to it; the skin is cut there, and no movement crosses "
+                  "the cut";
+  finding.remedy = "merge vertices by distance along the seam: give those that belong together the same position";
+  finding.measured = {"widest gap as a share of the length of a border edge", gap / *half, gap_share};
+  return {std::move(finding)};
+}
+
+}  // namespace semblante

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/doctor/point_checks.h"
+#include "core/doctor/words.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+/// About a centimetre on a human face. Two sides of a real face differ by 1 to 4 mm (0.02 to 0.06 of ES0); areas more
+/// than points (cheeks, jaw, ears, hair line) are marked less exactly, so they get twice the room.
+constexpr double most_off = 0.15;
+constexpr double most_off_in_areas = 0.30;
+
+bool is_an_area(FeaturePointId id) {
+  const int group = group_of(id);
+  const std::string name = to_string(id);
+  return group == 5 || group >= 10 || name == "2.13" || name == "2.14" || group == 6;
+}
+
+double middle(std::vector<double> values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+}  // namespace
+
+std::vector<Finding> find_points_off_mirror(const Subject& head) {
+  std::vector<Finding> findings;
+  const FaceFrame& face = head.frame;
+  if (!face.eye_separation) return findings;
+
+  // The plane x = a + b y + c z that halves the pairs: medians, as a point that is off must not tilt it. A plane along
+  // the axes does for a face that is upright; what remains of a tilt is within the threshold.
+  std::vector<double> halves;
+  for (std::uint8_t id = 0; id < feature_point_count; ++id) {
+    const auto& info = mpeg4::feature_points[id];
+    if (info.side != mpeg4::Side::left || !face.places[id] || !face.places[info.mirror]) continue;
+    halves.push_back(0.5 * (face.places[id]->x + face.places[info.mirror]->x));
+  }
+  if (halves.size() < 2) return findings;
+  const double plane = middle(halves);
+
+  for (std::uint8_t index = 0; index < feature_point_count; ++index) {
+    const auto& info = mpeg4::feature_points[index];
+    if (info.side == mpeg4::Side::right || !face.places[index] || !face.places[info.mirror]) continue;
+    const FeaturePointId id(index);
+    const FeaturePointId other(info.mirror);
+    glm::dvec3 mirrored = *face.places[info.mirror];
+    mirrored.x = 2.0 * plane - mirrored.x;
+    double off = glm::distance(*face.places[index], mirrored) / *face.eye_separation;
+    if (id == other) off *= 0.5;  // a point in the middle is off by its distance to the plane
+    const double most = is_an_area(id) ? most_off_in_areas : most_off;
+    if (off <= most) continue;
+    Finding finding;
+    finding.code = FindingCode::point_off_mirror;
+    finding.severity = Severity::warning;
+    finding.place.points.push_back(id);
+    if (id != other) finding.place.points.push_back(other);
+    for (const FeaturePointId each : finding.place.points) {
+      const FeaturePoint* const at = find_point(head.rig.points, to_string(each));
+      if (at != nullptr && at->vertex) finding.place.vertices.add(*at->vertex);
+      if (at != nullptr && !finding.place.position) finding.place.position = glm::dvec3(at->position);
+    }
+    finding.words = id == other
+                        ? to_string(id) + " belongs into the middle of the face, but is off it by " + percent(off) +
+                              " of the distance of the pupils"
+                        : to_string(id) + " and " + to_string(other) + " do not mirror each other: one is off by " +
+                              percent(off) + " of the distance of the pupils";
+    finding.remedy = id == other ? "move the point into the middle, unless the face is like that"
+                                 : "move the one that is wrong, or have it filled in from the other side, unless the "
+                                   "face is like that";
+    finding.measured = {"share of ES0 off the mirrored place", off, most};
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace semblante

@@ -1,0 +1,71 @@
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/doctor/openings.h"
+#include "core/doctor/words.h"
+#include "core/parametrize/point_lookup.h"
+
+namespace semblante {
+namespace {
+
+/// In the neutral face lips touch. Lips at rest stand up to 2 mm apart, 0.03 of ES0; from 3 mm on a mouth looks open,
+/// and every viseme that should close it does not.
+constexpr double open_mouth = 0.05;
+/// In the neutral face lids are tangent to the iris, which is 0.15 to 0.23 of ES0 on people; below two thirds of the
+/// mean they cover it, and FAPs 19 to 22, in units of their distance, close the eyes too little or too much.
+constexpr double closed_eye = 0.12;
+
+Finding between(const Subject& head, std::string_view upper, std::string_view lower) {
+  Finding finding;
+  const FeaturePoint* const a = find_point(head.rig.points, upper);
+  const FeaturePoint* const b = find_point(head.rig.points, lower);
+  finding.place.points = {a->id, b->id};
+  for (const FeaturePoint* const each : {a, b})
+    if (each->vertex) finding.place.vertices.add(*each->vertex);
+  finding.place.position = 0.5 * (glm::dvec3(a->position) + glm::dvec3(b->position));
+  finding.severity = Severity::warning;
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> find_rims_not_neutral(const Subject& head) {
+  std::vector<Finding> findings;
+  if (!head.frame.eye_separation) return findings;
+  const auto gap = [&](std::string_view upper, std::string_view lower) -> std::optional<double> {
+    const auto& a = head.frame.place(upper);
+    const auto& b = head.frame.place(lower);
+    if (!a || !b) return std::nullopt;
+    return (a->y - b->y) / *head.frame.eye_separation;
+  };
+  if (const auto mouth = gap("2.2", "2.3"); mouth && *mouth > open_mouth) {
+    Finding finding = between(head, "2.2", "2.3");
+    finding.code = FindingCode::mouth_open;
+    finding.words =
+        "the mouth stands open by " + percent(*mouth) +
+        " of the distance of the pupils, but in the neutral face the lips touch; p, b and m will not close it";
+    finding.remedy =
+        "export the model with its mouth closed, or check that 2.2 and 2.3 are on the inner rims of the lips";
+    finding.measured = {"2.2 above 2.3 as a share of ES0", *mouth, open_mouth};
+    findings.push_back(std::move(finding));
+  }
+  for (const auto& [upper, lower, side] : {std::array<std::string_view, 3>{"3.1", "3.3", "left"},
+                                           std::array<std::string_view, 3>{"3.2", "3.4", "right"}}) {
+    const auto eye = gap(upper, lower);
+    if (!eye || *eye >= closed_eye || *eye <= 0.0) continue;
+    Finding finding = between(head, upper, lower);
+    finding.code = FindingCode::eye_not_open;
+    finding.words = "the " + std::string(side) + " eye is not open: its lids are " + percent(*eye) +
+                    " of the distance of the pupils apart, but in the neutral face they are tangent to the iris; "
+                    "IRISD is too small, and a blink of full strength does not reach";
+    finding.remedy = "export the model with its eyes open, or check that " + std::string(upper) + " and " +
+                     std::string(lower) + " are on the rims of the lids; IRISD can also be given by hand";
+    finding.measured = {"distance of the lids as a share of ES0", *eye, closed_eye};
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace semblante

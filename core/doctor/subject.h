@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/doctor/face_frame.h"
+#include "core/doctor/mesh_sides.h"
+#include "core/geometry/surface.h"
+#include "core/parametrize/weight_method.h"
+#include "core/types/model.h"
+#include "core/types/rig.h"
+
+namespace semblante {
+
+/// A parametrized head under examination, with what more than one check asks of it.
+struct Subject {
+  const Model& model;
+  const Surface& surface;
+  const MeshSides& mesh;
+  const Rig& rig;
+  WeightMethod method;
+  FaceFrame frame;
+};
+
+}  // namespace semblante

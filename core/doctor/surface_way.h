@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/point_lookup.h"
+
+namespace semblante {
+
+/// The point of that name ("2.1"), or null. `name` must be one of the 84.
+const SurfacePoint* point_named(std::span<const SurfacePoint> points, std::string_view name);
+
+/// The vertices of a shortest way along mesh edges, from `to` back to where `distances` (of EdgePathSearch) are zero.
+std::vector<SurfaceVertexId> way_back(const Surface& surface, std::span<const double> distances, SurfaceVertexId to);
+
+}  // namespace semblante

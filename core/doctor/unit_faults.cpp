@@ -1,0 +1,102 @@
+#include <array>
+#include <sstream>
+#include <string>
+
+#include "core/doctor/point_checks.h"
+#include "core/doctor/words.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+/// What a unit is on a human face, as a share of ES0 (pupils 54 to 74 mm apart). From anthropometry of adults: the iris
+/// is 11 to 12.5 mm wide, pupils to the base of the nose 38 to 52 mm, from there to the mouth line 17 to 27 mm, the
+/// mouth 42 to 62 mm wide.
+struct HumanRange {
+  double least, greatest;
+};
+constexpr std::array<HumanRange, fapu_unit_count> human = {
+    {{0.15, 0.23}, {1.0, 1.0}, {0.55, 0.90}, {0.23, 0.45}, {0.60, 1.00}}};
+
+/// Drawn and animal heads go beyond people; at half the least or twice the greatest it is more likely a wrong point.
+constexpr double room = 2.0;
+/// ES itself is compared with what the rest of the eyes says.
+constexpr double room_of_es = 1.25;
+
+std::vector<FeaturePointId> points_of(std::size_t unit) {
+  std::vector<FeaturePointId> ids;
+  const auto& info = mpeg4::fapus[unit];
+  for (std::size_t m = 0; m < info.measure_count; ++m) {
+    ids.emplace_back(info.measures[m].to);
+    ids.emplace_back(info.measures[m].from);
+  }
+  return ids;
+}
+
+std::string two_digits(double value) {
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
+Finding about(const Subject& head, std::size_t unit) {
+  Finding finding;
+  finding.place.points = points_of(unit);
+  for (const FeaturePointId id : finding.place.points) {
+    const FeaturePoint* const point = find_point(head.rig.points, to_string(id));
+    if (point == nullptr) continue;
+    if (point->vertex) finding.place.vertices.add(*point->vertex);
+    if (!finding.place.position) finding.place.position = glm::dvec3(point->position);
+  }
+  finding.remedy = "look at " + list_of(finding.place.points) + ", or give the unit by hand";
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> find_unit_faults(const Subject& head) {
+  std::vector<Finding> findings;
+  const bool whole_face_wrong = !find_wrong_way_round(head).empty();
+  for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
+    const std::string name(fapu_unit_names[unit]);
+    const auto value = head.rig.fapu.value[unit];
+    if (!value) {
+      // Missing points are told with what else they stop, a face the wrong way round once.
+      bool measurable = false;
+      const auto& info = mpeg4::fapus[unit];
+      for (std::size_t m = 0; m < info.measure_count; ++m)
+        measurable |= head.frame.places[info.measures[m].from] && head.frame.places[info.measures[m].to];
+      if (!measurable || whole_face_wrong) continue;
+      Finding finding = about(head, unit);
+      finding.code = FindingCode::unit_not_positive;
+      finding.severity = Severity::error;
+      finding.words = name + ", the " + std::string(info.meaning) +
+                      ", is zero or negative: its points are at one height or exchanged, and no FAP in that unit moves";
+      finding.measured = {name, 0.0, 0.0};
+      findings.push_back(std::move(finding));
+      continue;
+    }
+    if (!head.frame.eye_separation) continue;
+    const double share = *value * 1024.0 / *head.frame.eye_separation;
+    const bool is_es = unit == static_cast<std::size_t>(FapuUnit::es);
+    const double least = is_es ? 1.0 / room_of_es : human[unit].least / room;
+    const double greatest = is_es ? room_of_es : human[unit].greatest * room;
+    if (share >= least && share <= greatest) continue;
+    Finding finding = about(head, unit);
+    finding.code = FindingCode::unit_implausible;
+    finding.severity = Severity::warning;
+    finding.words =
+        name + ", the " + std::string(mpeg4::fapus[unit].meaning) + ", is " + two_digits(share) +
+        " of the distance of the eyes; " +
+        (is_es ? std::string("lids and brows put the eyes elsewhere than the pupils do")
+               : "on people it is " + two_digits(human[unit].least) + " to " + two_digits(human[unit].greatest)) +
+        ", and every movement in that unit is as far off";
+    finding.measured = {name + " as a share of ES0", share, share < least ? least : greatest};
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace semblante

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "core/doctor/point_checks.h"
+#include "core/doctor/words.h"
+#include "core/parametrize/point_lookup.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+/// FAPs move points along the axes of the model: at 30 degrees half of every movement goes into the wrong one.
+constexpr double most_tilt = 30.0;
+
+double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+}
+
+std::vector<FeaturePointId> ids_of(const FeaturePointSet& points) {
+  std::vector<FeaturePointId> ids;
+  for (const FeaturePoint& point : points) ids.push_back(point.id);
+  return ids;
+}
+
+std::optional<Finding> wrong_axes(const Subject& head) {
+  const FaceFrame& face = head.frame;
+  const double of_up = degrees_between(face.up, {0, 1, 0});
+  const double of_forward = degrees_between(face.forward, {0, 0, 1});
+  const double tilt = std::max(of_up, of_forward);
+  if (tilt <= most_tilt) return std::nullopt;
+  Finding finding;
+  finding.severity = Severity::error;
+  finding.place.points = ids_of(head.rig.points);
+  finding.measured = {"degrees between the face's axes and the model's", tilt, most_tilt};
+  const std::string angle = std::to_string(std::lround(tilt)) + " degrees";
+  if (of_up > 180.0 - most_tilt) {
+    finding.code = FindingCode::upside_down;
+    finding.words = "the face is upside down: its brows are below its mouth, so every movement goes the wrong way";
+    finding.remedy = "turn the model so that +Y is up, or tell the import which axis is up";
+  } else if (of_up <= most_tilt && of_forward > 180.0 - most_tilt) {
+    finding.code = FindingCode::facing_away;
+    finding.words = "the face looks along -Z: it faces away, so left is taken for right and forward for backward";
+    finding.remedy = "turn the model by half a turn about the vertical axis, so that it looks along +Z";
+  } else {
+    finding.code = FindingCode::not_upright;
+    finding.words = "the face is turned by " + angle + " out of the model's axes, so movements go askew";
+    finding.remedy = "turn the model so that +Y is up and the face looks along +Z, or tell the import its axes";
+  }
+  return finding;
+}
+
+std::optional<Finding> exchanged_sides(const Subject& head) {
+  const std::vector<FeaturePointId>& swapped = head.frame.swapped;
+  if (swapped.empty()) return std::nullopt;
+  Finding finding;
+  finding.code = FindingCode::left_right_swapped;
+  finding.severity = Severity::error;
+  std::string pairs;
+  std::size_t told = 0;
+  for (const FeaturePointId left : swapped) {
+    const FeaturePointId right(mpeg4::feature_points[left.value()].mirror);
+    finding.place.points.push_back(left);
+    finding.place.points.push_back(right);
+    if (++told <= 6) pairs += (pairs.empty() ? "" : ", ") + to_string(left) + " with " + to_string(right);
+  }
+  if (told > 6) pairs += " and " + count_of(told - 6, "more pair", "more pairs");
+  if (const FeaturePoint* const first = find_point(head.rig.points, to_string(swapped.front())))
+    finding.place.position = glm::dvec3(first->position);
+  finding.words = "left and right are exchanged: " + pairs +
+                  "; left and right are the face's own, not the viewer's, so these points move the wrong side";
+  finding.remedy = "exchange the points of each pair; if all of them are, the model itself may be mirrored";
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> find_wrong_way_round(const Subject& head) {
+  std::vector<Finding> findings;
+  if (auto finding = wrong_axes(head)) findings.push_back(std::move(*finding));
+  if (auto finding = exchanged_sides(head)) findings.push_back(std::move(*finding));
+  return findings;
+}
+
+}  // namespace semblante
