@@ -9,7 +9,8 @@ fail() {
 # What the server and the studio are built with and run on.
 product_packages=(build-essential cmake ninja-build pkg-config
   libboost1.81-dev libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
-  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libcli11-dev
+  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenmesh-dev libstb-dev nlohmann-json3-dev libglm-dev
+  libcli11-dev
   clang-14 lld-14 curl ca-certificates)
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri

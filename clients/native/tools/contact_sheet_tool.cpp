@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<std::string> faps;
   std::string size = "340x400";
   WeightMethod weights = WeightMethod::paper;
+  std::uint32_t max_vertices = 0;
   bool only_faps = false;
 };
 
@@ -99,7 +100,7 @@ Status run(const Arguments& arguments) {
   if (!list) {
     return std::move(list).error();
   }
-  auto head = load_posed_head(arguments.model, arguments.feature_points, arguments.weights);
+  auto head = load_posed_head(arguments.model, arguments.feature_points, arguments.weights, arguments.max_vertices);
   if (!head) {
     return std::move(head).error();
   }
@@ -157,6 +158,7 @@ int main(int argc, char** argv) {
                                                                   {"smooth", semblante::WeightMethod::smooth}};
   app.add_option("--weights", arguments.weights, "how weights are computed: paper, smooth")
       ->transform(CLI::CheckedTransformer(methods));
+  app.add_option("--max-vertices", arguments.max_vertices, "draw the level of detail of that many vertices; 0: all");
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::tools::run(arguments); !done) {

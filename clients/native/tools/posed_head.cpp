@@ -8,6 +8,8 @@
 #include "core/geometry/surface.h"
 #include "core/import/axes.h"
 #include "core/import/feature_points_file.h"
+#include "core/lod/decimate.h"
+#include "core/lod/lod_poses.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 
@@ -33,8 +35,30 @@ std::vector<PartRole> PosedHead::roles() const {
   return roles;
 }
 
+namespace {
+
+Status decimate_head(PosedHead& head, const Surface& surface, std::uint32_t max_vertices) {
+  const std::vector<LodPose> poses = lod_poses(head.rig, head.model);
+  LodOptions options;
+  options.budgets = {max_vertices};
+  options.poses = poses;
+  const auto levels = decimate(head.model, surface, head.rig, options);
+  if (!levels) {
+    return levels.error();
+  }
+  if (levels->empty() || levels->back().vertex_count > max_vertices) {
+    head.warnings.push_back("there is no level of " + std::to_string(max_vertices) + " vertices");
+  }
+  if (!levels->empty()) {
+    apply_level(head.model, levels->back());
+  }
+  return Unit{};
+}
+
+}  // namespace
+
 Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const std::filesystem::path& feature_points,
-                                  WeightMethod weights) {
+                                  WeightMethod weights, std::uint32_t max_vertices) {
   auto model = load_model(model_path);
   if (!model) {
     return std::move(model).error();
@@ -68,6 +92,11 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const
   head.model = *std::move(model);
   head.rig = *std::move(rig);
   head.kernel_rig = make_kernel_rig(head.rig);
+  if (max_vertices > 0) {
+    if (auto made = decimate_head(head, surface, max_vertices); !made) {
+      return std::move(made).error();
+    }
+  }
   head.warnings.insert(head.warnings.end(), head.rig.warnings.begin(), head.rig.warnings.end());
   return head;
 }

@@ -27,9 +27,10 @@ struct PosedHead {
   [[nodiscard]] std::vector<PartRole> roles() const;
 };
 
-/// Reads a model file and its feature points and parametrizes.
+/// Reads a model file and its feature points and parametrizes. `max_vertices`: makes it the level of detail of that
+/// many vertices, 0: as it is; a warning says when no such level can be made.
 Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
-                                  WeightMethod weights = WeightMethod::paper);
+                                  WeightMethod weights = WeightMethod::paper, std::uint32_t max_vertices = 0);
 
 /// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
 Result<semblante_frame> parse_faps(const std::string& text);

@@ -1,0 +1,316 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
+#include <glm/geometric.hpp>
+
+#include "core/lod/collapse_history.h"
+#include "core/lod/group_mesh.h"
+#include "core/lod/triangle_shape.h"
+
+// Needs what the mesh includes, and does not say so.
+#include <OpenMesh/Core/Geometry/QuadricT.hh>
+
+namespace semblante {
+namespace {
+
+using Quadric = OpenMesh::Geometry::Quadricd;
+using OpenMesh::FaceHandle;
+using Face = GroupMesh::Face;
+
+/// A pose's error against that of the neutral face; six expressions together weigh as much as the neutral face.
+constexpr double pose_weight = 1.0 / 6.0;
+/// Planes through borders and seams, square to the surface, against the planes of triangles: a border is a line to the
+/// eye where a surface is shading.
+constexpr double border_weight = 4.0;
+/// Pull towards short edges where the surface is flat and any collapse would do.
+constexpr double distance_weight = 1e-3;
+/// The most a triangle may turn by one collapse, at rest: cosine of 60 degrees.
+constexpr double most_turn = 0.5;
+/// How far a triangle must look the way the full surface looks at its corners.
+constexpr double least_facing = 0.2;
+/// Twice the area over the square of the longest side; a triangle below it is a needle.
+constexpr double needle = 0.05;
+
+/// Which of a triangle's corners is at a vertex of it.
+std::size_t place_in(const Face& face, int vertex) {
+  return face.vertices[0] == vertex ? 0 : face.vertices[1] == vertex ? 1 : 2;
+}
+
+Quadric plane_quadric(const glm::dvec3& unit_normal, const glm::dvec3& point, double weight) {
+  Quadric q;
+  q.set_distance_to_plane(unit_normal.x, unit_normal.y, unit_normal.z, -glm::dot(unit_normal, point));
+  return q *= weight;
+}
+
+Quadric point_quadric(const glm::dvec3& p, double weight) {
+  Quadric q(1.0, 0.0, 0.0, -p.x, 1.0, 0.0, -p.y, 1.0, -p.z, glm::dot(p, p));
+  return q *= weight;
+}
+
+/// Rules and price of a collapse, as OpenMesh's decimater asks for them.
+template <class MeshT>
+class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
+ public:
+  DECIMATING_MODULE(FaceModule, MeshT, Face);
+
+  explicit FaceModule(MeshT& mesh) : Base(mesh, false) {}
+
+  /// `group` holds the mesh this module was made for. Both outlive it.
+  void attach(GroupMesh& group, CollapseHistory& history) {
+    group_ = &group;
+    history_ = &history;
+    measure();
+  }
+
+  /// OpenMesh asks about all edges of a vertex one after the other and takes the cheapest that may collapse. The price
+  /// is found faster than whether a collapse may be, so one that is not the cheapest is refused at once.
+  float collapse_priority(const CollapseInfo& collapse) override {
+    if (collapse.v0 != asked_) {
+      asked_ = collapse.v0;
+      cheapest_ = std::numeric_limits<double>::infinity();
+    }
+    const double price = std::max(price_below(collapse, cheapest_), 0.0);
+    if (price >= cheapest_) return static_cast<float>(Base::ILLEGAL_COLLAPSE);
+    const std::optional<CornerMap> map = corner_map(collapse);
+    if (!map || !keeps_shape(collapse, *map)) return static_cast<float>(Base::ILLEGAL_COLLAPSE);
+    cheapest_ = price;
+    return static_cast<float>(price);
+  }
+
+  void preprocess_collapse(const CollapseInfo& collapse) override {
+    const CornerMap map = corner_map(collapse).value_or(CornerMap{});
+    for (const FaceHandle f : group_->mesh.vf_range(collapse.v0)) {
+      const auto number = static_cast<std::uint32_t>(f.idx());
+      if (f == collapse.fl || f == collapse.fr) {
+        history_->remove(number);
+        continue;
+      }
+      Face& face = group_->faces[number];
+      const std::size_t c = place_in(face, collapse.v0.idx());
+      face.vertices[c] = collapse.v1.idx();
+      face.corners[c] = map.at(face.corners[c]);
+      history_->change(number, face.corners);
+    }
+    history_->end_collapse();
+  }
+
+  void postprocess_collapse(const CollapseInfo& collapse) override {
+    const auto from = static_cast<std::size_t>(collapse.v0.idx());
+    const auto to = static_cast<std::size_t>(collapse.v1.idx());
+    for (std::size_t pose = 0; pose < group_->pose_count; ++pose) quadric(to, pose) += quadric(from, pose);
+    if (group_->moves[from]) group_->moves[to] = true;
+    asked_.invalidate();  // its neighbourhood is another now
+  }
+
+ private:
+  /// Which corner of v1 takes the place of each corner of v0: at most one on either side of the edge.
+  struct CornerMap {
+    std::uint32_t from[2] = {Model::no_index, Model::no_index};
+    std::uint32_t to[2] = {Model::no_index, Model::no_index};
+    [[nodiscard]] std::uint32_t at(std::uint32_t corner) const { return corner == from[0] ? to[0] : to[1]; }
+    [[nodiscard]] bool has(std::uint32_t corner) const { return corner == from[0] || corner == from[1]; }
+  };
+
+  /// None where the collapse would tear a seam open, close one or move one sideways.
+  [[nodiscard]] std::optional<CornerMap> corner_map(const CollapseInfo& collapse) const {
+    CornerMap map;
+    const FaceHandle sides[2] = {collapse.fl, collapse.fr};
+    for (int side = 0; side < 2; ++side) {
+      if (!sides[side].is_valid()) continue;
+      const Face& face = group_->face(sides[side]);
+      map.from[side] = corner_at(face, collapse.v0.idx());
+      map.to[side] = corner_at(face, collapse.v1.idx());
+    }
+    const bool inner = collapse.fl.is_valid() && collapse.fr.is_valid();
+    if (inner && (map.from[0] == map.from[1]) != (map.to[0] == map.to[1])) return std::nullopt;
+    for (const FaceHandle f : group_->mesh.vf_range(collapse.v0)) {
+      if (!map.has(corner_at(group_->face(f), collapse.v0.idx()))) return std::nullopt;
+    }
+    return map;
+  }
+
+  /// No triangle turns over, at rest or in a pose, becomes a needle, or folds the texture.
+  [[nodiscard]] bool keeps_shape(const CollapseInfo& collapse, const CornerMap& map) const {
+    const int v0 = collapse.v0.idx();
+    const int v1 = collapse.v1.idx();
+    const bool moves = group_->moves[static_cast<std::size_t>(v0)] || group_->moves[static_cast<std::size_t>(v1)];
+    for (const FaceHandle f : group_->mesh.vf_range(collapse.v0)) {
+      if (f == collapse.fl || f == collapse.fr) continue;
+      const Face& face = group_->face(f);
+      const std::size_t c = place_in(face, v0);
+      const int b = face.vertices[(c + 1) % 3];
+      const int d = face.vertices[(c + 2) % 3];
+      if (!keeps_facing(v0, v1, b, d)) return false;
+      if (moves) {
+        for (std::size_t pose = 1; pose < group_->pose_count; ++pose) {
+          const glm::dvec3& pb = group_->position(pose, b);
+          const glm::dvec3& pd = group_->position(pose, d);
+          const glm::dvec3 before = area_vector(group_->position(pose, v0), pb, pd);
+          const glm::dvec3 after = area_vector(group_->position(pose, v1), pb, pd);
+          if (glm::dot(before, after) < 0.0) return false;
+        }
+      }
+      if (!keeps_texture(face, c, map)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool keeps_facing(int v0, int v1, int b, int d) const {
+    const glm::dvec3& pb = group_->position(0, b);
+    const glm::dvec3& pd = group_->position(0, d);
+    const glm::dvec3& p0 = group_->position(0, v0);
+    const glm::dvec3& p1 = group_->position(0, v1);
+    const glm::dvec3 before = area_vector(p0, pb, pd);
+    const glm::dvec3 after = area_vector(p1, pb, pd);
+    const double area_before = glm::length(before);
+    const double area_after = glm::length(after);
+    if (area_after <= 0.0) return false;
+    if (area_before > 0.0 && glm::dot(before, after) < most_turn * area_before * area_after) return false;
+    const double full_after = fullness(p1, pb, pd, area_after);
+    if (full_after < needle && full_after < fullness(p0, pb, pd, area_before)) return false;
+    const glm::dvec3 meant = group_->normals[static_cast<std::size_t>(v1)] +
+                             group_->normals[static_cast<std::size_t>(b)] +
+                             group_->normals[static_cast<std::size_t>(d)];
+    return glm::dot(after, meant) >= least_facing * area_after * glm::length(meant) ||
+           glm::dot(after, meant) * area_before >= glm::dot(before, meant) * area_after;
+  }
+
+  [[nodiscard]] bool keeps_texture(const Face& face, std::size_t c, const CornerMap& map) const {
+    const auto uv_of = [&](std::uint32_t corner) { return group_->all.corners.corners[corner].uv; };
+    const std::uint32_t old_corner = uv_of(face.corners[c]);
+    const std::uint32_t b = uv_of(face.corners[(c + 1) % 3]);
+    const std::uint32_t d = uv_of(face.corners[(c + 2) % 3]);
+    const std::uint32_t new_corner = uv_of(map.at(face.corners[c]));
+    if (old_corner == Model::no_index || b == Model::no_index || d == Model::no_index || new_corner == Model::no_index)
+      return true;
+    const auto& uvs = group_->all.uvs;
+    const double before = twice_uv_area(uvs[old_corner], uvs[b], uvs[d]);
+    const double after = twice_uv_area(uvs[new_corner], uvs[b], uvs[d]);
+    return before == 0.0 || (before > 0.0) == (after > 0.0);
+  }
+
+  [[nodiscard]] Quadric& quadric(std::size_t vertex, std::size_t pose) {
+    return quadrics_[vertex * group_->pose_count + pose];
+  }
+
+  /// The error of the surface after the collapse, over all poses; something above `limit` once it is above.
+  [[nodiscard]] double price_below(const CollapseInfo& collapse, double limit) {
+    const auto v0 = static_cast<std::size_t>(collapse.v0.idx());
+    const auto v1 = static_cast<std::size_t>(collapse.v1.idx());
+    const auto error = [&](std::size_t pose) {
+      const glm::dvec3& p = group_->position(pose, collapse.v1.idx());
+      const OpenMesh::Vec3d at(p.x, p.y, p.z);
+      return quadric(v0, pose)(at) + quadric(v1, pose)(at);
+    };
+    double sum = error(0);
+    // What moves in no pose has the neutral face's error in all.
+    if (!group_->moves[v0] && !group_->moves[v1]) {
+      return sum * (1.0 + pose_weight * static_cast<double>(group_->pose_count - 1));
+    }
+    for (std::size_t pose = 1; pose < group_->pose_count && sum < limit; ++pose) sum += pose_weight * error(pose);
+    return sum;
+  }
+
+  /// The quadrics of all vertices in all poses: planes of triangles by area, borders and seams, a little pull.
+  void measure() {
+    const GroupMesh& group = *group_;
+    quadrics_.resize(group.mesh.n_vertices() * group.pose_count);
+    for (Quadric& q : quadrics_) q.clear();
+    for (std::size_t pose = 0; pose < group.pose_count; ++pose) {
+      for (const Face& face : group.faces) add_plane(face, pose);
+      for (const auto edge : group.mesh.edges()) {
+        if (group.is_seam(edge)) add_border(edge, pose);
+      }
+    }
+  }
+
+  [[nodiscard]] glm::dvec3 area_of(const Face& face, std::size_t pose) const {
+    const auto [a, b, c] = face.vertices;
+    return area_vector(group_->position(pose, a), group_->position(pose, b), group_->position(pose, c));
+  }
+
+  void add_plane(const Face& face, std::size_t pose) {
+    const glm::dvec3 area = area_of(face, pose);
+    const double twice_area = glm::length(area);
+    if (twice_area <= 0.0) return;
+    const Quadric plane = plane_quadric(area / twice_area, group_->position(pose, face.vertices[0]), twice_area / 6.0);
+    for (const int v : face.vertices) {
+      Quadric& sum = quadric(static_cast<std::size_t>(v), pose);
+      sum += plane;
+      sum += point_quadric(group_->position(pose, v), distance_weight * twice_area / 6.0);
+    }
+  }
+
+  void add_border(OpenMesh::EdgeHandle edge, std::size_t pose) {
+    for (const unsigned side : {0U, 1U}) {
+      const auto half = group_->mesh.halfedge_handle(edge, side);
+      const FaceHandle f = group_->mesh.face_handle(half);
+      if (!f.is_valid()) continue;
+      const int from = group_->mesh.from_vertex_handle(half).idx();
+      const int to = group_->mesh.to_vertex_handle(half).idx();
+      const glm::dvec3 along = group_->position(pose, to) - group_->position(pose, from);
+      const glm::dvec3 outward = glm::cross(along, area_of(group_->face(f), pose));
+      const double length = glm::length(outward);
+      if (length <= 0.0) continue;
+      const Quadric plane =
+          plane_quadric(outward / length, group_->position(pose, from), border_weight * glm::dot(along, along) / 6.0);
+      quadric(static_cast<std::size_t>(from), pose) += plane;
+      quadric(static_cast<std::size_t>(to), pose) += plane;
+    }
+  }
+
+  GroupMesh* group_ = nullptr;
+  CollapseHistory* history_ = nullptr;
+  std::vector<Quadric> quadrics_;  ///< by vertex, then pose
+  OpenMesh::VertexHandle asked_;   ///< the vertex asked about last, and the least price found for it
+  double cheapest_ = 0.0;
+};
+
+/// Stops the decimater at the number of corners wanted, or when its owner has had enough.
+class Stop : public OpenMesh::Decimater::Observer {
+ public:
+  Stop(const CollapseHistory& history, std::size_t least, const std::function<bool()>& go_on)
+      : Observer(1), history_(history), least_(least), go_on_(go_on) {}
+  void notify(std::size_t step) override {
+    if (step % 4096 == 0 && !go_on_()) stopped_ = true;
+  }
+  [[nodiscard]] bool abort() const override { return stopped_ || history_.least() <= least_; }
+
+ private:
+  const CollapseHistory& history_;
+  std::size_t least_;
+  const std::function<bool()>& go_on_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+CollapseHistory collapse_group(const DecimationMesh& mesh, std::span<const std::uint32_t> sources, double least_share,
+                               const std::function<bool()>& go_on) {
+  GroupMesh group(mesh, sources);
+  std::vector<LevelTriangle> full;
+  full.reserve(sources.size());
+  for (const Face& face : group.faces) full.push_back({face.source, face.corners});
+  full.insert(full.end(), group.untouched.begin(), group.untouched.end());
+  CollapseHistory history(std::move(full));
+  const auto least = static_cast<std::size_t>(least_share * static_cast<double>(history.full()));
+  if (history.full() <= least) return history;
+
+  OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(group.mesh);
+  FaceModule<HalfEdgeMesh>::Handle module;
+  decimater.add(module);
+  decimater.module(module).attach(group, history);
+  decimater.initialize();
+  Stop stop(history, least, go_on);
+  decimater.set_observer(&stop);
+  decimater.decimate();
+  return history;
+}
+
+}  // namespace semblante

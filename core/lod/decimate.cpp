@@ -1,0 +1,182 @@
+#include "core/lod/decimate.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "core/geometry/stitch.h"
+#include "core/lod/collapse_history.h"
+#include "core/lod/corners.h"
+#include "core/lod/fixed_vertices.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::array<std::uint32_t, 4> ladder = {20000, 10000, 5000, 2500};
+/// A level with more of the vertices of the one before is not worth having.
+constexpr double most_of_level_before = 0.9;
+/// The least of its equal share that a group is cut to: teeth must not vanish because lips may not.
+constexpr double least_of_share = 0.25;
+
+std::vector<glm::dvec3> on_surface(const Surface& surface, std::span<const glm::vec3> file_positions) {
+  std::vector<glm::dvec3> positions;
+  positions.reserve(surface.vertex_count());
+  for (const VertexId v : surface.file_vertex_of) positions.emplace_back(file_positions[v.value()]);
+  return positions;
+}
+
+/// The material of each triangle.
+std::vector<std::uint8_t> labels_by_material(const Model& model) {
+  std::vector<std::uint8_t> labels(model.triangles.size(), 0);
+  for (const Primitive& primitive : model.primitives) {
+    const auto first = labels.begin() + static_cast<std::ptrdiff_t>(primitive.first_triangle);
+    std::fill_n(first, primitive.triangle_count, static_cast<std::uint8_t>(primitive.material + 1));
+  }
+  return labels;
+}
+
+/// The triangles of the parts of each role. A triangle that has no three corners has no surface and is not among them.
+std::vector<std::vector<std::uint32_t>> triangles_by_role(const Model& model, const Surface& surface, const Rig& rig) {
+  std::vector<std::vector<std::uint32_t>> groups(part_role_names.size());
+  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+    Triangle at{};
+    for (std::size_t c = 0; c < 3; ++c) at[c] = surface.surface_of[model.triangles[t][c]].value();
+    if (!has_three_corners(at)) continue;
+    const PartId part = surface.part_of[at[0]];
+    groups[static_cast<std::size_t>(rig.parts[part.value()].role)].push_back(t);
+  }
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+LevelOfDetail level_from(const Corners& corners, const std::vector<LevelTriangle>& triangles, bool has_uvs) {
+  LevelOfDetail level;
+  for (const LevelTriangle& triangle : triangles) {
+    Triangle vertices{};
+    Triangle uvs{};
+    Triangle normals{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Corner& corner = corners.corners[triangle.corners[c]];
+      vertices[c] = corner.file_vertex;
+      uvs[c] = corner.uv;
+      normals[c] = corner.normal;
+    }
+    level.source_triangles.push_back(triangle.source);
+    level.triangles.push_back(vertices);
+    if (has_uvs) level.uv_triangles.push_back(uvs);
+    if (corners.has_normals) level.normal_triangles.push_back(normals);
+  }
+  return level;
+}
+
+std::size_t budget_of(const CollapseHistory& group, double share) {
+  return static_cast<std::size_t>(share * static_cast<double>(group.full()));
+}
+
+/// The groups' corners when each is cut to the same share, or to its least.
+std::size_t count_at(const std::vector<CollapseHistory>& groups, double share) {
+  std::size_t count = 0;
+  for (const CollapseHistory& group : groups) count += group.count_within(budget_of(group, share));
+  return count;
+}
+
+/// The greatest share at which all groups together are within the budget: where one cannot give more, the others do.
+double share_within(const std::vector<CollapseHistory>& groups, std::uint32_t budget) {
+  double low = 0.0;
+  double high = 1.0;
+  for (int step = 0; step < 40; ++step) {
+    const double middle = 0.5 * (low + high);
+    (count_at(groups, middle) <= budget ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& surface, const Rig& rig,
+                                            const LodOptions& options) {
+  assert(options.budgets.size() <= max_levels);
+  assert(options.labels.empty() || options.labels.size() == model.triangles.size());
+  std::vector<LevelOfDetail> levels;
+  if (options.budgets.empty()) return levels;
+  const Corners corners = options.labels.empty() ? join_corners(model, surface, labels_by_material(model), true)
+                                                 : join_corners(model, surface, options.labels, true);
+  std::vector<std::vector<glm::dvec3>> poses;
+  for (const LodPose& pose : options.poses) poses.push_back(on_surface(surface, pose.positions));
+  const std::vector<bool> fixed = fixed_vertices(surface, model, rig.points, rig.influence);
+  const DecimationMesh mesh{corners, model.uvs, surface.positions, poses, fixed};
+  const double least_share =
+      least_of_share * options.budgets.back() / static_cast<double>(std::max<std::size_t>(corners.corners.size(), 1));
+
+  std::vector<CollapseHistory> groups;
+  std::size_t triangles_done = 0;
+  bool stopped = false;
+  const auto go_on = [&] {
+    const double done = static_cast<double>(triangles_done) / static_cast<double>(model.triangles.size());
+    stopped = stopped || (options.progress && !options.progress(done));
+    return !stopped;
+  };
+  for (const auto& sources : triangles_by_role(model, surface, rig)) {
+    if (!go_on()) break;
+    groups.push_back(collapse_group(mesh, sources, least_share, go_on));
+    triangles_done += sources.size();
+  }
+  if (stopped) return Error{ErrorCode::cancelled, "", "stopped on request"};
+
+  std::size_t before = count_at(groups, 1.0);
+  for (const std::uint32_t budget : options.budgets) {
+    if (budget >= before) continue;
+    const double share = share_within(groups, budget);
+    const std::size_t count = count_at(groups, share);
+    if (static_cast<double>(count) > most_of_level_before * static_cast<double>(before)) continue;
+    std::vector<LevelTriangle> triangles;
+    for (const CollapseHistory& group : groups) group.append_triangles(budget_of(group, share), triangles);
+    std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.source < b.source; });
+    levels.push_back(level_from(corners, triangles, !model.uvs.empty() && !model.uv_triangles.empty()));
+    levels.back().budget = budget;
+    levels.back().vertex_count = static_cast<std::uint32_t>(count);
+    before = count;
+  }
+  return levels;
+}
+
+void apply_level(Model& model, const LevelOfDetail& level) {
+  auto source = level.source_triangles.begin();
+  std::uint32_t first = 0;
+  for (Primitive& primitive : model.primitives) {
+    const auto end =
+        std::lower_bound(source, level.source_triangles.end(), primitive.first_triangle + primitive.triangle_count);
+    primitive.first_triangle = first;
+    primitive.triangle_count = static_cast<std::uint32_t>(end - source);
+    first += primitive.triangle_count;
+    source = end;
+  }
+  model.triangles = level.triangles;
+  model.uv_triangles = level.uv_triangles;
+  model.normal_triangles = level.normal_triangles;
+}
+
+std::vector<Part> parts_of_level(const Rig& rig, const LevelOfDetail& level) {
+  std::vector<Part> parts = rig.parts;
+  for (Part& part : parts) part.vertex_count = part.triangle_count = 0;
+  std::vector<bool> seen(rig.part_of_vertex.size(), false);
+  for (const Triangle& t : level.triangles) {
+    ++parts[rig.part_of_vertex[t[0]].value()].triangle_count;
+    for (const std::uint32_t v : t) {
+      if (seen[v]) continue;
+      seen[v] = true;
+      ++parts[rig.part_of_vertex[v].value()].vertex_count;
+    }
+  }
+  return parts;
+}
+
+std::vector<std::uint32_t> default_budgets(std::uint32_t vertex_count) {
+  std::vector<std::uint32_t> budgets;
+  for (const std::uint32_t budget : ladder) {
+    if (budget <= vertex_count / 4 * 3) budgets.push_back(budget);
+  }
+  return budgets;
+}
+
+}  // namespace semblante
