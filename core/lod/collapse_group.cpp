@@ -181,18 +181,24 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
            glm::dot(after, meant) * area_before >= glm::dot(before, meant) * area_after;
   }
 
+  /// The texture is the same way round as on the triangle of the model.
   [[nodiscard]] bool keeps_texture(const Face& face, std::size_t c, const CornerMap& map) const {
-    const auto uv_of = [&](std::uint32_t corner) { return group_->all.corners.corners[corner].uv; };
-    const std::uint32_t old_corner = uv_of(face.corners[c]);
-    const std::uint32_t b = uv_of(face.corners[(c + 1) % 3]);
-    const std::uint32_t d = uv_of(face.corners[(c + 2) % 3]);
-    const std::uint32_t new_corner = uv_of(map.at(face.corners[c]));
-    if (old_corner == Model::no_index || b == Model::no_index || d == Model::no_index || new_corner == Model::no_index)
-      return true;
-    const auto& uvs = group_->all.uvs;
-    const double before = twice_uv_area(uvs[old_corner], uvs[b], uvs[d]);
-    const double after = twice_uv_area(uvs[new_corner], uvs[b], uvs[d]);
-    return before == 0.0 || (before > 0.0) == (after > 0.0);
+    const double meant = uv_area(group_->all.corners.triangles[face.source]);
+    if (meant == 0.0) return true;
+    std::array<std::uint32_t, 3> after = face.corners;
+    after[c] = map.at(after[c]);
+    return (meant > 0.0) == (uv_area(after) > 0.0);
+  }
+
+  /// 0 where a corner has no UV.
+  [[nodiscard]] double uv_area(const std::array<std::uint32_t, 3>& corners) const {
+    std::array<glm::vec2, 3> uvs;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t uv = group_->all.corners.corners[corners[c]].uv;
+      if (uv == Model::no_index) return 0.0;
+      uvs[c] = group_->all.uvs[uv];
+    }
+    return twice_uv_area(uvs[0], uvs[1], uvs[2]);
   }
 
   [[nodiscard]] Quadric& quadric(std::size_t vertex, std::size_t pose) {

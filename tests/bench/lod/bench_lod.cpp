@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
   }
   run("ict-facekit", *folder / "ict-facekit/neutral.obj", *folder / "ict-facekit/ict-facekit.fps.json", {});
   run("makehuman", *folder / "makehuman/head.obj", *folder / "makehuman/makehuman.fps.json", {});
-  run("mediapipe", *folder / "mediapipe-canonical/canonical_face_model.obj",
+  run("mediapipe", *folder / "mediapipe-canonical/face_model_with_iris.obj",
       *folder / "mediapipe-canonical/mediapipe-canonical.fps.json", {300, 200});
   return 0;
 }

@@ -1,0 +1,391 @@
+#include "core/lod/decimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/lod/level_error.h"
+#include "core/lod/lod_poses.h"
+#include "core/parametrize/parametrize.h"
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+using testing::make_ball;
+using testing::make_grid;
+using testing::points_at;
+
+/// A rig as decimate() reads it: parts, and rows that move nothing.
+Rig plain_rig(const Model& model, const Surface& surface, FeaturePointSet points = {}) {
+  Rig rig;
+  rig.points = std::move(points);
+  rig.parts.resize(surface.part_count());
+  for (const SurfaceVertexId v : surface.surface_of) rig.part_of_vertex.push_back(surface.part_of[v.value()]);
+  for (std::size_t v = 0; v < model.positions.size(); ++v) rig.influence.end_row();
+  return rig;
+}
+
+std::vector<LevelOfDetail> decimate_to(const Model& model, std::vector<std::uint32_t> budgets,
+                                       FeaturePointSet points = {}) {
+  const Surface surface = build_surface(model);
+  LodOptions options;
+  options.budgets = std::move(budgets);
+  return *decimate(model, surface, plain_rig(model, surface, std::move(points)), options);
+}
+
+/// A bent sheet, so that no two collapses cost the same.
+Model make_sheet(std::uint32_t side) {
+  Model model = make_grid(side, side);
+  for (glm::vec3& p : model.positions) p.z = 1.5F * std::sin(0.31F * p.x) * std::cos(0.23F * p.y);
+  return model;
+}
+
+void add_uvs(Model& model) {
+  for (const glm::vec3& p : model.positions) model.uvs.emplace_back(p.x * 0.01F, p.y * 0.01F);
+  model.uv_triangles = model.triangles;
+}
+
+std::set<std::uint32_t> used_vertices(const std::vector<Triangle>& triangles) {
+  std::set<std::uint32_t> used;
+  for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
+  return used;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+std::map<Edge, int> edges_of(const std::vector<Triangle>& triangles) {
+  std::map<Edge, int> edges;
+  for (const Triangle& t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) ++edges[std::minmax(t[c], t[(c + 1) % 3])];
+  }
+  return edges;
+}
+
+std::set<std::uint32_t> border_of(const std::vector<Triangle>& triangles) {
+  std::set<std::uint32_t> border;
+  for (const auto& [edge, count] : edges_of(triangles)) {
+    if (count == 1) border.insert({edge.first, edge.second});
+  }
+  return border;
+}
+
+double area_of(const Model& model, const std::vector<Triangle>& triangles) {
+  double area = 0.0;
+  for (const Triangle& t : triangles) {
+    area += 0.5 * glm::length(glm::cross(model.positions[t[1]] - model.positions[t[0]],
+                                         model.positions[t[2]] - model.positions[t[0]]));
+  }
+  return area;
+}
+
+TEST(Decimate, EveryLevelIsWithinItsBudgetAndPartOfTheOneBefore) {
+  const Model model = make_sheet(40);
+  const auto levels = decimate_to(model, {800, 400, 200});
+  ASSERT_EQ(levels.size(), 3U);
+  std::set<std::uint32_t> before = used_vertices(model.triangles);
+  for (const LevelOfDetail& level : levels) {
+    const auto used = used_vertices(level.triangles);
+    EXPECT_EQ(used.size(), level.vertex_count);
+    EXPECT_LE(level.vertex_count, level.budget);
+    EXPECT_GE(level.vertex_count, level.budget * 9 / 10);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), used.begin(), used.end()));
+    EXPECT_TRUE(std::is_sorted(level.source_triangles.begin(), level.source_triangles.end()));
+    before = used;
+  }
+}
+
+TEST(Decimate, TheSameInputGivesTheSameLevels) {
+  const Model model = make_sheet(25);
+  const auto once = decimate_to(model, {300, 100});
+  const auto twice = decimate_to(model, {300, 100});
+  ASSERT_EQ(once.size(), twice.size());
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].triangles, twice[i].triangles);
+}
+
+TEST(Decimate, FeaturePointsStay) {
+  const Model model = make_sheet(20);
+  const FeaturePointSet points = points_at(model, {{"4.1", 100}, {"4.2", 222}, {"9.3", 317}});
+  const auto levels = decimate_to(model, {60}, points);
+  ASSERT_EQ(levels.size(), 1U);
+  const auto used = used_vertices(levels[0].triangles);
+  for (const FeaturePoint& point : points) EXPECT_TRUE(used.contains(point.vertex->value())) << to_string(point.id);
+}
+
+TEST(Decimate, TheWayBetweenLipPointsStays) {
+  const Model model = make_grid(20, 20);  // flat: all else may go
+  const FeaturePointSet points = points_at(model, {{"2.2", 10 * 21 + 10}, {"2.4", 10 * 21 + 15}, {"2.5", 10 * 21 + 5}});
+  const auto levels = decimate_to(model, {40}, points);
+  ASSERT_EQ(levels.size(), 1U);
+  const auto used = used_vertices(levels[0].triangles);
+  for (std::uint32_t x = 5; x <= 15; ++x) EXPECT_TRUE(used.contains(10 * 21 + x)) << x;
+}
+
+TEST(Decimate, WhereUpperLipMeetsLowerLipBothStay) {
+  const Model model = make_grid(10, 10);
+  const Surface surface = build_surface(model);
+  Rig rig = plain_rig(model, surface);
+  rig.influence = {};
+  for (std::uint32_t v = 0; v < model.positions.size(); ++v) {
+    rig.influence.push(*parse_feature_point(model.positions[v].y >= 5.0F ? "2.2" : "2.3"), 1.0F);
+    rig.influence.end_row();
+  }
+  LodOptions options;
+  options.budgets = {30};
+  const auto levels = decimate(model, surface, rig, options);
+  ASSERT_EQ(levels->size(), 1U);
+  const auto used = used_vertices(levels->front().triangles);
+  for (std::uint32_t x = 0; x <= 10; ++x) {
+    EXPECT_TRUE(used.contains(5 * 11 + x)) << x;
+    EXPECT_TRUE(used.contains(4 * 11 + x)) << x;
+  }
+}
+
+TEST(Decimate, AnOpeningWithAnEyelidPointOnItKeepsItsRim) {
+  Model model = make_grid(12, 12);
+  // A hole of 4 by 4 squares; its rim are the vertices (4..8, 4..8) on the outside of it.
+  std::erase_if(model.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      const glm::vec3& p = model.positions[v];
+      return p.x >= 4.0F && p.x <= 8.0F && p.y >= 4.0F && p.y <= 8.0F;
+    });
+  });
+  model.primitives[0].triangle_count = static_cast<std::uint32_t>(model.triangles.size());
+  const auto levels = decimate_to(model, {40}, points_at(model, {{"3.1", 8 * 13 + 6}}));
+  ASSERT_EQ(levels.size(), 1U);
+  const auto used = used_vertices(levels[0].triangles);
+  for (std::uint32_t i = 4; i <= 8; ++i) {
+    EXPECT_TRUE(used.contains(4 * 13 + i) && used.contains(8 * 13 + i) && used.contains(i * 13 + 4) &&
+                used.contains(i * 13 + 8))
+        << i;
+  }
+}
+
+TEST(Decimate, BordersStayWhereTheyAre) {
+  const Model model = make_grid(16, 16);
+  const auto levels = decimate_to(model, {30});
+  ASSERT_EQ(levels.size(), 1U);
+  const auto border = border_of(model.triangles);
+  for (const std::uint32_t v : border_of(levels[0].triangles)) EXPECT_TRUE(border.contains(v));
+  EXPECT_NEAR(area_of(model, levels[0].triangles), 256.0, 1e-3);  // no corner was cut off
+}
+
+TEST(Decimate, SeamsOfTheTextureStayOneLineOnBothSides) {
+  // Two halves with textures of their own, meeting at x = 8; vertices are shared, UVs are not.
+  Model model = make_grid(16, 16);
+  for (const glm::vec3& p : model.positions) model.uvs.emplace_back(p.x, p.y);
+  for (const glm::vec3& p : model.positions) model.uvs.emplace_back(p.x + 100.0F, p.y);
+  const auto count = static_cast<std::uint32_t>(model.positions.size());
+  for (const Triangle& t : model.triangles) {
+    const bool right = model.positions[t[0]].x + model.positions[t[1]].x + model.positions[t[2]].x > 24.0F;
+    Triangle uv = t;
+    for (std::uint32_t& corner : uv) corner += right ? count : 0;
+    model.uv_triangles.push_back(uv);
+  }
+  const auto levels = decimate_to(model, {60});
+  ASSERT_EQ(levels.size(), 1U);
+  for (std::size_t t = 0; t < levels[0].triangles.size(); ++t) {
+    const bool right = levels[0].uv_triangles[t][0] >= count;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = levels[0].triangles[t][c];
+      EXPECT_EQ(levels[0].uv_triangles[t][c], v + (right ? count : 0));  // each vertex keeps the UV of its side
+      EXPECT_TRUE(right ? model.positions[v].x >= 8.0F : model.positions[v].x <= 8.0F);
+    }
+  }
+  EXPECT_LE(levels[0].vertex_count, 60U);
+}
+
+TEST(Decimate, MaterialsKeepTheirBorders) {
+  Model model = make_grid(16, 16);
+  std::vector<std::uint8_t> labels;
+  for (const Triangle& t : model.triangles) {
+    labels.push_back(model.positions[t[0]].y + model.positions[t[1]].y + model.positions[t[2]].y > 24.0F ? 1 : 0);
+  }
+  const Surface surface = build_surface(model);
+  LodOptions options;
+  options.budgets = {50};
+  options.labels = labels;
+  const auto levels = decimate(model, surface, plain_rig(model, surface), options);
+  ASSERT_EQ(levels->size(), 1U);
+  double upper = 0.0;
+  const LevelOfDetail& level = levels->front();
+  for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+    if (labels[level.source_triangles[t]] == 1) upper += area_of(model, {level.triangles[t]});
+  }
+  EXPECT_NEAR(upper, 128.0, 1e-3);
+}
+
+TEST(Decimate, VerticesSplitByAFileWithoutReasonAreOneAgain) {
+  // As an STL or an unindexed glTF has it: every triangle with vertices of its own.
+  const Model joined = make_sheet(20);
+  Model split;
+  for (const Triangle& t : joined.triangles) {
+    Triangle own{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      own[c] = static_cast<std::uint32_t>(split.positions.size());
+      split.positions.push_back(joined.positions[t[c]]);
+    }
+    split.triangles.push_back(own);
+  }
+  split.primitives.push_back({"", -1, 0, static_cast<std::uint32_t>(split.triangles.size())});
+  const auto levels = decimate_to(split, {100});
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_LE(used_vertices(levels[0].triangles).size(), 100U);
+}
+
+TEST(Decimate, FlatShadedFilesLoseTheirNormalsAndOtherCreasesStay) {
+  Model model = make_sheet(20);
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const float angle = static_cast<float>(t) * 1.3F;
+    model.normals.emplace_back(std::sin(angle), 0.0F, std::cos(angle));
+    const auto n = static_cast<std::uint32_t>(t);
+    model.normal_triangles.push_back({n, n, n});
+  }
+  const auto flat = decimate_to(model, {100});
+  ASSERT_EQ(flat.size(), 1U);
+  EXPECT_TRUE(flat[0].normal_triangles.empty());
+  EXPECT_LE(flat[0].vertex_count, 100U);
+
+  // One crease along y = 10.
+  model.normals = {{0.0F, 0.0F, 1.0F}, {0.0F, 1.0F, 0.0F}};
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const std::uint32_t n = t < model.triangles.size() / 2 ? 0 : 1;
+    model.normal_triangles[t] = {n, n, n};
+  }
+  const auto creased = decimate_to(model, {100});
+  ASSERT_EQ(creased.size(), 1U);
+  ASSERT_EQ(creased[0].normal_triangles.size(), creased[0].triangles.size());
+  for (std::size_t t = 0; t < creased[0].triangles.size(); ++t) {
+    for (const std::uint32_t v : creased[0].triangles[t]) {
+      const float y = model.positions[v].y;
+      EXPECT_TRUE(creased[0].normal_triangles[t][0] == 0 ? y <= 10.0F : y >= 10.0F);
+    }
+  }
+}
+
+TEST(Decimate, NothingTurnsOver) {
+  Model model = make_ball({0.0F, 0.0F, 0.0F}, 5.0F, 64, 32);
+  add_uvs(model);
+  const Surface surface = build_surface(model);
+  for (const LevelOfDetail& level : decimate_to(model, {1000, 400, 150})) {
+    const LevelError error = measure_level(model, surface, level, {});
+    EXPECT_EQ(error.flipped_triangles, 0U);
+    EXPECT_EQ(error.flipped_uvs, 0U);
+    for (const Triangle& t : level.triangles) {
+      const glm::vec3 center = model.positions[t[0]] + model.positions[t[1]] + model.positions[t[2]];
+      EXPECT_GT(glm::dot(center, glm::cross(model.positions[t[1]] - model.positions[t[0]],
+                                            model.positions[t[2]] - model.positions[t[0]])),
+                0.0F);
+    }
+  }
+}
+
+TEST(Decimate, PlacesThatAreNoManifoldStayWhole) {
+  Model model = make_sheet(20);
+  // A fin: a third and a fourth triangle on an edge; and a triangle given twice.
+  const std::uint32_t a = 10 * 21 + 10;
+  const auto tip = static_cast<std::uint32_t>(model.positions.size());
+  model.positions.emplace_back(10.5F, 10.0F, 4.0F);
+  model.positions.emplace_back(10.5F, 10.0F, -4.0F);
+  const std::vector<Triangle> odd = {{a, a + 1, tip}, {a, a + 1, tip + 1}, model.triangles[5]};
+  model.triangles.insert(model.triangles.end(), odd.begin(), odd.end());
+  model.triangles.push_back({7, 7, 8});  // no triangle
+  model.primitives[0].triangle_count = static_cast<std::uint32_t>(model.triangles.size());
+  const auto levels = decimate_to(model, {120});
+  ASSERT_EQ(levels.size(), 1U);
+  const auto& triangles = levels[0].triangles;
+  for (const Triangle& t : odd) {
+    const auto same = [&](const Triangle& other) { return std::is_permutation(t.begin(), t.end(), other.begin()); };
+    EXPECT_EQ(std::count_if(triangles.begin(), triangles.end(), same),
+              std::count_if(model.triangles.begin(), model.triangles.end(), same));
+  }
+  EXPECT_LE(levels[0].vertex_count, 120U);
+}
+
+TEST(Decimate, DegenerateMeshesSurvive) {
+  Model needle = make_grid(30, 1);
+  for (glm::vec3& p : needle.positions) p.y = 0.0F;  // all triangles without area
+  EXPECT_LE(decimate_to(needle, {20}).size(), 1U);
+  Model point = make_grid(10, 10);
+  for (glm::vec3& p : point.positions) p = glm::vec3(1.0F);
+  EXPECT_LE(decimate_to(point, {20}).size(), 1U);
+  Model single = testing::make_model({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_TRUE(decimate_to(single, {2}).empty());
+  EXPECT_TRUE(decimate_to(make_sheet(5), {1000}).empty());  // no smaller than it is
+}
+
+TEST(Decimate, PartsOfEachRoleGiveTheirShare) {
+  Model model = make_ball({0.0F, 0.0F, 0.0F}, 5.0F, 64, 32);
+  const auto second = testing::append(model, make_ball({20.0F, 0.0F, 0.0F}, 1.0F, 32, 16), "tooth");
+  const Surface surface = build_surface(model);
+  Rig rig = plain_rig(model, surface);
+  rig.parts[1].role = PartRole::upper_teeth;
+  LodOptions options;
+  options.budgets = {600};
+  const auto levels = decimate(model, surface, rig, options);
+  ASSERT_EQ(levels->size(), 1U);
+  const auto used = used_vertices(levels->front().triangles);
+  const auto small = static_cast<double>(std::distance(used.lower_bound(second), used.end()));
+  const double share =
+      static_cast<double>(model.positions.size() - second) / static_cast<double>(model.positions.size());
+  EXPECT_NEAR(small / static_cast<double>(used.size()), share, 0.02);
+  const auto parts = parts_of_level(rig, levels->front());
+  EXPECT_EQ(parts[0].vertex_count + parts[1].vertex_count, used.size());
+  EXPECT_EQ(parts[0].triangle_count + parts[1].triangle_count, levels->front().triangles.size());
+}
+
+TEST(Decimate, ALevelKeepsThePrimitivesOfItsTriangles) {
+  Model model = make_sheet(12);
+  testing::append(model, testing::shifted(make_sheet(12), {30.0F, 0.0F, 0.0F}), "second");
+  const auto levels = decimate_to(model, {100});
+  ASSERT_EQ(levels.size(), 1U);
+  Model level = model;
+  apply_level(level, levels[0]);
+  std::uint32_t first = 0;
+  for (const Primitive& primitive : level.primitives) {
+    EXPECT_EQ(primitive.first_triangle, first);
+    first += primitive.triangle_count;
+  }
+  EXPECT_EQ(first, level.triangles.size());
+  for (std::uint32_t t = level.primitives[1].first_triangle; t < first; ++t) {
+    EXPECT_GE(level.positions[level.triangles[t][0]].x, 30.0F);
+  }
+}
+
+TEST(Decimate, AFaceInWhichItBendsKeepsWhatIsFlatAtRest) {
+  const Model model = make_grid(30, 30);
+  const Surface surface = build_surface(model);
+  LodPose bent{"bent", model.positions};
+  for (glm::vec3& p : bent.positions) p.z = p.x > 15.0F ? 2.0F * std::sin(p.x) * std::sin(p.y) : 0.0F;
+  const std::vector<LodPose> poses = {bent};
+  LodOptions options;
+  options.budgets = {300};
+  const auto plain = decimate(model, surface, plain_rig(model, surface), options);
+  options.poses = poses;
+  const auto aware = decimate(model, surface, plain_rig(model, surface), options);
+  const double without = measure_level(model, surface, plain->front(), poses).poses[0].rms;
+  const double with = measure_level(model, surface, aware->front(), poses).poses[0].rms;
+  EXPECT_LT(with, 0.5 * without);
+}
+
+TEST(Decimate, StopsOnRequest) {
+  const Model model = make_sheet(20);
+  const Surface surface = build_surface(model);
+  LodOptions options;
+  options.budgets = {100};
+  options.progress = [](double) { return false; };
+  const auto levels = decimate(model, surface, plain_rig(model, surface), options);
+  ASSERT_FALSE(levels.ok());
+  EXPECT_EQ(levels.error().code, ErrorCode::cancelled);
+}
+
+TEST(DefaultBudgets, SaveAQuarterAtLeast) {
+  EXPECT_EQ(default_budgets(28000), (std::vector<std::uint32_t>{20000, 10000, 5000, 2500}));
+  EXPECT_EQ(default_budgets(22000), (std::vector<std::uint32_t>{10000, 5000, 2500}));
+  EXPECT_TRUE(default_budgets(3000).empty());
+}
+
+}  // namespace
+}  // namespace semblante
