@@ -54,29 +54,12 @@ bool is_page(const ApiConfig& config, std::string_view path) {
   return !config.web_root.empty() && path.substr(0, 4) != "/v1/";
 }
 
-/// "http://localhost:5173" and the like: pages this machine serves itself.
-bool is_loopback_origin(std::string_view origin) {
-  const auto scheme = origin.find("://");
-  if (scheme == std::string_view::npos) return false;
-  auto host = origin.substr(scheme + 3);
-  if (!host.empty() && host.front() == '[') return host.substr(0, host.find(']') + 1) == "[::1]";
-  host = host.substr(0, host.find(':'));
-  return host == "localhost" || host == "127.0.0.1";
-}
-
 }  // namespace
 
-bool Api::origin_allowed(const http::Request& head) const {
-  const auto origin = head.header("Origin");
-  if (!origin || is_loopback_origin(*origin)) return true;
-  const auto& list = context_.config.allowed_origins;
-  return std::any_of(list.begin(), list.end(), [&](const auto& item) { return item == "*" || item == *origin; });
-}
-
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
-  if (!is_safe(head.method) && !origin_allowed(head))
-    return to_response(make_problem("forbidden-origin", "pages from " + std::string(*head.header("Origin")) +
-                                                            " may not change anything here (see --allow-origin)"));
+  const auto& access = context_.config.access;
+  if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
+    return to_response(*problem);
   const auto match = match_path(head.path);
   if (match.routes.empty()) {
     if (is_page(context_.config, head.path) && is_safe(head.method)) return http::BodyPlan{};
@@ -86,7 +69,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     http::Response response;
     response.status = 204;
     response.headers["Allow"] = allowed_methods(match);
-    if (origin_allowed(head)) {
+    if (access.origin_allowed(head)) {
       response.headers["Access-Control-Allow-Methods"] = allowed_methods(match);
       response.headers["Access-Control-Allow-Headers"] =
           "Content-Type, Content-Disposition, If-Match, If-None-Match, Idempotency-Key, Range";
@@ -135,9 +118,7 @@ http::Response Api::handle(http::Request& request) {
 }
 
 std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_websocket(const http::Request& head) {
-  if (!origin_allowed(head))
-    return to_response(make_problem("forbidden-origin", "pages from " + std::string(*head.header("Origin")) +
-                                                            " may not open streams here (see --allow-origin)"));
+  if (auto problem = context_.config.access.refuse_changing(head)) return to_response(*problem);
   const auto match = match_path(head.path);
   if (match.routes.empty() || match.routes.front()->pattern != "/v1/streams/{stream}")
     return to_response(make_problem("not-found", head.path + " is no stream"));
@@ -154,7 +135,7 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   const auto origin = head.header("Origin");
   if (!origin) return;
   response.headers["Vary"] = "Origin";
-  if (!origin_allowed(head)) return;
+  if (!context_.config.access.origin_allowed(head)) return;
   response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
   response.headers["Access-Control-Expose-Headers"] = "ETag, Location, Retry-After, Content-Range, Allow";
 }

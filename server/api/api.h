@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/api/access.h"
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
 #include "server/store/blob_store.h"
@@ -26,8 +27,8 @@ struct ApiLimits {
 struct ApiConfig {
   ApiLimits limits;
   std::string version;
-  std::filesystem::path web_root;            ///< empty: no pages
-  std::vector<std::string> allowed_origins;  ///< beside pages from this machine; "*": all
+  std::filesystem::path web_root;  ///< empty: no pages
+  Access access;
 };
 
 /// Numbers of the network layer for /metrics, by the name they get there.
@@ -55,8 +56,6 @@ class Api : public http::Application {
   void decorate(const http::Request& head, http::Response& response) override;
 
  private:
-  [[nodiscard]] bool origin_allowed(const http::Request& head) const;
-
   Context context_;
 };
 

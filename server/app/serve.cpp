@@ -114,7 +114,7 @@ void run_serve(const ServeOptions& options) {
   api_config.limits.max_streams = options.max_streams;
   api_config.version = SEMBLANTE_VERSION;
   api_config.web_root = options.web_root;
-  api_config.allowed_origins = options.allowed_origins;
+  api_config.access = {options.allowed_hosts, options.allowed_origins};
   net::Server* running = nullptr;
   const auto net_metrics = [&running] {
     const auto counts = running->counts();

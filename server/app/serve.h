@@ -23,6 +23,7 @@ struct ServeOptions {
   std::uint64_t max_connections = 1024;
   std::uint64_t worker_memory = std::uint64_t{4} << 30U;
   std::uint64_t worker_cpu_seconds = 300;
+  std::vector<std::string> allowed_hosts;
   std::vector<std::string> allowed_origins;
   std::string log_level = "info";
 };

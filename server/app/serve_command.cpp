@@ -45,6 +45,10 @@ void add_serve_command(CLI::App& app) {
   add("--worker-cpu-seconds", options->worker_cpu_seconds, "Processor time of one job, seconds; 0: no limit",
       "WORKER_CPU_SECONDS")
       ->check(CLI::Range(0, 1'000'000));
+  add("--allow-host", options->allowed_hosts,
+      "Name the server goes by beside localhost, e.g. studio.example behind a proxy that keeps the Host of requests; * "
+      "takes any; may be given more than once",
+      "ALLOW_HOST");
   add("--allow-origin", options->allowed_origins,
       "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
       "be given more than once",

@@ -23,6 +23,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"content-too-large", 413, "The body is over the limit"},
     {"unsupported-media-type", 415, "The body's media type cannot be read here"},
     {"range-not-satisfiable", 416, "The range lies outside the content"},
+    {"foreign-host", 421, "The server does not go by this name"},
     {"malformed-model", 422, "The model file cannot be read"},
     {"unsupported-model", 422, "The model file needs something that is not supported"},
     {"empty-model", 422, "The model has nothing to work on"},

@@ -29,7 +29,7 @@ Error failed(const Url& url, const char* step, const error_code& problem) {
                                  problem != http::error::end_of_stream && problem != http::error::partial_message
                              ? ErrorCode::malformed
                              : ErrorCode::io;
-  return {code, url.host + ":" + url.port, std::string(step) + ": " + problem.message()};
+  return {code, url.authority(), std::string(step) + ": " + problem.message()};
 }
 
 http::request<http::string_body> to_beast(const Url& url, const HttpRequest& request) {
@@ -37,7 +37,7 @@ http::request<http::string_body> to_beast(const Url& url, const HttpRequest& req
   message.version(11);
   message.method_string(request.method);
   message.target(url.path + request.target);
-  message.set(http::field::host, url.host + ":" + url.port);
+  message.set(http::field::host, url.authority());
   message.set(http::field::user_agent, "semblante-client");
   message.set(http::field::connection, "close");
   if (!request.content_type.empty()) {
@@ -130,7 +130,7 @@ Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
   if (outcome) {
     return *std::move(outcome);
   }
-  const std::string where = url_.host + ":" + url_.port + request.target;
+  const std::string where = url_.authority() + request.target;
   if (fault) {
     return Error{ErrorCode::internal, where, "the exchange failed unexpectedly"};
   }

@@ -93,9 +93,8 @@ struct StreamClient::Impl {
     }));
     socket.read_message_max(options.json ? max_json_message_bytes : max_binary_message_bytes);
     websocket::response_type response;
-    auto shaken = wait("the stream refuses the connection", [&](auto done) {
-      socket.async_handshake(response, url.host + ":" + url.port, target, std::move(done));
-    });
+    auto shaken = wait("the stream refuses the connection",
+                       [&](auto done) { socket.async_handshake(response, url.authority(), target, std::move(done)); });
     if (!shaken) {
       if (response.result() == http::status::not_found) {
         return Error{ErrorCode::missing, where, "there is no such stream"};
@@ -138,7 +137,7 @@ StreamClient& StreamClient::operator=(StreamClient&&) noexcept = default;
 Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stream, const StreamOptions& options) {
   auto impl = std::make_unique<Impl>();
   const std::string target = url.path + "/v1/streams/" + escape_segment(stream);
-  impl->where = url.host + ":" + url.port + target;
+  impl->where = url.authority() + target;
   impl->options = options;
   if (auto opened = impl->open(url, target); !opened) {
     return std::move(opened).error();

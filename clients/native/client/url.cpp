@@ -45,6 +45,11 @@ Result<Url> parse_url(std::string_view text) {
   return url;
 }
 
+std::string Url::authority() const {
+  const bool is_six = host.find(':') != std::string::npos;
+  return (is_six ? "[" + host + "]" : host) + ":" + port;
+}
+
 std::string escape_segment(std::string_view segment) {
   static constexpr std::string_view digits = "0123456789ABCDEF";
   std::string escaped;

@@ -9,9 +9,12 @@ namespace semblante::client {
 
 /// A server's address: "http://127.0.0.1:8080" or with a path in front of /v1.
 struct Url {
-  std::string host;
+  std::string host;  ///< an IPv6 address without its brackets
   std::string port = "80";
   std::string path;  ///< without a slash at its end; empty or "/base"
+
+  /// "host:port" as a Host field has it: an IPv6 address in brackets.
+  [[nodiscard]] std::string authority() const;
 };
 
 /// Errors: invalid_argument (no host, a port that is none), unsupported (https: a TLS proxy's work).

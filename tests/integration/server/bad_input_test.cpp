@@ -124,7 +124,7 @@ TEST_F(BadInput, BrokenHandshakes_GetProblemDocuments) {
   request(port(), "POST", "/v1/streams", R"({"name":"shake"})", json_type);
   const auto handshake = [](const std::string& version, const std::string& key) {
     return parse_reply(raw_exchange(port(),
-                                    "GET /v1/streams/shake HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\n"
+                                    "GET /v1/streams/shake HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                     "Connection: Upgrade\r\nSec-WebSocket-Version: " +
                                         version + "\r\nSec-WebSocket-Key: " + key + "\r\n\r\n"));
   };

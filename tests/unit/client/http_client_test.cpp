@@ -113,6 +113,8 @@ TEST(Url, Parts_AreTakenApart) {
   EXPECT_EQ(url->port, "8080");
   EXPECT_EQ(url->path, "/a/b");
   EXPECT_EQ(parse_url("localhost")->port, "80");
+  EXPECT_EQ(url->authority(), "[::1]:8080");
+  EXPECT_EQ(parse_url("http://host")->authority(), "host:80");
 }
 
 TEST(Url, Segment_IsEscaped) { EXPECT_EQ(client::escape_segment("a/b ?\xC3\xA9-1"), "a%2Fb%20%3F%C3%A9-1"); }
