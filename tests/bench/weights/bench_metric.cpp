@@ -7,8 +7,8 @@
 
 #include "core/geometry/edge_path_search.h"
 #include "core/geometry/unfolded_surface.h"
+#include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/expression_study.h"
-#include "tests/oracle/real_heads.h"
 #include "tests/oracle/steiner_distances.h"
 
 namespace semblante::bench {
@@ -66,17 +66,4 @@ void run(const std::filesystem::path& folder) {
 }  // namespace
 }  // namespace semblante::bench
 
-int main() {
-  const auto faces = semblante::oracle::faces_folder();
-  if (!faces) {
-    std::puts("no folder of real heads: set SEMBLANTE_FACES_DIR");
-    return 0;
-  }
-  try {
-    semblante::bench::run(*faces / "ict-facekit");
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "bench_metric: %s\n", problem.what());
-    return 1;
-  }
-  return 0;
-}
+int main() { return semblante::bench::run_on_ict_head("bench_metric", semblante::bench::run); }

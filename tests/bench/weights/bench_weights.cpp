@@ -11,9 +11,9 @@
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/smooth_weights.h"
 #include "core/parametrize/weights.h"
+#include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/candidate_weights.h"
 #include "tests/bench/weights/expression_study.h"
-#include "tests/oracle/real_heads.h"
 
 namespace semblante::bench {
 namespace {
@@ -151,17 +151,4 @@ void run(const std::filesystem::path& folder) {
 }  // namespace
 }  // namespace semblante::bench
 
-int main() {
-  const auto faces = semblante::oracle::faces_folder();
-  if (!faces) {
-    std::puts("no folder of real heads: set SEMBLANTE_FACES_DIR");
-    return 0;
-  }
-  try {
-    semblante::bench::run(*faces / "ict-facekit");
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "bench_weights: %s\n", problem.what());
-    return 1;
-  }
-  return 0;
-}
+int main() { return semblante::bench::run_on_ict_head("bench_weights", semblante::bench::run); }

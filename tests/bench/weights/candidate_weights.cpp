@@ -93,20 +93,11 @@ Shares harmonic_shares(const ExpressionStudy& study) {
   };
   std::vector<std::vector<Neighbor>> neighbors(members);
   std::vector<double> diagonal(members, 0.0);
-  for (const Triangle& t : study.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t a = t[c];
-      const std::uint32_t b = t[(c + 1) % 3];
-      const glm::dvec3 to_a = study.position(a) - study.position(t[(c + 2) % 3]);
-      const glm::dvec3 to_b = study.position(b) - study.position(t[(c + 2) % 3]);
-      const double sine = glm::length(glm::cross(to_a, to_b));
-      if (!(sine > 1e-12)) continue;
-      const double weight = glm::dot(to_a, to_b) / sine / 2.0;
-      neighbors[a].push_back({b, weight});
-      neighbors[b].push_back({a, weight});
-      diagonal[a] += weight;
-      diagonal[b] += weight;
-    }
+  for (const auto& [a, b, weight] : cotangent_edges(study)) {
+    neighbors[a].push_back({b, weight});
+    neighbors[b].push_back({a, weight});
+    diagonal[a] += weight;
+    diagonal[b] += weight;
   }
   std::vector<bool> fixed(members, false);
   for (const std::uint32_t m : study.member_of_point) fixed[m] = true;

@@ -17,26 +17,6 @@ namespace {
 /// A share below this is no influence.
 constexpr double least_share = 1e-6;
 
-struct CotangentEdge {
-  std::uint32_t a, b;
-  double weight;
-};
-
-std::vector<CotangentEdge> cotangent_edges(const ExpressionStudy& study) {
-  std::vector<CotangentEdge> edges;
-  for (const Triangle& t : study.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t a = t[c];
-      const std::uint32_t b = t[(c + 1) % 3];
-      const glm::dvec3 to_a = study.position(a) - study.position(t[(c + 2) % 3]);
-      const glm::dvec3 to_b = study.position(b) - study.position(t[(c + 2) % 3]);
-      const double sine = glm::length(glm::cross(to_a, to_b));
-      if (sine > 1e-12) edges.push_back({a, b, glm::dot(to_a, to_b) / sine / 2.0});
-    }
-  }
-  return edges;
-}
-
 std::vector<std::size_t> slots_of(const ExpressionStudy& study, std::initializer_list<const char*> names) {
   std::vector<std::size_t> slots;
   for (const char* const name : names) {
@@ -71,6 +51,21 @@ double leak(const ExpressionStudy& study, const Shares& shares, std::initializer
 }
 
 }  // namespace
+
+std::vector<CotangentEdge> cotangent_edges(const ExpressionStudy& study) {
+  std::vector<CotangentEdge> edges;
+  for (const Triangle& t : study.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t a = t[c];
+      const std::uint32_t b = t[(c + 1) % 3];
+      const glm::dvec3 to_a = study.position(a) - study.position(t[(c + 2) % 3]);
+      const glm::dvec3 to_b = study.position(b) - study.position(t[(c + 2) % 3]);
+      const double sine = glm::length(glm::cross(to_a, to_b));
+      if (sine > 1e-12) edges.push_back({a, b, glm::dot(to_a, to_b) / sine / 2.0});
+    }
+  }
+  return edges;
+}
 
 ExpressionStudy read_expression_study(const std::filesystem::path& folder) {
   ExpressionStudy study;

@@ -39,6 +39,14 @@ struct ExpressionStudy {
 /// Reads `folder`/{neutral.obj, ict-facekit.fps.json, expressions/*.obj}; throws where they cannot be read.
 ExpressionStudy read_expression_study(const std::filesystem::path& folder);
 
+/// An edge of a triangle of the skin, by member, with half the cotangent of the angle it faces there. Triangles without
+/// area have none.
+struct CotangentEdge {
+  std::uint32_t a, b;
+  double weight;
+};
+std::vector<CotangentEdge> cotangent_edges(const ExpressionStudy& study);
+
 /// Shares of the points (#F) in each vertex of the skin, #M x #F: D_P = sum(share D).
 using Shares = std::vector<double>;
 
