@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/import/json.h"
 #include "server/hash/sha256.h"
 #include "server/http/conditional.h"
 
@@ -22,16 +23,14 @@ store::ModelRecord model_of(Context& context, const http::Request& request) {
 
 Json body_object(const http::Request& request) {
   if (request.body.empty()) return Json::object();
-  Json json;
-  try {
-    json = Json::parse(request.body);
-  } catch (const Json::parse_error& fault) {
-    refuse("malformed-request", "the body is not JSON: it stops making sense at byte " + std::to_string(fault.byte));
-  } catch (const Json::exception&) {
-    refuse("malformed-request", "a number of the body is out of range");
+  const auto json = import::parse_json(request.body, {.max_depth = 64, .max_values = 500'000});
+  if (!json) {
+    const auto& [code, where, message] = json.error();
+    refuse("malformed-request", "the body cannot be read: " + (where.empty() ? "" : where + ": ") + message,
+           where.starts_with('/') ? where : "");
   }
-  if (!json.is_object()) refuse("invalid-field", "the body must be a JSON object");
-  return json;
+  if (!json->is_object()) refuse("invalid-field", "the body must be a JSON object");
+  return *json;
 }
 
 void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known) {

@@ -20,8 +20,8 @@ struct Refused {
 /// The model of the path; refuses with 404.
 store::ModelRecord model_of(Context& context, const http::Request& request);
 
-/// The body as a JSON object; an absent body is an empty object. Refuses with 400 (`malformed-request`, with the byte)
-/// or 422 when it is no object.
+/// The body as a JSON object; an absent body is an empty object. Refuses with 400 (`malformed-request`, with the byte,
+/// or with the pointer of a member named twice) or 422 when it is no object.
 Json body_object(const http::Request& request);
 
 /// Refuses members of `object` that are none of `known`, by pointer.
