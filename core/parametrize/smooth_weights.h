@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "core/geometry/surface.h"
+#include "core/parametrize/opening_margins.h"
 #include "core/parametrize/point_distances.h"
 #include "core/types/weight_table.h"
 
@@ -16,6 +19,7 @@ inline constexpr std::size_t max_smooth_influences = 8;
 ///
 /// `eye_separation`: ES0 in model units, the length that makes the weights independent of scale; not positive where it
 /// is not known, then the spread of the points stands in for it.
-WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation);
+WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
+                                        std::span<const MarginSite> margins = {});
 
 }  // namespace semblante

@@ -22,6 +22,8 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
 
   std::vector<WeightTable<double>> of_part(surface.part_count());
   EdgePathSearch search(options.distance_graph != nullptr ? *options.distance_graph : surface);
+  std::vector<MarginSite> margins;
+  if (options.method == WeightMethod::smooth) margins = margin_sites(surface, points);
   std::size_t done = 0;
   const auto go_on = [&](std::size_t more, std::string_view stage) {
     done += more;
@@ -35,7 +37,7 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
     const PointDistances distances = measure_distances(surface, part, points, search);
     if (options.method == WeightMethod::smooth) {
       if (!go_on(share / 2, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
-      of_part[p] = smooth_part_weights(surface, distances, options.eye_separation);
+      of_part[p] = smooth_part_weights(surface, distances, options.eye_separation, margins);
       done += share - share / 2;
       continue;
     }

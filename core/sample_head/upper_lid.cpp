@@ -48,7 +48,7 @@ UpperLid make_upper_lid() {
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
       const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // a point at 3.1: everything else lies behind it
       const double end = t * t * t * t;
-      const double drawn_back = (t > 0.0 ? 0.44 : 0.24) * end * (1.0 - 0.6 * std::min(row.rise / 0.6, 1.0)) +
+      const double drawn_back = (t > 0.0 ? 0.33 : 0.24) * end * (1.0 - 0.6 * std::min(row.rise / 0.6, 1.0)) +
                                 0.05 * t * t * std::min(row.rise, 1.1);
       Paint paint;
       // No lashes in the corners, where the shell only tucks in.

@@ -110,7 +110,10 @@ void print_cost(const char* name, const ExpressionStudy& study, const Model& mod
     distances = measure_distances(surface, part, points, search);
   });
   const double paper = seconds([&] { part_weights(surface, distances, influence_regions(surface, distances)); });
-  const double smooth = seconds([&] { smooth_part_weights(surface, distances, study.eye_separation); });
+  const double smooth = seconds([&] {
+    const auto margins = margin_sites(surface, points);
+    smooth_part_weights(surface, distances, study.eye_separation, margins);
+  });
   std::printf("%-14s %8zu %8zu %9.3f %9.3f %7.2f %7.2f\n", name, surface.vertex_count(), points.size(), baseline,
               measured, (measured + paper) / baseline, (measured + smooth) / baseline);
 }
@@ -123,7 +126,8 @@ void run(const std::filesystem::path& folder) {
               "least");
   const auto regions = influence_regions(study.surface, study.distances);
   print("paper", study, to_shares(study, part_weights(study.surface, study.distances, regions), true));
-  const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation);
+  const auto margins = margin_sites(study.surface, study.distances.points);
+  const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation, margins);
   print("smooth", study, to_shares(study, smooth, false));
   const Surface unfolded = with_unfolded_diagonals(study.surface, study.model.triangles);
   EdgePathSearch search(unfolded);
@@ -132,7 +136,7 @@ void run(const std::filesystem::path& folder) {
   print("paper, unfolded", study,
         to_shares(study, part_weights(study.surface, nearer, influence_regions(study.surface, nearer)), true));
   print("smooth, unfolded", study,
-        to_shares(study, smooth_part_weights(study.surface, nearer, study.eye_separation), false));
+        to_shares(study, smooth_part_weights(study.surface, nearer, study.eye_separation, margins), false));
   print("harmonic", study, harmonic_shares(study));
   print("linear RBF", study, linear_rbf_shares(study));
   for (const double length : {0.3, 0.5, 0.7}) {

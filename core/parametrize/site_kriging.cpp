@@ -1,0 +1,129 @@
+#include "core/parametrize/site_kriging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+namespace semblante {
+namespace {
+
+/// Detour = way along the surface / straight distance. Lips and lids nearly touch, so the straight distance alone says
+/// that one moves the other; the way round by the corner says it does not. Full trust below, none above. Ways along
+/// edges are up to half again too long on a flat quad mesh, hence the lower bound.
+constexpr double trusted_detour = 1.6;
+constexpr double greatest_detour = 3.5;
+/// Points by which the way to a place on an edge is estimated.
+constexpr std::size_t landmark_count = 12;
+
+double trust(double detour) {
+  const double t = std::clamp((greatest_detour - detour) / (greatest_detour - trusted_detour), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// The way along the surface to a site; where no search began at it, what it is at least: by the triangle inequality no
+/// less than the ways from both to a third place differ.
+double way_to(const KrigingSite& site, std::span<const double> from) {
+  if (site.slot) return from[*site.slot];
+  double least = 0.0;
+  for (const std::size_t at : site.landmarks) least = std::max(least, std::abs(from[at] - site.distances[at]));
+  return least;
+}
+
+std::vector<double> covariances(std::span<const KrigingSite> sites, double unit, const KrigingKernel& kernel) {
+  std::vector<double> matrix;
+  for (const KrigingSite& a : sites) {
+    for (const KrigingSite& b : sites) {
+      // Points of touching lips may be at one place; the diagonal keeps the matrix definite.
+      matrix.push_back(&a == &b ? 1.0 + 1e-9 : kernel.at(glm::distance(a.position, b.position) / unit));
+    }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<KrigingSite> point_sites(const PointDistances& distances) {
+  std::vector<KrigingSite> sites;
+  for (std::size_t slot = 0; slot < distances.points.size(); ++slot) {
+    const SurfacePoint& point = distances.points[slot];
+    const auto at =
+        std::find_if(sites.begin(), sites.end(), [&](const KrigingSite& s) { return s.vertex == point.vertex; });
+    if (at != sites.end()) {
+      at->shares.emplace_back(point.id, 1.0);
+    } else {
+      sites.push_back({point.vertex, point.position, {{point.id, 1.0}}, slot, {}, {}});
+    }
+  }
+  for (KrigingSite& site : sites) {
+    for (auto& [id, share] : site.shares) share = 1.0 / static_cast<double>(site.shares.size());
+  }
+  return sites;
+}
+
+std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances& distances,
+                                    std::span<const MarginSite> margins) {
+  std::vector<KrigingSite> sites;
+  for (const MarginSite& margin : margins) {
+    const auto member = std::lower_bound(distances.members.begin(), distances.members.end(), margin.vertex);
+    if (member == distances.members.end() || *member != margin.vertex) continue;
+    if (std::any_of(distances.points.begin(), distances.points.end(),
+                    [&](const SurfacePoint& p) { return p.vertex == margin.vertex; })) {
+      continue;
+    }
+    KrigingSite site{margin.vertex, surface.positions[margin.vertex.value()], margin.shares, std::nullopt, {}, {}};
+    site.distances = distances.of_member(static_cast<std::size_t>(member - distances.members.begin()));
+    site.landmarks.resize(distances.points.size());
+    std::iota(site.landmarks.begin(), site.landmarks.end(), std::size_t{0});
+    std::stable_sort(site.landmarks.begin(), site.landmarks.end(),
+                     [&](std::size_t a, std::size_t b) { return site.distances[a] < site.distances[b]; });
+    site.landmarks.resize(std::min(site.landmarks.size(), landmark_count));
+    sites.push_back(std::move(site));
+  }
+  return sites;
+}
+
+double KrigingKernel::at(double distance) const { return std::exp(-std::pow(distance / length, power)); }
+double KrigingKernel::reach() const { return length * std::pow(-std::log(least), 1.0 / power); }
+
+SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> sites,
+                         double unit, KrigingKernel kernel)
+    : surface_(surface),
+      distances_(distances),
+      sites_(std::move(sites)),
+      unit_(unit),
+      kernel_(kernel),
+      kriging_(covariances(sites_, unit, kernel), sites_.size()) {}
+
+std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
+  const SurfaceVertexId vertex = distances_.members[member];
+  const glm::dvec3& p = surface_.positions[vertex.value()];
+  const std::span<const double> along_surface = distances_.of_member(member);
+  const double reach = unit_ * kernel_.reach();
+  candidates_.clear();
+  to_target_.clear();
+  terms_.clear();
+  for (std::size_t s = 0; s < sites_.size(); ++s) {
+    const KrigingSite& site = sites_[s];
+    if (vertex == site.vertex || (site.slot && along_surface[*site.slot] == 0.0)) {
+      terms_.assign(1, {&site, 1.0});
+      return terms_;
+    }
+    const double straight = glm::distance(p, site.position);
+    if (straight >= reach) continue;
+    const double along = way_to(site, along_surface);
+    if (along >= greatest_detour * straight) continue;
+    const double covariance = kernel_.at(straight / unit_) * trust(along / straight);
+    if (!(covariance > kernel_.least)) continue;
+    candidates_.push_back(s);
+    to_target_.push_back((covariance - kernel_.least) / (1.0 - kernel_.least));
+  }
+  const std::span<const double> weights = kriging_.solve(candidates_, to_target_);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (weights[c] > 0.0) terms_.push_back({&sites_[candidates_[c]], weights[c]});
+  }
+  return terms_;
+}
+
+}  // namespace semblante

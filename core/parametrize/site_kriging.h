@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/geometry/surface.h"
+#include "core/parametrize/non_negative_kriging.h"
+#include "core/parametrize/opening_margins.h"
+#include "core/parametrize/point_distances.h"
+
+namespace semblante {
+
+/// A vertex that moves as the points on it do, or on an edge as a mix of points.
+struct KrigingSite {
+  SurfaceVertexId vertex;
+  glm::dvec3 position{0.0};
+  std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
+  std::optional<std::size_t> slot;                        ///< in PointDistances, of a point here
+  /// Where no search began here: its row of PointDistances, and the slots in it that tell most about what is near.
+  std::span<const double> distances;
+  std::vector<std::size_t> landmarks;
+};
+
+/// One site for each vertex with points on it, in the order of the points.
+std::vector<KrigingSite> point_sites(const PointDistances& distances);
+/// Those margins that lie on this part and have no point on them.
+std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances& distances,
+                                    std::span<const MarginSite> margins);
+
+/// Covariance of two places r units apart: exp(-(r / length)^power); positive definite for powers up to 2.
+struct KrigingKernel {
+  double length;
+  double power;
+  /// Taken off every covariance to a target, so that what a far site adds is zero and not merely little.
+  double least;
+
+  [[nodiscard]] double at(double distance) const;
+  /// The distance from which on there is nothing.
+  [[nodiscard]] double reach() const;
+};
+
+/// Kriging without negative weights (non_negative_kriging.h) from sites of one part to its vertices.
+class SiteKriging {
+ public:
+  /// `unit`: the length that distances are measured in, model units. Keeps references to the first two.
+  SiteKriging(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> sites, double unit,
+              KrigingKernel kernel);
+
+  struct Term {
+    const KrigingSite* site;
+    double weight;
+  };
+  /// What each site adds at a member of the part: positive weights, which vary continuously over the surface. Exactly
+  /// (site, 1) at a site's own vertex. Valid until the next call.
+  std::span<const Term> at(std::size_t member);
+
+  [[nodiscard]] std::span<const KrigingSite> sites() const { return sites_; }
+
+ private:
+  const Surface& surface_;
+  const PointDistances& distances_;
+  std::vector<KrigingSite> sites_;
+  double unit_;
+  KrigingKernel kernel_;
+  NonNegativeKriging kriging_;
+  std::vector<std::size_t> candidates_;
+  std::vector<double> to_target_;
+  std::vector<Term> terms_;
+};
+
+}  // namespace semblante

@@ -1,0 +1,99 @@
+// Skin that turns inside out, lips and lids that pass through each other or stay open: tables on standard output.
+
+#include <cstdio>
+#include <exception>
+
+#include "core/expressions/library.h"
+#include "core/parametrize/weight_method.h"
+#include "tests/bench/foldover/closure.h"
+#include "tests/bench/foldover/fold_over.h"
+#include "tests/bench/foldover/posed_face.h"
+
+namespace semblante::bench {
+namespace {
+
+FoldOver fold_over_of(const PosedFace& face, std::uint8_t viseme, std::uint8_t expression) {
+  const Model& model = face.head().model;
+  return count_fold_over(model.triangles, model.positions, face.pose(frame_of(viseme, expression)));
+}
+
+void print_folds(const PosedFace& face, bool in_full) {
+  const std::size_t visemes = viseme_library().size();
+  const std::size_t expressions = expression_library().size();
+  if (in_full) {
+    std::printf("  %-8s", "");
+    for (std::size_t e = 0; e < expressions; ++e)
+      std::printf(" %9s", std::string(expression_library()[e].name).c_str());
+    std::printf("\n");
+  }
+  FoldOver alone;
+  FoldOver combined;
+  std::size_t most = 0;
+  for (std::uint8_t v = 0; v < visemes; ++v) {
+    if (in_full) std::printf("  %-8s", std::string(viseme_library()[v].name).c_str());
+    for (std::uint8_t e = 0; e < expressions; ++e) {
+      const FoldOver folds = fold_over_of(face, v, e);
+      (v == 0 || e == 0 ? alone : combined) += folds;
+      most = std::max(most, folds.inverted);
+      if (in_full) std::printf(" %9zu", folds.inverted);
+    }
+    if (in_full) std::printf("\n");
+  }
+  std::printf(
+      "  inverted: %zu in the visemes and expressions, %zu in their combinations, at most %zu in one face of %zu "
+      "triangles; degenerate: %zu, %zu\n",
+      alone.inverted, combined.inverted, most, face.head().model.triangles.size(), alone.degenerate,
+      combined.degenerate);
+}
+
+void print_closure(const PosedFace& face) {
+  struct Shut {
+    const char* name;
+    OpeningKind kind;
+    semblante_frame frame;
+  };
+  const std::vector<Shut> shuts = {
+      {"lips at rest", OpeningKind::mouth, frame_of(0, 0)},
+      {"lips in p_b_m", OpeningKind::mouth, frame_of(1, 0)},
+      {"lids half shut", OpeningKind::left_eye, frame_of({{19, 512.0F}, {20, 512.0F}})},
+      {"left lids shut", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
+      {"right lids shut", OpeningKind::right_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
+  };
+  for (const Shut& shut : shuts) {
+    const auto opening = Opening::find(face, shut.kind);
+    if (!opening) {
+      std::printf("  %-16s no such opening\n", shut.name);
+      continue;
+    }
+    const Closure c = opening->measure(face.pose(shut.frame));
+    std::printf("  %-16s slit %5.1f %%  crossing %5.1f %% in %zu columns\n", shut.name, 100.0 * c.slit,
+                100.0 * c.crossing, c.crossing_columns);
+  }
+}
+
+void run(bool in_full) {
+  for (const Head& head : known_heads()) {
+    for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth}) {
+      const PosedFace face(head, method);
+      std::printf("%s, %s\n", head.name.c_str(),
+                  std::string(weight_method_names[static_cast<std::size_t>(method)]).c_str());
+      print_folds(face, in_full);
+      print_closure(face);
+      std::printf("  upper lip moves with the lower lip by at most %.1f %%\n", 100.0 * leak_to_upper_lip(face));
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace semblante::bench
+
+int main(int argc, char** argv) {
+  try {
+    semblante::bench::run(argc > 1 && std::string_view(argv[1]) == "--full");
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "bench_foldover: %s\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

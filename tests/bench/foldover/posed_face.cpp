@@ -1,0 +1,84 @@
+#include "tests/bench/foldover/posed_face.h"
+
+#include <stdexcept>
+
+#include "core/parametrize/place_feature_points.h"
+#include "tests/oracle/real_heads.h"
+#include "tests/support/sample_head_model.h"
+
+namespace semblante::bench {
+namespace {
+
+Head make_head(std::string name, Model model, const std::vector<MarkedPoint>& marked) {
+  Head head{std::move(name), std::move(model), {}, {}};
+  head.surface = build_surface(head.model);
+  auto points = place_feature_points(head.model, head.surface, marked, nullptr);
+  if (!points) throw std::runtime_error(head.name + ": " + points.error().message);
+  head.points = *std::move(points);
+  return head;
+}
+
+Rig parametrize_or_throw(const Head& head, WeightMethod method) {
+  ParametrizeOptions options;
+  options.weights = method;
+  auto rig = parametrize(head.model, head.surface, head.points, options);
+  if (!rig) throw std::runtime_error(head.name + ": " + rig.error().message);
+  return *std::move(rig);
+}
+
+}  // namespace
+
+Head sample_head() {
+  Head head{"sample head", testing::sample_head_model(), {}, testing::sample_head_points()};
+  head.surface = build_surface(head.model);
+  return head;
+}
+
+std::vector<Head> known_heads() {
+  std::vector<Head> heads;
+  heads.push_back(sample_head());
+  const auto faces = oracle::faces_folder();
+  if (!faces) return heads;
+  const auto add = [&](const char* name, const char* model, const char* points) {
+    heads.push_back(make_head(name, oracle::import_head(*faces / name / model),
+                              oracle::read_trusted_points(*faces / name / points)));
+  };
+  add("ict-facekit", "neutral.obj", "ict-facekit.fps.json");
+  add("makehuman", "head.glb", "makehuman.fps.json");
+  add("mediapipe-canonical", "face_model_with_iris.obj", "mediapipe-canonical.fps.json");
+  return heads;
+}
+
+PosedFace::PosedFace(const Head& head, WeightMethod method)
+    : head_(head), rig_(parametrize_or_throw(head, method)), kernel_rig_(make_kernel_rig(rig_)) {}
+
+PartRole PosedFace::role_of(std::uint32_t file_vertex) const {
+  return rig_.parts[rig_.part_of_vertex[file_vertex].value()].role;
+}
+
+std::vector<glm::vec3> PosedFace::pose(const semblante_frame& frame) const {
+  const semblante_rig view = kernel_rig_.view();
+  semblante_pose pose;
+  semblante_evaluate(&view, &frame, &pose);
+  const semblante_face face = make_kernel_face(rig_, &head_.model.positions[0].x);
+  std::vector<glm::vec3> positions(head_.model.positions.size());
+  semblante_deform(&face, &pose, &positions[0].x);
+  return positions;
+}
+
+semblante_frame frame_of(std::uint8_t viseme, std::uint8_t expression) {
+  semblante_frame frame{};
+  frame.viseme1 = viseme;
+  frame.viseme_blend = SEMBLANTE_BLEND_MAX;
+  frame.expression1 = expression;
+  frame.intensity1 = SEMBLANTE_BLEND_MAX;
+  return frame;
+}
+
+semblante_frame frame_of(std::initializer_list<std::pair<int, float>> faps) {
+  semblante_frame frame{};
+  for (const auto& [number, value] : faps) frame.fap[number] = value;
+  return frame;
+}
+
+}  // namespace semblante::bench

@@ -1,0 +1,86 @@
+// Faces that should be shut are shut, and nothing passes through anything: our own head, and those of others where
+// their folder is.
+
+#include "tests/bench/foldover/closure.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/foldover/fold_over.h"
+#include "tests/bench/foldover/posed_face.h"
+
+namespace semblante {
+namespace {
+
+using bench::Closure;
+using bench::Opening;
+using bench::OpeningKind;
+using bench::PosedFace;
+
+/// Heads with eyes and lips that open: a mask has skin across both.
+const std::vector<bench::Head>& heads() {
+  static const std::vector<bench::Head> all = [] {
+    std::vector<bench::Head> some = bench::known_heads();
+    std::erase_if(some, [](const bench::Head& head) { return head.name == "mediapipe-canonical"; });
+    return some;
+  }();
+  return all;
+}
+
+Closure measure(const PosedFace& face, OpeningKind kind, const semblante_frame& frame) {
+  const auto opening = Opening::find(face, kind);
+  EXPECT_TRUE(opening.has_value());
+  return opening ? opening->measure(face.pose(frame)) : Closure{};
+}
+
+TEST(Blink, ShutsTheEyeAlongTheWholeLidAndNoFarther) {
+  for (const bench::Head& head : heads()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    for (const OpeningKind eye : {OpeningKind::left_eye, OpeningKind::right_eye}) {
+      const Closure open = measure(face, eye, bench::frame_of(0, 0));
+      const Closure shut = measure(face, eye, bench::frame_of({{19, 1024.0F}, {20, 1024.0F}}));
+      EXPECT_GT(open.slit, 0.9) << head.name;  // what is measured is there to be seen
+      EXPECT_LE(shut.slit, 0.01) << head.name;
+      EXPECT_LE(shut.crossing, 0.02) << head.name;
+    }
+  }
+}
+
+TEST(Blink, IsHalfDoneHalfWay) {
+  for (const bench::Head& head : heads()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    const Closure half = measure(face, OpeningKind::left_eye, bench::frame_of({{19, 512.0F}, {20, 512.0F}}));
+    EXPECT_GT(half.slit, 0.4) << head.name;
+    EXPECT_LT(half.slit, 0.6) << head.name;
+    EXPECT_EQ(half.crossing, 0.0) << head.name;
+  }
+}
+
+TEST(Closure_Measure, SeesLidsThatStayOpen) {
+  const bench::Head head = bench::sample_head();
+  const PosedFace face(head, WeightMethod::smooth);
+  EXPECT_NEAR(measure(face, OpeningKind::left_eye, bench::frame_of({{19, 768.0F}})).slit, 0.25, 0.1);
+  // Past the lower lid: shut, and through it.
+  EXPECT_GT(measure(face, OpeningKind::left_eye, bench::frame_of({{21, 512.0F}, {19, 1024.0F}})).crossing, 0.1);
+}
+
+TEST(LowerLip, MovesNoUpperLip) {
+  for (const bench::Head& head : heads()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    EXPECT_LE(bench::leak_to_upper_lip(face), 0.10) << head.name;
+  }
+}
+
+TEST(FoldOver, CountsTrianglesThatTurn) {
+  const std::vector<glm::vec3> rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  std::vector<glm::vec3> moved = rest;
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 3, 2}};
+  EXPECT_EQ(bench::count_fold_over(triangles, rest, moved).inverted, 0U);
+  moved[3] = {0.2F, 0.2F, 0.0F};
+  EXPECT_EQ(bench::count_fold_over(triangles, rest, moved).inverted, 1U);
+  moved[3] = {0.5F, 0.5F, 0.0F};
+  EXPECT_EQ(bench::count_fold_over(triangles, rest, moved).inverted, 0U);
+  EXPECT_EQ(bench::count_fold_over(triangles, rest, moved).degenerate, 1U);
+}
+
+}  // namespace
+}  // namespace semblante
