@@ -25,6 +25,7 @@ MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
     marked.vertex = static_cast<std::uint32_t>(point["vertex"].integer(std::numeric_limits<std::uint32_t>::max()));
   }
   if (point.has("position")) marked.position = import::read_vector(point["position"]);
+  if (point.has("proposed")) marked.proposed = point["proposed"].boolean();
   if (!marked.vertex && !marked.position) point.fail(ErrorCode::missing, "has neither a vertex nor a position");
   return marked;
 }

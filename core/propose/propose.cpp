@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/parametrize/point_lookup.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mirror_plane.h"
 #include "core/propose/mouth_and_eyes.h"
@@ -193,28 +194,33 @@ class Proposer {
   Proposals proposals_;
 };
 
+std::string missing_of_quick_set(const FeaturePointSet& known) {
+  std::string missing;
+  for (const std::string_view name : quick_set) {
+    if (find_point(known, name) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(name);
+  }
+  return missing.empty() ? "" : "; of the quick set these are missing: " + missing;
+}
+
 }  // namespace
+
+std::optional<Error> find_too_few_known(const FeaturePointSet& known) {
+  if (known.size() >= least_known_points) return std::nullopt;
+  return Error{ErrorCode::missing, "/points",
+               "proposals need at least " + std::to_string(least_known_points) + " placed points, here are " +
+                   std::to_string(known.size()) + missing_of_quick_set(known)};
+}
 
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known, std::span<const ReferenceHead> references) {
+  if (std::optional<Error> fault = find_too_few_known(known)) return std::move(*fault);
   Places places;
   for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
-  std::string missing;
-  for (const std::string_view name : quick_set) {
-    if (!places[index_of(name)]) missing += (missing.empty() ? "" : ", ") + std::string(name);
-  }
-  if (known.size() < least_known_points) {
-    return Error{ErrorCode::missing, "/points",
-                 "only " + std::to_string(known.size()) + " points are marked, proposals need at least " +
-                     std::to_string(least_known_points) + "; of the quick set these are missing: " + missing};
-  }
   std::optional<Similarity> frame = fit_to_references(places, references);
   if (!frame) {
-    return Error{
-        ErrorCode::missing, "/points",
-        "the marked points lie in one line or one place, which does not tell how the head stands; of the quick "
-        "set these are missing: " +
-            missing};
+    return Error{ErrorCode::missing, "/points",
+                 "the placed points lie on one line or in one place, which does not tell how the head stands" +
+                     missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
   return Proposer(surface, parts, *frame, places, references).run();

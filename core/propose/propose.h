@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +47,10 @@ struct Proposals {
 
 /// Fewer known points than this say too little about a head.
 inline constexpr std::size_t least_known_points = 8;
+
+/// What is wrong with `known` before any model is looked at: `missing` when it has too few points, naming those of the
+/// quick set that it lacks.
+std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 
 /// Proposes the feature points that `known` lacks. Known points are taken as they are. Deterministic; neither the order
 /// of the points nor the unit of the model counts. `references` is what is known of other heads.

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
 #include "server/api/mirror_points.h"
@@ -16,6 +17,11 @@ namespace semblante::api {
 namespace {
 
 constexpr std::size_t max_faults = 32;
+
+template <std::size_t N>
+bool is_one_of(const Json& value, const std::array<std::string_view, N>& names) {
+  return value.is_string() && std::find(names.begin(), names.end(), value.get<std::string>()) != names.end();
+}
 
 /// Reads one entry of "points"; what is wrong with it goes to `faults`.
 std::optional<store::FeaturePointRecord> read_point(const std::string& id, const Json& value, std::uint32_t vertices,
@@ -49,6 +55,28 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
     point.position = xyz;
   }
   if (!point.vertex && !point.position) return fault("", "it has neither a vertex nor a position");
+  if (value.contains("proposed") && !value["proposed"].is_boolean())
+    return fault("/proposed", "it must be true or false");
+  if (value.value("proposed", false)) {
+    auto& proposal = point.proposal.emplace();
+    // Those of a placed point are remarks of its file and mean nothing here.
+    if (value.contains("method")) {
+      if (!is_one_of(value["method"], proposal_method_names))
+        return fault("/method", "it is no way to propose a point");
+      proposal.method = value["method"].get<std::string>();
+    }
+    if (value.contains("confidence")) {
+      if (!is_one_of(value["confidence"], confidence_names))
+        return fault("/confidence", "it must be \"high\", \"medium\" or \"low\"");
+      proposal.confidence = value["confidence"].get<std::string>();
+    }
+    if (value.contains("expected_error")) {
+      const auto& error = value["expected_error"];
+      if (!error.is_number() || !(error.get<double>() >= 0.0) || !std::isfinite(error.get<double>()))
+        return fault("/expected_error", "it must be a number, in ES0, not below 0");
+      proposal.expected_error = error.get<double>();
+    }
+  }
   return point;
 }
 
@@ -97,6 +125,12 @@ http::Response represent_points(Context& context, const store::ModelRecord& mode
       item["position"] = *position;
     else
       item["position"] = nullptr;
+    if (point.proposal) {
+      item["proposed"] = true;
+      if (!point.proposal->method.empty()) item["method"] = point.proposal->method;
+      if (!point.proposal->confidence.empty()) item["confidence"] = point.proposal->confidence;
+      if (point.proposal->expected_error > 0.0) item["expected_error"] = point.proposal->expected_error;
+    }
   }
   auto response = json_response(200, json);
   response.headers["ETag"] = points_etag(model);

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parametrize/weight_method.h"
+#include "core/propose/propose.h"
 #include "server/api/common.h"
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
@@ -38,6 +39,22 @@ http::Response accepted(const store::JobRecord& job) {
   return response;
 }
 
+http::Response earlier_job(Context& context, const std::string& id) {
+  if (const auto job = context.jobs.find(id)) return accepted(*job);
+  refuse("conflict", "what this key made has been removed");
+}
+
+void refuse_unless_imported(const store::ModelRecord& model) {
+  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported");
+  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
+}
+
+http::Response no_room() {
+  auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
+  response.headers["Retry-After"] = "10";
+  return response;
+}
+
 store::JobRecord job_of(Context& context, const http::Request& request) {
   const auto& id = request.params.at("job");
   auto job = context.jobs.find(id);
@@ -51,20 +68,36 @@ http::Response create_parametrization(Context& context, http::Request& request) 
   const auto model = model_of(context, request);
   const auto options = read_options(body_object(request));
   auto check = check_idempotency(context, request, sha256_hex(request.body));
-  if (check.earlier) {
-    if (const auto job = context.jobs.find(*check.earlier)) return accepted(*job);
-    refuse("conflict", "what this key made has been removed");
-  }
-  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported");
-  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
+  if (check.earlier) return earlier_job(context, *check.earlier);
+  refuse_unless_imported(model);
   if (model.feature_point_count == 0)
     refuse("missing-feature-points", "no feature point is marked on this model", "/points");
-  if (!context.jobs.has_room()) {
-    auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
-    response.headers["Retry-After"] = "10";
-    return response;
-  }
+  if (!context.jobs.has_room()) return no_room();
   const auto job = add_parametrization(context.store, model.id, options, check.record);
+  context.jobs.enqueue(job);
+  return accepted(job);
+}
+
+http::Response create_proposals(Context& context, http::Request& request) {
+  const auto model = model_of(context, request);
+  refuse_unknown_members(body_object(request), {});
+  auto check = check_idempotency(context, request, sha256_hex(request.body));
+  if (check.earlier) return earlier_job(context, *check.earlier);
+  check_if_match(request, points_etag(model));
+  refuse_unless_imported(model);
+  FeaturePointSet placed;
+  for (const auto& point : context.store.feature_points(model.id)) {
+    if (!point.proposal) placed.push_back({*parse_feature_point(point.id), std::nullopt});
+  }
+  if (const auto fault = find_too_few_known(placed)) refuse("missing-feature-points", fault->message, fault->where);
+  if (!context.jobs.has_room()) return no_room();
+  store::JobRecord job;
+  job.id = store::random_id();
+  job.model = model.id;
+  job.kind = store::JobKind::propose;
+  job.created = job.updated = store::timestamp_now();
+  if (check.record) check.record->resource = job.id;
+  context.store.create_job(job, check.record);
   context.jobs.enqueue(job);
   return accepted(job);
 }

@@ -39,7 +39,8 @@ void fill_by_mirror(std::vector<store::FeaturePointRecord>& points, const Vertex
     auto position = position_of(points[i], positions);
     if (marked[partner] || !position) continue;
     (*position)[0] = 2.0 * middle - (*position)[0];
-    store::FeaturePointRecord mirrored{to_string(FeaturePointId(partner)), std::nullopt, std::nullopt};
+    store::FeaturePointRecord mirrored{to_string(FeaturePointId(partner)), std::nullopt, std::nullopt,
+                                       points[i].proposal};
     if (points[i].vertex) {
       mirrored.vertex = positions.nearest(*position, reach);
       if (!mirrored.vertex) continue;

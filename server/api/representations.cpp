@@ -8,9 +8,7 @@
 namespace semblante::api {
 namespace {
 
-Json problem_or_null(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json::parse(text, nullptr, false);
-}
+Json json_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json::parse(text, nullptr, false); }
 
 Json box(const std::array<double, 3>& low, const std::array<double, 3>& high) { return {{"min", low}, {"max", high}}; }
 
@@ -44,7 +42,7 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
   json["id"] = model.id;
   json["name"] = model.name;
   json["state"] = std::string(store::to_string(model.state));
-  json["problem"] = problem_or_null(model.problem);
+  json["problem"] = json_or_null(model.problem);
   json["created"] = model.created;
   json["updated"] = model.updated;
   json["source"] = {{"format", model.format.empty() ? Json(nullptr) : Json(model.format)},
@@ -88,7 +86,8 @@ Json represent(const store::JobRecord& job) {
           {"stage", job.stage},
           {"created", job.created},
           {"updated", job.updated},
-          {"problem", problem_or_null(job.problem)}};
+          {"problem", json_or_null(job.problem)},
+          {"result", json_or_null(job.result)}};
 }
 
 Json represent(const streams::StreamInfo& stream) {

@@ -21,6 +21,7 @@ constexpr auto table = std::to_array<Route>({
     {"DELETE", "/v1/models/{model}", BodyKind::none, "", delete_model},
     {"GET", "/v1/models/{model}/feature-points", BodyKind::none, json, get_feature_points},
     {"PUT", "/v1/models/{model}/feature-points", BodyKind::json, json, put_feature_points},
+    {"POST", "/v1/models/{model}/feature-points/proposals", BodyKind::json, json, create_proposals},
     {"POST", "/v1/models/{model}/parametrizations", BodyKind::json, json, create_parametrization},
     {"GET", "/v1/models/{model}/preview.glb", BodyKind::none, "*/*", get_model_artefact},
     {"GET", "/v1/models/{model}/mesh.drc", BodyKind::none, "*/*", get_model_artefact},

@@ -59,6 +59,7 @@ http::Response get_feature_points(Context&, http::Request&);
 http::Response put_feature_points(Context&, http::Request&);
 // job_routes.cpp
 http::Response create_parametrization(Context&, http::Request&);
+http::Response create_proposals(Context&, http::Request&);
 http::Response get_job(Context&, http::Request&);
 http::Response cancel_job(Context&, http::Request&);
 http::Response get_job_events(Context&, http::Request&);

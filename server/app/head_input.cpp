@@ -1,5 +1,6 @@
 #include "server/app/head_input.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +12,7 @@
 #include "core/import/import.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
+#include "core/propose/propose.h"
 #include "server/app/command_failure.h"
 #include "server/app/files.h"
 
@@ -55,9 +57,23 @@ class ProgressLine {
   bool shown_;
 };
 
+/// What `semblante propose` could do for these points.
+void warn_of_missing_points(const std::vector<MarkedPoint>& marked, std::vector<std::string>& warnings) {
+  const auto proposed = std::count_if(marked.begin(), marked.end(), [](const MarkedPoint& p) { return p.proposed; });
+  const std::size_t placed = marked.size() - static_cast<std::size_t>(proposed);
+  // 11.5, the thickness of hair, is missing from most heads, and nothing proposes it.
+  if (marked.size() + 1 < feature_point_count && placed >= least_known_points) {
+    warnings.push_back(std::to_string(feature_point_count - marked.size()) +
+                       " of the 84 feature points are missing; `semblante propose` proposes most of them");
+  }
+  if (proposed > 0) {
+    warnings.push_back(std::to_string(proposed) + " feature points are proposals that nobody has confirmed");
+  }
+}
+
 }  // namespace
 
-void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
+void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points) {
   command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
       ->required()
       ->envname("SEMBLANTE_MODEL");
@@ -70,6 +86,11 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
       ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
       ->envname("SEMBLANTE_FORMAT");
+  command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
+}
+
+void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
+  add_file_options(command, options, points);
   command
       .add_option("--weights", options.weights,
                   "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
@@ -82,7 +103,6 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
       ->check(CLI::IsMember({"edge", "unfolded"}))
       ->capture_default_str()
       ->envname("SEMBLANTE_METRIC");
-  command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
 }
 
 void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
@@ -118,6 +138,8 @@ Head load_head(const HeadOptions& options) {
   head.surface = build_surface(head.model);
   const auto points = place_feature_points(head.model, head.surface, files.marked, &head.warnings);
   if (!points) fail(options.feature_points_path, points.error());
+
+  warn_of_missing_points(files.marked, head.warnings);
 
   const ProgressLine line(options.quiet);
   ParametrizeOptions parametrize_options;

@@ -26,7 +26,10 @@ struct HeadOptions {
 
 enum class PointsOption : bool { required, optional };
 
-/// Declares MODEL, --feature-points, --format, --weights, --metric and --quiet.
+/// Declares MODEL, --feature-points, --format and --quiet.
+void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
+
+/// The same, and --weights and --metric.
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
 /// What the files say, brought into the MPEG-4 frame.

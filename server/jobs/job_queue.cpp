@@ -171,10 +171,12 @@ Result<WorkerRequest> JobQueue::make_request(const JobRecord& job) const {
   request.metric = job.metric;
   request.weights = job.weights;
   request.weight_bits = job.weight_bits;
-  if (job.kind == JobKind::parametrize) {
+  if (job.kind != JobKind::import) {
     request.points = store_.feature_points(job.model);
     request.parts = model->parts;
   }
+  if (job.kind == JobKind::propose)
+    std::erase_if(request.points, [](const auto& point) { return point.proposal.has_value(); });
   return request;
 }
 
@@ -283,10 +285,10 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
   // Alone for a new package: what the one before it used, and no one else, goes with the same commit.
   std::shared_lock shared(blobs_.references(), std::defer_lock);
   std::unique_lock alone(blobs_.references(), std::defer_lock);
-  if (job.kind == JobKind::import)
-    shared.lock();
-  else
+  if (job.kind == JobKind::parametrize)
     alone.lock();
+  else
+    shared.lock();
   for (auto& artefact : result.artefacts) {
     // A name is a file of the output folder, never a path out of it.
     const std::filesystem::path name(artefact.name);
@@ -315,6 +317,11 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
     facts.warnings = std::move(result.warnings);
     facts.findings = result.findings;
     store_.finish_import(job, facts, result.artefacts);
+    return;
+  }
+  if (job.kind == JobKind::propose) {
+    job.result = proposal_result(result);
+    store_.finish_proposal(job, result.proposals);
     return;
   }
   const store::PackageRecord package{job.id, store::timestamp_now(), job.metric, job.weights, job.weight_bits};

@@ -26,6 +26,18 @@ void say(const WorkerLine& line) {
   std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
 }
 
+Result<WorkerResult> run(const WorkerRequest& request, const Progress& progress) {
+  switch (request.kind) {
+    case store::JobKind::import:
+      return run_import(request, progress);
+    case store::JobKind::parametrize:
+      return run_parametrize(request, progress);
+    case store::JobKind::propose:
+      return run_propose(request, progress);
+  }
+  return Error{ErrorCode::internal, "", "there is no such job"};
+}
+
 int report(http::Problem problem) {
   WorkerLine line;
   line.kind = WorkerLine::Kind::problem;
@@ -58,8 +70,7 @@ int run_worker() {
     return true;
   };
   try {
-    auto result =
-        request->kind == store::JobKind::import ? run_import(*request, progress) : run_parametrize(*request, progress);
+    auto result = run(*request, progress);
     if (!result) return report(http::problem_from(result.error()));
     WorkerLine line;
     line.kind = WorkerLine::Kind::done;

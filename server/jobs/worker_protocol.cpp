@@ -21,6 +21,8 @@ json to_value(const WorkerResult& result) {
                 {"min", result.box_min},   {"max", result.box_max},       {"warnings", result.warnings},
                 {"parts", result.parts},   {"artefacts", json::array()}};
   if (result.findings) value["findings"] = *result.findings;
+  if (!result.proposals.empty()) value["proposals"] = result.proposals;
+  for (const auto& [id, reason] : result.not_proposed) value["not_proposed"].push_back({id, reason});
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
   return value;
@@ -39,12 +41,20 @@ WorkerResult result_from(const json& value) {
   result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
     return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};
   });
+  if (value.contains("proposals")) value["proposals"].get_to(result.proposals);
+  if (value.contains("not_proposed")) value["not_proposed"].get_to(result.not_proposed);
   return result;
 }
 
 std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 }  // namespace
+
+std::string proposal_result(const WorkerResult& result) {
+  json value = {{"proposed", result.proposals.size()}, {"not_proposed", json::object()}};
+  for (const auto& [id, reason] : result.not_proposed) value["not_proposed"][id] = reason;
+  return dump(value);
+}
 
 std::string to_json(const WorkerRequest& request) {
   json value = {{"kind", std::string(store::to_string(request.kind))},
@@ -55,14 +65,8 @@ std::string to_json(const WorkerRequest& request) {
                 {"metric", request.metric},
                 {"weights", request.weights},
                 {"weight_bits", request.weight_bits},
-                {"points", json::array()},
+                {"points", request.points},
                 {"parts", request.parts}};
-  for (const auto& point : request.points) {
-    json item = {{"id", point.id}};
-    if (point.vertex) item["vertex"] = *point.vertex;
-    if (point.position) item["position"] = *point.position;
-    value["points"].push_back(std::move(item));
-  }
   return dump(value);
 }
 
@@ -70,7 +74,9 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
   try {
     const auto value = json::parse(text);
     WorkerRequest request;
-    request.kind = value.at("kind") == "import" ? store::JobKind::import : store::JobKind::parametrize;
+    const auto kind = store::parse_job_kind(value.at("kind").get<std::string>());
+    if (!kind) return Error{ErrorCode::malformed, "/kind", "there is no such job"};
+    request.kind = *kind;
     request.source = value.at("source");
     request.file_name = value.at("file_name");
     request.name = value.at("name");
@@ -78,13 +84,7 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
     request.metric = value.at("metric");
     request.weights = value.at("weights");
     request.weight_bits = value.at("weight_bits");
-    request.points = list_from<store::FeaturePointRecord>(value.at("points"), [](const json& item) {
-      store::FeaturePointRecord point;
-      point.id = item.at("id");
-      if (item.contains("vertex")) point.vertex = item["vertex"].get<std::uint32_t>();
-      if (item.contains("position")) point.position = item["position"].get<std::array<double, 3>>();
-      return point;
-    });
+    value.at("points").get_to(request.points);
     value.at("parts").get_to(request.parts);
     return request;
   } catch (const json::exception& fault) {

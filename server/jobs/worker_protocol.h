@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/types/result.h"
@@ -19,9 +20,9 @@ struct WorkerRequest {
   std::string file_name;         ///< as uploaded: a hint of the format
   std::string name;              ///< of the model
   std::string output_directory;  ///< exists, empty: artefacts go here by their name
-  // parametrize only
-  std::vector<store::FeaturePointRecord> points;
-  std::vector<store::PartRecord> parts;  ///< of the import; roles set by the user are kept
+  // parametrize and propose only
+  std::vector<store::FeaturePointRecord> points;  ///< to propose: the placed ones
+  std::vector<store::PartRecord> parts;           ///< of the import; roles set by the user are kept
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
 };
@@ -42,6 +43,8 @@ struct WorkerResult {
   std::vector<std::string> warnings;
   std::optional<store::FindingCounts> findings;  ///< of the report
   std::vector<store::ArtefactRecord> artefacts;
+  std::vector<store::FeaturePointRecord> proposals;               ///< of a proposal: the points nobody placed
+  std::vector<std::pair<std::string, std::string>> not_proposed;  ///< of a proposal: point, reason
 };
 
 /// One line of a worker's standard output: progress, or the end.
@@ -52,6 +55,9 @@ struct WorkerLine {
   WorkerResult result;
   http::Problem problem;
 };
+
+/// What a proposal has to say beside the points it added, as JSON: how many, and why not the others.
+std::string proposal_result(const WorkerResult& result);
 
 std::string to_json(const WorkerRequest& request);
 Result<WorkerRequest> worker_request_from_json(std::string_view text);

@@ -12,6 +12,7 @@
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/place_feature_points.h"
+#include "core/propose/propose.h"
 #include "protocol/cpp/rig_document.h"
 #include "server/package/package.h"
 #include "server/report/report_json.h"
@@ -214,6 +215,39 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
     if (auto written = write_artefact(request, result, "image-" + std::to_string(i), type, image.bytes); !written)
       return written.error();
   }
+  return result;
+}
+
+Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& progress) {
+  progress(0.05, "reading");
+  auto model = read_model(request);
+  if (!model) return model.error();
+  progress(0.5, "surface");
+  const auto surface = build_surface(*model);
+  const auto roles = roles_by_user(request);
+  const auto marked = marked_points(request);
+  if (!marked) return marked.error();
+  const auto points = place_feature_points(*model, surface, *marked, nullptr, roles);
+  if (!points) return points.error();
+  progress(0.8, "proposals");
+  const auto proposals = propose_feature_points(surface, describe_parts(*model, surface, *points, roles), *points);
+  if (!proposals) return proposals.error();
+  WorkerResult result;
+  describe(*model, result);
+  for (const auto& proposal : proposals->points) {
+    store::FeaturePointRecord record;
+    record.id = to_string(proposal.point.id);
+    const auto& position = proposal.point.position;
+    if (proposal.point.vertex)
+      record.vertex = proposal.point.vertex->value();
+    else
+      record.position = {position.x, position.y, position.z};
+    record.proposal = store::ProposalRecord{
+        std::string(proposal_method_names[static_cast<std::size_t>(proposal.method)]),
+        std::string(confidence_names[static_cast<std::size_t>(proposal.confidence)]), proposal.expected_error};
+    result.proposals.push_back(std::move(record));
+  }
+  for (const auto& point : proposals->not_proposed) result.not_proposed.emplace_back(to_string(point.id), point.reason);
   return result;
 }
 

@@ -17,4 +17,7 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
 /// Model bytes and feature points -> the files of the face package and `report.json` in the output directory.
 Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progress& progress);
 
+/// Model bytes and placed feature points -> proposals for the others.
+Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& progress);
+
 }  // namespace semblante::jobs

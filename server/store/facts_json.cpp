@@ -33,4 +33,14 @@ void read_facts(std::string_view text, ModelRecord& model) {
   }
 }
 
+std::string write_proposal(const ProposalRecord& proposal) { return nlohmann::json(proposal).dump(); }
+
+ProposalRecord read_proposal(std::string_view text) {
+  try {
+    return nlohmann::json::parse(text).get<ProposalRecord>();
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
 }  // namespace semblante::store

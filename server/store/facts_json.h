@@ -12,4 +12,8 @@ std::string write_facts(const ModelRecord& model);
 /// The reverse, into `model`. A text that is not of this form (never written by us) leaves the lists empty.
 void read_facts(std::string_view json, ModelRecord& model);
 
+std::string write_proposal(const ProposalRecord& proposal);
+/// The reverse; a text that is not of this form gives a proposal of which nothing is known.
+ProposalRecord read_proposal(std::string_view json);
+
 }  // namespace semblante::store

@@ -30,4 +30,29 @@ void from_json(const nlohmann::json& json, FindingCounts& counts) {
   json.at("notes").get_to(counts.notes);
 }
 
+void to_json(nlohmann::json& json, const ProposalRecord& proposal) {
+  json = {
+      {"method", proposal.method}, {"confidence", proposal.confidence}, {"expected_error", proposal.expected_error}};
+}
+
+void from_json(const nlohmann::json& json, ProposalRecord& proposal) {
+  json.at("method").get_to(proposal.method);
+  json.at("confidence").get_to(proposal.confidence);
+  json.at("expected_error").get_to(proposal.expected_error);
+}
+
+void to_json(nlohmann::json& json, const FeaturePointRecord& point) {
+  json = {{"id", point.id}};
+  if (point.vertex) json["vertex"] = *point.vertex;
+  if (point.position) json["position"] = *point.position;
+  if (point.proposal) json["proposal"] = *point.proposal;
+}
+
+void from_json(const nlohmann::json& json, FeaturePointRecord& point) {
+  json.at("id").get_to(point.id);
+  if (json.contains("vertex")) point.vertex = json["vertex"].get<std::uint32_t>();
+  if (json.contains("position")) point.position = json["position"].get<std::array<double, 3>>();
+  if (json.contains("proposal")) point.proposal = json["proposal"].get<ProposalRecord>();
+}
+
 }  // namespace semblante::store

@@ -15,4 +15,10 @@ void from_json(const nlohmann::json& json, PartRecord& part);
 void to_json(nlohmann::json& json, const FindingCounts& counts);
 void from_json(const nlohmann::json& json, FindingCounts& counts);
 
+void to_json(nlohmann::json& json, const ProposalRecord& proposal);
+void from_json(const nlohmann::json& json, ProposalRecord& proposal);
+
+void to_json(nlohmann::json& json, const FeaturePointRecord& point);
+void from_json(const nlohmann::json& json, FeaturePointRecord& point);
+
 }  // namespace semblante::store

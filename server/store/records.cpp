@@ -1,11 +1,14 @@
 #include "server/store/records.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <stdexcept>
 
 #include <sys/random.h>
+
+#include "core/types/feature_point_id.h"
 
 namespace semblante::store {
 
@@ -14,7 +17,33 @@ std::string_view to_string(ModelState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-std::string_view to_string(JobKind kind) { return kind == JobKind::import ? "import" : "parametrize"; }
+namespace {
+
+constexpr std::array<std::string_view, 3> job_kind_names = {"import", "parametrize", "propose"};
+
+}  // namespace
+
+std::string_view to_string(JobKind kind) { return job_kind_names[static_cast<std::size_t>(kind)]; }
+
+std::optional<JobKind> parse_job_kind(std::string_view text) {
+  const auto* const found = std::find(job_kind_names.begin(), job_kind_names.end(), text);
+  if (found == job_kind_names.end()) return std::nullopt;
+  return static_cast<JobKind>(found - job_kind_names.begin());
+}
+
+std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> current,
+                                               const std::vector<FeaturePointRecord>& proposals) {
+  std::erase_if(current, [](const FeaturePointRecord& point) { return point.proposal.has_value(); });
+  const std::size_t placed = current.size();
+  for (const auto& proposal : proposals) {
+    const auto end = current.begin() + static_cast<std::ptrdiff_t>(placed);
+    if (std::none_of(current.begin(), end, [&](const auto& point) { return point.id == proposal.id; }))
+      current.push_back(proposal);
+  }
+  std::sort(current.begin(), current.end(),
+            [](const auto& a, const auto& b) { return parse_feature_point(a.id) < parse_feature_point(b.id); });
+  return current;
+}
 
 std::string_view to_string(JobState state) {
   static constexpr std::array<std::string_view, 5> names = {"queued", "running", "done", "failed", "cancelled"};

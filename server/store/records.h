@@ -28,7 +28,7 @@ struct FindingCounts {
 };
 
 enum class ModelState { importing, ready, parametrized, failed };
-enum class JobKind { import, parametrize };
+enum class JobKind { import, parametrize, propose };
 enum class JobState { queued, running, done, failed, cancelled };
 
 /// An immutable thing a model has, by name; the bytes are in the blob folder under the hash.
@@ -73,11 +73,21 @@ struct ModelRecord {
   bool operator==(const ModelRecord&) const = default;
 };
 
+/// How a point was proposed that nobody has placed or confirmed yet.
+struct ProposalRecord {
+  std::string method;           ///< as proposal_method_names; empty: not known
+  std::string confidence;       ///< as confidence_names; empty: not known
+  double expected_error = 0.0;  ///< in ES0; 0: not known
+
+  bool operator==(const ProposalRecord&) const = default;
+};
+
 /// One marked point as the user gave it: a vertex, a position, or both.
 struct FeaturePointRecord {
   std::string id;  ///< "2.1"
   std::optional<std::uint32_t> vertex;
   std::optional<std::array<double, 3>> position;
+  std::optional<ProposalRecord> proposal = std::nullopt;  ///< empty: placed
 
   bool operator==(const FeaturePointRecord&) const = default;
 };
@@ -93,6 +103,7 @@ struct JobRecord {
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
   std::uint32_t attempts = 0;  ///< how often a worker began it
+  std::string result;          ///< JSON of what it has to say beside what it changed, or empty
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -114,8 +125,14 @@ struct IdempotencyRecord {
 
 std::string_view to_string(ModelState state);
 std::string_view to_string(JobKind kind);
+std::optional<JobKind> parse_job_kind(std::string_view text);
 std::string_view to_string(JobState state);
 inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
+
+/// The points after new proposals came: every placed point of `current` as it is, and the proposals for the others.
+/// Earlier proposals are gone, so that what is proposed is always the last answer. In rising order of id.
+std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> current,
+                                               const std::vector<FeaturePointRecord>& proposals);
 
 /// Now, as RFC 3339 in UTC with milliseconds.
 std::string timestamp_now();

@@ -1,5 +1,6 @@
 #include "server/store/sqlite_store.h"
 
+#include <array>
 #include <mutex>
 
 #include "server/store/facts_json.h"
@@ -8,10 +9,8 @@
 namespace semblante::store {
 namespace {
 
-constexpr int schema_version = 1;
-
 /// Lists that are only ever read whole (parts, warnings, boxes) are one JSON column; what is looked up has its own.
-constexpr const char* schema = R"sql(
+constexpr const char* first_schema = R"sql(
 CREATE TABLE models(
   number INTEGER PRIMARY KEY AUTOINCREMENT,
   id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, state INTEGER NOT NULL, problem TEXT NOT NULL,
@@ -45,6 +44,14 @@ CREATE TABLE idempotency(
   key TEXT PRIMARY KEY, fingerprint TEXT NOT NULL, resource TEXT NOT NULL, created TEXT NOT NULL) STRICT;
 )sql";
 
+/// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
+/// change.
+constexpr std::array migrations = {
+    first_schema,
+    "ALTER TABLE feature_points ADD COLUMN proposal TEXT; ALTER TABLE jobs ADD COLUMN result TEXT NOT NULL DEFAULT ''",
+};
+constexpr int schema_version = migrations.size();
+
 constexpr const char* model_columns =
     "SELECT m.id, m.name, m.state, m.problem, m.created, m.updated, m.revision, m.file_name, m.format, "
     "m.source_bytes, m.source_sha256, m.vertices, m.triangles, m.facts, m.points_revision, "
@@ -77,8 +84,9 @@ ModelRecord read_model(const Statement& row) {
 }
 
 constexpr const char* job_columns =
-    "SELECT id, model, kind, state, progress, stage, created, updated, problem, metric, weights, weight_bits, attempts "
-    "FROM jobs ";
+    "SELECT id, model, kind, state, progress, stage, created, updated, problem, metric, weights, weight_bits, "
+    "attempts, "
+    "result FROM jobs ";
 
 JobRecord read_job(const Statement& row) {
   JobRecord job;
@@ -95,6 +103,7 @@ JobRecord read_job(const Statement& row) {
   job.weights = row.text(10);
   job.weight_bits = static_cast<int>(row.integer(11));
   job.attempts = static_cast<std::uint32_t>(row.integer(12));
+  job.result = row.text(13);
   return job;
 }
 
@@ -121,7 +130,7 @@ class SqliteStore : public Store {
       return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
     if (version == schema_version) return Unit{};
     Transaction transaction(db_);
-    db_.execute(schema);
+    for (int step = version; step < schema_version; ++step) db_.execute(migrations[static_cast<std::size_t>(step)]);
     db_.execute(("PRAGMA user_version=" + std::to_string(schema_version)).c_str());
     transaction.commit();
     return Unit{};
@@ -207,17 +216,7 @@ class SqliteStore : public Store {
 
   std::vector<FeaturePointRecord> feature_points(std::string_view model) override {
     const std::lock_guard lock(mutex_);
-    std::vector<FeaturePointRecord> points;
-    Statement statement(db_, "SELECT id, vertex, x, y, z FROM feature_points WHERE model = ? ORDER BY position");
-    statement.bind(model);
-    while (statement.step()) {
-      FeaturePointRecord point;
-      point.id = statement.text(0);
-      if (!statement.is_null(1)) point.vertex = static_cast<std::uint32_t>(statement.integer(1));
-      if (!statement.is_null(2)) point.position = {statement.real(2), statement.real(3), statement.real(4)};
-      points.push_back(std::move(point));
-    }
-    return points;
+    return locked_points(model);
   }
 
   bool put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
@@ -230,19 +229,7 @@ class SqliteStore : public Store {
         .bind(timestamp_now(), model, expected_revision)
         .run();
     if (db_.changes() == 0) return false;
-    Statement(db_, "DELETE FROM feature_points WHERE model = ?").bind(model).run();
-    int position = 0;
-    for (const auto& point : points) {
-      std::optional<double> x, y, z;
-      if (point.position) {
-        x = (*point.position)[0];
-        y = (*point.position)[1];
-        z = (*point.position)[2];
-      }
-      Statement(db_, "INSERT INTO feature_points VALUES(?,?,?,?,?,?,?)")
-          .bind(model, position++, point.id, point.vertex, x, y, z)
-          .run();
-    }
+    write_points(model, points);
     transaction.commit();
     return true;
   }
@@ -365,6 +352,21 @@ class SqliteStore : public Store {
     return orphans;
   }
 
+  bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    Statement(db_,
+              "UPDATE models SET points_revision = points_revision + 1, revision = revision + 1, updated = ? "
+              "WHERE id = ?")
+        .bind(timestamp_now(), job.model)
+        .run();
+    if (db_.changes() == 0) return false;
+    write_points(job.model, with_proposals(locked_points(job.model), proposals));
+    write_job(job);
+    transaction.commit();
+    return true;
+  }
+
   void finish_without_result(const JobRecord& job) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
@@ -425,6 +427,41 @@ class SqliteStore : public Store {
     return read_model(statement);
   }
 
+  std::vector<FeaturePointRecord> locked_points(std::string_view model) {
+    std::vector<FeaturePointRecord> points;
+    Statement statement(db_,
+                        "SELECT id, vertex, x, y, z, proposal FROM feature_points WHERE model = ? ORDER BY position");
+    statement.bind(model);
+    while (statement.step()) {
+      FeaturePointRecord point;
+      point.id = statement.text(0);
+      if (!statement.is_null(1)) point.vertex = static_cast<std::uint32_t>(statement.integer(1));
+      if (!statement.is_null(2)) point.position = {statement.real(2), statement.real(3), statement.real(4)};
+      if (!statement.is_null(5)) point.proposal = read_proposal(statement.text(5));
+      points.push_back(std::move(point));
+    }
+    return points;
+  }
+
+  void write_points(std::string_view model, const std::vector<FeaturePointRecord>& points) {
+    Statement(db_, "DELETE FROM feature_points WHERE model = ?").bind(model).run();
+    int position = 0;
+    for (const auto& point : points) {
+      std::optional<double> x, y, z;
+      if (point.position) {
+        x = (*point.position)[0];
+        y = (*point.position)[1];
+        z = (*point.position)[2];
+      }
+      std::optional<std::string> proposal;
+      if (point.proposal) proposal = write_proposal(*point.proposal);
+      Statement(db_,
+                "INSERT INTO feature_points(model, position, id, vertex, x, y, z, proposal) VALUES(?,?,?,?,?,?,?,?)")
+          .bind(model, position++, point.id, point.vertex, x, y, z, proposal)
+          .run();
+    }
+  }
+
   void insert_artefact(std::string_view model, const ArtefactRecord& artefact, bool of_package) {
     Statement(db_, "INSERT OR REPLACE INTO artefacts VALUES(?,?,?,?,?,?)")
         .bind(model, artefact.name, artefact.sha256, artefact.bytes, artefact.content_type, of_package ? 1 : 0)
@@ -432,16 +469,18 @@ class SqliteStore : public Store {
   }
 
   void insert_job(const JobRecord& job) {
-    Statement(db_, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+    Statement(db_, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(job.id, job.model, static_cast<int>(job.kind), static_cast<int>(job.state), job.progress, job.stage,
-              job.created, job.updated, job.problem, job.metric, job.weights, job.weight_bits, job.attempts)
+              job.created, job.updated, job.problem, job.metric, job.weights, job.weight_bits, job.attempts, job.result)
         .run();
   }
 
   void write_job(const JobRecord& job) {
     Statement(db_,
-              "UPDATE jobs SET state = ?, progress = ?, stage = ?, updated = ?, problem = ?, attempts = ? WHERE id = ?")
-        .bind(static_cast<int>(job.state), job.progress, job.stage, job.updated, job.problem, job.attempts, job.id)
+              "UPDATE jobs SET state = ?, progress = ?, stage = ?, updated = ?, problem = ?, attempts = ?, result = ? "
+              "WHERE id = ?")
+        .bind(static_cast<int>(job.state), job.progress, job.stage, job.updated, job.problem, job.attempts, job.result,
+              job.id)
         .run();
   }
 

@@ -66,6 +66,9 @@ class Store {
       const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
       const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
       const std::vector<ArtefactRecord>& artefacts) = 0;
+  /// The end of a proposal: job and points (see with_proposals) in one step, whatever became of the points since it
+  /// began. False when the model is gone.
+  virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;
   /// The end of a job without a result; a failed or cancelled import fails its model.
   virtual void finish_without_result(const JobRecord& job) = 0;
 

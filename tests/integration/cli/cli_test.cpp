@@ -65,6 +65,31 @@ struct Sheet : ::testing::Test {
   }
 };
 
+TEST_F(Sheet, Propose_WritesAllPointsMarked_AndAgainFromThePlacedOnes) {
+  const std::string enough = work.write("enough.json", R"({"points": {"9.3": {"vertex": 58}, "2.1": {"vertex": 13},
+    "8.3": {"vertex": 33}, "8.4": {"vertex": 29}, "2.2": {"vertex": 40}, "8.1": {"vertex": 49},
+    "3.7": {"vertex": 70}, "3.12": {"vertex": 64}}})");
+  const Outcome outcome = run_semblante({"propose", model, "--points", enough, "--out", work.path("all.json")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json all = json::parse(read_text(work.path("all.json")));
+  EXPECT_EQ(all["points"]["8.1"]["vertex"], 49);
+  EXPECT_FALSE(all["points"]["8.1"].contains("proposed"));
+  ASSERT_TRUE(all["points"].contains("8.2"));
+  EXPECT_EQ(all["points"]["8.2"]["proposed"], true);
+  EXPECT_EQ(all["not_proposed"]["6.1"], "the model has no tongue");
+  // The file can be given again; what was proposed in it is proposed anew.
+  const Outcome again = run_semblante({"propose", model, "--points", work.path("all.json")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out), all);
+}
+
+TEST_F(Sheet, Propose_NeedsEightPoints_AndNamesTheMissing) {
+  const Outcome outcome = run_semblante({"propose", model, "--points", points});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("at least 8"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("11.4"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Sheet, WeightsJson_HasARowPerFileVertex_WithAllDigits) {
   const Outcome outcome =
       run_semblante({"parametrize", model, "--feature-points", points, "--weights-json", work.path("w.json")});
@@ -224,7 +249,7 @@ TEST_F(Sheet, BadInput_IsRefused_InOneLineThatNamesIt) {
   };
   const std::vector<Case> cases = {
       {"no subcommand", {}, {"subcommand"}},
-      {"unknown subcommand", {"dance"}, {"parametrize, deform or serve", "--help"}},
+      {"unknown subcommand", {"dance"}, {"parametrize, deform, examine, propose or serve", "--help"}},
       {"a port that is none", {"serve", "--port", "70000"}, {"--port", "65535"}},
       {"fewer than no models", {"serve", "--max-models", "-1"}, {"--max-models"}},
       {"fewer than no bytes", {"serve", "--max-upload-bytes=-1"}, {"--max-upload-bytes"}},
@@ -315,7 +340,7 @@ TEST_F(Sheet, Examine_SaysWhatIsWrong_AndItsExitStatusWhetherItIsAnError) {
 }
 
 TEST(Cli, Help_NamesTheEnvironment_OfEveryOption) {
-  for (const char* const command : {"parametrize", "deform", "examine"}) {
+  for (const char* const command : {"parametrize", "deform", "examine", "propose"}) {
     const Outcome outcome = run_semblante({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     std::istringstream lines(outcome.out);

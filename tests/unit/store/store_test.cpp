@@ -96,6 +96,80 @@ TEST_F(StoreTest, FeaturePoints_NeedTheRightRevision) {
   EXPECT_FALSE(store_->put_feature_points("absent", {}, 0));
 }
 
+TEST_F(StoreTest, Proposals_FillWhatIsNotPlacedAndReplaceEarlierOnes) {
+  JobRecord job = add("m");
+  const FeaturePointRecord placed = {"2.1", 5, std::nullopt};
+  const FeaturePointRecord earlier = {"2.2", 6, std::nullopt, ProposalRecord{"shape", "low", 0.25}};
+  ASSERT_TRUE(store_->put_feature_points("m", {placed, earlier}, 0));
+  const ProposalRecord how{"mirror", "high", 0.03125};
+  const std::vector<FeaturePointRecord> proposals = {
+      {"2.1", 7, std::nullopt, how}, {"11.1", 8, std::nullopt, how}, {"7.1", std::nullopt, {{0.0, 1.0, 2.0}}, how}};
+  job.state = JobState::done;
+  job.result = "{}";
+  EXPECT_TRUE(store_->finish_proposal(job, proposals));
+  reopen();
+  // In rising order, which is not that of the letters.
+  EXPECT_EQ(store_->feature_points("m"), (std::vector<FeaturePointRecord>{placed, proposals[2], proposals[1]}));
+  EXPECT_EQ(store_->model("m")->feature_points_revision, 2U);
+  EXPECT_EQ(store_->job(job.id), job);
+  EXPECT_FALSE(store_->put_feature_points("m", {}, 1)) << "an edit from before the proposals";
+  job.model = "absent";
+  EXPECT_FALSE(store_->finish_proposal(job, proposals));
+}
+
+TEST_F(StoreTest, StoreOfTheFirstVersion_OpensWithItsPointsPlaced) {
+  store_.reset();
+  std::filesystem::remove(folder_ / "facts.sqlite");
+  std::filesystem::remove(folder_ / "facts.sqlite-wal");
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
+  // As version 1 made and filled it.
+  const char* const sql = R"sql(
+    CREATE TABLE models(
+      number INTEGER PRIMARY KEY AUTOINCREMENT,
+      id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, state INTEGER NOT NULL, problem TEXT NOT NULL,
+      created TEXT NOT NULL, updated TEXT NOT NULL, revision INTEGER NOT NULL,
+      file_name TEXT NOT NULL, format TEXT NOT NULL, source_bytes INTEGER NOT NULL, source_sha256 TEXT NOT NULL,
+      vertices INTEGER NOT NULL, triangles INTEGER NOT NULL, facts TEXT NOT NULL,
+      points_revision INTEGER NOT NULL) STRICT;
+    CREATE TABLE packages(
+      model TEXT PRIMARY KEY REFERENCES models(id) ON DELETE CASCADE,
+      parametrization TEXT NOT NULL, created TEXT NOT NULL, metric TEXT NOT NULL, weights TEXT NOT NULL,
+      weight_bits INTEGER NOT NULL) STRICT;
+    CREATE TABLE feature_points(
+      model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE, position INTEGER NOT NULL, id TEXT NOT NULL,
+      vertex INTEGER, x REAL, y REAL, z REAL, PRIMARY KEY(model, id)) STRICT, WITHOUT ROWID;
+    CREATE TABLE artefacts(
+      model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE, name TEXT NOT NULL, sha256 TEXT NOT NULL,
+      bytes INTEGER NOT NULL, content_type TEXT NOT NULL, of_package INTEGER NOT NULL,
+      PRIMARY KEY(model, name)) STRICT, WITHOUT ROWID;
+    CREATE TABLE jobs(
+      number INTEGER PRIMARY KEY AUTOINCREMENT,
+      id TEXT NOT NULL UNIQUE, model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE,
+      kind INTEGER NOT NULL, state INTEGER NOT NULL, progress REAL NOT NULL, stage TEXT NOT NULL,
+      created TEXT NOT NULL, updated TEXT NOT NULL, problem TEXT NOT NULL,
+      metric TEXT NOT NULL, weights TEXT NOT NULL, weight_bits INTEGER NOT NULL, attempts INTEGER NOT NULL) STRICT;
+    CREATE TABLE streams(
+      number INTEGER PRIMARY KEY AUTOINCREMENT,
+      id TEXT NOT NULL UNIQUE, title TEXT NOT NULL, model TEXT NOT NULL, created TEXT NOT NULL) STRICT;
+    CREATE TABLE idempotency(
+      key TEXT PRIMARY KEY, fingerprint TEXT NOT NULL, resource TEXT NOT NULL, created TEXT NOT NULL) STRICT;
+    INSERT INTO models VALUES(1,'m','Ana',1,'','t','t',3,'a.obj','obj',1,'s',8,4,'{}',1);
+    INSERT INTO feature_points VALUES('m',0,'2.1',5,NULL,NULL,NULL);
+    INSERT INTO jobs VALUES(1,'j','m',1,2,1.0,'done','t','t','','edge','paper',12,1);
+    PRAGMA user_version=1)sql";
+  ASSERT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+  sqlite3_close(database);
+  reopen();
+  EXPECT_EQ(store_->feature_points("m"), (std::vector<FeaturePointRecord>{{"2.1", 5, std::nullopt}}));
+  ASSERT_TRUE(store_->job("j"));
+  EXPECT_EQ(store_->job("j")->result, "");
+  EXPECT_TRUE(store_->put_feature_points("m", {{"2.1", 5, std::nullopt, ProposalRecord{"shape", "low", 0.5}}}, 1));
+  EXPECT_TRUE(store_->feature_points("m")[0].proposal);
+  reopen();
+  EXPECT_TRUE(store_->feature_points("m")[0].proposal) << "and opens again";
+}
+
 TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   import(add("m"));
   const auto revision = store_->model("m")->revision;

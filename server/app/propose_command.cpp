@@ -1,0 +1,85 @@
+#include <memory>
+#include <ostream>
+
+#include <CLI/CLI.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/parametrize/part_roles.h"
+#include "core/parametrize/place_feature_points.h"
+#include "core/propose/propose.h"
+#include "server/app/command_failure.h"
+#include "server/app/commands.h"
+#include "server/app/files.h"
+#include "server/app/head_input.h"
+
+namespace semblante {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ProposeCommand {
+  HeadOptions head;
+  std::string out = "-";
+};
+
+/// In the axes of the model's file, as feature point files have it.
+Json to_json(const FeaturePoint& point, const glm::dmat3& from_mpeg4) {
+  const glm::dvec3 p = from_mpeg4 * glm::dvec3(point.position);
+  Json json = {{"vertex", nullptr}, {"position", {p.x, p.y, p.z}}};
+  if (point.vertex) json["vertex"] = point.vertex->value();
+  return json;
+}
+
+Json document(const FeaturePointSet& placed, const Proposals& proposals, const glm::dmat3& to_mpeg4) {
+  const glm::dmat3 from_mpeg4 = glm::inverse(to_mpeg4);
+  std::array<Json, feature_point_count> by_id;
+  for (const FeaturePoint& point : placed) by_id[point.id.value()] = to_json(point, from_mpeg4);
+  for (const Proposal& proposal : proposals.points) {
+    Json json = to_json(proposal.point, from_mpeg4);
+    json["proposed"] = true;
+    json["method"] = proposal_method_names[static_cast<std::size_t>(proposal.method)];
+    json["confidence"] = confidence_names[static_cast<std::size_t>(proposal.confidence)];
+    json["expected_error"] = proposal.expected_error;
+    by_id[proposal.point.id.value()] = std::move(json);
+  }
+  Json result = {{"to_mpeg4_axes", Json::array()}, {"points", Json::object()}, {"not_proposed", Json::object()}};
+  for (int row = 0; row < 3; ++row) {
+    result["to_mpeg4_axes"].push_back({to_mpeg4[0][row], to_mpeg4[1][row], to_mpeg4[2][row]});
+  }
+  for (std::uint8_t id = 0; id < feature_point_count; ++id) {
+    if (!by_id[id].is_null()) result["points"][to_string(FeaturePointId(id))] = std::move(by_id[id]);
+  }
+  for (const NotProposed& point : proposals.not_proposed) result["not_proposed"][to_string(point.id)] = point.reason;
+  return result;
+}
+
+void run(const ProposeCommand& options) {
+  HeadFiles files = read_head(options.head);
+  // Proposals of an earlier run are made anew from what a person placed.
+  std::erase_if(files.marked, [](const MarkedPoint& point) { return point.proposed; });
+  std::vector<std::string> warnings = files.model.warnings;
+  const Surface surface = build_surface(files.model);
+  const auto placed = place_feature_points(files.model, surface, files.marked, &warnings);
+  if (!placed) fail(options.head.feature_points_path, placed.error());
+  const auto proposals = propose_feature_points(surface, describe_parts(files.model, surface, *placed), *placed);
+  if (!proposals) fail(options.head.feature_points_path, proposals.error());
+  const Json json = document(*placed, *proposals, files.to_mpeg4);
+  write_file(options.out, [&json](std::ostream& out) { out << json.dump(1) << "\n"; });
+  print_warnings(warnings, options.head.quiet);
+}
+
+}  // namespace
+
+void add_propose_command(CLI::App& app) {
+  auto options = std::make_shared<ProposeCommand>();
+  CLI::App* const command = app.add_subcommand(
+      "propose", "Propose the feature points that nobody placed, from those that are, for a look and a correction");
+  add_file_options(*command, options->head);
+  command->add_option("--out", options->out, "Write all points here, the proposed ones marked; - is standard output")
+      ->capture_default_str()
+      ->envname("SEMBLANTE_OUT");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace semblante

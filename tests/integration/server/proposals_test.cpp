@@ -1,0 +1,194 @@
+// Proposals over REST, with the sample head: asked for, merged, reviewed, confirmed.
+
+#include <algorithm>
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/propose/quick_set.h"
+#include "core/sample_head/write_sample_head.h"
+#include "tests/integration/server/model_flow.h"
+
+namespace semblante::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+
+class ProposalRoutes : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    server_ = new ServerProcess(folder_->path() / "data");
+    const SampleHead head = make_sample_head();
+    const auto glb = sample_head_glb(head);
+    ASSERT_TRUE(glb);
+    glb_ = new std::string(glb->begin(), glb->end());
+    all_ = new json(json::parse(sample_head_feature_points_json(head)));
+  }
+  static void TearDownTestSuite() {
+    EXPECT_EQ(server_->end(SIGTERM), 0);
+    delete server_;
+    delete folder_;
+    delete glb_;
+    delete all_;
+  }
+
+  void SetUp() override {
+    const auto made = json_of(
+        request(port(), "POST", "/v1/models?filename=head.glb", *glb_, {{"Content-Type", "model/gltf-binary"}}));
+    ASSERT_TRUE(made.contains("job")) << made;
+    model_ = made["model"]["id"];
+    ASSERT_EQ(wait_for_job(port(), made["job"]["id"]).value("state", ""), "done");
+  }
+
+  static int port() { return server_->port(); }
+  [[nodiscard]] std::string points_path() const { return "/v1/models/" + model_ + "/feature-points"; }
+
+  template <class Names>
+  static json points_of(const Names& names) {
+    json body = {{"points", json::object()}};
+    for (const auto& name : names) body["points"][std::string(name)] = (*all_)["points"][std::string(name)];
+    return body;
+  }
+  Reply put(const json& body, const Fields& fields = json_type) const {
+    return request(port(), "PUT", points_path(), body.dump(), fields);
+  }
+  [[nodiscard]] json points() const { return json_of(request(port(), "GET", points_path()))["points"]; }
+  [[nodiscard]] Reply propose(const std::string& body = "", Fields fields = {}) const {
+    if (!body.empty()) fields.insert(fields.end(), json_type.begin(), json_type.end());
+    return request(port(), "POST", points_path() + "/proposals", body, fields);
+  }
+  /// Asks, waits, and gives the finished job.
+  [[nodiscard]] json proposed() const {
+    const auto job = json_of(propose());
+    return job.contains("id") ? wait_for_job(port(), job["id"]) : job;
+  }
+
+  static void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
+    EXPECT_EQ(reply.status, status) << reply.body;
+    EXPECT_EQ(json_of(reply).value("type", ""), "/problems/" + slug) << reply.body;
+    EXPECT_EQ(json_of(reply).value("pointer", ""), pointer) << reply.body;
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline ServerProcess* server_ = nullptr;
+  static inline std::string* glb_ = nullptr;
+  static inline json* all_ = nullptr;
+  std::string model_;
+};
+
+TEST_F(ProposalRoutes, QuickSet_BecomesAFullSetWithMarks) {
+  const auto placed = json_of(put(points_of(quick_set)))["points"];
+  const auto tag = request(port(), "GET", points_path()).headers.at("etag");
+  const auto job = proposed();
+  ASSERT_EQ(job.value("state", ""), "done") << job;
+  EXPECT_EQ(job["kind"], "propose");
+  EXPECT_EQ(job["result"]["proposed"], 63);
+  EXPECT_THAT(job["result"]["not_proposed"]["11.5"].get<std::string>(), HasSubstr("hair"));
+
+  const auto after = points();
+  ASSERT_EQ(after.size(), 83U);
+  for (const auto& [id, point] : placed.items()) EXPECT_EQ(after[id], point) << "placed points are not touched: " << id;
+  EXPECT_EQ(after["8.4"]["proposed"], true);
+  EXPECT_EQ(after["8.4"]["method"], "mirror");
+  EXPECT_EQ(after["8.4"]["confidence"], "high");
+  EXPECT_TRUE(after["8.4"]["vertex"].is_number());
+  EXPECT_GT(after["8.4"]["expected_error"].get<double>(), 0.0);
+  EXPECT_TRUE(after["7.1"]["position"].is_array());
+  EXPECT_NE(request(port(), "GET", points_path()).headers.at("etag"), tag) << "the points have changed";
+}
+
+TEST_F(ProposalRoutes, ProposedPoints_ParametrizeLikeOthers) {
+  put(points_of(quick_set));
+  ASSERT_EQ(proposed().value("state", ""), "done");
+  const auto job = json_of(request(port(), "POST", "/v1/models/" + model_ + "/parametrizations"));
+  EXPECT_EQ(wait_for_job(port(), job["id"]).value("state", ""), "done");
+  const auto rig = json_of(request(port(), "GET", "/v1/models/" + model_ + "/rig.json"));
+  EXPECT_FALSE(rig.dump().empty());
+  EXPECT_EQ(rig.dump().find("\"proposed\""), std::string::npos);
+}
+
+TEST_F(ProposalRoutes, Marks_SurviveARoundTripAndEndWithAPutWithoutThem) {
+  put(points_of(quick_set));
+  ASSERT_EQ(proposed().value("state", ""), "done");
+  auto document = json_of(request(port(), "GET", points_path()));
+  const auto before = document["points"];
+  EXPECT_EQ(json_of(put(document))["points"], before);
+
+  // One is confirmed, one is moved, one is thrown out.
+  document["points"]["8.4"] = {{"vertex", before["8.4"]["vertex"]}};
+  document["points"]["9.12"] = {{"vertex", before["9.15"]["vertex"]}};
+  document["points"].erase("11.1");
+  ASSERT_EQ(put(document).status, 200);
+  auto now = points();
+  EXPECT_FALSE(now["8.4"].contains("proposed"));
+  EXPECT_FALSE(now["8.4"].contains("confidence"));
+  EXPECT_EQ(now["8.5"]["proposed"], true);
+  EXPECT_FALSE(now.contains("11.1"));
+
+  // Proposed again: placed ones stay where they are, what was thrown out comes back as a proposal.
+  ASSERT_EQ(proposed().value("state", ""), "done");
+  now = points();
+  EXPECT_FALSE(now["8.4"].contains("proposed"));
+  EXPECT_EQ(now["9.12"]["vertex"], before["9.15"]["vertex"]);
+  EXPECT_FALSE(now["9.12"].contains("proposed"));
+  EXPECT_EQ(now["11.1"]["proposed"], true);
+}
+
+TEST_F(ProposalRoutes, TooFewPoints_AreRefusedWithTheMissingOnes) {
+  expect_problem(propose(), 422, "missing-feature-points", "/points");
+  put(points_of(std::vector<std::string>{"9.3", "2.1", "8.1"}));
+  const auto reply = propose();
+  expect_problem(reply, 422, "missing-feature-points", "/points");
+  EXPECT_THAT(reply.body, HasSubstr("at least 8"));
+  EXPECT_THAT(reply.body, HasSubstr("11.4"));
+  EXPECT_EQ(json_of(reply)["detail"].get<std::string>().find("9.3,"), std::string::npos) << "that one is there";
+}
+
+TEST_F(ProposalRoutes, PointsThatSayNothing_FailTheJobWithTheReason) {
+  json body = points_of(quick_set);
+  for (auto& point : body["points"]) point = body["points"]["9.3"];
+  ASSERT_EQ(put(body).status, 200);
+  const auto job = proposed();
+  EXPECT_EQ(job.value("state", ""), "failed") << job;
+  EXPECT_EQ(job["problem"]["type"], "/problems/missing-feature-points");
+  EXPECT_EQ(points().size(), quick_set.size()) << "nothing was changed";
+}
+
+TEST_F(ProposalRoutes, BadRequests_NameTheFault) {
+  put(points_of(quick_set));
+  expect_problem(propose(R"({"which":"all"})"), 422, "invalid-field", "/which");
+  expect_problem(propose("[1]"), 422, "invalid-field");
+  expect_problem(propose("{\"a\""), 400, "malformed-request");
+  expect_problem(propose("", {{"If-Match", "\"points-99\""}}), 412, "precondition-failed");
+  const auto tag = request(port(), "GET", points_path()).headers.at("etag");
+  EXPECT_EQ(propose("", {{"If-Match", tag}}).status, 202);
+  EXPECT_EQ(request(port(), "GET", points_path() + "/proposals").status, 405);
+
+  const auto with = [](const char* name, const json& value) {
+    json body = {{"points", {{"2.1", {{"vertex", 4}, {"proposed", true}}}}}};
+    body["points"]["2.1"][name] = value;
+    return body;
+  };
+  expect_problem(put(with("proposed", "yes")), 422, "invalid-feature-point", "/points/2.1/proposed");
+  expect_problem(put(with("method", "guess")), 422, "invalid-feature-point", "/points/2.1/method");
+  expect_problem(put(with("confidence", 3)), 422, "invalid-feature-point", "/points/2.1/confidence");
+  expect_problem(put(with("expected_error", -1)), 422, "invalid-feature-point", "/points/2.1/expected_error");
+  json placed = with("method", "by hand");
+  placed["points"]["2.1"]["proposed"] = false;
+  EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";
+}
+
+TEST_F(ProposalRoutes, IdempotencyKey_MakesOneJob) {
+  put(points_of(quick_set));
+  const Fields key = {{"Idempotency-Key", "once-" + model_}};
+  const auto first = json_of(propose("", key));
+  EXPECT_EQ(json_of(propose("", key))["id"], first["id"]);
+}
+
+}  // namespace
+}  // namespace semblante::test
