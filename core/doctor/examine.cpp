@@ -1,8 +1,10 @@
 #include "core/doctor/examine.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "core/doctor/mesh_faults.h"
@@ -19,7 +21,28 @@ void append(Report& report, std::vector<Finding> findings) {
   std::move(findings.begin(), findings.end(), std::back_inserter(report.findings));
 }
 
+/// A model may have a hundred thousand holes. Of one kind the first are told, and the last of those says how many more
+/// there are; points alone, of which there are 84, never come to as many.
+void keep_few_of_each(std::vector<Finding>& findings) {
+  constexpr std::size_t most_of_a_kind = 100;
+  std::array<std::size_t, finding_code_names.size()> count{};
+  std::array<Finding*, finding_code_names.size()> last{};
+  std::size_t kept = 0;
+  for (Finding& finding : findings) {
+    const auto kind = static_cast<std::size_t>(finding.code);
+    if (++count[kind] > most_of_a_kind) continue;
+    if (&findings[kept] != &finding) findings[kept] = std::move(finding);
+    last[kind] = &findings[kept++];
+  }
+  findings.resize(kept);
+  for (std::size_t kind = 0; kind < count.size(); ++kind) {
+    if (count[kind] > most_of_a_kind)
+      last[kind]->words += "; the same goes for " + std::to_string(count[kind] - most_of_a_kind) + " more";
+  }
+}
+
 Report errors_first(Report report) {
+  keep_few_of_each(report.findings);
   std::stable_sort(report.findings.begin(), report.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
   return report;

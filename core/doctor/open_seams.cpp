@@ -72,11 +72,13 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
   if (borders.empty()) return {};
 
   std::vector<double> lengths;
+  double extent = 0.0;
   std::unordered_map<std::uint32_t, double> shortest_at;  // of the border edges that end at a vertex
   for (const auto& [a, b] : borders) {
     const double length = glm::distance(surface.positions[a], surface.positions[b]);
     lengths.push_back(length);
     for (const std::uint32_t v : {a, b}) {
+      extent = std::max(extent, glm::length(surface.positions[v]));
       auto& shortest = shortest_at.try_emplace(v, length).first->second;
       shortest = std::min(shortest, length);
     }
@@ -85,7 +87,6 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
   std::nth_element(lengths.begin(), half, lengths.end());
   const double widest = gap_share * *half;
   // Nothing can be closer than a width of nothing, and cubes must not be more than 64 bits can count.
-  const double extent = glm::length(surface.positions.front()) + 1.0;
   if (!(widest > extent * 1e-12)) return {};
 
   Cells cells(surface, widest);

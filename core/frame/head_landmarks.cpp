@@ -62,21 +62,30 @@ std::optional<EyePair> eyes_by_name(std::span<const PartShape> shapes) {
   return pair;
 }
 
-/// Of balls that come in twos of one size, the largest two.
+/// Of balls that come in twos of one size, the largest two. Only so many of the largest are looked at: a file may hold
+/// hundreds of thousands of equal balls.
 std::optional<EyePair> eyes_by_shape(std::span<const PartShape> shapes) {
+  constexpr std::size_t most_balls = 64;
+  std::vector<const PartShape*> balls;
+  for (const PartShape& shape : shapes) {
+    if (shape.triangles > 0 && is_ball(shape)) balls.push_back(&shape);
+  }
+  std::stable_sort(balls.begin(), balls.end(),
+                   [](const PartShape* a, const PartShape* b) { return a->sphere->radius > b->sphere->radius; });
+  balls.resize(std::min(balls.size(), most_balls));
   std::optional<EyePair> best;
   double best_radius = 0.0;
-  for (std::size_t p = 0; p < shapes.size(); ++p) {
-    if (shapes[p].triangles == 0 || !is_ball(shapes[p])) continue;
-    for (std::size_t q = p + 1; q < shapes.size(); ++q) {
-      if (shapes[q].triangles != shapes[p].triangles || !is_ball(shapes[q])) continue;
-      const double radius = shapes[p].sphere->radius;
-      if (std::abs(shapes[q].sphere->radius - radius) > 0.02 * radius || radius <= best_radius) continue;
-      const auto pair = two_groups(std::array{shapes[p].sphere->center, shapes[q].sphere->center});
+  for (std::size_t p = 0; p < balls.size(); ++p) {
+    for (std::size_t q = p + 1; q < balls.size(); ++q) {
+      const Sphere& one = *balls[p]->sphere;
+      const Sphere& other = *balls[q]->sphere;
+      if (balls[q]->triangles != balls[p]->triangles) continue;
+      if (std::abs(other.radius - one.radius) > 0.02 * one.radius || one.radius <= best_radius) continue;
+      const auto pair = two_groups(std::array{one.center, other.center});
       // Eyeballs are two to three diameters apart.
-      if (!pair || pair->separation < 2.2 * radius || pair->separation > 12.0 * radius) continue;
+      if (!pair || pair->separation < 2.2 * one.radius || pair->separation > 12.0 * one.radius) continue;
       best = pair;
-      best_radius = radius;
+      best_radius = one.radius;
     }
   }
   return best;

@@ -10,10 +10,10 @@ constexpr std::size_t max_examples = 4096;
 
 }  // namespace
 
-std::vector<std::string> MorphTargets::names_of(const JsonCursor& mesh, const JsonCursor& primitive) {
+std::vector<std::string> MorphTargets::names_of(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t most) {
   for (const JsonCursor* const owner : {&mesh, &primitive}) {
     if (!owner->has("extras")) continue;
-    auto names = (*owner)["extras"].texts("targetNames");
+    auto names = (*owner)["extras"].texts("targetNames", most);
     if (!names.empty()) return names;
   }
   return {};
@@ -34,7 +34,7 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
     primitive["targets"].fail(ErrorCode::too_large, "more than " + std::to_string(max_examples) + " morph targets");
     return;
   }
-  const std::vector<std::string> names = names_of(mesh, primitive);
+  const std::vector<std::string> names = names_of(mesh, primitive, target_count);
   for (std::size_t i = 0; i < target_count && !document_.failed(); ++i) {
     const JsonCursor target = primitive["targets"].element(i);
     const auto accessor = target.index("POSITION", document_.count("accessors"));

@@ -25,7 +25,8 @@ class MorphTargets {
 
  private:
   Example& example(const std::string& name);
-  static std::vector<std::string> names_of(const JsonCursor& mesh, const JsonCursor& primitive);
+  /// The first names only: a thousand primitives of one mesh may each have a target, and their mesh a million names.
+  static std::vector<std::string> names_of(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t most);
 
   GltfDocument& document_;
   ModelBuilder& builder_;

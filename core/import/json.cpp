@@ -246,10 +246,13 @@ std::size_t JsonCursor::required_index(const char* key, std::size_t count) const
 
 std::size_t JsonCursor::size_of(const char* key) const { return has(key) ? (*this)[key].size() : 0; }
 
-std::vector<std::string> JsonCursor::texts(const char* key) const {
+std::vector<std::string> JsonCursor::texts(const char* key, std::size_t most) const {
   std::vector<std::string> texts;
   if (!has(key) || !(*value_)[key].is_array()) return texts;
-  for (const json& item : (*value_)[key]) texts.push_back(item.is_string() ? item.get<std::string>() : std::string());
+  for (const json& item : (*value_)[key]) {
+    if (texts.size() == most) break;
+    texts.push_back(item.is_string() ? item.get<std::string>() : std::string());
+  }
   return texts;
 }
 

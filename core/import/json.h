@@ -54,8 +54,9 @@ class JsonCursor {
   [[nodiscard]] std::optional<std::size_t> index(const char* key, std::size_t count) const;
   /// Size of a member that is an array or absent.
   [[nodiscard]] std::size_t size_of(const char* key) const;
-  /// Of a member that follows no rules ("extras"): the texts of an array, "" for what is none; empty for anything else.
-  [[nodiscard]] std::vector<std::string> texts(const char* key) const;
+  /// Of a member that follows no rules ("extras"): the first texts of an array, `most` of them, "" for what is none;
+  /// empty for anything else.
+  [[nodiscard]] std::vector<std::string> texts(const char* key, std::size_t most) const;
 
   /// Keeps this fault at this place, unless there is one already.
   void fail(ErrorCode code, std::string message) const;
