@@ -18,8 +18,9 @@ namespace {
 
 /// A border longer than this, of ES0, is the neck's or the rim of a mask: a hole of that length is wider than a cheek.
 constexpr double longest = 1.5;
-/// A hole this near to a point, of ES0, bends the ways by which its influence spreads.
-constexpr double near_a_point = 0.25;
+/// Hardly a place of the face is farther from all points, in ES0; a hole this near bends the ways by which influence
+/// spreads.
+constexpr double near_a_point = 0.4;
 /// Mouth, eyes and nostrils are holes on many heads. A border that comes this near to their points is theirs.
 constexpr double of_an_opening = 0.10;
 constexpr auto at_openings =

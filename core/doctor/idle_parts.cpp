@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/doctor/part_checks.h"
@@ -17,9 +17,8 @@ namespace {
 
 /// A piece this near to a point of the moving face, of ES0, is part of what should move; 6 mm on a human face.
 constexpr double beside_a_point = 0.10;
-/// Two parts are the same thing twice when one has this share of the other's vertices and fills this share of its box.
-constexpr double least_vertices = 0.25;
-constexpr double least_extent = 0.7;
+/// Hair covers the skull, glasses the eyes; what is beside this share of a face's points is a face again.
+constexpr double share_of_a_face = 0.5;
 
 std::string called(const std::vector<Part>& parts, std::size_t index) {
   return "part " + std::to_string(index) + (parts[index].name.empty() ? "" : " \"" + parts[index].name + "\"");
@@ -34,74 +33,78 @@ VertexSample members(const Subject& head, std::size_t part) {
 
 bool moves_with_the_skin(FeaturePointId id) { return is_skin_point(id) && group_of(id) != 10; }
 
-void find_islands(const Subject& head, std::vector<Finding>& out) {
+/// How a part lies to the points that move the skin.
+struct Nearness {
+  double distance = std::numeric_limits<double>::infinity();  ///< the least, in model units
+  std::size_t point = 0;                                      ///< to which
+  glm::dvec3 at{0.0};
+  std::set<std::size_t> beside;  ///< points within reach
+};
+
+Nearness nearness_of(const Surface& surface, PartId part, const NearestPoint& points, double reach) {
+  Nearness near;
+  for (const SurfaceVertexId v : surface.members_of(part)) {
+    const auto hit = points.nearest(surface.positions[v.value()]);
+    if (hit.distance <= reach) near.beside.insert(hit.index);
+    if (hit.distance >= near.distance) continue;
+    near.distance = hit.distance;
+    near.point = hit.index;
+    near.at = surface.positions[v.value()];
+  }
+  return near;
+}
+
+Finding about(const Subject& head, std::size_t part, FindingCode code, FeaturePointId point, const glm::dvec3& at) {
+  Finding finding;
+  finding.code = code;
+  finding.severity = Severity::warning;
+  finding.place.part = PartId(static_cast<std::uint32_t>(part));
+  finding.place.points.push_back(point);
+  finding.place.vertices = members(head, part);
+  finding.place.position = at;
+  return finding;
+}
+
+void find_strangers(const Subject& head, std::vector<Finding>& out) {
   if (!head.frame.eye_separation) return;
   std::vector<glm::dvec3> places;
   std::vector<FeaturePointId> ids;
+  std::set<PartId> with_points;
   for (const SurfacePoint& point : surface_points(head.surface, head.rig.points)) {
     if (!moves_with_the_skin(point.id)) continue;
     places.push_back(point.position);
     ids.push_back(point.id);
+    with_points.insert(head.surface.part_of[point.vertex.value()]);
   }
   if (places.empty()) return;
   const NearestPoint nearest(places);
+  const double reach = beside_a_point * *head.frame.eye_separation;
   const auto& parts = head.rig.parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role != PartRole::rest || parts[p].triangle_count == 0) continue;
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t point = 0;
-    glm::dvec3 at(0.0);
-    for (const SurfaceVertexId v : head.surface.members_of(PartId(static_cast<std::uint32_t>(p)))) {
-      const auto hit = nearest.nearest(head.surface.positions[v.value()]);
-      if (hit.distance >= least) continue;
-      least = hit.distance;
-      point = hit.index;
-      at = head.surface.positions[v.value()];
+    const PartId part(static_cast<std::uint32_t>(p));
+    if (parts[p].triangle_count == 0 || with_points.contains(part)) continue;
+    const Nearness near = nearness_of(head.surface, part, nearest, reach);
+    const double share = static_cast<double>(near.beside.size()) / static_cast<double>(ids.size());
+    if (share >= share_of_a_face) {
+      Finding finding = about(head, p, FindingCode::second_skin, ids[near.point], near.at);
+      finding.words = called(parts, p) + " lies beside " + std::to_string(near.beside.size()) + " of the face's " +
+                      std::to_string(ids.size()) +
+                      " points, as a second skin or a second level of detail does; the points are not on it, so it "
+                      "shows through the face that moves";
+      finding.remedy = "export the model with one skin only";
+      finding.measured = {"share of the face's points beside it", share, share_of_a_face};
+      out.push_back(std::move(finding));
+    } else if (parts[p].role == PartRole::rest && near.distance <= reach) {
+      Finding finding = about(head, p, FindingCode::idle_part, ids[near.point], near.at);
+      finding.words = called(parts, p) + ", " + count_of(parts[p].vertex_count, "vertex", "vertices") +
+                      ", lies in the moving face beside " + to_string(ids[near.point]) +
+                      ", but no point reaches it and it has no role; it stays while the skin moves away under it";
+      finding.remedy =
+          "give the part a role (attached, if it sits on the skin), join it to the skin, or mark points on it";
+      finding.measured = {"distance to the point as a share of ES0", near.distance / *head.frame.eye_separation,
+                          beside_a_point};
+      out.push_back(std::move(finding));
     }
-    const double share = least / *head.frame.eye_separation;
-    if (share > beside_a_point) continue;
-    Finding finding;
-    finding.code = FindingCode::idle_part;
-    finding.severity = Severity::warning;
-    finding.place.part = PartId(static_cast<std::uint32_t>(p));
-    finding.place.points.push_back(ids[point]);
-    finding.place.vertices = members(head, p);
-    finding.place.position = at;
-    finding.words = called(parts, p) + ", " + count_of(parts[p].vertex_count, "vertex", "vertices") +
-                    ", lies in the moving face beside " + to_string(ids[point]) +
-                    ", but no point reaches it and it has no role; it stays while the skin moves away under it";
-    finding.remedy =
-        "give the part a role (attached, if it sits on the skin), join it to the skin, or mark points on it";
-    finding.measured = {"distance to the point as a share of ES0", share, beside_a_point};
-    out.push_back(std::move(finding));
-  }
-}
-
-void find_second_skin(const Subject& head, std::vector<Finding>& out) {
-  const auto& parts = head.rig.parts;
-  std::size_t main = parts.size();
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role != PartRole::skin) continue;
-    if (main == parts.size() || parts[p].vertex_count > parts[main].vertex_count) main = p;
-  }
-  if (main == parts.size()) return;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (p == main || parts[p].vertex_count < least_vertices * parts[main].vertex_count) continue;
-    const glm::vec3 low = glm::max(parts[p].box_min, parts[main].box_min);
-    const glm::vec3 high = glm::min(parts[p].box_max, parts[main].box_max);
-    const glm::vec3 size = parts[main].box_max - parts[main].box_min;
-    if (glm::any(glm::lessThan(high - low, static_cast<float>(least_extent) * size))) continue;
-    Finding finding;
-    finding.code = FindingCode::second_skin;
-    finding.severity = Severity::warning;
-    finding.place.part = PartId(static_cast<std::uint32_t>(p));
-    finding.place.vertices = members(head, p);
-    finding.place.position = 0.5 * (glm::dvec3(parts[p].box_min) + glm::dvec3(parts[p].box_max));
-    finding.words = called(parts, p) + " fills the same space as " + called(parts, main) +
-                    ", as a second skin or a second level of detail does; only one of them moves, and the other shows "
-                    "through it";
-    finding.remedy = "export the model with one skin only";
-    out.push_back(std::move(finding));
   }
 }
 
@@ -131,8 +134,7 @@ void find_still_eyes(const Subject& head, std::vector<Finding>& out) {
 
 std::vector<Finding> find_idle_parts(const Subject& head) {
   std::vector<Finding> findings;
-  find_second_skin(head, findings);
-  find_islands(head, findings);
+  find_strangers(head, findings);
   find_still_eyes(head, findings);
   return findings;
 }

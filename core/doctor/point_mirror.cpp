@@ -1,10 +1,7 @@
-#include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
+#include "core/doctor/mirror_offsets.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
 #include "core/parametrize/point_lookup.h"
@@ -24,39 +21,17 @@ bool is_an_area(FeaturePointId id) {
   return group == 5 || group >= 10 || name == "2.13" || name == "2.14" || group == 6;
 }
 
-double middle(std::vector<double> values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 }  // namespace
 
 std::vector<Finding> find_points_off_mirror(const Subject& head) {
   std::vector<Finding> findings;
-  const FaceFrame& face = head.frame;
-  if (!face.eye_separation) return findings;
-
-  // The plane x = a + b y + c z that halves the pairs: medians, as a point that is off must not tilt it. A plane along
-  // the axes does for a face that is upright; what remains of a tilt is within the threshold.
-  std::vector<double> halves;
-  for (std::uint8_t id = 0; id < feature_point_count; ++id) {
-    const auto& info = mpeg4::feature_points[id];
-    if (info.side != mpeg4::Side::left || !face.places[id] || !face.places[info.mirror]) continue;
-    halves.push_back(0.5 * (face.places[id]->x + face.places[info.mirror]->x));
-  }
-  if (halves.size() < 2) return findings;
-  const double plane = middle(halves);
-
+  const auto offsets = mirror_offsets(head.frame);
   for (std::uint8_t index = 0; index < feature_point_count; ++index) {
     const auto& info = mpeg4::feature_points[index];
-    if (info.side == mpeg4::Side::right || !face.places[index] || !face.places[info.mirror]) continue;
+    if (info.side == mpeg4::Side::right) continue;  // told with the left one
     const FeaturePointId id(index);
     const FeaturePointId other(info.mirror);
-    glm::dvec3 mirrored = *face.places[info.mirror];
-    mirrored.x = 2.0 * plane - mirrored.x;
-    double off = glm::distance(*face.places[index], mirrored) / *face.eye_separation;
-    if (id == other) off *= 0.5;  // a point in the middle is off by its distance to the plane
+    const double off = offsets[index];
     const double most = is_an_area(id) ? most_off_in_areas : most_off;
     if (off <= most) continue;
     Finding finding;

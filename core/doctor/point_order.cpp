@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/doctor/mirror_offsets.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
 #include "core/parametrize/point_lookup.h"
@@ -187,16 +190,14 @@ std::vector<Broken> broken_relations(const FaceFrame& face) {
   return broken;
 }
 
-/// The point that most of the relations are about: one that is misplaced breaks several, its neighbours one each.
-FeaturePointId most_often_in(const std::vector<Broken>& broken) {
+/// The point that most of the relations are about: one that is misplaced breaks several, its neighbours one each. Of
+/// equals the one that is farther off its mirrored place.
+FeaturePointId most_to_blame(const std::vector<Broken>& broken, const std::array<double, feature_point_count>& off) {
   std::array<std::pair<std::size_t, double>, feature_point_count> blame{};
   for (const Broken& b : broken) {
-    for (const FeaturePointId id : {b.more, b.less}) {
-      ++blame[id.value()].first;
-      blame[id.value()].second += b.by;
-    }
+    for (const FeaturePointId id : {b.more, b.less}) blame[id.value()] = {blame[id.value()].first + 1, off[id.value()]};
   }
-  const auto most = std::max_element(blame.begin(), blame.end());
+  const auto* const most = std::max_element(blame.begin(), blame.end());
   return FeaturePointId(static_cast<std::uint8_t>(most - blame.begin()));
 }
 
@@ -206,8 +207,9 @@ std::vector<Finding> find_points_out_of_order(const Subject& head) {
   std::vector<Finding> findings;
   if (!head.frame.eye_separation) return findings;
   std::vector<Broken> broken = broken_relations(head.frame);
+  const auto off_mirror = mirror_offsets(head.frame);
   while (!broken.empty()) {
-    const FeaturePointId point = most_often_in(broken);
+    const FeaturePointId point = most_to_blame(broken, off_mirror);
     const auto rest =
         std::stable_partition(broken.begin(), broken.end(), [&](const Broken& b) { return b.concerns(point); });
     const auto worst =

@@ -15,8 +15,9 @@
 namespace semblante {
 namespace {
 
-/// cos 120 degrees. Lips and nostrils turn in, so a normal a little past sideways is nothing strange; this is the back.
-constexpr double faces_away = -0.5;
+/// Past sideways by 12 degrees. The outside of these places looks forward by 0.4 and more, even of a cheek or a nose
+/// bone; what looks back lies behind it.
+constexpr double faces_away = -0.2;
 
 /// Points of the front of the face, where its outside looks forward. Not the inner rims of lips and lids, nor what lies
 /// round the side of the head.

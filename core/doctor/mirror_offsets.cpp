@@ -1,0 +1,38 @@
+#include "core/doctor/mirror_offsets.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+
+std::array<double, feature_point_count> mirror_offsets(const FaceFrame& face) {
+  std::array<double, feature_point_count> offsets{};
+  if (!face.eye_separation) return offsets;
+  // The plane lies along the model's axes, halfway between the pairs; the median, as a point that is off must not move
+  // it. What remains of a tilt of the face is within what is taken for wrong.
+  std::vector<double> halves;
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    const auto& info = mpeg4::feature_points[id];
+    if (info.side == mpeg4::Side::left && face.places[id] && face.places[info.mirror])
+      halves.push_back(0.5 * (face.places[id]->x + face.places[info.mirror]->x));
+  }
+  if (halves.size() < 2) return offsets;
+  const auto half = halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2);
+  std::nth_element(halves.begin(), half, halves.end());
+
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    const auto& info = mpeg4::feature_points[id];
+    if (!face.places[id] || !face.places[info.mirror]) continue;
+    glm::dvec3 mirrored = *face.places[info.mirror];
+    mirrored.x = 2.0 * *half - mirrored.x;
+    const double off = glm::distance(*face.places[id], mirrored) / *face.eye_separation;
+    offsets[id] = info.mirror == id ? 0.5 * off : off;
+  }
+  return offsets;
+}
+
+}  // namespace semblante
