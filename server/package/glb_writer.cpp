@@ -323,13 +323,16 @@ Result<std::vector<std::uint8_t>> write_face_glb(const RenderMesh& mesh, const s
 }
 
 Result<std::vector<std::uint8_t>> write_preview_glb(const RenderMesh& mesh, const std::vector<Material>& materials,
-                                                    const std::vector<Image>& images) {
+                                                    const std::vector<Image>& images,
+                                                    std::span<const std::uint32_t> part_of) {
   Document document(materials, images);
   for (const Slice& slice : slice_by_material(mesh, materials.size())) {
     std::vector<SliceAttribute> attributes = geometry_attributes(mesh, slice);
     attributes.push_back(
         {"_FILE_VERTEX", DracoAttribute::Kind::generic, DracoAttribute::Type::float32, 1, 0,
          gather<float>(slice, 1, [&](auto v, auto) { return static_cast<float>(mesh.file_vertex[v]); })});
+    attributes.push_back({"_PART", DracoAttribute::Kind::generic, DracoAttribute::Type::float32, 1, 0,
+                          gather<float>(slice, 1, [&](auto v, auto) { return static_cast<float>(part_of[v]); })});
     document.add_plain_primitive(slice, attributes);
   }
   return document.finish();

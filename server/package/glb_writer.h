@@ -26,8 +26,10 @@ Result<std::vector<std::uint8_t>> write_face_glb(const RenderMesh& mesh, const s
                                                  const std::vector<Image>& images, const GlbFace& face);
 
 /// The plain neutral model for the studio's eyes: uncompressed, one primitive a material, FLOAT attribute _FILE_VERTEX
-/// holds the model file's vertex number (exact below 2^24, above what an import accepts).
+/// holds the model file's vertex number (exact below 2^24, above what an import accepts), FLOAT attribute _PART the
+/// number of its part. `part_of` (#R) holds PartId values.
 Result<std::vector<std::uint8_t>> write_preview_glb(const RenderMesh& mesh, const std::vector<Material>& materials,
-                                                    const std::vector<Image>& images);
+                                                    const std::vector<Image>& images,
+                                                    std::span<const std::uint32_t> part_of);
 
 }  // namespace semblante

@@ -191,7 +191,12 @@ Result<FacePackage> build_package(const Model& model, const Surface& surface, co
 Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
                                                 std::span<const Part> parts) {
   const MaterialAssignment materials = assign_materials(model, surface, parts);
-  return write_preview_glb(make_render_mesh(model, surface, materials.of_triangle), materials.materials, model.images);
+  const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle);
+  std::vector<std::uint32_t> part_of;
+  part_of.reserve(mesh.file_vertex.size());
+  for (const std::uint32_t vertex : mesh.file_vertex)
+    part_of.push_back(surface.part_of[surface.surface_of[vertex].value()].value());
+  return write_preview_glb(mesh, materials.materials, model.images, part_of);
 }
 
 }  // namespace semblante

@@ -39,7 +39,8 @@ struct FacePackage {
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options);
 
-/// preview.glb: the model as imported, to look at and to mark feature points on. `parts` (by PartId) may be empty.
+/// preview.glb: the model as imported, to look at and to mark feature points on; every vertex knows its number in the
+/// file and its part. `parts` (by PartId) may be empty.
 Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
                                                 std::span<const Part> parts);
 

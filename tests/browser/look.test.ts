@@ -19,7 +19,7 @@ const sizes = [
   { name: 'wide', width: 1440, height: 900 },
   { name: 'narrow', width: 390, height: 844 },
 ];
-const tabs = ['animate', 'points', 'live'] as const;
+const tabs = ['animate', 'fit', 'points', 'live'] as const;
 
 describe('look', () => {
   for (const { name, width, height } of sizes) {

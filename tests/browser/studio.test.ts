@@ -39,6 +39,7 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
   await studio.drop(head);
   await studio.waitForState('ready');
   await studio.waitForStage('ready');
+  await page.locator('#tab-points').click();
   await importPoints(studio, points);
   await page
     .getByText(/\d+ of 84 placed/)

@@ -5,6 +5,9 @@ import { loadFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import { AnimatePanel } from './ui/animate_panel.ts';
 import { h } from './ui/dom.ts';
+import { FitModel } from './ui/fit_model.ts';
+import { FitPanel } from './ui/fit_panel.ts';
+import { pointOutFindings } from './ui/fit_highlight.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
 import { makeLayout } from './ui/layout.ts';
 import { exposeInspection } from './ui/inspect.ts';
@@ -18,7 +21,6 @@ import { StagePanel } from './ui/stage_panel.ts';
 import { Studio } from './ui/studio.ts';
 import { themeButton } from './ui/theme.ts';
 import { Toasts } from './ui/toast.ts';
-import type { Marker } from './view/markers.ts';
 
 const demo = { id: 'demo', title: 'Demo' };
 
@@ -29,6 +31,7 @@ function main(root: HTMLElement): void {
   const api = new Api();
   const studio = new Studio(api, toasts);
   const points = new PointsModel(studio);
+  const fit = new FitModel(studio);
   const frame = neutralFrame();
   const live = new LiveModel(studio, frame);
   const faceSources = {
@@ -53,12 +56,14 @@ function main(root: HTMLElement): void {
   });
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
+  const fitPanel = new FitPanel(studio, points, fit);
   const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, demo));
   const livePanel = new LivePanel(studio, live);
   const layout = makeLayout(
     studio,
     {
       heads: shelf.element,
+      fit: fitPanel.element,
       points: new PointsPanel(studio, points).element,
       animate: animate.element,
       live: livePanel.element,
@@ -80,7 +85,9 @@ function main(root: HTMLElement): void {
     listen();
   });
 
-  studio.tab.watch((tab) => scene.show(tab === 'points' ? 'preview' : 'face'));
+  studio.tab.watch((tab) => scene.show(tab === 'points' || tab === 'fit' ? 'preview' : 'face'));
+  stagePanel.onPart = (part) => fitPanel.revealPart(part);
+  pointOutFindings(studio, fit, points, scene);
   let opened = '';
   studio.selected.watch((model) => {
     void scene.open(model);
@@ -90,9 +97,6 @@ function main(root: HTMLElement): void {
     void points.open(model);
   });
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
-  const markers = (): void => scene.setMarkers(makeMarkers(points));
-  points.changed.watch(markers);
-  points.chosen.watch(markers);
 
   scene.state.watch((state) => {
     const model = studio.selected.value;
@@ -115,22 +119,6 @@ function main(root: HTMLElement): void {
     if (studio.selected.value?.state === 'parametrized') live.subscribe(demo.id, demo.title);
   });
   exposeInspection(scene, studio);
-}
-
-function makeMarkers(points: PointsModel): Marker[] {
-  const markers: Marker[] = [];
-  for (const [id, point] of points.draft.points) {
-    const tone =
-      points.chosen.value === id
-        ? 'selected'
-        : points.problems.has(id)
-          ? 'wrong'
-          : points.draft.isChanged(id)
-            ? 'changed'
-            : 'placed';
-    markers.push({ id, position: point.position, tone });
-  }
-  return markers;
 }
 
 let compiledKernel: Promise<WebAssembly.Module> | null = null;

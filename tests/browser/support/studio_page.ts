@@ -145,7 +145,15 @@ export interface Inside {
       markers: {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
-      stage: { camera: unknown };
+      stage: { camera: { position: { toArray(): number[] } } };
+      highlight: {
+        object: {
+          children: {
+            type: string;
+            geometry: { index: { count: number } | null; attributes: { position: { count: number } } };
+          }[];
+        };
+      };
     };
     studio: { selected: { value: { id: string; state: string } | null } };
   };

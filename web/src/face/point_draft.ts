@@ -1,9 +1,21 @@
 import { pointById } from './feature_points.ts';
 
+export type Confidence = 'high' | 'medium' | 'low';
+
+/** How a point was proposed that nobody has placed or confirmed yet. */
+export interface PointProposal {
+  method: string | null;
+  confidence: Confidence | null;
+  /** Share of ES0, or null where it is not known. */
+  expectedError: number | null;
+}
+
 export interface PlacedPoint {
   /** The vertex of the file it lies on; null for a bare position. */
   vertex: number | null;
   position: readonly [number, number, number];
+  /** Only of a point that is proposed. */
+  proposal?: PointProposal;
 }
 
 export type PointsById = ReadonlyMap<string, PlacedPoint>;
@@ -39,10 +51,31 @@ export class PointDraft {
     this.current.delete(id);
   }
 
-  clear(): void {
-    if (this.current.size === 0) return;
+  /** Ids of the points that are proposed, in the order they came. */
+  get proposed(): string[] {
+    return [...this.current].filter(([, point]) => point.proposal).map(([id]) => id);
+  }
+
+  /** Takes proposed points for placed ones. */
+  confirm(ids: readonly string[]): void {
+    this.change(ids, ({ vertex, position }) => ({ vertex, position }));
+  }
+
+  /** Takes proposed points away. */
+  discard(ids: readonly string[]): void {
+    this.change(ids, () => null);
+  }
+
+  /** Exchanges left and right of these points and their mirror points. */
+  exchange(ids: readonly string[]): void {
+    const before = new Map(this.current);
+    const both = new Set(ids.flatMap((id) => [id, pointById(id)?.mirror ?? id]));
     this.step();
-    this.current.clear();
+    for (const id of both) {
+      const other = before.get(pointById(id)?.mirror ?? id);
+      if (other) this.current.set(id, other);
+      else this.current.delete(id);
+    }
   }
 
   undo(): boolean {
@@ -80,13 +113,23 @@ export class PointDraft {
     return count;
   }
 
-  /** The body of a PUT: a vertex where there is one, else the position. */
-  toBody(): { points: Record<string, { vertex: number } | { position: readonly number[] }> } {
-    const points: Record<string, { vertex: number } | { position: readonly number[] }> = {};
-    for (const [id, point] of this.current) {
-      points[id] = point.vertex === null ? { position: point.position } : { vertex: point.vertex };
-    }
+  /** The body of a PUT: a vertex where there is one, else the position; and what is known of a proposal. */
+  toBody(): { points: Record<string, PointBody> } {
+    const points: Record<string, PointBody> = {};
+    for (const [id, { vertex, position, proposal }] of this.current)
+      points[id] = { ...(vertex === null ? { position } : { vertex }), ...(proposal ? proposalBody(proposal) : {}) };
     return { points };
+  }
+
+  private change(ids: readonly string[], make: (point: PlacedPoint) => PlacedPoint | null): void {
+    const concerned = ids.filter((id) => this.current.get(id)?.proposal);
+    if (concerned.length === 0) return;
+    this.step();
+    for (const id of concerned) {
+      const changed = make(this.current.get(id)!);
+      if (changed) this.current.set(id, changed);
+      else this.current.delete(id);
+    }
   }
 
   private step(): void {
@@ -96,8 +139,27 @@ export class PointDraft {
   }
 }
 
+export interface PointBody {
+  vertex?: number;
+  position?: readonly number[];
+  proposed?: true;
+  method?: string;
+  confidence?: Confidence;
+  expected_error?: number;
+}
+
+/** As the REST interface and files of feature points have it. */
+export function proposalBody({ method, confidence, expectedError }: PointProposal): PointBody {
+  const body: PointBody = { proposed: true };
+  if (method !== null) body.method = method;
+  if (confidence !== null) body.confidence = confidence;
+  if (expectedError !== null) body.expected_error = expectedError;
+  return body;
+}
+
 function same(a: PlacedPoint | undefined, b: PlacedPoint | undefined): boolean {
   if (a === undefined || b === undefined) return a === b;
+  if ((a.proposal === undefined) !== (b.proposal === undefined)) return false;
   if (a.vertex !== null || b.vertex !== null) return a.vertex === b.vertex;
   return a.position.every((value, axis) => value === b.position[axis]);
 }

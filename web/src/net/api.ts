@@ -3,13 +3,15 @@ import { requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf, upload } from './upload.ts';
 import type {
   FeaturePointSet,
+  FitReport,
   Job,
   Model,
   ModelAndJob,
   ModelPage,
+  ParametrizationOptions,
+  PartRole,
   StreamInfo,
   VersionInfo,
-  WeightMethod,
 } from './types.ts';
 
 const segment = encodeURIComponent;
@@ -44,6 +46,17 @@ export class Api {
   async renameModel(id: string, name: string): Promise<Model> {
     return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { name } }))
       .value;
+  }
+
+  /** `null` takes a role back to what is guessed. */
+  async setRoles(id: string, roles: Record<number, PartRole | null>): Promise<Model> {
+    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { roles } }))
+      .value;
+  }
+
+  /** What the fit doctor found. */
+  async getReport(id: string): Promise<FitReport> {
+    return (await requestJson<FitReport>(`${this.base}/v1/models/${segment(id)}/report.json`)).value;
   }
 
   async deleteModel(id: string): Promise<void> {
@@ -82,9 +95,9 @@ export class Api {
     });
   }
 
-  async parametrize(id: string, weights: WeightMethod): Promise<Job> {
+  async parametrize(id: string, options: ParametrizationOptions): Promise<Job> {
     const url = `${this.base}/v1/models/${segment(id)}/parametrizations`;
-    return (await requestJson<Job>(url, { method: 'POST', json: { weights } })).value;
+    return (await requestJson<Job>(url, { method: 'POST', json: options })).value;
   }
 
   async getJob(id: string): Promise<Job> {

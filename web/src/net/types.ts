@@ -18,15 +18,60 @@ export interface Problem {
 /** How a head's weights are computed: without steps between regions of influence, or exactly as in the paper. */
 export type WeightMethod = 'smooth' | 'paper';
 
+/** Which ways over the surface count as distances: along edges, or across triangles laid flat, too. */
+export type DistanceMetric = 'edge' | 'unfolded';
+
+export interface ParametrizationOptions {
+  weights: WeightMethod;
+  metric: DistanceMetric;
+}
+
+export type Vector = [number, number, number];
+
+export type Severity = 'error' | 'warning' | 'note';
+
+export interface FindingCounts {
+  errors: number;
+  warnings: number;
+  notes: number;
+}
+
+/** One thing the fit doctor found, with where it is. */
+export interface Finding {
+  code: string;
+  severity: Severity;
+  words: string;
+  remedy: string;
+  place: {
+    part: number | null;
+    points: string[];
+    /** Vertices of the file: the first of them, and how many there are. */
+    vertices: { sample: number[]; count: number };
+    position: Vector | null;
+  };
+  measured: { what: string; value: number; threshold: number } | null;
+}
+
+export interface FitReport {
+  version: number;
+  summary: FindingCounts;
+  findings: Finding[];
+}
+
 export type ModelState = 'importing' | 'ready' | 'parametrized' | 'failed';
+
+export type PartRole =
+  'skin' | 'left_eye' | 'right_eye' | 'upper_teeth' | 'lower_teeth' | 'tongue' | 'attached' | 'rest';
 
 export interface ModelPart {
   index: number;
   name: string;
-  role: string;
+  role: PartRole;
+  /** Said by a person; otherwise guessed. */
   role_by_user: boolean;
   vertices: number;
   triangles: number;
+  bounds: { min: Vector; max: Vector };
 }
 
 export interface Artefact {
@@ -57,6 +102,8 @@ export interface Model {
   counts?: { vertices: number; triangles: number; parts: number } | null;
   parts?: ModelPart[];
   warnings?: string[];
+  /** How much the report tells of; null before the import has ended. */
+  findings?: FindingCounts | null;
   feature_point_count?: number;
   package: FacePackage | null;
 }

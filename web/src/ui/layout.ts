@@ -1,9 +1,11 @@
-import { h } from './dom.ts';
+import { h, replace } from './dom.ts';
+import { findingBadge } from './finding_badge.ts';
 import { icon, type IconName } from './icons.ts';
 import type { Studio, Tab } from './studio.ts';
 
 export interface Panels {
   heads: HTMLElement;
+  fit: HTMLElement;
   points: HTMLElement;
   animate: HTMLElement;
   live: HTMLElement;
@@ -11,6 +13,7 @@ export interface Panels {
 
 const tabs: { tab: Tab; title: string; icon: IconName }[] = [
   { tab: 'heads', title: 'Heads', icon: 'head' },
+  { tab: 'fit', title: 'Fit', icon: 'fit' },
   { tab: 'points', title: 'Points', icon: 'point' },
   { tab: 'animate', title: 'Animate', icon: 'sliders' },
   { tab: 'live', title: 'Live', icon: 'live' },
@@ -33,6 +36,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
       },
       icon(name),
       h('span', {}, title),
+      tab === 'fit' ? fitBadge(studio) : null,
     );
     buttons.set(tab, button);
     tabList.append(button);
@@ -105,4 +109,11 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
       h('div', {}, icon('upload', 40), h('p', {}, 'Drop the head here')),
     ),
   );
+}
+
+/** How many findings the open head has, on the tab that shows them. */
+function fitBadge(studio: Studio): HTMLElement {
+  const seat = h('span', { class: 'badge-seat' });
+  studio.selected.watch((model) => replace(seat, findingBadge(model?.findings)));
+  return seat;
 }

@@ -1,5 +1,6 @@
 import { featurePoints } from '@protocol/generated/mpeg4.ts';
 import { PointDraft, type PlacedPoint } from '../face/point_draft.ts';
+import { leastKnownPoints } from '../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../net/problem.ts';
 import type { FeaturePointSet, Model } from '../net/types.ts';
 import { Signal } from './signal.ts';
@@ -119,6 +120,17 @@ export class PointsModel {
     this.setProblems(byPoint);
     const first = Object.keys(byPoint).find((id) => id !== '');
     if (first) this.chosen.set(first);
+  }
+
+  /** Whether proposals can be made: from fewer points than this nothing can be told. */
+  get canPropose(): boolean {
+    return this.draft.points.size - this.draft.proposed.length >= leastKnownPoints;
+  }
+
+  /** Exchanges left and right of these points; not saved yet. */
+  exchange(ids: readonly string[]): void {
+    this.draft.exchange(ids);
+    this.touch();
   }
 
   private async put(body: unknown, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {

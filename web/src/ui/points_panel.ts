@@ -338,7 +338,7 @@ export class PointsPanel {
     if (!model) return;
     if (this.points.draft.changes > 0 && !(await this.points.save())) return;
     try {
-      if (await this.studio.parametrize(model, this.weights.value as WeightMethod)) {
+      if (await this.studio.parametrize(model, { weights: this.weights.value as WeightMethod, metric: 'edge' })) {
         this.studio.toasts.say(`${model.name} can move now.`);
         this.studio.tab.set('animate');
       }

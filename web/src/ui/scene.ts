@@ -1,3 +1,4 @@
+import { Vector3 } from 'three';
 import type { LoadedFace } from '../face/loaded_face.ts';
 import { Performer } from '../face/performer.ts';
 import type { Model } from '../net/types.ts';
@@ -5,6 +6,7 @@ import { problemOf } from '../net/problem.ts';
 import type { Problem } from '../net/types.ts';
 import { makeMaterials } from '../view/face_materials.ts';
 import { FaceView, type DeformPath } from '../view/face_view.ts';
+import { ballAround, Highlight, type HighlightTarget } from '../view/highlight.ts';
 import { Markers, type Marker } from '../view/markers.ts';
 import { PreviewView } from '../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../view/quality.ts';
@@ -24,6 +26,7 @@ export class SceneView {
   readonly stage: Stage;
   private readonly quality: Quality;
   readonly markers: Markers;
+  readonly highlight = new Highlight();
   readonly state = new Signal<SceneState>({ kind: 'empty' });
   /** Of the face that moves; null while there is none. */
   readonly performer = new Signal<Performer | null>(null);
@@ -44,7 +47,7 @@ export class SceneView {
     this.stage = new Stage(canvas, this.quality);
     this.markers = new Markers();
     this.markers.object.visible = false;
-    this.stage.scene.add(this.markers.object);
+    this.stage.scene.add(this.markers.object, this.highlight.object);
     this.stage.onFrame((delta) => this.step(delta));
   }
 
@@ -105,12 +108,26 @@ export class SceneView {
     if (this.preview) this.preview.object.visible = !face;
     if (this.face) this.face.object.visible = face;
     this.markers.object.visible = what === 'preview' && this.preview !== null;
+    this.highlight.object.visible = this.markers.object.visible;
     this.stage.invalidate();
   }
 
   setMarkers(markers: Marker[]): void {
     this.markers.set(markers);
     this.stage.invalidate();
+  }
+
+  /** Marks vertices and parts of the still model, in place of those before. */
+  pointOut(target: HighlightTarget | null): void {
+    this.highlight.show(this.preview, target);
+    this.stage.invalidate();
+  }
+
+  /** Brings these places of the still model before the camera, with `least` (model units) around them. */
+  flyTo(places: readonly (readonly [number, number, number])[], vertices: readonly number[], least = 0): void {
+    if (!this.preview || places.length === 0) return;
+    const { center, radius } = ballAround(places.map((place) => new Vector3(...place)));
+    this.stage.lookAt(center, Math.max(radius * 1.3, least), this.preview.normalAt(vertices));
   }
 
   set wireframe(on: boolean) {
@@ -161,6 +178,7 @@ export class SceneView {
   private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null): void {
     const another = preview !== this.preview;
     if (another) {
+      this.highlight.clear();
       this.preview?.dispose();
       this.preview = preview;
       this.stage.scene.add(preview.object);
@@ -184,6 +202,7 @@ export class SceneView {
   }
 
   private clear(): void {
+    this.highlight.clear();
     this.preview?.dispose();
     this.face?.dispose();
     this.preview = null;

@@ -2,6 +2,7 @@ import { adviceFor } from '../net/problem.ts';
 import type { Model } from '../net/types.ts';
 import { ask } from './dialog.ts';
 import { h, replace } from './dom.ts';
+import { findingBadge } from './finding_badge.ts';
 import { formatBytes, formatCount } from './format.ts';
 import { icon } from './icons.ts';
 import type { Activity, Studio } from './studio.ts';
@@ -146,6 +147,7 @@ export class Shelf {
                 facts ? ` · ${facts}` : '',
               ),
         ),
+        activity ? null : findingBadge(model.findings),
       ),
       h(
         'div',

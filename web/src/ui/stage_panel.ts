@@ -24,6 +24,8 @@ export class StagePanel {
   private readonly figures = h('output', { class: 'figures', 'aria-label': 'Display rate' });
   private down: { x: number; y: number; time: number } | null = null;
   private lastFigures = 0;
+  /** A part was clicked on while parts can be chosen. */
+  onPart: (part: number) => void = () => {};
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -114,8 +116,14 @@ export class StagePanel {
       event.timeStamp - down.time > 600
     )
       return;
-    if (this.studio.tab.value !== 'points' || !this.scene.preview) return;
+    const { tab } = this.studio;
+    if ((tab.value !== 'points' && tab.value !== 'fit') || !this.scene.preview) return;
     const { x, y, width, height } = this.place(event);
+    if (tab.value === 'fit') {
+      const pick = this.scene.preview.pick((x / width) * 2 - 1, 1 - (y / height) * 2, this.scene.stage.camera);
+      if (pick && pick.part !== null) this.onPart(pick.part);
+      return;
+    }
     if (this.points.chosen.value === null) {
       const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 14);
       if (marker) this.points.chosen.set(marker.id);

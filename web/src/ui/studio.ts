@@ -1,12 +1,12 @@
 import type { Api } from '../net/api.ts';
 import { followJob } from '../net/jobs.ts';
 import { ApiError, problemOf } from '../net/problem.ts';
-import type { Job, Model, Problem, WeightMethod } from '../net/types.ts';
+import type { Job, Model, ParametrizationOptions, PartRole, Problem } from '../net/types.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
 
-export type Tab = 'heads' | 'points' | 'animate' | 'live';
+export type Tab = 'heads' | 'fit' | 'points' | 'animate' | 'live';
 
 /** Something that takes a while, shown with a bar. `progress` is 0..1, or null while unknown. */
 export interface Activity {
@@ -63,8 +63,10 @@ export class Studio {
     this.selected.set(model);
     if (!model) return;
     history.replaceState(null, '', `#${encodeURIComponent(id)}`);
-    if (model.state === 'ready' && this.tab.value !== 'points') this.tab.set('points');
-    else if (model.state === 'parametrized' && this.tab.value !== 'live') this.tab.set('animate');
+    // Where work goes on: marking points, or moving the face.
+    const { value: tab } = this.tab;
+    if (model.state === 'ready' && tab !== 'points' && tab !== 'fit') this.tab.set('points');
+    else if (model.state === 'parametrized' && tab !== 'live' && tab !== 'fit') this.tab.set('animate');
   }
 
   async upload(files: Iterable<File>): Promise<void> {
@@ -101,6 +103,12 @@ export class Studio {
     );
   }
 
+  async setRole(model: Model, part: number, role: PartRole | null): Promise<boolean> {
+    return this.attempt('The role was not changed', async () =>
+      this.replaceModel(await this.api.setRoles(model.id, { [part]: role })),
+    );
+  }
+
   async remove(model: Model): Promise<void> {
     await this.attempt('The head was not deleted', async () => {
       await this.api.deleteModel(model.id);
@@ -115,8 +123,8 @@ export class Studio {
   }
 
   /** Computes weights and package. Resolves with whether the face can now move; throws ApiError where points are refused. */
-  async parametrize(model: Model, weights: WeightMethod): Promise<boolean> {
-    const job = await this.api.parametrize(model.id, weights);
+  async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
+    const job = await this.api.parametrize(model.id, options);
     const last = await this.follow(job, 'Parametrizing');
     await this.reload(model.id);
     if (last.state === 'failed')
@@ -186,7 +194,11 @@ export class Studio {
     const open = this.selected.value;
     if (open?.id !== model.id) return;
     this.selected.set(model);
-    // Imported while we looked at it: the next thing to do is to mark its points.
-    if (open.state === 'importing' && model.state === 'ready') this.tab.set('points');
+    // Imported while we looked at it: the next thing to do is to mark its points, unless the file itself needs care.
+    if (open.state === 'importing' && model.state === 'ready') this.tab.set(needsCare(model) ? 'fit' : 'points');
   }
 }
+
+/** Whether the fit doctor found more than what is merely worth knowing. */
+export const needsCare = ({ findings }: Model): boolean =>
+  findings !== null && findings !== undefined && findings.errors + findings.warnings > 0;

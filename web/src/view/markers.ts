@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera } from 'three';
 
-export type MarkerTone = 'placed' | 'changed' | 'wrong' | 'selected';
+export type MarkerTone = 'placed' | 'proposed' | 'changed' | 'wrong' | 'selected';
 
 export interface Marker {
   id: string;
@@ -8,8 +8,9 @@ export interface Marker {
   tone: MarkerTone;
 }
 
-const tones: Record<MarkerTone, { color: string; size: number }> = {
+const tones: Record<MarkerTone, { color: string; size: number; ring?: true }> = {
   placed: { color: '#2f7df6', size: 9 },
+  proposed: { color: '#8b3fe0', size: 11, ring: true },
   changed: { color: '#f0a020', size: 10 },
   wrong: { color: '#e5322d', size: 12 },
   selected: { color: '#ff5a2c', size: 15 },
@@ -42,15 +43,18 @@ export class Markers {
     const positions = new Float32Array(markers.length * 3);
     const colors = new Float32Array(markers.length * 3);
     const sizes = new Float32Array(markers.length);
+    const rings = new Float32Array(markers.length);
     const color = new Color();
     markers.forEach((marker, i) => {
       positions.set(marker.position, i * 3);
       color.set(tones[marker.tone].color).toArray(colors, i * 3);
       sizes[i] = tones[marker.tone].size;
+      rings[i] = tones[marker.tone].ring ? 1 : 0;
     });
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('color', new BufferAttribute(colors, 3));
     this.geometry.setAttribute('size', new BufferAttribute(sizes, 1));
+    this.geometry.setAttribute('ring', new BufferAttribute(rings, 1));
   }
 
   /** The marker drawn within `reach` pixels of a place on the canvas, nearest first. */
@@ -87,11 +91,14 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
     vertexShader: /* glsl */ `
       attribute vec3 color;
       attribute float size;
+      attribute float ring;
       uniform float ratio;
       varying vec3 tint;
       varying float rim;
+      varying float open;
       void main() {
         tint = color;
+        open = ring;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         // A little towards the eye, so that the skin a point lies on does not cover it.
         gl_Position.z -= 0.0025 * gl_Position.w;
@@ -102,11 +109,15 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
       uniform float opacity;
       varying vec3 tint;
       varying float rim;
+      varying float open;
       void main() {
         float r = length(gl_PointCoord - 0.5);
         float edge = fwidth(r);
         float inside = 1.0 - smoothstep(0.5 - edge, 0.5, r);
         float core = 1.0 - smoothstep(0.5 - rim - edge, 0.5 - rim, r);
+        // A ring is a disc with a pale middle: proposed points differ by more than their colour.
+        float middle = 1.0 - smoothstep(0.2, 0.2 + edge, r);
+        core *= 1.0 - open * middle;
         if (inside * opacity < 0.01) discard;
         gl_FragColor = vec4(mix(vec3(1.0), tint, core), inside * opacity);
         #include <colorspace_fragment>

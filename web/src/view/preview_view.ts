@@ -1,11 +1,11 @@
 import {
-  BufferAttribute,
+  BufferGeometry,
   Group,
   Mesh,
   Raycaster,
   Vector2,
   Vector3,
-  type BufferGeometry,
+  type BufferAttribute,
   type Camera,
   type Material,
   type Object3D,
@@ -16,6 +16,8 @@ import { defaultMaterial, studioMaterial } from './materials.ts';
 /** A place on the mesh: the file's own number of the vertex nearest to where the pointer hit. */
 export interface Pick {
   fileVertex: number;
+  /** Index of the model's part, or null for a model that was imported before vertices knew it. */
+  part: number | null;
   position: [number, number, number];
 }
 
@@ -92,7 +94,45 @@ export class PreviewView {
       }
     }
     corner.fromBufferAttribute(position, best).applyMatrix4(mesh.matrixWorld);
-    return { fileVertex: fileVertexOf(mesh.geometry, best), position: [corner.x, corner.y, corner.z] };
+    return {
+      fileVertex: fileVertexOf(mesh.geometry, best),
+      part: mesh.geometry.hasAttribute('_part') ? partOf(mesh.geometry, best) : null,
+      position: [corner.x, corner.y, corner.z],
+    };
+  }
+
+  /** The triangles of a part, one geometry a mesh that has some; they share the preview's vertices. */
+  geometriesOf(part: number): BufferGeometry[] {
+    const found: BufferGeometry[] = [];
+    for (const { geometry } of this.meshes) {
+      const { index } = geometry;
+      if (!index || !geometry.hasAttribute('_part')) continue;
+      const corners: number[] = [];
+      for (let i = 0; i + 2 < index.count; i += 3)
+        if (partOf(geometry, index.getX(i)) === part) corners.push(index.getX(i), index.getX(i + 1), index.getX(i + 2));
+      if (corners.length === 0) continue;
+      const piece = new BufferGeometry();
+      piece.setAttribute('position', geometry.getAttribute('position'));
+      piece.setIndex(corners);
+      found.push(piece);
+    }
+    return found;
+  }
+
+  /** The mean normal at these vertices of the file; zero where they face all ways. */
+  normalAt(fileVertices: readonly number[]): Vector3 {
+    const wanted = new Set(fileVertices);
+    const sum = new Vector3();
+    let count = 0;
+    for (const { geometry } of this.meshes) {
+      const normal = geometry.getAttribute('normal');
+      for (let v = 0; v < normal.count; v += 1) {
+        if (!wanted.has(fileVertexOf(geometry, v))) continue;
+        sum.add(corner.fromBufferAttribute(normal, v));
+        count += 1;
+      }
+    }
+    return count > 0 ? sum.divideScalar(count) : sum;
   }
 
   /** Where a vertex of the file lies, or null if no triangle uses it. */
@@ -121,6 +161,9 @@ export class PreviewView {
 }
 
 const corner = new Vector3();
+
+const partOf = (geometry: BufferGeometry, vertex: number): number =>
+  Math.round(geometry.getAttribute('_part').getX(vertex));
 
 /** GLTFLoader lowers the case of `_FILE_VERTEX`. */
 function fileVertexOf(geometry: BufferGeometry, vertex: number): number {

@@ -15,6 +15,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { Flight } from './flight.ts';
 import { PaceWatch, type Quality } from './quality.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
@@ -46,9 +47,7 @@ export class Stage {
 
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
-  private readonly flightFrom = new Vector3();
-  private readonly flightTo = new Vector3();
-  private flightTime = 1;
+  private readonly flight = new Flight();
   private radius = 1;
   private dirty = true;
   private lastTime = 0;
@@ -90,9 +89,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener('change', () => this.invalidate());
-    this.controls.addEventListener('start', () => {
-      this.flightTime = 1;
-    });
+    this.controls.addEventListener('start', () => this.flight.stop());
 
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.resize();
@@ -117,45 +114,66 @@ export class Stage {
     this.radius = Math.max(size.x, size.y, size.z * 0.8) / 2;
     this.camera.near = this.radius / 50;
     this.camera.far = this.radius * 60;
-    this.controls.minDistance = this.radius * 0.6;
+    this.controls.minDistance = this.radius * 0.3;
     this.controls.maxDistance = this.radius * 14;
     this.placeLights();
     this.look('front', true);
   }
 
   look(view: ViewName, atOnce = false): void {
-    const [x, y, z] = directions[view];
+    this.fly(this.center, this.radius * 1.06, new Vector3(...directions[view]), atOnce);
+  }
+
+  /** Looks at a place of the model so that a ball of `radius` about it fits, from where it can be seen. */
+  lookAt(place: Vector3, radius: number, outward: Vector3): void {
+    // Never from below or behind only because a triangle faces there: half of the way is the front's.
+    const direction = outward.clone().normalize().add(new Vector3(0, 0, 0.6));
+    direction.y *= 0.5;
+    if (direction.lengthSq() < 0.05) direction.set(0.3, 0, 1);
+    this.fly(place, Math.max(radius, this.radius * 0.22), direction, false);
+  }
+
+  private fly(target: Vector3, radius: number, direction: Vector3, atOnce: boolean): void {
     const half = (this.camera.fov * Math.PI) / 360;
     // Room for the tools that float above and below the head.
     const height = this.canvas.clientHeight;
     const free = Math.max(0.6, (height - toolRoom) / Math.max(height, 1));
     const narrow = Math.min(1, this.camera.aspect * 1.3);
-    const distance = (this.radius * 1.06) / Math.tan(half) / (free * narrow);
-    this.flightTo.set(x, y, z).normalize().multiplyScalar(distance).add(this.center);
-    this.controls.target.copy(this.center);
+    const distance = radius / Math.tan(half) / (free * narrow);
+    this.flight.start(this.camera, this.controls.target, target, direction.normalize().multiplyScalar(distance));
     if (atOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
-      this.flightTime = 1;
-      this.camera.position.copy(this.flightTo);
+      this.flight.arrive(this.camera, this.controls.target);
       this.camera.updateProjectionMatrix();
       this.controls.update();
       // A click may come before the next picture: it must meet what that picture will show.
       this.camera.updateMatrixWorld();
-    } else {
-      this.flightFrom.copy(this.camera.position);
-      this.flightTime = 0;
     }
     this.invalidate();
   }
 
   /** Turns the camera around the head, for the keyboard. Angles in radians. */
   orbit(yaw: number, pitch: number): void {
-    this.flightTime = 1;
+    this.flight.stop();
     const arm = this.camera.position.clone().sub(this.controls.target);
     arm.applyAxisAngle(new Vector3(0, 1, 0), yaw);
     const side = new Vector3().crossVectors(this.camera.up, arm).normalize();
     const tilted = arm.clone().applyAxisAngle(side, pitch);
     if (Math.abs(tilted.clone().normalize().y) < 0.97) arm.copy(tilted);
     this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Moves what is looked at across the picture, in shares of its height; for the keyboard. */
+  pan(right: number, up: number): void {
+    this.flight.stop();
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    const height = 2 * arm.length() * Math.tan((this.camera.fov * Math.PI) / 360);
+    const side = new Vector3().crossVectors(this.camera.up, arm).normalize();
+    const above = new Vector3().crossVectors(arm, side).normalize();
+    const step = side.multiplyScalar(right * height).add(above.multiplyScalar(up * height));
+    this.controls.target.add(step);
+    this.camera.position.add(step);
     this.controls.update();
     this.invalidate();
   }
@@ -223,13 +241,8 @@ export class Stage {
   private readonly frame = (time: number): void => {
     const delta = Math.min(0.1, (time - this.lastTime) / 1000);
     this.lastTime = time;
-    if (this.flightTime < 1) {
-      this.flightTime = Math.min(1, this.flightTime + delta / 0.45);
-      const ease = 1 - (1 - this.flightTime) ** 3;
-      this.camera.position.lerpVectors(this.flightFrom, this.flightTo, ease);
-      // Around the head, not through it.
-      const reach = this.flightFrom.distanceTo(this.center) * (1 - ease) + this.flightTo.distanceTo(this.center) * ease;
-      this.camera.position.sub(this.center).setLength(reach).add(this.center);
+    if (this.flight.flying) {
+      this.flight.step(this.camera, this.controls.target, delta);
       this.dirty = true;
     }
     this.controls.update();

@@ -1,0 +1,122 @@
+import { mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { sampleHead } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+
+interface ModelPart {
+  index: number;
+  role: string;
+  role_by_user: boolean;
+  triangles: number;
+}
+
+let server: RunningServer;
+let browser: Browser;
+const scratch = mkdtempSync(join(tmpdir(), 'semblante-fit-'));
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+/** A ball as an OBJ, with one triangle given twice. */
+function damagedBall(): string {
+  const rings = 8;
+  const around = 12;
+  const lines: string[] = [];
+  for (let i = 0; i <= rings; i += 1) {
+    for (let k = 0; k < around; k += 1) {
+      const [theta, phi] = [(Math.PI * i) / rings, (2 * Math.PI * k) / around];
+      const r = Math.max(Math.sin(theta), 0.01);
+      lines.push(`v ${r * Math.cos(phi)} ${Math.cos(theta)} ${r * Math.sin(phi)}`);
+    }
+  }
+  const at = (i: number, k: number): number => i * around + (k % around) + 1;
+  for (let i = 0; i < rings; i += 1)
+    for (let k = 0; k < around; k += 1)
+      lines.push(`f ${at(i, k)} ${at(i, k + 1)} ${at(i + 1, k + 1)}`, `f ${at(i, k)} ${at(i + 1, k + 1)} ${at(i + 1, k)}`);
+  lines.push(`f ${at(4, 3)} ${at(4, 4)} ${at(5, 4)}`);
+  const path = join(scratch, 'damaged.obj');
+  writeFileSync(path, `${lines.join('\n')}\n`);
+  return path;
+}
+
+const camera = (studio: StudioPage): Promise<number[]> =>
+  studio.page.evaluate(() => (window as unknown as Inside).semblante.scene.stage.camera.position.toArray());
+
+/** Triangles that tint a part, and dots on vertices, as the stage shows them now. */
+const pointedOut = (studio: StudioPage): Promise<{ triangles: number; dots: number }> =>
+  studio.page.evaluate(() => {
+    const { children } = (window as unknown as Inside).semblante.scene.highlight.object;
+    const of = (type: string) => children.filter((child) => child.type === type).map(({ geometry }) => geometry);
+    // Each is drawn twice: faintly through the head, and as it can be seen.
+    return {
+      triangles: of('Mesh').reduce((sum, { index }) => sum + (index?.count ?? 0) / 3, 0) / 2,
+      dots: of('Points').reduce((sum, { attributes }) => sum + attributes.position.count, 0) / 2,
+    };
+  });
+
+describe('fit', () => {
+  test('Fit_DamagedMesh_FindingIsShownAndLeadsToItsPlace', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(damagedBall());
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    // The panel opens by itself, since the file needs care.
+    await page.locator('#tab-fit[aria-selected="true"] .finding-badge').waitFor();
+    const finding = page.locator('.finding[data-code="duplicate-triangles"]');
+    expect(await finding.locator('.finding-words').innerText()).toMatch(/^[A-Z\d].*\.$/);
+    expect(await finding.locator('.remedy').innerText()).not.toBe('');
+    const before = await camera(studio);
+    await finding.locator('.finding-show').click();
+    expect((await pointedOut(studio)).dots).toBeGreaterThan(0);
+    expect(await camera(studio)).not.toEqual(before);
+    expect(await finding.locator('.finding-show').getAttribute('aria-pressed')).toBe('true');
+    await finding.locator('.finding-show').click();
+    expect((await pointedOut(studio)).dots).toBe(0);
+    await page.locator('#tab-heads').click();
+    expect(await page.locator('.head.selected .finding-badge').innerText()).toMatch(/^\d+/);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Fit_SoundHead_SaysSoAndRolesCanBeCorrected', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'roles.glb');
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    await page.locator('#tab-fit').click();
+    await page.getByText('Nothing found.').waitFor();
+
+    const model = await page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!);
+    const read = async (): Promise<ModelPart[]> =>
+      ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { parts: ModelPart[] }).parts;
+    const tongue = (await read()).find(({ role }) => role === 'tongue')!;
+    const row = page.locator(`[data-part="${tongue.index}"]`);
+    await row.hover();
+    expect((await pointedOut(studio)).triangles).toBe(tongue.triangles);
+    await page.locator('h2', { hasText: 'Fit doctor' }).hover();
+    expect((await pointedOut(studio)).triangles).toBe(0);
+
+    await row.getByRole('combobox').selectOption('attached');
+    await row.getByText('yours').waitFor();
+    expect((await read())[tongue.index]).toMatchObject({ role: 'attached', role_by_user: true });
+    await row.getByRole('combobox').selectOption({ label: 'Guess again' });
+    await row.getByText('guessed').waitFor();
+    expect((await read())[tongue.index]).toMatchObject({ role_by_user: false });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});

@@ -1,0 +1,48 @@
+import type { Finding } from '../net/types.ts';
+import { DoctorPanel } from './doctor_panel.ts';
+import { h } from './dom.ts';
+import type { FindingAction } from './finding_actions.ts';
+import type { FitModel } from './fit_model.ts';
+import { PartsPanel } from './parts_panel.ts';
+import type { PointsModel } from './points_model.ts';
+import type { Studio } from './studio.ts';
+
+/** Whether a head fits: what the doctor found, how it stands, what its parts are. */
+export class FitPanel {
+  readonly element: HTMLElement;
+  private readonly parts: PartsPanel;
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+    fit: FitModel,
+  ) {
+    const doctor = new DoctorPanel(studio, fit, {
+      enoughPoints: () => points.canPropose,
+      onAction: (action, finding) => this.act(action, finding),
+    });
+    this.parts = new PartsPanel(studio, fit);
+    this.element = h('div', { class: 'panel fit' }, doctor.element, this.parts.element);
+  }
+
+  /** Brings a part's row under the eyes. */
+  revealPart(part: number): void {
+    this.parts.reveal(part, false);
+  }
+
+  private act(action: FindingAction, finding: Finding): void {
+    const { points, studio } = this;
+    switch (action.kind) {
+      case 'role':
+        return this.parts.reveal(action.part, true);
+      case 'point':
+        studio.tab.set('points');
+        return points.chosen.set(action.point);
+      case 'exchange':
+        studio.tab.set('points');
+        return points.exchange(finding.place.points);
+      default:
+        studio.tab.set('points');
+    }
+  }
+}
