@@ -89,6 +89,21 @@ void lock_touching_borders(HalfEdgeMesh& mesh) {
   }
 }
 
+/// Whether a vertex may go is found by looking at all its neighbours for each of them, and again after every collapse
+/// beside it: the middle of a cap with a thousand triangles would take minutes. Such a middle stays, and of a fan that
+/// no modeller makes the rim as well.
+void lock_hubs(HalfEdgeMesh& mesh) {
+  constexpr unsigned hub = 64;
+  constexpr unsigned huge_hub = 1024;
+  for (const auto v : mesh.vertices()) {
+    const unsigned neighbours = mesh.valence(v);
+    if (neighbours <= hub) continue;
+    mesh.status(v).set_locked(true);
+    if (neighbours <= huge_hub) continue;
+    for (const auto rim : mesh.vv_range(v)) mesh.status(rim).set_locked(true);
+  }
+}
+
 }  // namespace
 
 GroupMesh::GroupMesh(const DecimationMesh& input, std::span<const std::uint32_t> sources)
@@ -100,6 +115,7 @@ GroupMesh::GroupMesh(const DecimationMesh& input, std::span<const std::uint32_t>
   add_faces(*this, sources);
   measure_normals(*this);
   lock_touching_borders(mesh);
+  lock_hubs(mesh);
 }
 
 bool HalfEdgeMesh::is_collapse_ok(HalfedgeHandle v0v1) const {

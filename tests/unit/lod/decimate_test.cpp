@@ -316,6 +316,34 @@ TEST(Decimate, DegenerateMeshesSurvive) {
   EXPECT_TRUE(decimate_to(make_sheet(5), {1000}).empty());  // no smaller than it is
 }
 
+/// Two tips, 0 and 1, over a wavy rim.
+Model make_double_fan(std::uint32_t rim) {
+  Model model;
+  model.positions = {{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -1.0F}};
+  for (std::uint32_t i = 0; i < rim; ++i) {
+    const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(rim);
+    model.positions.emplace_back(std::cos(angle), std::sin(angle), 0.01F * std::sin(7.0F * angle));
+    const std::uint32_t here = 2 + i;
+    const std::uint32_t next = 2 + (i + 1) % rim;
+    model.triangles.push_back({0, here, next});
+    model.triangles.push_back({1, next, here});
+  }
+  return model;
+}
+
+TEST(Decimate, TheMiddleOfALargeFanStays) {
+  const auto levels = decimate_to(make_double_fan(200), {100});
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_LE(levels[0].vertex_count, 100U);
+  const auto used = used_vertices(levels[0].triangles);
+  EXPECT_TRUE(used.contains(0) && used.contains(1));
+}
+
+TEST(Decimate, AFanThatNoModellerMakesStaysWhole) {
+  // Looking at every neighbour of the tips for every one of them would take hours.
+  EXPECT_TRUE(decimate_to(make_double_fan(20'000), {5000}).empty());
+}
+
 TEST(Decimate, PartsOfEachRoleGiveTheirShare) {
   Model model = make_ball({0.0F, 0.0F, 0.0F}, 5.0F, 64, 32);
   const auto second = testing::append(model, make_ball({20.0F, 0.0F, 0.0F}, 1.0F, 32, 16), "tooth");
