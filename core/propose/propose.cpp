@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -65,11 +66,12 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& places, std::size
 
 class Proposer {
  public:
-  Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const Places& known,
+  Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const FeaturePointSet& known,
            std::span<const ReferenceHead> references)
       : surface_(surface), parts_(parts), frame_(frame), face_(surface, parts, frame), references_(references) {
-    for (std::size_t id = 0; id < feature_point_count; ++id) {
-      if (known[id]) settled_[id] = frame(*known[id]);
+    for (const FeaturePoint& point : known) {
+      settled_[point.id.value()] = frame(glm::dvec3(point.position));
+      if (point.vertex) taken_[surface.surface_of[point.vertex->value()].value()] = point.id;
     }
   }
 
@@ -166,6 +168,10 @@ class Proposer {
   void refuse(std::size_t id, std::string reason) { proposals_.not_proposed.push_back({id_of(id), std::move(reason)}); }
 
   void settle(std::size_t id, const Spot& spot, ProposalMethod method, double error) {
+    if (spot.vertex) {
+      const auto [other, is_free] = taken_.try_emplace(*spot.vertex, id_of(id));
+      if (!is_free) return refuse(id, "the vertex nearest to it is point " + to_string(other->second) + " already");
+    }
     settled_[id] = spot.place;
     Proposal proposal;
     proposal.point.id = id_of(id);
@@ -188,8 +194,9 @@ class Proposer {
   FaceSurface face_;
   std::span<const ReferenceHead> references_;
   MirrorPlane plane_;
-  Places settled_;  ///< known, and proposed so far
-  Places images_;   ///< mirror images of known points whose partner is not known
+  Places settled_;                                           ///< known, and proposed so far
+  std::unordered_map<std::uint32_t, FeaturePointId> taken_;  ///< the point at a surface vertex: at most one is proposed
+  Places images_;  ///< mirror images of known points whose partner is not known
   std::array<std::optional<Guess>, feature_point_count> guesses_;
   Proposals proposals_;
 };
@@ -223,7 +230,7 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
                      missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
-  return Proposer(surface, parts, *frame, places, references).run();
+  return Proposer(surface, parts, *frame, known, references).run();
 }
 
 }  // namespace semblante

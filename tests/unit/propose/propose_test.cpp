@@ -129,6 +129,22 @@ TEST_F(Propose, LeavesOutWhatTheModelEndsBefore) {
   EXPECT_EQ(find(*proposals, fp("10.3")), nullptr);
 }
 
+TEST_F(Propose, NeverPutsTwoPointsAtOneVertex) {
+  FeaturePointSet known = some(quick_set);
+  const auto proposals = propose(known);
+  ASSERT_TRUE(proposals);
+  FeaturePoint there = find(*proposals, fp("8.4"))->point;
+  there.id = fp("8.6");
+  known.push_back(there);
+  const auto again = propose(known);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(find(*again, fp("8.4")), nullptr);
+  const auto reason = std::find_if(again->not_proposed.begin(), again->not_proposed.end(),
+                                   [](const NotProposed& p) { return p.id == fp("8.4"); });
+  ASSERT_NE(reason, again->not_proposed.end());
+  EXPECT_NE(reason->reason.find("8.6"), std::string::npos) << reason->reason;
+}
+
 TEST_F(Propose, RefusesTooFewPointsAndNamesTheMissing) {
   const FeaturePointSet known = some(std::span(quick_set).first(least_known_points - 1));
   const auto proposals = propose(known);
