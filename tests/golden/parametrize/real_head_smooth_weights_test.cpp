@@ -15,7 +15,7 @@ TEST(RealExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
   const bench::ExpressionStudy study = bench::read_expression_study(*faces / "ict-facekit");
   ASSERT_EQ(study.expressions.size(), 14U);
   const WeightTable<double> table = smooth_part_weights(study.surface, study.distances, study.eye_separation,
-                                                              margin_sites(study.surface, study.distances.points));
+                                                        margin_sites(study.surface, study.distances.points));
   bench::Shares shares(study.member_count() * study.point_count(), 0.0);
   for (std::size_t m = 0; m < study.member_count(); ++m) {
     for (std::size_t k = 0; k < table.points_of(m).size(); ++k) {
