@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "core/expressions/contact.h"
+
 namespace semblante {
 namespace {
 
@@ -12,11 +14,11 @@ static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_
 static_assert(sizeof(FeaturePointId) == 1 && std::is_standard_layout_v<FeaturePointId>);
 static_assert(sizeof(RigidMotion) == 1);
 
-std::vector<float> dense(std::span<const DisplacementSet> sets, const Fapu& fapu) {
+std::vector<float> dense(std::span<const DisplacementSet> sets, const Rig& rig) {
   std::vector<float> table;
   table.reserve(sets.size() * feature_point_count * 3);
   for (const DisplacementSet& set : sets) {
-    const auto row = to_dense(to_model_units(set, fapu).displacements);
+    const auto row = to_dense(on_face(set, rig.fapu, rig.points).displacements);
     table.insert(table.end(), row.begin(), row.end());
   }
   return table;
@@ -33,8 +35,8 @@ semblante_rig KernelRig::view() const {
 
 KernelRig make_kernel_rig(const Rig& rig) {
   KernelRig result;
-  result.visemes = dense(viseme_library(), rig.fapu);
-  result.expressions = dense(expression_library(), rig.fapu);
+  result.visemes = dense(viseme_library(), rig);
+  result.expressions = dense(expression_library(), rig);
   for (std::size_t i = 0; i < fapu_unit_count; ++i) {
     result.fixed.fapu[i] = static_cast<float>(rig.fapu.value[i].value_or(0.0));
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/expressions/contact.h"
 #include "core/expressions/library.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
@@ -77,7 +78,7 @@ RigDocument::MaterialInfo describe(const Material& material, const std::vector<A
 RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
   RigDocument::DisplacementSet out;
   out.name = set.name;
-  for (const Displacement& displacement : to_model_units(set, rig.fapu).displacements) {
+  for (const Displacement& displacement : on_face(set, rig.fapu, rig.points).displacements) {
     const bool marked = std::any_of(rig.points.begin(), rig.points.end(),
                                     [&](const FeaturePoint& p) { return p.id == displacement.point; });
     if (marked) out.displacements.push_back({displacement.point, displacement.value});

@@ -76,6 +76,22 @@ NamedSet read_set(const json& entry, const std::map<std::string, Displacements>&
   return set;
 }
 
+/// A motion of eyes, cheeks or nose below this goes unseen while the mouth moves; FAPU units.
+constexpr double unseen = 50.0;
+
+/// Where a viseme moves a point that an expression moves too, Eq. 5 leaves 15 % of the expression. So a viseme says
+/// nothing of eyes, cheeks and nose unless it moves them by more than goes unseen: a smile keeps its cheeks while it
+/// talks.
+void leave_to_expressions(NamedSet& viseme) {
+  std::erase_if(viseme.displacements, [](const auto& item) {
+    const auto& [point, d] = item;
+    const int group = group_of(point);
+    const bool teeth = group == 9 && number_of(point) >= 8 && number_of(point) <= 11;
+    if (group == 2 || group == 6 || group == 8 || teeth) return false;
+    return std::hypot(d[0], d[1], d[2]) < unseen;
+  });
+}
+
 template <class Infos>
 std::vector<NamedSet> read_list(const std::string& path, const char* key, const Infos& infos,
                                 const std::map<std::string, Displacements>& actions) {
@@ -99,8 +115,9 @@ std::vector<NamedSet> read_list(const std::string& path, const char* key, const 
 
 Sets read_sets(const std::string& data_folder) {
   const auto actions = read_actions(data_folder + "/actions.json");
-  return {read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions),
-          read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions)};
+  std::vector<NamedSet> visemes = read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions);
+  for (NamedSet& viseme : visemes) leave_to_expressions(viseme);
+  return {std::move(visemes), read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions)};
 }
 
 std::string render_header(const Sets& sets) {

@@ -55,6 +55,18 @@ TEST(Blink, IsHalfDoneHalfWay) {
   }
 }
 
+// The lips of makehuman are apart near the corners and in each other in the middle when at rest: 5.4 and 0.7 % of MNS0.
+TEST(PBM, ShutsTheLipsAndStopsThere) {
+  for (const bench::Head& head : heads()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    const bool untidy = head.name == "makehuman";
+    const Closure shut = measure(face, OpeningKind::mouth, bench::frame_of(1, 0));
+    EXPECT_LE(shut.slit, untidy ? 0.05 : 0.02) << head.name;
+    EXPECT_LE(shut.crossing, untidy ? 0.05 : 0.02) << head.name;
+    EXPECT_GT(measure(face, OpeningKind::mouth, bench::frame_of(10, 0)).slit, 0.2) << head.name;  // a
+  }
+}
+
 TEST(Closure_Measure, SeesLidsThatStayOpen) {
   const bench::Head head = bench::sample_head();
   const PosedFace face(head, WeightMethod::smooth);

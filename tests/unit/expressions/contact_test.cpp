@@ -1,0 +1,81 @@
+#include "core/expressions/contact.h"
+
+#include <gtest/gtest.h>
+
+namespace semblante {
+namespace {
+
+constexpr double mouth_nose = 2.0;
+constexpr float give = static_cast<float>(lip_give * mouth_nose);
+
+FeaturePointId fp(const char* name) { return parse_feature_point(name).value(); }
+
+FeaturePointSet lips(float apart) {
+  FeaturePointSet points;
+  for (const char* const name : {"2.2", "2.3", "2.6", "2.7", "2.8", "2.9"}) {
+    const bool upper = number_of(fp(name)) == 2 || number_of(fp(name)) == 6 || number_of(fp(name)) == 7;
+    points.push_back({fp(name), VertexId(0), {0.0F, upper ? apart : 0.0F, 0.0F}});
+  }
+  return points;
+}
+
+float y_of(const std::vector<Displacement>& displacements, const char* name) {
+  for (const Displacement& d : displacements) {
+    if (d.point == fp(name)) return d.value.y;
+  }
+  return 0.0F;
+}
+
+TEST(StopAtContact, LetsLipsMeetAndNoMore) {
+  std::vector<Displacement> closing = {{fp("2.2"), {0.0F, -0.3F, 0.1F}}, {fp("2.3"), {0.0F, 0.1F, 0.2F}}};
+  stop_at_contact(closing, lips(0.2F), mouth_nose);
+  EXPECT_NEAR(y_of(closing, "2.3") - y_of(closing, "2.2"), 0.2F + give, 1e-6F);
+  EXPECT_NEAR(y_of(closing, "2.2"), -0.3F + (0.2F - give) / 2.0F, 1e-6F);  // both stay behind by as much
+  EXPECT_EQ(closing[0].value.z, 0.1F);
+  EXPECT_EQ(closing[1].value.z, 0.2F);
+}
+
+TEST(StopAtContact, LeavesWhatDoesNotMeetAlone) {
+  const std::vector<Displacement> apart = {{fp("2.6"), {0.0F, -0.05F, 0.0F}}, {fp("2.8"), {0.0F, 0.05F, 0.0F}}};
+  std::vector<Displacement> same = apart;
+  stop_at_contact(same, lips(0.2F), mouth_nose);
+  EXPECT_EQ(y_of(same, "2.6"), y_of(apart, "2.6"));
+  EXPECT_EQ(y_of(same, "2.8"), y_of(apart, "2.8"));
+  // Both go up together: touching lips stay as they are.
+  std::vector<Displacement> together = {{fp("2.2"), {0.0F, 0.5F, 0.0F}}, {fp("2.3"), {0.0F, 0.5F, 0.0F}}};
+  stop_at_contact(together, lips(0.0F), mouth_nose);
+  EXPECT_EQ(y_of(together, "2.2"), 0.5F);
+  EXPECT_EQ(y_of(together, "2.3"), 0.5F);
+}
+
+TEST(StopAtContact, NeedsBothPoints) {
+  std::vector<Displacement> closing = {{fp("2.2"), {0.0F, -0.3F, 0.0F}}, {fp("2.3"), {0.0F, 0.1F, 0.0F}}};
+  FeaturePointSet points = lips(0.0F);
+  std::erase_if(points, [](const FeaturePoint& p) { return p.id == fp("2.3"); });
+  stop_at_contact(closing, points, mouth_nose);
+  EXPECT_EQ(y_of(closing, "2.2"), -0.3F);
+}
+
+TEST(OnFace, ShutsTheLipsInPbmHoweverFarTheyAreApart) {
+  Fapu fapu;
+  fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};
+  for (const float apart : {0.0F, 0.05F, 0.15F}) {
+    const auto p_b_m = on_face(viseme_library()[1], fapu, lips(apart)).displacements;
+    EXPECT_NEAR(y_of(p_b_m, "2.3") - y_of(p_b_m, "2.2"), apart + give, 1e-5F) << apart;
+    EXPECT_NEAR(y_of(p_b_m, "2.8") - y_of(p_b_m, "2.6"), apart + give, 1e-5F) << apart;
+  }
+}
+
+TEST(OnFace, IsTheSetInModelUnits_WherePointsAreUnknown) {
+  Fapu fapu;
+  fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};
+  for (const DisplacementSet& set : viseme_library()) {
+    const auto plain = to_model_units(set, fapu).displacements;
+    const auto there = on_face(set, fapu, {}).displacements;
+    ASSERT_EQ(plain.size(), there.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(plain[i].value, there[i].value);
+  }
+}
+
+}  // namespace
+}  // namespace semblante
