@@ -23,7 +23,7 @@ struct Arguments {
   std::vector<std::string> shots = {"front:face", "three-quarter:face"};
   std::vector<std::string> faps;
   std::string size = "340x400";
-  WeightMethod weights = WeightMethod::paper;
+  std::vector<WeightMethod> weights = {WeightMethod::paper};
   std::uint32_t max_vertices = 0;
   bool only_faps = false;
 };
@@ -82,6 +82,38 @@ Result<std::vector<Sheet>> sheets(const Arguments& arguments) {
   return list;
 }
 
+/// Faces beside each other on a sheet that compares methods, each with every method.
+constexpr int side_by_side = 2;
+
+/// A head with the weights of one method, and what draws it.
+struct Posed {
+  std::string method;
+  PosedHead head;
+  render::Renderer renderer;
+};
+
+Result<Posed> pose_with(const Arguments& arguments, WeightMethod method) {
+  auto head = load_posed_head(arguments.model, arguments.feature_points, method);
+  if (!head) {
+    return std::move(head).error();
+  }
+  if (method == arguments.weights.front()) {
+    for (const std::string& warning : head->warnings) {
+      std::cerr << "semblante-contact-sheet: " << warning << '\n';
+    }
+  }
+  auto scene = render::build_scene(head->model, {.points = head->rig.points, .role_of_vertex = head->roles()});
+  if (!scene) {
+    return std::move(scene).error();
+  }
+  auto renderer = render::Renderer::create(*std::move(scene));
+  if (!renderer) {
+    return std::move(renderer).error();
+  }
+  return Posed{std::string(weight_method_names[static_cast<std::size_t>(method)]), *std::move(head),
+               *std::move(renderer)};
+}
+
 std::string file_name(std::string text) {
   std::replace(text.begin(), text.end(), ':', '-');
   return text + ".png";
@@ -100,40 +132,36 @@ Status run(const Arguments& arguments) {
   if (!list) {
     return std::move(list).error();
   }
-  auto head = load_posed_head(arguments.model, arguments.feature_points, arguments.weights, arguments.max_vertices);
-  if (!head) {
-    return std::move(head).error();
-  }
-  for (const std::string& warning : head->warnings) {
-    std::cerr << "semblante-contact-sheet: " << warning << '\n';
-  }
-  auto scene = render::build_scene(head->model, {.points = head->rig.points, .role_of_vertex = head->roles()});
-  if (!scene) {
-    return std::move(scene).error();
-  }
-  auto renderer = render::Renderer::create(*std::move(scene));
-  if (!renderer) {
-    return std::move(renderer).error();
+  std::vector<Posed> posed;
+  for (const WeightMethod method : arguments.weights) {
+    auto one = pose_with(arguments, method);
+    if (!one) {
+      return std::move(one).error();
+    }
+    posed.push_back(*std::move(one));
   }
   std::filesystem::create_directories(arguments.out);
   for (const Sheet& sheet : *list) {
     std::vector<std::vector<render::LabelledPicture>> pictures(shots->size());
     for (const NamedFrame& named : sheet.frames) {
-      if (auto set = renderer->set_positions(head->pose(named.frame)); !set) {
-        return set;
-      }
-      for (std::size_t s = 0; s < shots->size(); ++s) {
-        auto picture = renderer->draw((*shots)[s].view, (*shots)[s].subject, *size);
-        if (!picture) {
-          return std::move(picture).error();
+      for (Posed& face : posed) {
+        if (auto set = face.renderer.set_positions(face.head.pose(named.frame)); !set) {
+          return set;
         }
-        pictures[s].push_back({named.name, *std::move(picture)});
+        for (std::size_t s = 0; s < shots->size(); ++s) {
+          auto picture = face.renderer.draw((*shots)[s].view, (*shots)[s].subject, *size);
+          if (!picture) {
+            return std::move(picture).error();
+          }
+          pictures[s].push_back({posed.size() > 1 ? named.name + "  " + face.method : named.name, *std::move(picture)});
+        }
       }
     }
     for (std::size_t s = 0; s < shots->size(); ++s) {
       const std::string title = arguments.model.filename().string() + "  " + sheet.name + "  " + (*shots)[s].name;
       const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + (*shots)[s].name);
-      if (auto written = write_png(contact_sheet(pictures[s], title, sheet.columns), path); !written) {
+      const int columns = posed.size() > 1 ? static_cast<int>(posed.size()) * side_by_side : sheet.columns;
+      if (auto written = write_png(contact_sheet(pictures[s], title, columns), path); !written) {
         return written;
       }
       std::cout << path.string() << '\n';
@@ -156,7 +184,9 @@ int main(int argc, char** argv) {
   app.add_option("--frame", arguments.faps, "a face of one's own, NUMBER=VALUE,... in FAP units; repeatable");
   const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
                                                                   {"smooth", semblante::WeightMethod::smooth}};
-  app.add_option("--weights", arguments.weights, "how weights are computed: paper, smooth")
+  app.add_option("--weights", arguments.weights,
+                 "how weights are computed: paper, smooth; both for a sheet that compares them")
+      ->expected(1, 2)
       ->transform(CLI::CheckedTransformer(methods));
   app.add_option("--max-vertices", arguments.max_vertices, "draw the level of detail of that many vertices; 0: all");
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
