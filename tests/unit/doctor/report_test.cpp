@@ -48,6 +48,26 @@ TEST(DoctorReport, HostileMesh_GivesABoundedReport) {
   EXPECT_GT(report.counts().notes, 0U);
 }
 
+TEST(DoctorReport, ManyFindingsOfAKind_AreNotAllTold) {
+  testing::Head head = testing::sample_head();
+  const double reach = 1.5 * testing::unit(head);
+  std::vector<bool> at_a_hole(head.model.positions.size(), false);
+  std::vector<std::uint32_t> holes;
+  for (const std::uint32_t t : testing::triangles_near(head, testing::place(head, "9.3"), reach)) {
+    const Triangle& corners = head.model.triangles[t];
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return at_a_hole[v]; })) continue;
+    for (const std::uint32_t v : corners) at_a_hole[v] = true;
+    holes.push_back(t);
+  }
+  testing::erase(head, holes);
+  const Report report = testing::examine_without_weights(head);
+  std::vector<const Finding*> told;
+  for (const Finding& finding : report.findings)
+    if (finding.code == FindingCode::hole_near_points) told.push_back(&finding);
+  ASSERT_EQ(told.size(), 100U);
+  EXPECT_THAT(told.back()->words, HasSubstr("; the same goes for "));
+}
+
 TEST(DoctorReport, MeshWithoutTriangles_IsExaminedToo) {
   Model model;
   model.positions.assign(3, glm::vec3(0.0F));
