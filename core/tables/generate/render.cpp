@@ -139,6 +139,9 @@ std::string render_cpp_header(const TableData& data) {
         << ", Side::" << point["side"].get<std::string>() << ", " << index_of(data, point["mirror"]) << "},\n";
   }
   out << "}};\n\n";
+  array("std::string_view", "quick_set", data.feature_points["quick_set"].size());
+  for (const json& id : data.feature_points["quick_set"]) out << "    " << quoted(id) << ",\n";
+  out << "}};\n\n";
   array("FapuInfo", "fapus", data.fapus["fapus"].size());
   for (const json& fapu : data.fapus["fapus"]) {
     const json measures = fapu.value("measures", json::array());
@@ -272,6 +275,8 @@ export interface Expression {
   list("Fap", "faps", faps);
   out << "/** In the order of the standard: the index is the dense feature point index of the formats. */\n";
   list("FeaturePoint", "featurePoints", data.feature_points["feature_points"]);
+  out << "/** The points to mark first, in this order: the others are proposed from them. */\n";
+  list("string", "quickSet", data.feature_points["quick_set"]);
   list("Fapu", "fapus", fapus);
   out << "/** By the number that FAP 1 selects. */\n";
   list("Viseme", "visemes", data.high_level["visemes"]);

@@ -313,6 +313,29 @@ inline constexpr std::array<FeaturePoint, 84> feature_points = {{
     {"11.6", "back of the skull", Side::center, 83},
 }};
 
+inline constexpr std::array<std::string_view, 20> quick_set = {{
+    "9.3",
+    "9.15",
+    "8.1",
+    "2.2",
+    "2.3",
+    "8.2",
+    "2.1",
+    "11.4",
+    "3.11",
+    "3.7",
+    "3.1",
+    "3.3",
+    "3.12",
+    "4.1",
+    "4.5",
+    "9.1",
+    "8.3",
+    "2.13",
+    "10.1",
+    "10.5",
+}};
+
 inline constexpr std::array<FapuInfo, 6> fapus = {{
     {"IRISD", "iris diameter (equal, by the definition of the neutral face, to the distance between upper and lower lid)", {{{16, 14, 1}, {17, 15, 1}}}, 2},
     {"ES", "distance between the centres of the eyes (pupils)", {{{19, 18, 0}}}, 1},

@@ -236,6 +236,30 @@ export const featurePoints: readonly FeaturePoint[] = [
   {"id":"11.6","name":"back of the skull","side":"center","mirror":"11.6"},
 ];
 
+/** The points to mark first, in this order: the others are proposed from them. */
+export const quickSet: readonly string[] = [
+  "9.3",
+  "9.15",
+  "8.1",
+  "2.2",
+  "2.3",
+  "8.2",
+  "2.1",
+  "11.4",
+  "3.11",
+  "3.7",
+  "3.1",
+  "3.3",
+  "3.12",
+  "4.1",
+  "4.5",
+  "9.1",
+  "8.3",
+  "2.13",
+  "10.1",
+  "10.5",
+];
+
 export const fapus: readonly Fapu[] = [
   {"name":"IRISD","meaning":"iris diameter (equal, by the definition of the neutral face, to the distance between upper and lower lid)"},
   {"name":"ES","meaning":"distance between the centres of the eyes (pupils)"},
