@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/doctor/mesh_faults.h"
@@ -13,6 +14,7 @@
 #include "core/doctor/part_checks.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/subject.h"
+#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {
@@ -48,10 +50,22 @@ Report errors_first(Report report) {
   return report;
 }
 
+/// Lips and lids may be borders, with nothing behind them, and may touch. Their points are a fifth of ES0 apart, so
+/// with a little more than half of that round each the whole rim is covered.
+Slits slits_of(const FaceFrame& face, const FeaturePointSet& points) {
+  Slits slits;
+  slits.reach = 0.12 * face.eye_separation.value_or(0.0);
+  for (const Opening& opening : openings())
+    for (const auto names : {opening.upper, opening.lower, opening.corners})
+      for (const std::string_view name : names)
+        if (const FeaturePoint* const point = find_point(points, name)) slits.places.emplace_back(point->position);
+  return slits;
+}
+
 void find_in_mesh(const Model& model, const Surface& surface, std::span<const Part> parts, const MeshSides& mesh,
-                  Report& report) {
+                  const Slits& slits, Report& report) {
   append(report, find_wrong_winding(model, surface, parts, mesh));
-  append(report, find_open_seams(model, surface, parts, mesh));
+  append(report, find_open_seams(model, surface, parts, mesh, slits));
   append(report, find_mesh_faults(model, surface, parts, mesh));
 }
 
@@ -59,7 +73,7 @@ void find_in_mesh(const Model& model, const Surface& surface, std::span<const Pa
 
 Report examine_mesh(const Model& model, const Surface& surface, std::span<const Part> parts) {
   Report report;
-  find_in_mesh(model, surface, parts, sort_sides(model, surface), report);
+  find_in_mesh(model, surface, parts, sort_sides(model, surface), {}, report);
   return errors_first(std::move(report));
 }
 
@@ -71,7 +85,7 @@ Report examine(const Model& model, const Surface& surface, const Rig& rig, Weigh
                            find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,
                            find_idle_parts, find_holes, find_wrong_density, find_missing_points})
     append(report, check(head));
-  find_in_mesh(model, surface, rig.parts, mesh, report);
+  find_in_mesh(model, surface, rig.parts, mesh, slits_of(head.frame, rig.points), report);
   return errors_first(std::move(report));
 }
 

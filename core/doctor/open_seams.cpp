@@ -67,7 +67,7 @@ std::vector<Border> borders_of(const MeshSides& mesh) {
 }  // namespace
 
 std::vector<Finding> find_open_seams(const Model& model, const Surface& surface, std::span<const Part> parts,
-                                     const MeshSides& mesh) {
+                                     const MeshSides& mesh, const Slits& slits) {
   const std::vector<Border> borders = borders_of(mesh);
   if (borders.empty()) return {};
 
@@ -119,6 +119,10 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
     if (pb == nobody || pa == pb) continue;
     // The piece that was cut off the skin may pass for anything, but what it was cut off is skin.
     if (!is_skin(surface, parts, a) && !is_skin(surface, parts, pa)) continue;
+    const bool is_a_slit = std::any_of(slits.places.begin(), slits.places.end(), [&](const glm::dvec3& place) {
+      return glm::distance(place, surface.positions[a]) < slits.reach;
+    });
+    if (is_a_slit) continue;
     ++count;
     gap = std::max({gap, glm::distance(surface.positions[a], surface.positions[pa]),
                     glm::distance(surface.positions[b], surface.positions[pb])});
@@ -132,7 +136,10 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
   finding.words = count_of(count, "border edge of the skin lies", "border edges of the skin lie") +
                   " next to another border without being joined to it; the skin is cut there, and no movement crosses "
                   "the cut";
-  finding.remedy = "merge vertices by distance along the seam: give those that belong together the same position";
+  finding.remedy =
+      "merge vertices by distance along the seam: give those that belong together the same position; lips and lids "
+      "that "
+      "only touch may stay as they are";
   finding.measured = {"widest gap as a share of the length of a border edge", gap / *half, gap_share};
   return {std::move(finding)};
 }

@@ -24,6 +24,7 @@ struct ExamineCommand {
 Report examine_files(const HeadOptions& options) {
   const HeadFiles files = read_head(options);
   const Surface surface = build_surface(files.model);
+  print_warnings(files.model.warnings, options.quiet);
   if (options.feature_points_path.empty())
     return examine_mesh(files.model, surface, describe_parts(files.model, surface, {}));
   PlacedPoints placed = place_what_can_be(files.model, surface, files.marked);

@@ -339,6 +339,17 @@ TEST_F(Sheet, Examine_SaysWhatIsWrong_AndItsExitStatusWhetherItIsAnError) {
   EXPECT_EQ(data.exit_code, report["summary"]["errors"] == 0 ? 0 : 1) << data.err;
 }
 
+TEST_F(Sheet, Examine_TellsEveryPointItCannotPlace_AndGoesOn) {
+  const std::string wrong = work.write("wrong.json", R"({"points": {"2.1": {"vertex": 999}, "2.2": {"vertex": 40},
+    "8.3": {"vertex": 29}, "8.4": {"vertex": 33}, "3.5": {"position": [1e9, 0, 0]}}})");
+  const Outcome outcome = run_semblante({"examine", model, "--points", wrong});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(line_count(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("errors"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("error point-refused: point 2.1 is at vertex 999"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("error missing-points: "), std::string::npos) << outcome.out;
+}
+
 TEST(Cli, Help_NamesTheEnvironment_OfEveryOption) {
   for (const char* const command : {"parametrize", "deform", "examine", "propose"}) {
     const Outcome outcome = run_semblante({command, "--help"});

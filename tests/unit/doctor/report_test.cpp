@@ -109,6 +109,20 @@ TEST(DoctorReport, ErrorsComeFirst) {
   EXPECT_EQ(report.counts(), (FindingCounts{1, 0, 1}));
 }
 
+TEST(DoctorReport, LipsThatTouch_AreNoOpenSeam) {
+  testing::Head head = testing::sample_head();
+  const glm::dvec3 lip = testing::place(head, "2.2");
+  const double radius = 0.08 * testing::unit(head);
+  testing::cut(head, [=](const glm::dvec3& at) { return glm::distance(at, lip) < radius; },
+               {0.0, 0.0, 1e-4 * testing::unit(head)});
+  const auto has_seam = [](const Report& report) {
+    return std::any_of(report.findings.begin(), report.findings.end(),
+                       [](const Finding& finding) { return finding.code == FindingCode::open_seam; });
+  };
+  EXPECT_TRUE(has_seam(examine_alone(head.model))) << "without points a slit cannot be told from a seam";
+  EXPECT_FALSE(has_seam(testing::examine_without_weights(head)));
+}
+
 TEST(DoctorReport, QuickSetOfPoints_IsToldInAFewGroupedFindings) {
   testing::Head head = testing::sample_head();
   std::erase_if(head.points, [](const FeaturePoint& p) {
