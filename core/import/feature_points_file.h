@@ -13,7 +13,7 @@ namespace semblante {
 
 /// What a feature point file says: {"points": {"2.1": {"vertex": 966, "position": [x, y, z]}, ...}}. Each point has a
 /// vertex (from 0, in the model file's own numbering), a position in the model file's own space, or both; `null` counts
-/// as absent, and so do members we do not know.
+/// as absent, and so do members we do not know. "proposed": true marks a point that nobody has placed or confirmed.
 struct FeaturePointsFile {
   std::vector<MarkedPoint> points;  ///< in rising order of id; positions still in the FILE's axes
   /// "to_mpeg4_axes", rows as written: MPEG-4 position = matrix * file position. See axes.h.

@@ -55,9 +55,9 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
     point.position = xyz;
   }
   if (!point.vertex && !point.position) return fault("", "it has neither a vertex nor a position");
-  if (value.contains("proposed") && !value["proposed"].is_boolean())
-    return fault("/proposed", "it must be true or false");
-  if (value.value("proposed", false)) {
+  const bool says = value.contains("proposed") && !value["proposed"].is_null();
+  if (says && !value["proposed"].is_boolean()) return fault("/proposed", "it must be true or false");
+  if (says && value["proposed"].get<bool>()) {
     auto& proposal = point.proposal.emplace();
     // Those of a placed point are remarks of its file and mean nothing here.
     if (value.contains("method")) {

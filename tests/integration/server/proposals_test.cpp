@@ -181,6 +181,8 @@ TEST_F(ProposalRoutes, BadRequests_NameTheFault) {
   json placed = with("method", "by hand");
   placed["points"]["2.1"]["proposed"] = false;
   EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";
+  placed["points"]["2.1"]["proposed"] = nullptr;
+  EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";
 }
 
 TEST_F(ProposalRoutes, IdempotencyKey_MakesOneJob) {

@@ -102,6 +102,17 @@ TEST(FeaturePointsFile, Points_ComeInRisingOrder_WhateverTheFileSays) {
   EXPECT_FALSE(file->to_mpeg4_axes);
 }
 
+TEST(FeaturePointsFile, Proposed_IsAMark_OfTruthOrNotAtAll) {
+  const auto file = parse_feature_points(R"({"points": {"2.1": {"vertex": 1, "proposed": true, "confidence": "high"},
+      "2.2": {"vertex": 2, "proposed": false}, "2.3": {"vertex": 3, "proposed": null}, "2.4": {"vertex": 4}}})");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_TRUE(file->points[0].proposed);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(file->points[i].proposed) << i;
+  const auto other = parse_feature_points(R"({"points": {"2.1": {"vertex": 1, "proposed": 1}}})");
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().where, "/points/2.1/proposed");
+}
+
 TEST(FeaturePointsFile, AnyPrefix_IsRefused_WithoutACrash) {
   const std::string whole = R"({"points": {"2.1": {"vertex": 7, "position": [1.5, -2, 3e1]}}})";
   for (std::size_t size = 0; size < whole.size(); ++size) {
