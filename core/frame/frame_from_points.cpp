@@ -91,7 +91,7 @@ glm::dvec3 front_of(std::span<const PlacedPoint> points) {
 
 bool is_known(const glm::dvec3& direction) { return direction != glm::dvec3(0.0); }
 
-void guess_axes(std::span<const PlacedPoint> points, FrameGuess& guess) {
+void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   glm::dvec3 left = left_of(points);
   const glm::dvec3 up = up_of(points);
   const glm::dvec3 front = front_of(points);
@@ -101,9 +101,8 @@ void guess_axes(std::span<const PlacedPoint> points, FrameGuess& guess) {
         "model is a mirror image");
     left = glm::dvec3(0.0);
   }
-  const int known = (is_known(left) ? 1 : 0) + (is_known(up) ? 1 : 0) + (is_known(front) ? 1 : 0);
   // Two directions give the third. One alone does not, and a front without an up may lean either way.
-  if (known < 2 || !is_known(up)) return;
+  if (!is_known(up) || (!is_known(left) && !is_known(front))) return;
   const auto score = [&](const Axes& axes) {
     const glm::dvec3 u = to_vector(axes.up);
     const glm::dvec3 f = to_vector(axes.front);
@@ -118,13 +117,24 @@ void guess_axes(std::span<const PlacedPoint> points, FrameGuess& guess) {
   }
   // A head tilted by 45 degrees stands between two axes; far from that the choice is plain.
   constexpr double least_lead = 0.3;
-  guess.axes = best;
-  guess.axes_sure = score(best) - second > least_lead;
+  // Points that contradict one another make no head: nothing is turned by them.
+  constexpr double least_agreement = 0.5;
+  const glm::dvec3 u = to_vector(best.up);
+  const glm::dvec3 f = to_vector(best.front);
+  const auto agrees = [](const glm::dvec3& axis, const glm::dvec3& seen) {
+    return !is_known(seen) || glm::dot(axis, seen) > least_agreement;
+  };
+  const bool is_sure = score(best) - second > least_lead && agrees(u, up) && agrees(f, front) &&
+                       agrees(glm::cross(u, f), left) &&
+                       // Where nothing shows the front, sides that were exchanged would turn the head round.
+                       (is_known(front) || best == guess.axes);
+  if (is_sure) guess.axes = best;
+  guess.axes_sure = is_sure;
   std::string reason = "The feature points stand " + std::string(to_string(best.up)) + " up";
   if (is_known(left))
     reason += ", their pairs apart along " + std::string(1, "XYZ"[3 - axis_of(best.up) - axis_of(best.front)]);
   reason += ", the face towards " + std::string(to_string(best.front));
-  if (!guess.axes_sure) reason += ", but so tilted that it might be another way";
+  if (!is_sure) reason += ", but so unclearly that it might be another way";
   guess.reasons.push_back(std::move(reason));
 }
 
@@ -141,7 +151,7 @@ std::optional<double> eye_separation(std::span<const PlacedPoint> points) {
   return left && right ? std::optional(glm::distance(*left, *right)) : std::nullopt;
 }
 
-void guess_unit(std::span<const PlacedPoint> points, FrameGuess& guess) {
+void guess_unit(std::span<const PlacedPoint> points, ModelFrame& guess) {
   const auto separation = eye_separation(points);
   if (!separation || !(*separation > 0.0)) return;
   const auto unit = unit_of_eye_separation(*separation);
@@ -159,8 +169,8 @@ void guess_unit(std::span<const PlacedPoint> points, FrameGuess& guess) {
 
 }  // namespace
 
-FrameGuess guess_frame(std::span<const PlacedPoint> points, const FrameGuess& before) {
-  FrameGuess guess = before;
+ModelFrame guess_frame(std::span<const PlacedPoint> points, const ModelFrame& before) {
+  ModelFrame guess = before;
   guess.reasons.clear();
   guess_axes(points, guess);
   guess_unit(points, guess);

@@ -17,7 +17,7 @@ class ShapeGuess {
   ShapeGuess(const Model& model, const Surface& surface)
       : model_(model), surface_(surface), shapes_(measure_parts(model, surface)) {}
 
-  FrameGuess guess() {
+  ModelFrame guess() {
     if (!shapes_.empty()) {
       skin_ = largest_part();
       eyes_ = find_eyes(shapes_);
@@ -159,11 +159,11 @@ class ShapeGuess {
   std::optional<int> across_;
   std::optional<Direction> up_;
   std::optional<Direction> front_;
-  FrameGuess guess_;
+  ModelFrame guess_;
 };
 
 }  // namespace
 
-FrameGuess guess_frame(const Model& model, const Surface& surface) { return ShapeGuess(model, surface).guess(); }
+ModelFrame guess_frame(const Model& model, const Surface& surface) { return ShapeGuess(model, surface).guess(); }
 
 }  // namespace semblante

@@ -6,6 +6,7 @@
 
 #include "core/types/rig.h"
 #include "server/api/common.h"
+#include "server/api/new_model.h"
 #include "server/api/routes.h"
 #include "server/http/conditional.h"
 
@@ -47,6 +48,59 @@ std::vector<store::RoleChange> role_changes(const Json& roles, std::size_t part_
   return changes;
 }
 
+/// A member that may be said, taken back (null), or left as it is.
+template <class T, class Parse>
+void read_wish(const Json& frame, const char* key, const std::string& what, Parse parse, std::optional<T>& wish) {
+  if (!frame.contains(key)) return;
+  const Json& value = frame[key];
+  wish = value.is_string() ? parse(value.get<std::string>()) : std::nullopt;
+  if (!wish && !value.is_null()) refuse("invalid-field", "it must be " + what, std::string("/frame/") + key);
+}
+
+FrameWish frame_wish(const Json& frame, const FrameWish& before) {
+  if (!frame.is_object()) refuse("invalid-field", "frame is an object of unit, up and front", "/frame");
+  for (const auto& [key, value] : frame.items())
+    if (key != "unit" && key != "up" && key != "front")
+      refuse("invalid-field", "there is no field \"" + key + "\" in a frame", "/frame/" + http::pointer_segment(key));
+  FrameWish wish = before;
+  const std::string directions = "one of +X, -X, +Y, -Y, +Z and -Z, or null";
+  read_wish(frame, "unit", "one of m, dm, cm, mm and in, or null", parse_length_unit, wish.unit);
+  read_wish(frame, "up", directions, parse_direction, wish.up);
+  read_wish(frame, "front", directions, parse_direction, wish.front);
+  if (wish.up && wish.front && !are_valid({*wish.up, *wish.front}))
+    refuse("invalid-field", "up and front must lie on two axes",
+           frame.contains("front") ? "/frame/front" : "/frame/up");
+  return wish;
+}
+
+/// What the user says of the frame. The unit alone is a word; axes turn everything, which is the work of an import.
+/// Gives that import, if one is needed.
+std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const Json& body) {
+  const FrameWish wish = frame_wish(body, model.frame_wish);
+  if (wish == model.frame_wish) return std::nullopt;
+  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported", "/frame");
+  for (const auto kind : {store::JobKind::parametrize, store::JobKind::propose}) {
+    const auto last = context.store.latest_job(model.id, kind);
+    if (last && !store::is_final(last->state))
+      refuse("conflict", "a job works on the model as it stands: wait for job " + last->id + " or cancel it", "/frame");
+  }
+  // Taking back what was said needs a new look at the file; so does a model of before there were frames.
+  const bool says_unit_only =
+      model.frame && wish.unit && wish.up == model.frame_wish.up && wish.front == model.frame_wish.front;
+  std::optional<store::JobRecord> job;
+  ModelFrame frame = model.frame.value_or(ModelFrame{});
+  if (says_unit_only) {
+    frame = apply_wish(std::move(frame), {wish.unit, {}, {}});
+  } else {
+    if (!context.jobs.has_room()) refuse("too-many-requests", "too many jobs are waiting");
+    job = new_import(model.id);
+  }
+  if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
+    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+  if (job) context.jobs.enqueue(*job);
+  return job;
+}
+
 http::Response full_model(Context& context, const store::ModelRecord& model) {
   auto response = json_response(200, represent(model, context.store.artefacts(model.id)));
   response.headers["ETag"] = model_etag(model);
@@ -77,14 +131,26 @@ http::Response patch_model(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   check_if_match(request, model_etag(model));
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "roles"});
+  refuse_unknown_members(body, {"name", "roles", "frame"});
   std::optional<std::string> name;
   if (body.contains("name")) name = checked_text(body["name"], max_name_bytes, "/name");
   std::vector<store::RoleChange> roles;
   if (body.contains("roles")) roles = role_changes(body["roles"], model.parts.size());
-  if (!context.store.edit_model(model.id, name, roles, model.revision))
+  const bool has_more = name || !roles.empty() || !body.contains("frame");
+  std::optional<store::JobRecord> import;
+  auto now = model;
+  if (body.contains("frame")) {
+    import = edit_frame(context, model, body["frame"]);
+    now = model_of(context, request);
+  }
+  if (has_more && !context.store.edit_model(model.id, name, roles, now.revision))
     refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
-  return full_model(context, model_of(context, request));
+  auto response = full_model(context, model_of(context, request));
+  if (import) {
+    response.status = 202;
+    response.headers["Location"] = "/v1/jobs/" + import->id;
+  }
+  return response;
 }
 
 http::Response delete_model(Context& context, http::Request& request) {

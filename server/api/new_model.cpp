@@ -19,16 +19,21 @@ Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, c
   model.created = model.updated = store::timestamp_now();
   model.source_bytes = blob->bytes;
   model.source_sha256 = blob->sha256;
-  auto& job = made.job;
-  job.id = store::random_id();
-  job.model = model.id;
-  job.kind = store::JobKind::import;
-  job.created = job.updated = model.created;
-  if (key) key->resource = job.id;
+  made.job = new_import(model.id);
+  if (key) key->resource = made.job.id;
   const store::ArtefactRecord source{"source", blob->sha256, blob->bytes, "application/octet-stream"};
-  if (!store.create_model(model, source, job, key))
+  if (!store.create_model(model, source, made.job, key))
     return Error{ErrorCode::mismatch, "", "there is a model " + model.id + " already"};
   return made;
+}
+
+store::JobRecord new_import(const std::string& model) {
+  store::JobRecord job;
+  job.id = store::random_id();
+  job.model = model;
+  job.kind = store::JobKind::import;
+  job.created = job.updated = store::timestamp_now();
+  return job;
 }
 
 }  // namespace semblante::api

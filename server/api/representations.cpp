@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/frame_json.h"
+
 namespace semblante::api {
 namespace {
 
@@ -63,6 +65,11 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
                      {"triangles", part.triangles},
                      {"bounds", box(part.box_min, part.box_max)}});
   }
+  json["frame"] = nullptr;
+  if (model.frame) json["frame"] = store::frame_to_json(*model.frame, model.frame_wish);
+  auto& targets = json["morph_targets"] = Json::array();
+  for (const auto& target : model.morph_targets)
+    targets.push_back({{"name", target.name}, {"vertices", target.vertices}});
   json["warnings"] = model.warnings;
   json["findings"] = nullptr;
   if (model.findings)

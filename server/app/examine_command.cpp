@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "core/doctor/examine.h"
 #include "core/doctor/marked_points.h"
@@ -12,6 +13,7 @@
 #include "server/app/commands.h"
 #include "server/app/head_input.h"
 #include "server/report/report_json.h"
+#include "server/store/frame_json.h"
 
 namespace semblante {
 namespace {
@@ -21,8 +23,7 @@ struct ExamineCommand {
   bool json = false;
 };
 
-Report examine_files(const HeadOptions& options) {
-  const HeadFiles files = read_head(options);
+Report examine_files(const HeadFiles& files, const HeadOptions& options) {
   const Surface surface = build_surface(files.model);
   print_warnings(files.model.warnings, options.quiet);
   if (options.feature_points_path.empty())
@@ -63,12 +64,23 @@ void print(const Report& report, std::ostream& out) {
       << (counts.notes == 1 ? " note\n" : " notes\n");
 }
 
+void print(const ModelFrame& frame, std::ostream& out) {
+  out << "Frame: " << to_string(frame.axes.up) << " up, face towards " << to_string(frame.axes.front)
+      << (frame.axes_sure ? "" : " (not sure)") << ", unit " << to_string(frame.unit)
+      << (frame.unit_sure ? "" : " (not sure)") << "\n";
+  for (const std::string& reason : frame.reasons) out << "    " << reason << ".\n";
+}
+
 void run(const ExamineCommand& options) {
-  const Report report = examine_files(options.head);
-  if (options.json)
-    std::cout << write_report(report);
-  else
+  const HeadFiles files = read_head(options.head);
+  const Report report = examine_files(files, options.head);
+  if (options.json) {
+    const ReportSection frame{"frame", store::frame_to_json(files.frame, files.wish).dump()};
+    std::cout << write_report(report, {&frame, 1});
+  } else {
     print(report, std::cout);
+    print(files.frame, std::cout);
+  }
   if (const auto errors = report.counts().errors; errors > 0)
     throw CommandFailure(CommandFailure::has_errors, options.head.model_path + ": examined, it has " +
                                                          std::to_string(errors) + (errors == 1 ? " error" : " errors"));

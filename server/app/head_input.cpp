@@ -40,6 +40,40 @@ Model read_model(const HeadOptions& options) {
   return std::move(*model);
 }
 
+FrameWish wish_of(const HeadOptions& options) {
+  FrameWish wish{parse_length_unit(options.unit), parse_direction(options.up), parse_direction(options.front)};
+  if (wish.up && wish.front && !are_valid({*wish.up, *wish.front}))
+    throw CommandFailure(CommandFailure::bad_input,
+                         "--front: " + options.front + " lies on the axis of --up " + options.up);
+  return wish;
+}
+
+/// Guesses by the points, and by the shape of the head where they do not say how it stands.
+ModelFrame guess_frame_of(const HeadFiles& head) {
+  std::vector<PlacedPoint> points;
+  for (const MarkedPoint& point : head.marked) {
+    if (point.position)
+      points.push_back({point.id, *point.position});
+    else if (point.vertex && *point.vertex < head.model.positions.size())
+      points.push_back({point.id, glm::dvec3(head.model.positions[*point.vertex])});
+  }
+  const ModelFrame by_points = guess_frame(points, {});
+  if (by_points.axes_sure && by_points.unit_sure) return by_points;
+  return guess_frame(points, guess_frame(head.model, build_surface(head.model)));
+}
+
+void stand_upright(HeadFiles& head) {
+  head.frame = apply_wish(guess_frame_of(head), head.wish);
+  if (head.frame.axes == Axes{}) return;
+  head.to_mpeg4 = to_mpeg4(head.frame.axes);
+  change_axes(head.model, head.to_mpeg4);
+  for (MarkedPoint& point : head.marked) {
+    if (point.position) point.position = head.to_mpeg4 * *point.position;
+  }
+  head.model.warnings.push_back("the head stands along " + std::string(to_string(head.frame.axes.up)) + " and faces " +
+                                std::string(to_string(head.frame.axes.front)) + " in its file; it is turned upright");
+}
+
 /// One line that is written over; cleared at the end. Only for people, so only on a terminal.
 class ProgressLine {
  public:
@@ -86,6 +120,18 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
       ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
       ->envname("SEMBLANTE_FORMAT");
+  command.add_option("--unit", options.unit, "Unit of MODEL's coordinates, instead of a guess")
+      ->check(CLI::IsMember(std::vector<std::string>(length_unit_names.begin(), length_unit_names.end())))
+      ->envname("SEMBLANTE_UNIT");
+  const auto direction = CLI::Validator(
+      [](std::string& text) { return parse_direction(text) ? std::string() : "must be +X, -X, +Y, -Y, +Z or -Z"; },
+      "DIRECTION");
+  command.add_option("--up", options.up, "Where the top of the head is in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_UP");
+  command.add_option("--front", options.front, "Where the face looks in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_FRONT");
   command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
 }
 
@@ -119,13 +165,25 @@ HeadFiles read_head(const HeadOptions& options) {
     file = std::move(*parsed);
   }
   HeadFiles head;
+  head.wish = wish_of(options);
   head.model = read_model(options);
-  if (file.to_mpeg4_axes) {
-    head.to_mpeg4 = *file.to_mpeg4_axes;
-    change_axes(head.model, head.to_mpeg4);
-    change_axes(file);
+  if (!file.to_mpeg4_axes) {
+    head.marked = std::move(file.points);
+    stand_upright(head);
+    return head;
   }
+  if (head.wish.has_axes()) {
+    throw CommandFailure(
+        CommandFailure::bad_input,
+        options.feature_points_path + ": /to_mpeg4_axes says how the model stands; leave out --up and --front");
+  }
+  head.to_mpeg4 = *file.to_mpeg4_axes;
+  change_axes(head.model, head.to_mpeg4);
+  change_axes(file);
   head.marked = std::move(file.points);
+  head.frame = guess_frame_of(head);
+  head.frame.axes = {};
+  head.frame = apply_wish(std::move(head.frame), head.wish);
   return head;
 }
 

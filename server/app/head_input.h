@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame/frame_guess.h"
 #include "core/geometry/surface.h"
 #include "core/import/feature_points_file.h"
 #include "core/types/model.h"
@@ -21,12 +22,13 @@ struct HeadOptions {
   std::string format;             ///< empty: by content and name
   std::string weights = "paper";  ///< a name of weight_method_names
   std::string metric = "edge";    ///< a name of distance_metric_names
+  std::string unit, up, front;    ///< of the model file, as length_unit_names and direction_names; empty: guessed
   bool quiet = false;
 };
 
 enum class PointsOption : bool { required, optional };
 
-/// Declares MODEL, --feature-points, --format and --quiet.
+/// Declares MODEL, --feature-points, --format, --unit, --up, --front and --quiet.
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
 /// The same, and --weights and --metric.
@@ -36,7 +38,9 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
 struct HeadFiles {
   Model model;
   std::vector<MarkedPoint> marked;  ///< empty without a file of feature points
-  glm::dmat3 to_mpeg4{1.0};         ///< what "to_mpeg4_axes" of the feature point file said
+  glm::dmat3 to_mpeg4{1.0};         ///< by "to_mpeg4_axes" of the feature point file, else by `frame`
+  ModelFrame frame;                 ///< its axes are not told where the file says "to_mpeg4_axes"
+  FrameWish wish;                   ///< what the options say of it
 };
 
 /// Reads both files. Throws CommandFailure, naming the file and the place in it.
@@ -47,7 +51,7 @@ struct Head {
   Model model;
   Surface surface;
   Rig rig;
-  glm::dmat3 to_mpeg4{1.0};           ///< what "to_mpeg4_axes" of the feature point file said
+  glm::dmat3 to_mpeg4{1.0};           ///< what brought it there
   std::vector<std::string> warnings;  ///< of all steps, for print_warnings once the command has succeeded
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <mutex>
 #include <shared_mutex>
 #include <system_error>
 #include <utility>
@@ -171,6 +172,8 @@ Result<WorkerRequest> JobQueue::make_request(const JobRecord& job) const {
   request.metric = job.metric;
   request.weights = job.weights;
   request.weight_bits = job.weight_bits;
+  request.frame = model->frame;
+  request.frame_wish = model->frame_wish;
   if (job.kind != JobKind::import) {
     request.points = store_.feature_points(job.model);
     request.parts = model->parts;
@@ -281,14 +284,19 @@ void JobQueue::finish(const std::shared_ptr<Running>& running, const WorkerReque
   running->job = job;
 }
 
+void JobQueue::remove_orphans(const std::optional<std::vector<std::string>>& hashes) const {
+  if (!hashes) return;
+  for (const auto& hash : *hashes) blobs_.remove(hash);
+}
+
 void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, WorkerResult result) {
-  // Alone for a new package: what the one before it used, and no one else, goes with the same commit.
+  // Alone where something goes with the same commit: what the result before it used, and no one else.
   std::shared_lock shared(blobs_.references(), std::defer_lock);
   std::unique_lock alone(blobs_.references(), std::defer_lock);
-  if (job.kind == JobKind::parametrize)
-    alone.lock();
-  else
+  if (job.kind == JobKind::propose)
     shared.lock();
+  else
+    alone.lock();
   for (auto& artefact : result.artefacts) {
     // A name is a file of the output folder, never a path out of it.
     const std::filesystem::path name(artefact.name);
@@ -316,7 +324,9 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
     facts.parts = std::move(result.parts);
     facts.warnings = std::move(result.warnings);
     facts.findings = result.findings;
-    store_.finish_import(job, facts, result.artefacts);
+    facts.frame = std::move(result.frame);
+    facts.morph_targets = std::move(result.morph_targets);
+    remove_orphans(store_.finish_import(job, facts, result.artefacts, result.turn));
     return;
   }
   if (job.kind == JobKind::propose) {
@@ -325,10 +335,9 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
     return;
   }
   const store::PackageRecord package{job.id, store::timestamp_now(), job.metric, job.weights, job.weight_bits};
-  const auto orphans =
-      store_.finish_parametrization(job, package, result.parts, result.warnings, result.findings, result.artefacts);
-  if (orphans)
-    for (const auto& hash : *orphans) blobs_.remove(hash);
+  const store::FrameUpdate frame{std::move(result.frame), result.turn, result.box_min, result.box_max};
+  remove_orphans(store_.finish_parametrization(job, package, result.parts, result.warnings, result.findings,
+                                               result.artefacts, frame));
 }
 
 void JobQueue::fail(JobRecord& job, JobState state, const http::Problem& problem) {

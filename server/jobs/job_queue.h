@@ -80,6 +80,7 @@ class JobQueue {
   void finish(const std::shared_ptr<Running>& running, const WorkerRequest& request,
               std::optional<WorkerLine> last_line, const Result<WorkerExit>& exit);
   void finish_with_result(store::JobRecord& job, const WorkerRequest& request, WorkerResult result);
+  void remove_orphans(const std::optional<std::vector<std::string>>& hashes) const;
   void fail(store::JobRecord& job, store::JobState state, const http::Problem& problem);
   http::Problem problem_of(const WorkerExit& exit) const;
   Result<WorkerRequest> make_request(const store::JobRecord& job) const;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/frame_json.h"
 #include "server/store/record_json.h"
 
 namespace semblante::jobs {
@@ -23,6 +24,9 @@ json to_value(const WorkerResult& result) {
   if (result.findings) value["findings"] = *result.findings;
   if (!result.proposals.empty()) value["proposals"] = result.proposals;
   for (const auto& [id, reason] : result.not_proposed) value["not_proposed"].push_back({id, reason});
+  if (result.frame) value["frame"] = store::frame_to_json(*result.frame, {});
+  if (result.turn) value["turn"] = *result.turn;
+  value["morph_targets"] = result.morph_targets;
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
   return value;
@@ -38,6 +42,9 @@ WorkerResult result_from(const json& value) {
   result.warnings = value.at("warnings").get<std::vector<std::string>>();
   if (value.contains("findings")) result.findings = value["findings"].get<store::FindingCounts>();
   value.at("parts").get_to(result.parts);
+  if (value.contains("frame")) result.frame = store::frame_from_json(value["frame"]);
+  if (value.contains("turn")) result.turn = value["turn"].get<store::Turn>();
+  value.at("morph_targets").get_to(result.morph_targets);
   result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
     return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};
   });
@@ -65,8 +72,10 @@ std::string to_json(const WorkerRequest& request) {
                 {"metric", request.metric},
                 {"weights", request.weights},
                 {"weight_bits", request.weight_bits},
+                {"frame_wish", store::wish_to_json(request.frame_wish)},
                 {"points", request.points},
                 {"parts", request.parts}};
+  if (request.frame) value["frame"] = store::frame_to_json(*request.frame, {});
   return dump(value);
 }
 
@@ -84,6 +93,8 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
     request.metric = value.at("metric");
     request.weights = value.at("weights");
     request.weight_bits = value.at("weight_bits");
+    if (value.contains("frame")) request.frame = store::frame_from_json(value["frame"]);
+    request.frame_wish = store::wish_from_json(value.at("frame_wish"));
     value.at("points").get_to(request.points);
     value.at("parts").get_to(request.parts);
     return request;

@@ -16,10 +16,12 @@ namespace semblante::jobs {
 /// What a worker process is told on its standard input, as one JSON text.
 struct WorkerRequest {
   store::JobKind kind = store::JobKind::import;
-  std::string source;            ///< path of the model's bytes
-  std::string file_name;         ///< as uploaded: a hint of the format
-  std::string name;              ///< of the model
-  std::string output_directory;  ///< exists, empty: artefacts go here by their name
+  std::string source;               ///< path of the model's bytes
+  std::string file_name;            ///< as uploaded: a hint of the format
+  std::string name;                 ///< of the model
+  std::string output_directory;     ///< exists, empty: artefacts go here by their name
+  std::optional<ModelFrame> frame;  ///< how the model stands so far; none in its first import
+  FrameWish frame_wish;
   // parametrize and propose only
   std::vector<store::FeaturePointRecord> points;  ///< to propose: the placed ones
   std::vector<store::PartRecord> parts;           ///< of the import; roles set by the user are kept
@@ -42,6 +44,9 @@ struct WorkerResult {
   std::vector<store::PartRecord> parts;
   std::vector<std::string> warnings;
   std::optional<store::FindingCounts> findings;  ///< of the report
+  std::optional<ModelFrame> frame;
+  std::optional<store::Turn> turn;  ///< from how it stood in the request to how it stands now; none: as it was
+  std::vector<store::MorphTargetRecord> morph_targets;
   std::vector<store::ArtefactRecord> artefacts;
   std::vector<store::FeaturePointRecord> proposals;               ///< of a proposal: the points nobody placed
   std::vector<std::pair<std::string, std::string>> not_proposed;  ///< of a proposal: point, reason

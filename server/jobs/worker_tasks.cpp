@@ -6,6 +6,8 @@
 #include <iterator>
 #include <span>
 
+#include <nlohmann/json.hpp>
+
 #include "core/doctor/examine.h"
 #include "core/geometry/surface.h"
 #include "core/import/import.h"
@@ -14,8 +16,10 @@
 #include "core/parametrize/place_feature_points.h"
 #include "core/propose/propose.h"
 #include "protocol/cpp/rig_document.h"
+#include "server/jobs/standing.h"
 #include "server/package/package.h"
 #include "server/report/report_json.h"
+#include "server/store/frame_json.h"
 
 namespace semblante::jobs {
 namespace {
@@ -48,6 +52,17 @@ Status write_report_artefact(const WorkerRequest& request, WorkerResult& result,
   const auto json = write_report(report, sections);
   return write_artefact(request, result, "report.json", "application/json",
                         {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
+}
+
+Status write_positions(const WorkerRequest& request, WorkerResult& result, const Model& model) {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  return write_artefact(
+      request, result, "positions", "application/octet-stream",
+      {reinterpret_cast<const std::uint8_t*>(model.positions.data()), model.positions.size() * sizeof(glm::vec3)});
+}
+
+ReportSection frame_section(const WorkerRequest& request, const WorkerResult& result) {
+  return {"frame", store::frame_to_json(*result.frame, request.frame_wish).dump()};
 }
 
 /// What a model file lacks or contradicts is a fault of the file. Elsewhere in a job the same codes are about the
@@ -131,15 +146,18 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   auto model = read_model(request);
   if (!model) return model.error();
   progress(0.5, "surface");
-  const auto surface = build_surface(*model);
-  const auto parts = describe_parts(*model, surface, {}, {});
   WorkerResult result;
+  auto surface = build_surface(*model);
+  stand_upright(*model, surface, request, result);
+  const auto parts = describe_parts(*model, surface, {}, {});
   describe(*model, result);
   result.parts = records_of(parts);
   result.warnings = model->warnings;
 
   progress(0.6, "report");
-  if (auto written = write_report_artefact(request, result, examine_mesh(*model, surface, parts)); !written)
+  const ReportSection frame = frame_section(request, result);
+  if (auto written = write_report_artefact(request, result, examine_mesh(*model, surface, parts), {&frame, 1});
+      !written)
     return written.error();
 
   progress(0.7, "preview");
@@ -147,11 +165,12 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   if (!preview) return preview.error();
   if (auto written = write_artefact(request, result, "preview.glb", "model/gltf-binary", *preview); !written)
     return written.error();
-  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-  const std::span positions(reinterpret_cast<const std::uint8_t*>(model->positions.data()),
-                            model->positions.size() * sizeof(glm::vec3));
-  if (auto written = write_artefact(request, result, "positions", "application/octet-stream", positions); !written)
-    return written.error();
+  if (auto written = write_positions(request, result, *model); !written) return written.error();
+  constexpr std::size_t most_listed = 512;
+  for (const Example& example : model->examples) {
+    if (result.morph_targets.size() == most_listed) break;
+    result.morph_targets.push_back({example.name, static_cast<std::uint32_t>(example.vertices.size())});
+  }
   return result;
 }
 
@@ -160,13 +179,22 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   auto model = read_model(request);
   if (!model) return model.error();
   progress(0.06, "surface");
-  const auto surface = build_surface(*model);
+  WorkerResult result;
+  stand_as_before(*model, request);
+  auto surface = build_surface(*model);
   const auto roles = roles_by_user(request);
-  const auto marked = marked_points(request);
+  auto marked = marked_points(request);
   if (!marked) return marked.error();
-  auto warnings = model->warnings;
-  const auto points = place_feature_points(*model, surface, *marked, &warnings, roles);
+  std::vector<std::string> warnings;
+  auto points = place_feature_points(*model, surface, *marked, &warnings, roles);
   if (!points) return points.error();
+  const bool is_turned = stand_by_points(*model, surface, *marked, *points, request, result);
+  if (is_turned) {
+    warnings.clear();
+    points = place_feature_points(*model, surface, *marked, &warnings, roles);
+    if (!points) return points.error();
+  }
+  warnings.insert(warnings.begin(), model->warnings.begin(), model->warnings.end());
 
   ParametrizeOptions options;
   options.roles_by_user = roles;
@@ -188,7 +216,6 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   const auto package = build_package(*model, surface, *rig, {request.name, request.weight_bits});
   if (!package) return package.error();
   progress(0.96, "writing");
-  WorkerResult result;
   describe(*model, result);
   result.parts = records_of(rig->parts);
   const auto rig_json =
@@ -206,7 +233,15 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   for (const auto& file : files)
     if (auto written = write_artefact(request, result, file.name, file.content_type, file.artefact.bytes); !written)
       return written.error();
-  if (auto written = write_report_artefact(request, result, report); !written) return written.error();
+  const ReportSection frame = frame_section(request, result);
+  if (auto written = write_report_artefact(request, result, report, {&frame, 1}); !written) return written.error();
+  if (is_turned) {
+    const auto preview = build_preview(*model, surface, rig->parts);
+    if (!preview) return preview.error();
+    if (auto written = write_artefact(request, result, "preview.glb", "model/gltf-binary", *preview); !written)
+      return written.error();
+    if (auto written = write_positions(request, result, *model); !written) return written.error();
+  }
   for (std::size_t i = 0; i < package->images.size(); ++i) {
     const auto& image = package->images[i];
     const auto info = std::find_if(rig_json->images.begin(), rig_json->images.end(),
@@ -223,21 +258,27 @@ Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& p
   auto model = read_model(request);
   if (!model) return model.error();
   progress(0.5, "surface");
-  const auto surface = build_surface(*model);
+  WorkerResult result;
+  stand_as_before(*model, request);
+  auto surface = build_surface(*model);
   const auto roles = roles_by_user(request);
-  const auto marked = marked_points(request);
+  auto marked = marked_points(request);
   if (!marked) return marked.error();
-  const auto points = place_feature_points(*model, surface, *marked, nullptr, roles);
+  auto points = place_feature_points(*model, surface, *marked, nullptr, roles);
   if (!points) return points.error();
+  // Relations hold for an upright head; what is proposed is told of the model as it stands so far.
+  if (stand_by_points(*model, surface, *marked, *points, request, result)) {
+    points = place_feature_points(*model, surface, *marked, nullptr, roles);
+    if (!points) return points.error();
+  }
   progress(0.8, "proposals");
   const auto proposals = propose_feature_points(surface, describe_parts(*model, surface, *points, roles), *points);
   if (!proposals) return proposals.error();
-  WorkerResult result;
   describe(*model, result);
   for (const auto& proposal : proposals->points) {
     store::FeaturePointRecord record;
     record.id = to_string(proposal.point.id);
-    const auto& position = proposal.point.position;
+    const glm::dvec3 position = turned_back(proposal.point.position, result.turn);
     if (proposal.point.vertex)
       record.vertex = proposal.point.vertex->value();
     else
@@ -248,6 +289,8 @@ Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& p
     result.proposals.push_back(std::move(record));
   }
   for (const auto& point : proposals->not_proposed) result.not_proposed.emplace_back(to_string(point.id), point.reason);
+  result.frame.reset();
+  result.turn.reset();
   return result;
 }
 

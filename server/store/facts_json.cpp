@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/frame_json.h"
 #include "server/store/record_json.h"
 
 namespace semblante::store {
@@ -13,6 +14,9 @@ std::string write_facts(const ModelRecord& model) {
   json["warnings"] = model.warnings;
   json["parts"] = model.parts;
   if (model.findings) json["findings"] = *model.findings;
+  if (model.frame) json["frame"] = frame_to_json(*model.frame, model.frame_wish);
+  if (model.frame_wish != FrameWish{}) json["frame_wish"] = wish_to_json(model.frame_wish);
+  json["morph_targets"] = model.morph_targets;
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -26,9 +30,15 @@ void read_facts(std::string_view text, ModelRecord& model) {
     // A store of before there was a doctor has none.
     if (json.contains("findings")) model.findings = json["findings"].get<FindingCounts>();
     model.parts = json.at("parts").get<std::vector<PartRecord>>();
+    if (json.contains("frame")) model.frame = frame_from_json(json["frame"]);  // nor one of before there were frames
+    if (json.contains("frame_wish")) model.frame_wish = wish_from_json(json["frame_wish"]);
+    if (json.contains("morph_targets")) json["morph_targets"].get_to(model.morph_targets);
   } catch (const nlohmann::json::exception&) {
     model.parts.clear();
     model.findings.reset();
+    model.frame.reset();
+    model.frame_wish = {};
+    model.morph_targets.clear();
     model.warnings.clear();
   }
 }

@@ -20,6 +20,14 @@ void from_json(const nlohmann::json& json, PartRecord& part) {
   json.at("max").get_to(part.box_max);
 }
 
+void to_json(nlohmann::json& json, const MorphTargetRecord& target) {
+  json = {{"name", target.name}, {"vertices", target.vertices}};
+}
+
+void from_json(const nlohmann::json& json, MorphTargetRecord& target) {
+  target = {json.at("name"), json.at("vertices")};
+}
+
 void to_json(nlohmann::json& json, const FindingCounts& counts) {
   json = {{"errors", counts.errors}, {"warnings", counts.warnings}, {"notes", counts.notes}};
 }

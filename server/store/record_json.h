@@ -12,6 +12,8 @@ namespace semblante::store {
 void to_json(nlohmann::json& json, const PartRecord& part);
 void from_json(const nlohmann::json& json, PartRecord& part);
 
+void to_json(nlohmann::json& json, const MorphTargetRecord& target);
+void from_json(const nlohmann::json& json, MorphTargetRecord& target);
 void to_json(nlohmann::json& json, const FindingCounts& counts);
 void from_json(const nlohmann::json& json, FindingCounts& counts);
 

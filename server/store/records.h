@@ -7,7 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/frame/frame_guess.h"
+
 namespace semblante::store {
+
+/// A rotation, by rows.
+using Turn = std::array<double, 9>;
 
 /// What the import found out about a part, with the role a guess or a user gave it.
 struct PartRecord {
@@ -25,6 +30,13 @@ struct FindingCounts {
   std::uint32_t errors = 0, warnings = 0, notes = 0;
 
   bool operator==(const FindingCounts&) const = default;
+};
+
+/// What a parametrization found out about how its model stands.
+struct FrameUpdate {
+  std::optional<ModelFrame> frame;
+  std::optional<Turn> turn;  ///< from how it stood to how it stands now: boxes are new, and marked positions follow
+  std::array<double, 3> box_min{}, box_max{};
 };
 
 enum class ModelState { importing, ready, parametrized, failed };
@@ -52,6 +64,14 @@ struct PackageRecord {
   bool operator==(const PackageRecord&) const = default;
 };
 
+/// A morph target of the file, kept aside: its name, and how many vertices it moves.
+struct MorphTargetRecord {
+  std::string name;
+  std::uint32_t vertices = 0;
+
+  bool operator==(const MorphTargetRecord&) const = default;
+};
+
 struct ModelRecord {
   std::string id, name;
   ModelState state = ModelState::importing;
@@ -66,6 +86,9 @@ struct ModelRecord {
   std::vector<PartRecord> parts;
   std::vector<std::string> warnings;
   std::optional<FindingCounts> findings;  ///< of the last import or parametrization; empty: never examined
+  std::vector<MorphTargetRecord> morph_targets;
+  std::optional<ModelFrame> frame;  ///< by which positions, boxes and package are turned; none before the import
+  FrameWish frame_wish;             ///< what the user says of it
   std::uint32_t feature_point_count = 0;
   std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
   std::optional<PackageRecord> package;

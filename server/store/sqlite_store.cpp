@@ -203,6 +203,25 @@ class SqliteStore : public Store {
     return true;
   }
 
+  bool edit_frame(std::string_view id, const FrameWish& wish, const ModelFrame& frame,
+                  const std::optional<JobRecord>& import, std::uint64_t expected_revision) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    auto model = locked_model(id);
+    if (!model || model->revision != expected_revision) return false;
+    model->frame_wish = wish;
+    model->frame = frame;
+    if (import) {
+      model->state = ModelState::importing;
+      insert_job(*import);
+    }
+    Statement(db_, "UPDATE models SET state = ?, facts = ?, revision = revision + 1, updated = ? WHERE id = ?")
+        .bind(static_cast<int>(model->state), write_facts(*model), timestamp_now(), id)
+        .run();
+    transaction.commit();
+    return true;
+  }
+
   std::optional<std::vector<std::string>> remove_model(std::string_view id) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
@@ -306,34 +325,52 @@ class SqliteStore : public Store {
     write_job(job);
   }
 
-  bool finish_import(const JobRecord& job, const ModelRecord& facts,
-                     const std::vector<ArtefactRecord>& artefacts) override {
+  std::optional<std::vector<std::string>> finish_import(const JobRecord& job, const ModelRecord& facts,
+                                                        const std::vector<ArtefactRecord>& artefacts,
+                                                        const std::optional<Turn>& turn) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
+    const auto before = locked_model(job.model);
+    if (!before) return std::nullopt;
+    ModelRecord now = facts;
+    now.frame_wish = before->frame_wish;
+    for (std::size_t i = 0; i < now.parts.size() && now.parts.size() == before->parts.size(); ++i) {
+      if (!before->parts[i].role_by_user) continue;
+      now.parts[i].role = before->parts[i].role;
+      now.parts[i].role_by_user = true;
+    }
     Statement(db_,
               "UPDATE models SET state = ?, problem = '', format = ?, vertices = ?, triangles = ?, facts = ?, "
               "revision = revision + 1, updated = ? WHERE id = ?")
-        .bind(static_cast<int>(ModelState::ready), facts.format, facts.vertices, facts.triangles, write_facts(facts),
+        .bind(static_cast<int>(ModelState::ready), now.format, now.vertices, now.triangles, write_facts(now),
               timestamp_now(), job.model)
         .run();
-    if (db_.changes() == 0) return false;
+    const auto old_hashes = hashes_of(job.model);
+    Statement(db_, "DELETE FROM artefacts WHERE model = ? AND name <> 'source'").bind(job.model).run();
+    Statement(db_, "DELETE FROM packages WHERE model = ?").bind(job.model).run();
     for (const auto& artefact : artefacts) insert_artefact(job.model, artefact, false);
+    if (turn) turn_points(job.model, *turn);
     write_job(job);
+    auto orphans = without_reference(old_hashes);
     transaction.commit();
-    return true;
+    return orphans;
   }
 
-  std::optional<std::vector<std::string>> finish_parametrization(
-      const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
-      const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
-      const std::vector<ArtefactRecord>& artefacts) override {
+  std::optional<std::vector<std::string>> finish_parametrization(const JobRecord& job, const PackageRecord& package,
+                                                                 const std::vector<PartRecord>& parts,
+                                                                 const std::vector<std::string>& warnings,
+                                                                 const std::optional<FindingCounts>& findings,
+                                                                 const std::vector<ArtefactRecord>& artefacts,
+                                                                 const FrameUpdate& frame) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     auto model = locked_model(job.model);
     if (!model) return std::nullopt;
     const auto old_hashes = hashes_of(job.model);
     Statement(db_, "DELETE FROM artefacts WHERE model = ? AND of_package = 1").bind(job.model).run();
-    for (const auto& artefact : artefacts) insert_artefact(job.model, artefact, true);
+    // A model that was turned has a new preview and new positions, which outlive the package.
+    for (const auto& artefact : artefacts)
+      insert_artefact(job.model, artefact, artefact.name != "preview.glb" && artefact.name != "positions");
     Statement(db_, "INSERT OR REPLACE INTO packages VALUES(?,?,?,?,?,?)")
         .bind(job.model, package.parametrization, package.created, package.metric, package.weights, package.weight_bits)
         .run();
@@ -342,6 +379,16 @@ class SqliteStore : public Store {
       if (!model->parts[i].role_by_user) model->parts[i].role = parts[i].role;
     model->warnings = warnings;
     model->findings = findings;
+    if (frame.frame) model->frame = frame.frame;
+    if (frame.turn) {
+      model->box_min = frame.box_min;
+      model->box_max = frame.box_max;
+      for (std::size_t i = 0; i < parts.size() && i < model->parts.size(); ++i) {
+        model->parts[i].box_min = parts[i].box_min;
+        model->parts[i].box_max = parts[i].box_max;
+      }
+      turn_points(job.model, *frame.turn);
+    }
     Statement(db_,
               "UPDATE models SET state = ?, problem = '', facts = ?, revision = revision + 1, updated = ? WHERE id = ?")
         .bind(static_cast<int>(ModelState::parametrized), write_facts(*model), timestamp_now(), job.model)
@@ -460,6 +507,18 @@ class SqliteStore : public Store {
           .bind(model, position++, point.id, point.vertex, x, y, z, proposal)
           .run();
     }
+  }
+
+  /// Marked positions go where the model goes.
+  void turn_points(std::string_view model, const Turn& r) {
+    Statement(db_,
+              "UPDATE feature_points SET x = ?*x + ?*y + ?*z, y = ?*x + ?*y + ?*z, z = ?*x + ?*y + ?*z "
+              "WHERE model = ? AND x IS NOT NULL")
+        .bind(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], model)
+        .run();
+    Statement(db_, "UPDATE models SET points_revision = points_revision + 1 WHERE id = ? AND points_revision > 0")
+        .bind(model)
+        .run();
   }
 
   void insert_artefact(std::string_view model, const ArtefactRecord& artefact, bool of_package) {

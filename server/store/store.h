@@ -31,6 +31,10 @@ class Store {
   /// False when the model is gone, or `expected_revision` is not its revision any more.
   virtual bool edit_model(std::string_view id, const std::optional<std::string>& name,
                           const std::vector<RoleChange>& roles, std::uint64_t expected_revision) = 0;
+  /// Sets what the user says of the frame, and the frame itself where that needs no work; with `import` also takes the
+  /// model back to importing and creates that job. False as edit_model.
+  virtual bool edit_frame(std::string_view id, const FrameWish& wish, const ModelFrame& frame,
+                          const std::optional<JobRecord>& import, std::uint64_t expected_revision) = 0;
   /// Removes the model with everything it has. nullopt when there is none, else the hashes no one refers to any more.
   virtual std::optional<std::vector<std::string>> remove_model(std::string_view id) = 0;
 
@@ -56,16 +60,19 @@ class Store {
   virtual std::optional<JobRecord> latest_job(std::string_view model, JobKind kind) = 0;
   /// State, progress, stage, problem and attempts. Nothing happens to a job that is gone.
   virtual void update_job(const JobRecord& job) = 0;
-  /// The end of an import: job, facts of the model, and its artefacts, in one step. False when the model is gone.
-  virtual bool finish_import(const JobRecord& job, const ModelRecord& facts,
-                             const std::vector<ArtefactRecord>& artefacts) = 0;
+  /// The end of an import: job, facts of the model, and its artefacts, in one step. What an import before it made goes,
+  /// a package too; the user's roles stay, and marked positions follow `turn`, if there is one. Hashes no one refers to
+  /// any more are returned; nullopt when the model is gone.
+  virtual std::optional<std::vector<std::string>> finish_import(const JobRecord& job, const ModelRecord& facts,
+                                                                const std::vector<ArtefactRecord>& artefacts,
+                                                                const std::optional<Turn>& turn) = 0;
   /// The end of a parametrization, likewise: replaces the package that was there and artefacts of
-  /// the import of the same names; roles are the final guesses. Hashes
+  /// the import of the same names; roles are the final guesses, and what the points showed of the frame is kept. Hashes
   /// no one refers to any more are returned; nullopt when the model is gone.
   virtual std::optional<std::vector<std::string>> finish_parametrization(
       const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
       const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
-      const std::vector<ArtefactRecord>& artefacts) = 0;
+      const std::vector<ArtefactRecord>& artefacts, const FrameUpdate& frame) = 0;
   /// The end of a proposal: job and points (see with_proposals) in one step, whatever became of the points since it
   /// began. False when the model is gone.
   virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;

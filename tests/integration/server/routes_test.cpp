@@ -233,6 +233,69 @@ TEST_F(Routes, Edits_HonourIfMatch) {
                  "precondition-failed");
 }
 
+TEST_F(Routes, Frame_IsGuessed_AndCorrected) {
+  const auto id = import_grid(port());
+  const std::string path = "/v1/models/" + id;
+  auto model = json_of(request(port(), "GET", path));
+  EXPECT_EQ(model["frame"]["axes"], (json{{"up", "+Y"}, {"front", "+Z"}}));
+  EXPECT_EQ(model["frame"]["guessed"], true);
+  EXPECT_EQ(model["frame"]["sure"]["axes"], false) << "a sheet is no head";
+  EXPECT_FALSE(model["frame"]["reasons"].empty());
+  EXPECT_EQ(model["morph_targets"], json::array());
+
+  const Fields patch = {{"Content-Type", "application/merge-patch+json"}};
+  const auto unit = request(port(), "PATCH", path, R"({"frame":{"unit":"cm"}})", patch);
+  EXPECT_EQ(unit.status, 200) << "a unit is a word: nothing is to be done";
+  EXPECT_EQ(json_of(unit)["frame"]["unit"], "cm");
+  EXPECT_EQ(json_of(unit)["frame"]["metres_per_unit"], 0.01);
+  EXPECT_EQ(json_of(unit)["frame"]["by_user"], (json{{"unit", true}, {"axes", false}}));
+
+  EXPECT_EQ(parametrize_grid(port(), id)["state"], "done");
+  request(port(), "PUT", path + "/feature-points", R"({"points":{"2.1":{"vertex":4},"7.1":{"position":[1,2,3]}}})",
+          {{"Content-Type", "application/json"}});
+  auto turned = request(port(), "PATCH", path, R"({"frame":{"up":"+Z"}})", patch);
+  ASSERT_EQ(turned.status, 202) << turned.body;
+  EXPECT_EQ(json_of(turned)["state"], "importing");
+  const auto location = turned.headers.at("location");
+  EXPECT_EQ(wait_for_job(port(), location.substr(location.rfind('/') + 1))["state"], "done");
+  model = json_of(request(port(), "GET", path));
+  EXPECT_EQ(model["state"], "ready");
+  EXPECT_TRUE(model["package"].is_null()) << "the old one stands the old way";
+  EXPECT_EQ(model["frame"]["axes"], (json{{"up", "+Z"}, {"front", "-Y"}}));
+  EXPECT_EQ(model["frame"]["guessed"], false);
+  // The grid lay in x y, 0 to 8 in y: now it lies flat, 0 to -8 in z.
+  EXPECT_EQ(model["bounds"]["min"], (json{-4.0, 0.0, -8.0}));
+  const auto points = json_of(request(port(), "GET", path + "/feature-points"))["points"];
+  EXPECT_EQ(points["2.1"]["vertex"], 4);
+  EXPECT_EQ(points["7.1"]["position"], (json{1.0, 3.0, -2.0})) << "marked positions go where the model goes";
+  const auto report = json_of(request(port(), "GET", path + "/report.json"));
+  EXPECT_EQ(report["frame"], model["frame"]);
+
+  turned = request(port(), "PATCH", path, R"({"frame":{"up":null}})", patch);
+  ASSERT_EQ(turned.status, 202) << turned.body;
+  const auto again = turned.headers.at("location");
+  EXPECT_EQ(wait_for_job(port(), again.substr(again.rfind('/') + 1))["state"], "done");
+  model = json_of(request(port(), "GET", path));
+  EXPECT_EQ(model["bounds"]["max"], (json{4.0, 8.0, 0.0})) << "back to the guess";
+  EXPECT_EQ(json_of(request(port(), "GET", path + "/feature-points"))["points"]["7.1"]["position"],
+            (json{1.0, 2.0, 3.0}));
+}
+
+TEST_F(Routes, BadFrameWishes_NameTheField) {
+  const auto id = import_grid(port());
+  const auto pointer_of = [&](const std::string& body) {
+    const auto reply = request(port(), "PATCH", "/v1/models/" + id, body, {{"Content-Type", "application/json"}});
+    EXPECT_EQ(reply.status, 422) << body;
+    return json_of(reply).value("pointer", "");
+  };
+  EXPECT_EQ(pointer_of(R"({"frame":7})"), "/frame");
+  EXPECT_EQ(pointer_of(R"({"frame":{"unit":"km"}})"), "/frame/unit");
+  EXPECT_EQ(pointer_of(R"({"frame":{"up":"Q"}})"), "/frame/up");
+  EXPECT_EQ(pointer_of(R"({"frame":{"front":5}})"), "/frame/front");
+  EXPECT_EQ(pointer_of(R"({"frame":{"up":"+Y","front":"-Y"}})"), "/frame/front");
+  EXPECT_EQ(pointer_of(R"({"frame":{"axes":{}}})"), "/frame/axes");
+}
+
 TEST_F(Routes, FeaturePoints_FillByMirror) {
   const auto model = import_grid(port());
   // Vertex 38 is column 2 of row 4, x = -2; its mirror is column 6: vertex 42.

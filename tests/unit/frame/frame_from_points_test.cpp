@@ -21,11 +21,11 @@ TEST(FrameFromPoints, AllHeads_InAll24Positions_AreRecovered) {
     if (upright.points.empty()) continue;
     for (const Axes& axes : all_axes()) {
       auto points = turned(upright.points, axes);
-      const FrameGuess all = guess_frame(points, {});
+      const ModelFrame all = guess_frame(points, {});
       EXPECT_TRUE(all.axes_sure) << upright.name;
       EXPECT_EQ(all.axes, axes) << upright.name << " " << to_string(axes.up) << to_string(axes.front);
       std::erase_if(points, [](const PlacedPoint& p) { return !is_quick(p.id); });
-      const FrameGuess quick = guess_frame(points, {});
+      const ModelFrame quick = guess_frame(points, {});
       EXPECT_TRUE(quick.axes_sure) << upright.name;
       EXPECT_EQ(quick.axes, axes) << upright.name << " quick set";
     }
@@ -35,7 +35,7 @@ TEST(FrameFromPoints, AllHeads_InAll24Positions_AreRecovered) {
 TEST(FrameFromPoints, UnitsOfTheHeads_AreThoseTheyWereMadeIn) {
   for (const Head& head : upright_heads()) {
     if (head.points.empty()) continue;
-    const FrameGuess guess = guess_frame(head.points, {});
+    const ModelFrame guess = guess_frame(head.points, {});
     EXPECT_TRUE(guess.unit_sure) << head.name;
     const LengthUnit expected = head.name == "sample"          ? LengthUnit::metre
                                 : head.name == "makehuman obj" ? LengthUnit::decimetre
@@ -47,7 +47,7 @@ TEST(FrameFromPoints, UnitsOfTheHeads_AreThoseTheyWereMadeIn) {
 TEST(FrameFromPoints, LeftAndRightExchanged_IsSaid_AndDoesNotTurnTheHeadRound) {
   Head head = upright_heads().front();
   for (PlacedPoint& point : head.points) point.position.x = -point.position.x;
-  const FrameGuess guess = guess_frame(head.points, {});
+  const ModelFrame guess = guess_frame(head.points, {});
   EXPECT_TRUE(guess.axes_sure);
   EXPECT_EQ(guess.axes, Axes{});
   EXPECT_NE(guess.reasons.front().find("left and right"), std::string::npos);
@@ -55,7 +55,7 @@ TEST(FrameFromPoints, LeftAndRightExchanged_IsSaid_AndDoesNotTurnTheHeadRound) {
 
 TEST(FrameFromPoints, TooFewPoints_LeaveTheGuessAsItWas) {
   const Head head = upright_heads().front();
-  FrameGuess before;
+  ModelFrame before;
   before.axes = {Direction::plus_z, Direction::minus_y};
   before.unit = LengthUnit::inch;
   before.reasons = {"seen before"};
@@ -65,12 +65,25 @@ TEST(FrameFromPoints, TooFewPoints_LeaveTheGuessAsItWas) {
     for (const PlacedPoint& point : head.points) {
       if (to_string(point.id) == only) few.push_back(point);
     }
-    const FrameGuess guess = guess_frame(few, before);
+    const ModelFrame guess = guess_frame(few, before);
     EXPECT_EQ(guess.axes, before.axes);
     EXPECT_FALSE(guess.axes_sure);
     EXPECT_EQ(guess.unit, LengthUnit::inch);
     EXPECT_EQ(guess.reasons, before.reasons);
   }
+}
+
+TEST(FrameFromPoints, WithoutNoseOrEars_SidesAlone_TurnNothing) {
+  Head head = upright_heads().front();
+  std::erase_if(head.points, [](const PlacedPoint& p) {
+    const std::string id = to_string(p.id);
+    return id != "3.7" && id != "3.12" && id != "2.1" && id != "2.4" && id != "2.5";
+  });
+  EXPECT_TRUE(guess_frame(head.points, {}).axes_sure);
+  for (PlacedPoint& point : head.points) point.position.x = -point.position.x;
+  const ModelFrame exchanged = guess_frame(head.points, {});
+  EXPECT_FALSE(exchanged.axes_sure);
+  EXPECT_EQ(exchanged.axes, Axes{});
 }
 
 TEST(FrameFromPoints, AHeadTiltedByHalfARightAngle_IsNotSure) {
@@ -81,7 +94,7 @@ TEST(FrameFromPoints, AHeadTiltedByHalfARightAngle_IsNotSure) {
     p.position.z = (y + p.position.z) * 0.7071;
   }
   const Axes forward{Direction::plus_z, Direction::minus_y};
-  const FrameGuess guess = guess_frame(head.points, {});
+  const ModelFrame guess = guess_frame(head.points, {});
   EXPECT_FALSE(guess.axes_sure);
   EXPECT_TRUE(guess.axes == Axes{} || guess.axes == forward);
 }

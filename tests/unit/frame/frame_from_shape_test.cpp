@@ -21,7 +21,7 @@ Count recovered(const Model& upright) {
   for (std::size_t i = 0; i<all.size(); i += upright.positions.size()> 10'000 ? 4 : 1) {
     Model model = turned(upright, all[i]);
     model.format = "obj";
-    const FrameGuess guess = guess_frame(model, build_surface(model));
+    const ModelFrame guess = guess_frame(model, build_surface(model));
     ++(!guess.axes_sure ? count.unsure : guess.axes == all[i] ? count.right : count.wrong);
   }
   return count;
@@ -56,7 +56,7 @@ TEST(FrameFromShape, HeadsWithoutNames_AreNeverTurnedWrongly) {
 
 TEST(FrameFromShape, Units_OfTheHeads) {
   for (Head& head : upright_heads()) {
-    const FrameGuess guess = guess_frame(head.model, build_surface(head.model));
+    const ModelFrame guess = guess_frame(head.model, build_surface(head.model));
     const std::string expected = head.name == "sample" ? "m" : head.name.starts_with("makehuman") ? "dm" : "cm";
     EXPECT_EQ(to_string(guess.unit), expected) << head.name;
     EXPECT_FALSE(guess.reasons.empty()) << head.name;
@@ -68,7 +68,7 @@ TEST(FrameFromShape, ACube_IsTakenAsItLies) {
   for (int i = 0; i < 8; ++i) cube.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2);
   cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}};
   cube.format = "obj";
-  const FrameGuess guess = guess_frame(cube, build_surface(cube));
+  const ModelFrame guess = guess_frame(cube, build_surface(cube));
   EXPECT_FALSE(guess.axes_sure);
   EXPECT_EQ(guess.axes, Axes{});
   cube.format = "glb";

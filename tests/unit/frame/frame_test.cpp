@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include "core/frame/frame_guess.h"
 #include "core/frame/human_size.h"
 
 namespace semblante {
@@ -37,6 +38,35 @@ TEST(Frame, Names_AreRead_AndNothingElse) {
   for (std::size_t i = 0; i < length_unit_names.size(); ++i)
     EXPECT_EQ(parse_length_unit(length_unit_names[i]), static_cast<LengthUnit>(i));
   EXPECT_EQ(parse_length_unit("km"), std::nullopt);
+}
+
+TEST(FrameWish, WhatTheUserSays_StandsInPlaceOfTheGuess) {
+  const ModelFrame guess{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::inch, false, {"seen"}};
+  EXPECT_EQ(apply_wish(guess, {}), guess);
+  const ModelFrame unit = apply_wish(guess, {LengthUnit::centimetre, {}, {}});
+  EXPECT_EQ(unit.unit, LengthUnit::centimetre);
+  EXPECT_TRUE(unit.unit_sure);
+  EXPECT_EQ(unit.axes, guess.axes);
+  const ModelFrame both = apply_wish(guess, {{}, Direction::plus_x, Direction::plus_y});
+  EXPECT_EQ(both.axes, (Axes{Direction::plus_x, Direction::plus_y}));
+  EXPECT_EQ(both.reasons.size(), 3U) << "what was seen, that it speaks otherwise, what the user says";
+}
+
+TEST(FrameWish, OneDirectionAlone_TakesTheOtherFromTheGuess_OrTheLeastTurn) {
+  const auto axes = [](FrameWish wish, Axes guessed = {}) {
+    return apply_wish({guessed, false, {}, false, {}}, wish).axes;
+  };
+  EXPECT_EQ(axes({{}, Direction::plus_x, {}}), (Axes{Direction::plus_x, Direction::plus_z}));
+  EXPECT_EQ(axes({{}, Direction::plus_z, {}}), (Axes{Direction::plus_z, Direction::minus_y}));
+  EXPECT_EQ(axes({{}, Direction::minus_z, {}}), (Axes{Direction::minus_z, Direction::plus_y}));
+  EXPECT_EQ(axes({{}, {}, Direction::minus_x}), (Axes{Direction::plus_y, Direction::minus_x}));
+  EXPECT_EQ(axes({{}, {}, Direction::minus_y}), (Axes{Direction::plus_z, Direction::minus_y}));
+  for (const Axes& guessed : all_axes()) {
+    for (std::size_t d = 0; d < direction_names.size(); ++d) {
+      EXPECT_TRUE(are_valid(axes({{}, static_cast<Direction>(d), {}}, guessed)));
+      EXPECT_TRUE(are_valid(axes({{}, {}, static_cast<Direction>(d)}, guessed)));
+    }
+  }
 }
 
 TEST(HumanSize, Eyes_AreAFaceApart_InOneUnitOnly) {

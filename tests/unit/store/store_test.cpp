@@ -52,7 +52,8 @@ class StoreTest : public ::testing::Test {
     job.state = JobState::done;
     EXPECT_TRUE(store_->finish_import(job, facts,
                                       {{"preview.glb", std::string(64, 'b'), 5, "model/gltf-binary"},
-                                       {"report.json", std::string(64, 'c'), 5, "application/json"}}));
+                                       {"report.json", std::string(64, 'c'), 5, "application/json"}},
+                                      std::nullopt));
   }
 
   std::filesystem::path folder_;
@@ -185,7 +186,7 @@ TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
                                      {"eye", "left_eye", false, 4, 2, {}, {}}};
   ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, guesses, {}, std::nullopt,
-                                             {{"mesh.drc", std::string(64, 'd'), 3, "x"}}));
+                                             {{"mesh.drc", std::string(64, 'd'), 3, "x"}}, {}));
   const auto model = *store_->model("m");
   EXPECT_EQ(model.name, "Renamed");
   EXPECT_EQ(model.parts[0].role, "attached");
@@ -203,7 +204,7 @@ TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
     job.kind = JobKind::parametrize;
     store_->create_job(job, std::nullopt);
     return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12}, {}, {}, std::nullopt,
-                                           {{"mesh.drc", std::string(64, hash), 3, "x"}});
+                                           {{"mesh.drc", std::string(64, hash), 3, "x"}}, {});
   };
   EXPECT_TRUE(finish("one", 'd').empty());
   EXPECT_TRUE(finish("two", 'd').empty()) << "the same bytes are still in use";
@@ -220,7 +221,7 @@ TEST_F(StoreTest, ReportOfTheParametrization_ReplacesThatOfTheImport) {
   job.kind = JobKind::parametrize;
   store_->create_job(job, std::nullopt);
   const auto freed = store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, {}, {}, FindingCounts{},
-                                                    {{"report.json", std::string(64, 'e'), 3, "application/json"}});
+                                                    {{"report.json", std::string(64, 'e'), 3, "application/json"}}, {});
   EXPECT_EQ(freed, std::vector<std::string>{std::string(64, 'c')});
   EXPECT_EQ(store_->artefact("m", "report.json")->sha256, std::string(64, 'e'));
   EXPECT_TRUE(store_->artefact("m", "preview.glb"));
@@ -265,6 +266,58 @@ TEST_F(StoreTest, UnfinishedJobs_AreThoseToTakeUpAgain) {
   store_->update_job(running);
   reopen();
   EXPECT_EQ(store_->unfinished_jobs(), (std::vector<JobRecord>{running, queued}));
+}
+
+TEST_F(StoreTest, Frame_OutlivesReopening_AndAnOldStoreHasNone) {
+  import(add("m"));
+  EXPECT_EQ(store_->model("m")->frame, std::nullopt) << "facts without a frame are those of an older program";
+  const ModelFrame frame{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::inch, false, {"a reason"}};
+  const FrameWish wish{std::nullopt, Direction::plus_z, std::nullopt};
+  const auto revision = store_->model("m")->revision;
+  EXPECT_FALSE(store_->edit_frame("m", wish, frame, std::nullopt, revision + 1));
+  ASSERT_TRUE(store_->edit_frame("m", wish, frame, std::nullopt, revision));
+  reopen();
+  const auto model = store_->model("m");
+  EXPECT_EQ(model->frame, frame);
+  EXPECT_EQ(model->frame_wish, wish);
+  EXPECT_EQ(model->state, ModelState::ready);
+}
+
+TEST_F(StoreTest, SecondImport_TurnsMarkedPositions_KeepsRolesAndWish_DropsThePackage) {
+  auto job = add("m");
+  import(job);
+  ASSERT_TRUE(store_->edit_model("m", std::nullopt, {{1, "right_eye"}}, store_->model("m")->revision));
+  ASSERT_TRUE(store_->put_feature_points("m", {{"2.1", 3, std::nullopt}, {"7.1", std::nullopt, {{1.0, 2.0, 3.0}}}}, 0));
+  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, {}, {}, std::nullopt,
+                                             {{"mesh.drc", std::string(64, 'd'), 5, "x"}}, {}));
+  const FrameWish wish{std::nullopt, Direction::plus_z, std::nullopt};
+  job.id = "second";
+  job.state = JobState::queued;
+  ASSERT_TRUE(store_->edit_frame("m", wish, {}, job, store_->model("m")->revision));
+  EXPECT_EQ(store_->model("m")->state, ModelState::importing);
+  EXPECT_TRUE(store_->artefact("m", "mesh.drc")) << "what is there stays until the new import is";
+
+  ModelRecord facts;
+  facts.parts = {{"face", "skin", false, 8, 4, {}, {}}, {"eye", "left_eye", false, 4, 2, {}, {}}};
+  facts.frame = ModelFrame{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::metre, true, {}};
+  job.state = JobState::done;
+  // Up from +Z: x stays, y is what was z, z is what was -y.
+  const auto freed = store_->finish_import(job, facts, {{"preview.glb", std::string(64, 'e'), 5, "x"}},
+                                           Turn{1, 0, 0, 0, 0, 1, 0, -1, 0});
+  ASSERT_TRUE(freed);
+  EXPECT_EQ(freed->size(), 3U) << "the old preview, the report and the mesh";
+  const auto model = store_->model("m");
+  EXPECT_EQ(model->state, ModelState::ready);
+  EXPECT_EQ(model->package, std::nullopt);
+  EXPECT_EQ(model->frame_wish, wish);
+  EXPECT_EQ(model->parts[1].role, "right_eye");
+  EXPECT_EQ(model->feature_points_revision, 2U);
+  const auto points = store_->feature_points("m");
+  EXPECT_EQ(points[0].vertex, 3U);
+  EXPECT_EQ(points[0].position, std::nullopt);
+  EXPECT_EQ(points[1].position, (std::array<double, 3>{1.0, 3.0, -2.0}));
+  EXPECT_FALSE(store_->artefact("m", "mesh.drc"));
+  EXPECT_TRUE(store_->artefact("m", "source"));
 }
 
 TEST_F(StoreTest, FailedImport_FailsItsModel) {
