@@ -1,25 +1,33 @@
 #include "core/parametrize/point_distances.h"
 
+#include <algorithm>
+
+#include "core/geometry/distances_from_all.h"
+
 namespace semblante {
 
-PointDistances measure_distances(const Surface& surface, PartId part, std::span<const SurfacePoint> points,
-                                 EdgePathSearch& search) {
+PointDistances measure_distances(const Surface& graph, PartId part, std::span<const SurfacePoint> points) {
   PointDistances result;
-  result.members = surface.members_of(part);
+  result.members = graph.members_of(part);
+  std::vector<SurfaceVertexId> sources;
   for (const SurfacePoint& point : points) {
-    if (surface.part_of[point.vertex.value()] == part) result.points.push_back(point);
+    if (graph.part_of[point.vertex.value()] != part) continue;
+    result.points.push_back(point);
+    sources.push_back(point.vertex);
   }
   const std::size_t count = result.points.size();
+  const DistancesFromAll all = distances_from_all(graph, part, sources);
   result.to_members.resize(result.members.size() * count);
+  for (std::size_t m = 0; m < result.members.size(); ++m) {
+    all.read_row(m, std::span(result.to_members).subspan(m * count, count));
+  }
+  // Lengths added up from either end may differ in the last bit; d_ij must be one number: that from the lower id on.
   result.between.resize(count * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::span<const double> distances = search.from(result.points[i].vertex);
-    for (std::size_t m = 0; m < result.members.size(); ++m) {
-      result.to_members[m * count + i] = distances[result.members[m].value()];
-    }
-    // Lengths added up from either end may differ in the last bit; d_ij must be one number.
-    for (std::size_t j = i; j < count; ++j) {
-      result.between[i * count + j] = result.between[j * count + i] = distances[result.points[j].vertex.value()];
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto member = std::lower_bound(result.members.begin(), result.members.end(), sources[j]);
+    const auto at_j = static_cast<std::size_t>(member - result.members.begin());
+    for (std::size_t i = 0; i <= j; ++i) {
+      result.between[i * count + j] = result.between[j * count + i] = all.at(i, at_j);
     }
   }
   return result;

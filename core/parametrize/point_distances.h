@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/edge_path_search.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_lookup.h"
 
@@ -24,8 +23,8 @@ struct PointDistances {
   [[nodiscard]] double between_points(std::size_t i, std::size_t j) const { return between[i * points.size() + j]; }
 };
 
-/// One search per point. `points` of other parts are left out; `search` must belong to `surface`.
-PointDistances measure_distances(const Surface& surface, PartId part, std::span<const SurfacePoint> points,
-                                 EdgePathSearch& search);
+/// `points` of other parts are left out. `graph` says which ways there are: the surface itself, or the same vertices
+/// and parts with other steps.
+PointDistances measure_distances(const Surface& graph, PartId part, std::span<const SurfacePoint> points);
 
 }  // namespace semblante

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "core/geometry/edge_path_search.h"
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/point_distances.h"
 #include "core/parametrize/smooth_weights.h"
@@ -21,7 +20,7 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
   }
 
   std::vector<WeightTable<double>> of_part(surface.part_count());
-  EdgePathSearch search(options.distance_graph != nullptr ? *options.distance_graph : surface);
+  const Surface& graph = options.distance_graph != nullptr ? *options.distance_graph : surface;
   std::vector<MarginSite> margins;
   if (options.method == WeightMethod::smooth) margins = margin_sites(surface, points);
   std::size_t done = 0;
@@ -34,7 +33,7 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
     const PartId part(p);
     const std::size_t share = points_on[p] * surface.members_of(part).size();
     if (!go_on(0, "distances")) return Error{ErrorCode::cancelled, "", "stopped on request"};
-    const PointDistances distances = measure_distances(surface, part, points, search);
+    const PointDistances distances = measure_distances(graph, part, points);
     if (options.method == WeightMethod::smooth) {
       if (!go_on(share / 2, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
       of_part[p] = smooth_part_weights(surface, distances, options.eye_separation, margins);

@@ -105,10 +105,7 @@ void print_cost(const char* name, const ExpressionStudy& study, const Model& mod
   const PartId part = surface.part_of[points[0].vertex.value()];
   const double baseline = seconds([&] { plain_distances(surface, points); });
   PointDistances distances;
-  const double measured = seconds([&] {
-    EdgePathSearch search(surface);
-    distances = measure_distances(surface, part, points, search);
-  });
+  const double measured = seconds([&] { distances = measure_distances(surface, part, points); });
   const double paper = seconds([&] { part_weights(surface, distances, influence_regions(surface, distances)); });
   const double smooth = seconds([&] {
     const auto margins = margin_sites(surface, points);
@@ -130,9 +127,8 @@ void run(const std::filesystem::path& folder) {
   const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation, margins);
   print("smooth", study, to_shares(study, smooth, false));
   const Surface unfolded = with_unfolded_diagonals(study.surface, study.model.triangles);
-  EdgePathSearch search(unfolded);
   const PartId part = study.surface.part_of[study.distances.members[0].value()];
-  const PointDistances nearer = measure_distances(study.surface, part, study.distances.points, search);
+  const PointDistances nearer = measure_distances(unfolded, part, study.distances.points);
   print("paper, unfolded", study,
         to_shares(study, part_weights(study.surface, nearer, influence_regions(study.surface, nearer)), true));
   print("smooth, unfolded", study,

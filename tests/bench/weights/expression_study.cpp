@@ -79,8 +79,7 @@ ExpressionStudy read_expression_study(const std::filesystem::path& folder) {
       study.surface.part_of[find_point(*points, "2.1")->vertex.has_value()
                                 ? study.surface.surface_of[find_point(*points, "2.1")->vertex->value()].value()
                                 : 0];
-  EdgePathSearch search(study.surface);
-  study.distances = measure_distances(study.surface, skin, surface_points(study.surface, *points), search);
+  study.distances = measure_distances(study.surface, skin, surface_points(study.surface, *points));
 
   std::vector<std::uint32_t> member_of(study.surface.vertex_count(), Model::no_index);
   for (std::uint32_t m = 0; m < study.member_count(); ++m) member_of[study.distances.members[m].value()] = m;

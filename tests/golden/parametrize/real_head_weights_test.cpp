@@ -80,10 +80,9 @@ TEST_P(RealHeads, WeightsEqualTheLiteralOracle) {
     ASSERT_EQ(surface_.file_vertex_of[surface_.surface_of[v].value()], VertexId(expected.surface_of[v]));
   }
 
-  EdgePathSearch search(surface_);
   std::vector<std::set<oracle::PointName>> regions(surface_.vertex_count());
   for (std::uint32_t p = 0; p < surface_.part_count(); ++p) {
-    const PointDistances distances = measure_distances(surface_, PartId(p), surface_points(surface_, points_), search);
+    const PointDistances distances = measure_distances(surface_, PartId(p), surface_points(surface_, points_));
     const std::vector<SlotSet> sets = influence_regions(surface_, distances);
     for (std::size_t m = 0; m < sets.size(); ++m) {
       sets[m].for_each([&](std::size_t slot) {

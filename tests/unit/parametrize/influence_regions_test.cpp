@@ -120,9 +120,8 @@ TEST(InfluenceRegion, VertexAtThePointsPlace_CutsNothingOff) {
 TEST(InfluenceRegion, PointsOwnVertex_IsNotOrdinary) {
   const Model model = testing::make_strip(4);
   const Surface surface = build_surface(model);
-  EdgePathSearch search(surface);
   const auto points = surface_points(surface, testing::points_at(model, {{"2.1", 0}, {"2.2", 4}}));
-  const auto regions = influence_regions(surface, measure_distances(surface, PartId(0), points, search));
+  const auto regions = influence_regions(surface, measure_distances(surface, PartId(0), points));
   EXPECT_TRUE(regions[0].empty());
   EXPECT_TRUE(regions[4].empty());
   EXPECT_FALSE(regions[1].empty());
