@@ -128,16 +128,24 @@ void JobQueue::publish(const JobRecord& job) {
     if (entry.first == job.id) entry.second(job);
 }
 
+std::deque<JobRecord>::iterator JobQueue::next() {
+  return std::find_if(queue_.begin(), queue_.end(), [&](const JobRecord& job) {
+    return std::none_of(running_.begin(), running_.end(),
+                        [&](const auto& item) { return item.second->job.model == job.model; });
+  });
+}
+
 void JobQueue::work() {
   while (true) {
     std::shared_ptr<Running> running;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return stopping_ || !queue_.empty(); });
+      auto job = queue_.end();
+      changed_.wait(lock, [&] { return stopping_ || (job = next()) != queue_.end(); });
       if (stopping_) return;
       running = std::make_shared<Running>();
-      running->job = std::move(queue_.front());
-      queue_.pop_front();
+      running->job = std::move(*job);
+      queue_.erase(job);
       running_[running->job.id] = running;
     }
     try {

@@ -32,8 +32,9 @@ struct JobConfig {
   std::uint32_t max_attempts = 3;
 };
 
-/// Takes jobs one after the other, each in a worker process, and writes what became of them into the store. Owns its
-/// threads; store and blobs outlive it. All calls from any thread but the I/O threads.
+/// Takes jobs in order, each in a worker process, and writes what became of them into the store. Jobs of one model
+/// never run at the same time. Owns its threads; store and blobs outlive it. All calls from any thread but the I/O
+/// threads.
 class JobQueue {
  public:
   using Watcher = std::function<void(const store::JobRecord&)>;
@@ -76,6 +77,8 @@ class JobQueue {
   };
 
   void work();
+  /// The first job that may begin: those of one model run one after the other, each on what the one before it left.
+  std::deque<store::JobRecord>::iterator next();
   void run(const std::shared_ptr<Running>& running);
   void finish(const std::shared_ptr<Running>& running, const WorkerRequest& request,
               std::optional<WorkerLine> last_line, const Result<WorkerExit>& exit);
