@@ -119,8 +119,9 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
     if (pb == nobody || pa == pb) continue;
     // The piece that was cut off the skin may pass for anything, but what it was cut off is skin.
     if (!is_skin(surface, parts, a) && !is_skin(surface, parts, pa)) continue;
+    const glm::dvec3& start = surface.positions[a];
     const bool is_a_slit = std::any_of(slits.places.begin(), slits.places.end(), [&](const glm::dvec3& place) {
-      return glm::distance(place, surface.positions[a]) < slits.reach;
+      return glm::distance(place, start) < slits.reach;
     });
     if (is_a_slit) continue;
     ++count;
