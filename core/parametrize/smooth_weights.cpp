@@ -18,9 +18,9 @@ namespace {
 constexpr KrigingKernel between_points = {0.40, 1.2, 0.05};
 /// Near the edges of lips and lids, where it is known better how they move.
 constexpr KrigingKernel at_edges = {0.07, 1.2, 0.05};
-/// Weights whose sum is at least this are raised to a sum of one: all of the face between its points. Below, the root
-/// takes a share of (1 - sum / full_sum)^root_power, which begins and ends smoothly.
-constexpr double full_sum = 0.9;
+/// Weights whose sum is at least this are raised to a sum of one: nearly all of the face between its points. Below, the
+/// root takes a share of (1 - sum / full_sum)^root_power, which begins and ends smoothly.
+constexpr double full_sum = 0.8;
 constexpr double root_power = 1.5;
 /// A weight below this moves nothing one can see; it would only cost a place in the table.
 constexpr double least_weight = 1e-4;
