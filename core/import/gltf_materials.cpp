@@ -4,19 +4,13 @@
 #include <cmath>
 #include <map>
 
+#include "core/import/image_type.h"
+#include "core/import/text.h"
+
 namespace semblante::import {
 namespace {
 
 constexpr std::size_t max_materials = 4096;
-
-/// What the bytes are, whatever the file calls them; empty if neither PNG nor JPEG.
-std::string_view mime_type_of(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::uint8_t, 4> png = {0x89, 'P', 'N', 'G'};
-  constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
-  if (bytes.size() >= png.size() && std::equal(png.begin(), png.end(), bytes.begin())) return "image/png";
-  if (bytes.size() >= jpeg.size() && std::equal(jpeg.begin(), jpeg.end(), bytes.begin())) return "image/jpeg";
-  return {};
-}
 
 class MaterialReader {
  public:
@@ -46,7 +40,15 @@ class MaterialReader {
       material.metallic = 0.0F;
       material.roughness = 1.0F;
     }
-    material.normal_image = image_of(source, "normalTexture", nullptr);
+    UvSource normal_uv;
+    material.normal_image = image_of(source, "normalTexture", &normal_uv);
+    if (material.base_color_image < 0) uv = normal_uv;
+    if (material.normal_image >= 0 && (normal_uv.set != uv.set || normal_uv.transform != uv.transform)) {
+      // One set of texture coordinates is kept: the base colour's. On it the bumps would lie in the wrong places.
+      builder_.warn("the normal map of material " + shown(material.name) +
+                    " lies otherwise than its base colour and is left out");
+      material.normal_image = -1;
+    }
     const std::string mode = source.text_or("alphaMode", "OPAQUE");
     material.alpha_mode = mode == "MASK"    ? Material::AlphaMode::mask
                           : mode == "BLEND" ? Material::AlphaMode::blend
@@ -134,7 +136,7 @@ class MaterialReader {
       if (within_limit(loaded->size(), source)) bytes = std::move(*loaded);
     }
     if (document_.failed()) return -1;
-    const std::string_view mime_type = mime_type_of(bytes);
+    const std::string_view mime_type = image_type(bytes);
     if (mime_type.empty()) {
       builder_.warn("image " + std::to_string(index) + " is neither PNG nor JPEG and is left out");
       return -1;

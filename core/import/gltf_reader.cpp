@@ -177,6 +177,10 @@ class GltfReader {
       builder_.model.positions.push_back(
           transform.position(i, glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2])));
     }
+    if (data.has("COLOR_0") && !has_colors_) {
+      builder_.warn("colours of vertices are left out: the face has those of its materials");
+      has_colors_ = true;
+    }
     const bool has_uvs = read_uvs(data, material, count);
     const bool has_normals = read_normals(data, transform, count);
     if (document_.failed() || !placement) return;
@@ -270,6 +274,7 @@ class GltfReader {
   ModelBuilder builder_;
   MorphTargets morph_targets_;
   std::vector<UvSource> uv_sources_;
+  bool has_colors_ = false;
   std::vector<std::optional<MeshPlacement>> placements_;
 };
 

@@ -3,17 +3,20 @@
 #include <algorithm>
 
 #include "core/import/gltf_reader.h"
+#include "core/import/obj_reader.h"
 #include "core/import/text.h"
 #include "core/import/zip_archive.h"
 
 namespace semblante::import {
 namespace {
 
-bool has_ending(std::string name, std::string_view ending) {
-  std::transform(name.begin(), name.end(), name.begin(),
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return name.ends_with(ending);
+  return text;
 }
+
+bool has_ending(std::string name, std::string_view ending) { return lower_case(std::move(name)).ends_with(ending); }
 
 /// The one entry with this ending; nullopt when there is none. Resource forks that macOS adds do not count.
 Result<std::optional<std::string>> only_entry(const std::vector<std::string>& names, std::string_view ending) {
@@ -28,33 +31,72 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
   return found;
 }
 
+/// The entry a path means, as the file that names it stands in `folder`. Material files keep paths of the machine they
+/// were written on: where those lead nowhere, the one entry of that file name is meant.
+std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
+                                      std::string_view path) {
+  const auto resolved = resolve_in_zip(folder, path);
+  if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
+  const std::string name(path.substr(path.find_last_of("/\\") + 1));  // npos + 1 is 0
+  std::optional<std::string> found;
+  for (const std::string& entry : names) {
+    const std::string_view last = std::string_view(entry).substr(entry.rfind('/') + 1);
+    if (name.empty() || !has_ending(std::string(last), lower_case(name)) || last.size() != name.size()) continue;
+    if (found) return std::nullopt;
+    found = entry;
+  }
+  return found;
+}
+
+std::string folder_of(const std::string& name) {
+  return name.substr(0, name.rfind('/') == std::string::npos ? 0 : name.rfind('/') + 1);
+}
+
 }  // namespace
 
 Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
   const auto archive = ZipArchive::open(bytes);
   if (!archive) return archive.error();
   const std::vector<std::string> names = archive->names();
-  const auto gltf = only_entry(names, ".gltf");
-  if (!gltf) return gltf.error();
-  const auto glb = only_entry(names, ".glb");
-  if (!glb) return glb.error();
-  if (!*gltf && !*glb) return Error{ErrorCode::missing, "", "the zip has no .gltf or .glb"};
-  const std::string& name = *gltf ? **gltf : **glb;
-  const auto model = archive->read(name, limits.max_file_bytes);
+  std::optional<std::string> name;
+  bool is_obj = false;
+  for (const std::string_view ending : {".gltf", ".glb", ".vrm", ".obj"}) {
+    const auto entry = only_entry(names, ending);
+    if (!entry) return entry.error();
+    if (!*entry) continue;
+    name = **entry;
+    is_obj = ending == ".obj";
+    break;
+  }
+  if (!name) return Error{ErrorCode::missing, "", "the zip has no .gltf, .glb or .obj"};
+  const auto model = archive->read(*name, limits.max_file_bytes);
   if (!model) return model.error();
-  if (!*gltf) return read_glb(*model, limits);
-
-  const std::string folder = name.substr(0, name.rfind('/') == std::string::npos ? 0 : name.rfind('/') + 1);
+  const std::string folder = folder_of(*name);
   std::size_t left = limits.max_file_bytes - model->size();
-  const ResourceReader resources = [&](std::string_view uri,
-                                       std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
-    const auto entry = resolve_in_zip(folder, uri);
-    if (!entry) return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + " outside of the zip"};
-    auto resource = archive->read(*entry, std::min(max_bytes, left));
+  const auto read = [&](const std::string& entry, std::size_t max_bytes) {
+    auto resource = archive->read(entry, std::min(max_bytes, left));
     if (resource) left -= resource->size();
     return resource;
   };
-  return read_gltf(as_text(*model), resources, limits);
+  if (is_obj) {
+    return read_obj(*model, limits,
+                    [&](std::string_view path, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
+                      const auto entry = find_entry(names, folder, path);
+                      if (!entry) return Error{ErrorCode::missing, "", "the zip has no such file"};
+                      return read(*entry, max_bytes);
+                    });
+  }
+  if (!has_ending(*name, ".gltf")) return read_glb(*model, limits);
+  return read_gltf(
+      as_text(*model),
+      [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
+        const auto entry = resolve_in_zip(folder, uri);
+        if (!entry) {
+          return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + " outside of the zip"};
+        }
+        return read(*entry, max_bytes);
+      },
+      limits);
 }
 
 }  // namespace semblante::import

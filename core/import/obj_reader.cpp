@@ -3,9 +3,11 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/import/model_builder.h"
+#include "core/import/obj_materials.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
 
@@ -16,8 +18,10 @@ namespace {
 /// needs positions.
 class ObjReader {
  public:
-  ObjReader(std::span<const std::uint8_t> bytes, const ImportLimits& limits)
-      : builder_(limits), limits_(limits), lines_(without_bom(as_text(bytes))) {}
+  ObjReader(std::span<const std::uint8_t> bytes, const ImportLimits& limits, const ResourceReader& resources)
+      : builder_(limits), limits_(limits), lines_(without_bom(as_text(bytes))) {
+    if (resources) library_.emplace(builder_, resources);
+  }
 
   Result<Model> read() {
     if (lines_.rest().find('\0') != std::string_view::npos) {
@@ -31,6 +35,10 @@ class ObjReader {
     }
     if (Status status = check_forward_references(); !status) return status.error();
     add_triangles();
+    if (library_) {
+      for (Material& material : builder_.model.materials) library_->fill(material);
+    }
+    if (has_colors_) builder_.warn("colours of vertices are left out: the face has those of its materials");
     if (unknown_lines_ > 0) {
       builder_.warn(std::to_string(unknown_lines_) + " lines are not of an OBJ file and were skipped, the first is " +
                     first_unknown_);
@@ -75,10 +83,7 @@ class ObjReader {
     } else if (keyword == "usemtl") {
       return use_material(trimmed(rest));
     } else if (keyword == "mtllib") {
-      if (!has_material_library_) {
-        builder_.warn("the material file " + shown(trimmed(rest)) + " is not read; materials have default colours");
-      }
-      has_material_library_ = true;
+      use_library(trimmed(rest));
     } else if (!is_ignored(keyword) && unknown_lines_++ == 0) {
       first_unknown_ = lines_.where();
     }
@@ -130,6 +135,9 @@ class ObjReader {
   Status read_position(std::string_view rest) {
     std::array<float, 3> p{};
     if (Status status = read_numbers(rest, "v", 3, p); !status) return status;
+    std::size_t numbers = 0;
+    for (auto token = next_token(rest); !token.empty() && token.front() != '#'; token = next_token(rest)) ++numbers;
+    has_colors_ = has_colors_ || numbers >= 6;
     if (builder_.model.positions.size() >= limits_.max_vertices) return too_many("vertices", limits_.max_vertices);
     builder_.model.positions.emplace_back(p[0], p[1], p[2]);
     return Unit{};
@@ -234,6 +242,19 @@ class ObjReader {
     return Unit{};
   }
 
+  /// A material file, where there is something to read it from.
+  void use_library(std::string_view name) {
+    constexpr int max_libraries = 16;
+    if (libraries_++ >= max_libraries) return;
+    if (library_) {
+      library_->read_library(name);
+    } else if (libraries_ == 1) {
+      builder_.warn(
+          "the material file " + shown(name) +
+          " is not read, materials have default colours; send a zip of the OBJ, its material file and images");
+    }
+  }
+
   Status use_material(std::string_view name) {
     const auto [entry, is_new] =
         material_by_name_.try_emplace(std::string(name), static_cast<int>(builder_.model.materials.size()));
@@ -286,13 +307,16 @@ class ObjReader {
   std::size_t short_faces_ = 0;
   std::size_t unknown_lines_ = 0;
   std::string first_unknown_;
-  bool has_material_library_ = false;
+  std::optional<ObjMaterials> library_;
+  int libraries_ = 0;
+  bool has_colors_ = false;
 };
 
 }  // namespace
 
-Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
-  return ObjReader(bytes, limits).read();
+Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits,
+                       const ResourceReader& resources) {
+  return ObjReader(bytes, limits, resources).read();
 }
 
 }  // namespace semblante::import

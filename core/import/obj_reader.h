@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/import/gltf_container.h"
 #include "core/import/limits.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
@@ -10,8 +11,9 @@
 namespace semblante::import {
 
 /// Wavefront OBJ. File vertices are the `v` lines in order, unused ones too. Polygons are split (polygon.h); `o`, `g`
-/// and `usemtl` start primitives; `mtllib` is never followed: materials get their name and a default look. Errors name
-/// the line.
-Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
+/// and `usemtl` start primitives. `mtllib` is followed where `resources` finds it; without, materials get their name
+/// and a default look. Errors name the line.
+Result<Model> read_obj(std::span<const std::uint8_t> bytes, const ImportLimits& limits,
+                       const ResourceReader& resources = {});
 
 }  // namespace semblante::import

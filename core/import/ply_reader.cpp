@@ -176,6 +176,7 @@ class PlyReader {
     }
     has_normals_ = places[3] != none && places[4] != none && places[5] != none;
     has_uvs_ = places[6] != none;
+    if (element.find("red")) builder_.warn("colours of vertices are left out: the face has those of its materials");
     std::vector<double> values(element.properties.size());
     for (std::uint64_t i = 0; i < element.count && !source_.fault(); ++i) {
       if (Status status = read_properties(element, values); !status) return status;

@@ -106,5 +106,51 @@ TEST(QuantizedNormals, OfBytesAndShorts_AreUnitLength) {
   }
 }
 
+/// A material with a base colour and a normal map, each with its own KHR_texture_transform (null: none).
+GltfWriter textured(const nlohmann::json& base, const nlohmann::json& normal) {
+  GltfWriter writer;
+  writer.add_quad();
+  writer.primitive()["attributes"]["TEXCOORD_0"] = writer.floats({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
+  writer.primitive()["material"] = 0;
+  const auto image = writer.view({0x89, 'P', 'N', 'G'});
+  writer.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}}};
+  writer.json["textures"] = {{{"source", 0}}};
+  const auto info = [](const nlohmann::json& transform) {
+    nlohmann::json texture = {{"index", 0}};
+    if (!transform.is_null()) texture["extensions"] = {{"KHR_texture_transform", transform}};
+    return texture;
+  };
+  writer.json["materials"] = {
+      {{"pbrMetallicRoughness", {{"baseColorTexture", info(base)}}}, {"normalTexture", info(normal)}}};
+  return writer;
+}
+
+TEST(TextureTransform, OfTheBaseColour_IsInTheUvs) {
+  const nlohmann::json transform = {{"offset", {0.5, 0.25}}, {"scale", {2, 4}}};
+  const auto model = textured(transform, transform).import();
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->uvs[2], glm::vec2(2.5F, 4.25F));
+  EXPECT_EQ(model->materials[0].normal_image, 0);
+  EXPECT_TRUE(model->warnings.empty());
+}
+
+TEST(TextureTransform, NormalMapThatLiesOtherwise_IsLeftOut_WithAWarning) {
+  const auto model = textured(nullptr, {{"scale", {2, 2}}}).import();
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->materials[0].normal_image, -1);
+  EXPECT_EQ(model->materials[0].base_color_image, 0);
+  EXPECT_EQ(model->warnings.size(), 1U);
+}
+
+TEST(VertexColors, AreSaidToBeLeftOut) {
+  GltfWriter writer;
+  writer.add_quad();
+  writer.primitive()["attributes"]["COLOR_0"] = writer.accessor(writer.view(Bytes(16, 200)), u8, 4, "VEC4", true);
+  const auto model = writer.import();
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_EQ(model->warnings.size(), 1U);
+  EXPECT_NE(model->warnings[0].find("colours of vertices"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace semblante::test

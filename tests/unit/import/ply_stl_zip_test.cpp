@@ -92,7 +92,7 @@ TEST(Ply, EverythingWeRead_ComesOutAsWritten) {
   EXPECT_EQ(model->uvs[0], glm::vec2(0.25F, 0.75F));
   EXPECT_EQ(model->triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(model->uv_triangles, model->triangles);
-  EXPECT_EQ(model->warnings.size(), 1U);  // the face of two corners
+  EXPECT_EQ(model->warnings.size(), 2U);  // the colours, and the face of two corners
 }
 
 TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
@@ -195,6 +195,46 @@ TEST(Zip, Glb_Alone_IsRead) {
   const auto model =
       import_model(make_zip({{"readme.txt", to_bytes("x")}, {"Head.GLB", quad_glb()}}), ModelFormat::gltf_zip);
   ASSERT_TRUE(model) << model.error().where << model.error().message;
+}
+
+TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {
+  const std::string png = "\x89PNG and so on";
+  const std::string mtl =
+      "# exported\nnewmtl skin\nKd 0.5 0.25 1.5\nd 0.5\nmap_Kd -s 1 1 1 -bm 0.5 C:\\heads\\Skin Colour.png\n"
+      "newmtl other\nKd 1 0 0\nPr 0.25\nmap_Kd gone.png\nmap_Kd ../../etc/passwd\n";
+  const auto model = import_model(
+      make_zip(
+          {{"a/head.obj", quad_obj()}, {"a/quad.mtl", to_bytes(mtl)}, {"a/textures/skin colour.PNG", to_bytes(png)}}),
+      ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->format, "obj");
+  ASSERT_EQ(model->materials.size(), 1U);
+  const Material& skin = model->materials[0];
+  EXPECT_EQ(skin.name, "skin");
+  EXPECT_EQ(skin.base_color, glm::vec4(1, 1, 1, 0.5F)) << "the texture's colour, the file's opacity";
+  EXPECT_EQ(skin.alpha_mode, Material::AlphaMode::blend);
+  ASSERT_EQ(skin.base_color_image, 0);
+  EXPECT_EQ(model->images[0].bytes, to_bytes(png));
+  EXPECT_EQ(model->images[0].mime_type, "image/png");
+  EXPECT_EQ(model->warnings.size(), 2U) << "gone.png and the path out of the zip";
+}
+
+TEST(Zip, Obj_WithoutItsMaterialFile_IsStillAHead) {
+  const auto model = import_model(make_zip({{"head.obj", quad_obj()}}), ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->materials.size(), 1U);
+  EXPECT_EQ(model->warnings.size(), 1U);
+}
+
+TEST(Zip, MaterialFile_OfGarbage_ChangesNothing) {
+  std::string text;
+  for (int i = 0; i < 4000; ++i) text += static_cast<char>(i * 73 % 256);
+  const auto model = import_model(
+      make_zip({{"head.obj", quad_obj()}, {"quad.mtl", to_bytes("newmtl skin\nKd x y z\nmap_Kd\nmap_Kd -s\n" + text)}}),
+      ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->materials[0].base_color, glm::vec4(1.0F));
+  EXPECT_EQ(model->materials[0].base_color_image, -1);
 }
 
 TEST(Zip, InvalidArchives_AreRefused) {

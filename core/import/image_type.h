@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace semblante::import {
+
+/// "image/png" or "image/jpeg" by what the bytes are, whatever the file calls them; empty for anything else.
+std::string_view image_type(std::span<const std::uint8_t> bytes);
+
+}  // namespace semblante::import

@@ -1,0 +1,128 @@
+#include "core/import/obj_materials.h"
+
+#include <algorithm>
+
+#include "core/import/image_type.h"
+#include "core/import/text.h"
+
+namespace semblante::import {
+namespace {
+
+constexpr std::size_t max_materials = 4096;
+constexpr std::size_t max_library_bytes = std::size_t{4} << 20;
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// One number in 0..1; `otherwise` for anything else.
+float unit(std::string_view& rest, float otherwise) {
+  float value = 0.0F;
+  if (parse_number(next_token(rest), value) != NumberFault::none) return otherwise;
+  return std::clamp(value, 0.0F, 1.0F);
+}
+
+/// The file name behind the options of a map ("-s 1 1 1 -bm 0.5 skin colour.png"): options take numbers, on or off, or
+/// a channel; the name is the rest of the line.
+std::string_view map_path(std::string_view rest) {
+  rest = trimmed(rest);
+  while (rest.starts_with('-')) {
+    next_token(rest);
+    rest = trimmed(rest);
+    for (int arguments = 0; arguments < 3; ++arguments) {
+      std::string_view after = rest;
+      const std::string_view token = next_token(after);
+      float number = 0.0F;
+      const bool is_argument =
+          parse_number(token, number) == NumberFault::none || token == "on" || token == "off" ||
+          (token.size() == 1 && std::string_view("rgbmlz").find(token[0]) != std::string_view::npos);
+      if (!is_argument) break;
+      rest = trimmed(after);
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint8_t>> ObjMaterials::load(std::string_view name) {
+  const std::size_t limit = builder_.limits().max_file_bytes;
+  auto bytes = resources_(name, limit - std::min(bytes_read_, limit));
+  if (!bytes) {
+    builder_.warn(shown(name) + ", which the OBJ wants, is left out: " + bytes.error().message);
+    return std::nullopt;
+  }
+  bytes_read_ += bytes->size();
+  return std::move(*bytes);
+}
+
+int ObjMaterials::image(std::string_view rest) {
+  const std::string_view path = map_path(rest);
+  if (path.empty()) return -1;
+  const auto [entry, is_new] = image_by_path_.try_emplace(std::string(path), -1);
+  if (!is_new) return entry->second;
+  auto bytes = load(path);
+  if (!bytes) return -1;
+  const std::string_view type = image_type(*bytes);
+  if (type.empty() || bytes->size() > builder_.limits().max_image_bytes) {
+    builder_.warn("the image " + shown(path) + (type.empty() ? " is neither PNG nor JPEG" : " is too large") +
+                  " and is left out");
+    return -1;
+  }
+  builder_.model.images.push_back({std::string(type), std::move(*bytes)});
+  return entry->second = static_cast<int>(builder_.model.images.size()) - 1;
+}
+
+void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {
+  if (keyword == "newmtl") {
+    current_ = by_name_.size() < max_materials ? &by_name_[std::string(trimmed(rest))] : nullptr;
+    return;
+  }
+  if (current_ == nullptr) return;
+  if (keyword == "Kd") {
+    for (int i = 0; i < 3; ++i) current_->base_color[i] = unit(rest, current_->base_color[i]);
+  } else if (keyword == "d") {
+    current_->base_color.a = unit(rest, 1.0F);
+  } else if (keyword == "Tr") {
+    current_->base_color.a = 1.0F - unit(rest, 0.0F);
+  } else if (keyword == "Pr") {
+    current_->roughness = unit(rest, current_->roughness);
+  } else if (keyword == "Pm") {
+    current_->metallic = unit(rest, current_->metallic);
+  } else if (keyword == "map_Kd") {
+    current_->base_color_image = image(rest);
+  } else if (keyword == "norm") {
+    current_->normal_image = image(rest);
+  }
+}
+
+void ObjMaterials::read_library(std::string_view name) {
+  const auto bytes = load(trimmed(name));
+  if (!bytes) return;
+  if (bytes->size() > max_library_bytes) {
+    builder_.warn("the material file " + shown(name) + " is too large and is left out");
+    return;
+  }
+  current_ = nullptr;
+  LineReader lines(as_text(*bytes));
+  while (const auto line = lines.next()) {
+    std::string_view rest = *line;
+    const std::string_view keyword = next_token(rest);
+    read_line(keyword, rest);
+  }
+}
+
+void ObjMaterials::fill(Material& material) const {
+  const auto found = by_name_.find(material.name);
+  if (found == by_name_.end()) return;
+  const std::string name = material.name;
+  material = found->second;
+  material.name = name;
+  // A texture that came along shows the colour; exporters write a Kd beside it that old viewers did not multiply by.
+  if (material.base_color_image >= 0) material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
+  if (material.base_color.a < 1.0F) material.alpha_mode = Material::AlphaMode::blend;
+}
+
+}  // namespace semblante::import

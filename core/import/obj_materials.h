@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/import/gltf_container.h"
+#include "core/import/model_builder.h"
+
+namespace semblante::import {
+
+/// The material files of an OBJ: what they say fills in materials that `usemtl` names. Colours, opacity, roughness and
+/// the images of base colour and normals are read; what cannot be shown becomes a warning, never an error, for a head
+/// without its texture is still a head.
+class ObjMaterials {
+ public:
+  ObjMaterials(ModelBuilder& builder, ResourceReader resources) : builder_(builder), resources_(std::move(resources)) {}
+
+  /// Reads one file of an `mtllib` line.
+  void read_library(std::string_view name);
+  /// Called for each material once all is read; leaves those alone that no file speaks of.
+  void fill(Material& material) const;
+
+ private:
+  void read_line(std::string_view keyword, std::string_view rest);
+  int image(std::string_view rest);
+  std::optional<std::vector<std::uint8_t>> load(std::string_view name);
+
+  ModelBuilder& builder_;
+  ResourceReader resources_;
+  std::map<std::string, Material, std::less<>> by_name_;
+  std::map<std::string, int, std::less<>> image_by_path_;
+  std::size_t bytes_read_ = 0;
+  Material* current_ = nullptr;
+};
+
+}  // namespace semblante::import
