@@ -42,7 +42,10 @@ function damagedBall(): string {
   const at = (i: number, k: number): number => i * around + (k % around) + 1;
   for (let i = 0; i < rings; i += 1)
     for (let k = 0; k < around; k += 1)
-      lines.push(`f ${at(i, k)} ${at(i, k + 1)} ${at(i + 1, k + 1)}`, `f ${at(i, k)} ${at(i + 1, k + 1)} ${at(i + 1, k)}`);
+      lines.push(
+        `f ${at(i, k)} ${at(i, k + 1)} ${at(i + 1, k + 1)}`,
+        `f ${at(i, k)} ${at(i + 1, k + 1)} ${at(i + 1, k)}`,
+      );
   lines.push(`f ${at(4, 3)} ${at(4, 4)} ${at(5, 4)}`);
   const path = join(scratch, 'damaged.obj');
   writeFileSync(path, `${lines.join('\n')}\n`);

@@ -13,6 +13,7 @@ import { makeLayout } from './ui/layout.ts';
 import { exposeInspection } from './ui/inspect.ts';
 import { LiveModel } from './ui/live_model.ts';
 import { LivePanel } from './ui/live_panel.ts';
+import { Parametrizer } from './ui/parametrizer.ts';
 import { PointsModel } from './ui/points_model.ts';
 import { PointsPanel } from './ui/points_panel.ts';
 import { SceneView } from './ui/scene.ts';
@@ -56,7 +57,8 @@ function main(root: HTMLElement): void {
   });
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
-  const fitPanel = new FitPanel(studio, points, fit);
+  const parametrizer = new Parametrizer(studio, points);
+  const fitPanel = new FitPanel(studio, points, fit, parametrizer);
   const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, demo));
   const livePanel = new LivePanel(studio, live);
   const layout = makeLayout(
@@ -64,7 +66,7 @@ function main(root: HTMLElement): void {
     {
       heads: shelf.element,
       fit: fitPanel.element,
-      points: new PointsPanel(studio, points).element,
+      points: new PointsPanel(studio, points, parametrizer).element,
       animate: animate.element,
       live: livePanel.element,
     },
@@ -96,6 +98,7 @@ function main(root: HTMLElement): void {
     opened = key;
     void points.open(model);
   });
+  points.onReview = ({ vertex, position }) => scene.flyTo([position], vertex === null ? [] : [vertex]);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
 
   scene.state.watch((state) => {

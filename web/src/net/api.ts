@@ -4,6 +4,7 @@ import { mediaTypeOf, upload } from './upload.ts';
 import type {
   FeaturePointSet,
   FitReport,
+  FrameWish,
   Job,
   Model,
   ModelAndJob,
@@ -54,6 +55,14 @@ export class Api {
       .value;
   }
 
+  /** The model as it is then, and the job that turns it where its axes change. */
+  async setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
+    const url = `${this.base}/v1/models/${segment(id)}`;
+    const { value: model, location } = await requestJson<Model>(url, { method: 'PATCH', json: { frame } });
+    const job = location === null ? null : (await requestJson<Job>(`${this.base}${location}`)).value;
+    return { model, job };
+  }
+
   /** What the fit doctor found. */
   async getReport(id: string): Promise<FitReport> {
     return (await requestJson<FitReport>(`${this.base}/v1/models/${segment(id)}/report.json`)).value;
@@ -93,6 +102,13 @@ export class Api {
       json: body,
       headers,
     });
+  }
+
+  /** Has the points proposed that nobody marked; `etag` is of the set that they are made from. */
+  async proposePoints(id: string, etag: string | null): Promise<Job> {
+    const url = `${this.base}/v1/models/${segment(id)}/feature-points/proposals`;
+    const headers: Record<string, string> = etag ? { 'If-Match': etag } : {};
+    return (await requestJson<Job>(url, { method: 'POST', json: {}, headers })).value;
   }
 
   async parametrize(id: string, options: ParametrizationOptions): Promise<Job> {

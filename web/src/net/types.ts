@@ -60,6 +60,27 @@ export interface FitReport {
 
 export type ModelState = 'importing' | 'ready' | 'parametrized' | 'failed';
 
+export type LengthUnit = 'm' | 'dm' | 'cm' | 'mm' | 'in';
+/** Along an axis of the model file. */
+export type Direction = '+X' | '-X' | '+Y' | '-Y' | '+Z' | '-Z';
+
+/** How a head stands in its file, what one unit of its coordinates is, and what told it. */
+export interface ModelFrame {
+  unit: LengthUnit;
+  metres_per_unit: number;
+  axes: { up: Direction; front: Direction };
+  by_user: { unit: boolean; axes: boolean };
+  sure: { unit: boolean; axes: boolean };
+  reasons: string[];
+}
+
+/** What a person says of a frame; null takes it back to what is guessed. */
+export interface FrameWish {
+  unit?: LengthUnit | null;
+  up?: Direction | null;
+  front?: Direction | null;
+}
+
 export type PartRole =
   'skin' | 'left_eye' | 'right_eye' | 'upper_teeth' | 'lower_teeth' | 'tongue' | 'attached' | 'rest';
 
@@ -100,7 +121,10 @@ export interface Model {
   updated: string;
   source?: { format: string; bytes: number; sha256: string } | null;
   counts?: { vertices: number; triangles: number; parts: number } | null;
+  bounds?: { min: Vector; max: Vector } | null;
   parts?: ModelPart[];
+  /** Null before the import has ended, and of a head that was imported before frames were guessed. */
+  frame?: ModelFrame | null;
   warnings?: string[];
   /** How much the report tells of; null before the import has ended. */
   findings?: FindingCounts | null;
@@ -117,12 +141,14 @@ export type JobState = 'queued' | 'running' | 'done' | 'failed' | 'cancelled';
 
 export interface Job {
   id: string;
-  kind: 'import' | 'parametrize';
+  kind: 'import' | 'parametrize' | 'propose';
   model: string;
   state: JobState;
   progress: number;
   stage: string;
   problem: Problem | null;
+  /** Of proposals: how many, and why others could not be made. */
+  result?: { proposed?: number; not_proposed?: Record<string, string> } | null;
 }
 
 export interface ModelAndJob {
@@ -132,7 +158,13 @@ export interface ModelAndJob {
 
 export interface FeaturePointValue {
   vertex?: number | null;
-  position?: [number, number, number];
+  position?: Vector;
+  /** Nobody has placed or confirmed it yet. */
+  proposed?: boolean;
+  method?: string;
+  confidence?: 'high' | 'medium' | 'low';
+  /** Share of ES0. */
+  expected_error?: number;
 }
 
 export interface FeaturePointSet {

@@ -27,12 +27,7 @@ export class DoctorPanel {
     private readonly fit: FitModel,
     private readonly options: DoctorOptions,
   ) {
-    this.element = h(
-      'section',
-      {},
-      h('header', { class: 'section-head' }, h('h2', {}, 'Fit doctor')),
-      this.body,
-    );
+    this.element = h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Fit doctor')), this.body);
     fit.report.watch(() => this.draw());
     fit.chosen.watch(() => this.mark());
     let shown = '';
@@ -81,6 +76,7 @@ export class DoctorPanel {
       replace(
         this.body,
         h('p', { class: 'healthy' }, icon('check', 20), h('span', {}, h('strong', {}, 'Nothing found. '), looked)),
+        remarks(model),
       );
       return;
     }
@@ -111,13 +107,15 @@ export class DoctorPanel {
         group.addEventListener('toggle', () => this.open.set(severity, group.open));
         return group;
       }),
+      remarks(model),
     );
     this.mark();
   }
 
   private row(finding: Finding): HTMLElement {
     const { place, measured } = finding;
-    const placed = place.part !== null || place.points.length > 0 || place.vertices.count > 0 || place.position !== null;
+    const placed =
+      place.part !== null || place.points.length > 0 || place.vertices.count > 0 || place.position !== null;
     const action = actionFor(finding, this.options.enoughPoints());
     const button = h(
       'button',
@@ -162,6 +160,21 @@ export class DoctorPanel {
       button.setAttribute('aria-pressed', String(on));
     }
   }
+}
+
+/** What reading the file and placing the points had to say. */
+function remarks({ warnings = [] }: Model): HTMLElement | null {
+  if (warnings.length === 0) return null;
+  return h(
+    'div',
+    { class: 'remarks small' },
+    h('h3', {}, 'Said of the file'),
+    h(
+      'ul',
+      {},
+      warnings.map((text) => h('li', {}, sentence(text))),
+    ),
+  );
 }
 
 const figure = (value: number): string => String(Number(value.toPrecision(3)));

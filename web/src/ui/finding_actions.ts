@@ -7,8 +7,7 @@ export type FindingAction =
   | { kind: 'axes'; label: string }
   | { kind: 'role'; part: number | null; label: string }
   | { kind: 'exchange'; label: string }
-  | { kind: 'point'; point: string; label: string }
-  | { kind: 'parametrize'; label: string };
+  | { kind: 'point'; point: string; label: string };
 
 const aboutAxes = new Set(['upside-down', 'facing-away', 'not-upright']);
 const aboutRoles = new Set(['idle-part', 'second-skin', 'eye-cannot-turn', 'point-on-wrong-part']);

@@ -3,6 +3,9 @@ import { DoctorPanel } from './doctor_panel.ts';
 import { h } from './dom.ts';
 import type { FindingAction } from './finding_actions.ts';
 import type { FitModel } from './fit_model.ts';
+import { FramePanel } from './frame_panel.ts';
+import { ParametrizeBox } from './parametrize_box.ts';
+import type { Parametrizer } from './parametrizer.ts';
 import { PartsPanel } from './parts_panel.ts';
 import type { PointsModel } from './points_model.ts';
 import type { Studio } from './studio.ts';
@@ -10,19 +13,29 @@ import type { Studio } from './studio.ts';
 /** Whether a head fits: what the doctor found, how it stands, what its parts are. */
 export class FitPanel {
   readonly element: HTMLElement;
+  private readonly frame: FramePanel;
   private readonly parts: PartsPanel;
 
   constructor(
     private readonly studio: Studio,
     private readonly points: PointsModel,
     fit: FitModel,
+    parametrizer: Parametrizer,
   ) {
     const doctor = new DoctorPanel(studio, fit, {
       enoughPoints: () => points.canPropose,
       onAction: (action, finding) => this.act(action, finding),
     });
+    this.frame = new FramePanel(studio);
     this.parts = new PartsPanel(studio, fit);
-    this.element = h('div', { class: 'panel fit' }, doctor.element, this.parts.element);
+    this.element = h(
+      'div',
+      { class: 'panel fit' },
+      doctor.element,
+      this.frame.element,
+      this.parts.element,
+      new ParametrizeBox(studio, points, parametrizer, { withSave: false }).element,
+    );
   }
 
   /** Brings a part's row under the eyes. */
@@ -41,8 +54,15 @@ export class FitPanel {
       case 'exchange':
         studio.tab.set('points');
         return points.exchange(finding.place.points);
-      default:
+      case 'propose':
         studio.tab.set('points');
+        return void points.propose();
+      case 'mark':
+        studio.tab.set('points');
+        points.guide(true);
+        return points.chooseNext();
+      case 'axes':
+        return this.frame.reveal();
     }
   }
 }

@@ -15,6 +15,7 @@ export class Guide {
   private selected: string | null = null;
   private placed: ReadonlySet<string> = new Set();
   private wrong: ReadonlySet<string> = new Set();
+  private proposed: ReadonlySet<string> = new Set();
 
   constructor(private readonly options: GuideOptions) {
     this.element = h('div', { class: 'guide' }, this.picture, this.switcher);
@@ -33,9 +34,10 @@ export class Guide {
     this.draw();
   }
 
-  mark(placed: ReadonlySet<string>, wrong: ReadonlySet<string>): void {
+  mark(placed: ReadonlySet<string>, wrong: ReadonlySet<string>, proposed: ReadonlySet<string>): void {
     this.placed = placed;
     this.wrong = wrong;
+    this.proposed = proposed;
     this.draw();
   }
 
@@ -71,7 +73,13 @@ export class Guide {
   }
 
   private spot(id: string, x: number, y: number): SVGElement {
-    const state = this.wrong.has(id) ? 'wrong' : this.placed.has(id) ? 'placed' : 'open';
+    const state = this.wrong.has(id)
+      ? 'wrong'
+      : this.proposed.has(id)
+        ? 'proposed'
+        : this.placed.has(id)
+          ? 'placed'
+          : 'open';
     const selected = id === this.selected;
     const label = `${id} ${featurePoints.find((point) => point.id === id)?.name ?? ''}`;
     const group = svg(

@@ -49,6 +49,8 @@ export const stageTitles: Record<string, string> = {
   read: 'Reading the file',
   import: 'Reading the file',
   surface: 'Joining seams',
+  proposals: 'Proposing points',
+  report: 'Looking for faults',
   distances: 'Measuring distances',
   regions: 'Finding regions',
   weights: 'Computing weights',

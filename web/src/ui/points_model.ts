@@ -1,6 +1,6 @@
 import { featurePoints } from '@protocol/generated/mpeg4.ts';
-import { PointDraft, type PlacedPoint } from '../face/point_draft.ts';
-import { leastKnownPoints } from '../face/quick_set.ts';
+import { PointDraft, proposalBody, type PlacedPoint } from '../face/point_draft.ts';
+import { leastKnownPoints, quickSet } from '../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../net/problem.ts';
 import type { FeaturePointSet, Model } from '../net/types.ts';
 import { Signal } from './signal.ts';
@@ -16,10 +16,17 @@ export class PointsModel {
   /** Reasons by feature point id; "" holds what concerns no point. */
   problems: ReadonlyMap<string, readonly string[]> = new Map();
   warnings: readonly string[] = [];
+  /** Whether a person is led through the quick set, point by point. */
+  readonly guided = new Signal(true);
+  /** Why a point could not be proposed, by id; of the last proposals. */
+  notProposed: ReadonlyMap<string, string> = new Map();
+  private guidedByUser = false;
   private etag: string | null = null;
   private model: Model | null = null;
   /** A vertex of the file in model units: asked for points whose answer names no position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
+  /** A proposed point is to be looked at. */
+  onReview: (point: PlacedPoint) => void = () => {};
 
   constructor(private readonly studio: Studio) {}
 
@@ -32,6 +39,8 @@ export class PointsModel {
     this.chosen.set(null);
     this.clearProblems();
     this.draft.reset([]);
+    this.notProposed = new Map();
+    this.guidedByUser = false;
     this.etag = null;
     this.touch();
     if (!model || model.state === 'importing' || model.state === 'failed') return;
@@ -44,9 +53,58 @@ export class PointsModel {
   place(vertex: number, position: readonly [number, number, number]): void {
     const id = this.chosen.value;
     if (id === null) return;
+    const isNew = !this.draft.points.has(id);
     this.draft.place(id, { vertex, position });
     this.forgive(id);
     this.touch();
+    if (isNew && this.guided.value) this.chooseNext();
+  }
+
+  toggle(id: string): void {
+    this.chosen.set(this.chosen.value === id ? null : id);
+  }
+
+  guide(on: boolean): void {
+    this.guidedByUser = true;
+    this.guided.set(on);
+  }
+
+  /** How many points of the quick set are not placed. */
+  get quickLeft(): number {
+    return quickSet.filter(({ id }) => !this.draft.points.has(id)).length;
+  }
+
+  /** Whether there is a point to go on to: one that is not placed, or one to look over. */
+  get hasNext(): boolean {
+    if (this.guided.value) return this.quickLeft > 0;
+    return this.draft.points.size < this.total || this.draft.proposed.length > 0;
+  }
+
+  confirmAndNext(id: string): void {
+    this.draft.confirm([id]);
+    this.touch();
+    this.chooseNextProposed();
+  }
+
+  confirmAll(): void {
+    this.draft.confirm(this.draft.proposed);
+    this.touch();
+  }
+
+  discardProposals(): void {
+    const chosen = this.chosen.value;
+    if (chosen !== null && this.draft.points.get(chosen)?.proposal) this.chosen.set(null);
+    this.draft.discard(this.draft.proposed);
+    this.touch();
+  }
+
+  chooseNextProposed(): void {
+    this.chooseAfter(
+      featurePoints.map(({ id }) => id),
+      (id) => this.draft.points.get(id)?.proposal !== undefined,
+    );
+    const place = this.draft.points.get(this.chosen.value ?? '');
+    if (place) this.onReview(place);
   }
 
   remove(id: string): void {
@@ -63,16 +121,37 @@ export class PointsModel {
     if (this.draft.redo()) this.touch();
   }
 
-  /** The next unplaced point after the chosen one, in the standard's order. */
+  /** The next unplaced point after the chosen one, in the order that is gone by; where all are, the next proposed. */
   chooseNext(): void {
-    const start = featurePoints.findIndex((point) => point.id === this.chosen.value);
-    for (let i = 1; i <= featurePoints.length; i += 1) {
-      const point = featurePoints[(start + i) % featurePoints.length]!;
-      if (!this.draft.points.has(point.id)) {
-        this.chosen.set(point.id);
-        return;
-      }
-    }
+    const order = (this.guided.value ? quickSet : featurePoints).map(({ id }) => id);
+    if (order.every((id) => this.draft.points.has(id))) this.chooseNextProposed();
+    else this.chooseAfter(order, (id) => !this.draft.points.has(id));
+  }
+
+  private chooseAfter(order: readonly string[], wanted: (id: string) => boolean): void {
+    const start = order.indexOf(this.chosen.value ?? '');
+    const rest = [...order.slice(start + 1), ...order.slice(0, start + 1)];
+    this.chosen.set(rest.find(wanted) ?? null);
+  }
+
+  /** Saves what is not saved, and has the server propose the missing points. */
+  async propose(): Promise<void> {
+    const { model, studio } = this;
+    if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
+    this.busy.set(true);
+    await studio.attempt('No points were proposed', async () => {
+      const job = await studio.propose(model, this.etag);
+      if (job === null || this.model?.id !== model.id) return;
+      const answer = await studio.api.getFeaturePoints(model.id);
+      this.notProposed = new Map(Object.entries(job.result?.not_proposed ?? {}));
+      this.guidedByUser = false;
+      this.take(answer.value, answer.etag);
+      await studio.reload(model.id);
+      const { length } = this.draft.proposed;
+      studio.toasts.say(length > 0 ? `${length} points are proposed: look them over.` : 'No point could be proposed.');
+    });
+    this.busy.set(false);
+    this.touch();
   }
 
   save(mirror = false): Promise<boolean> {
@@ -98,10 +177,12 @@ export class PointsModel {
   }
 
   exportFile(): void {
-    const points: Record<string, PlacedPoint> = {};
+    const points: Record<string, object> = {};
     for (const { id } of featurePoints) {
       const point = this.draft.points.get(id);
-      if (point) points[id] = point;
+      if (!point) continue;
+      const { vertex, position, proposal } = point;
+      points[id] = { vertex, position, ...(proposal ? proposalBody(proposal) : {}) };
     }
     const text = JSON.stringify({ head: this.model?.name ?? '', count: this.draft.points.size, points }, null, 1);
     const link = document.createElement('a');
@@ -165,9 +246,19 @@ export class PointsModel {
     for (const [id, value] of Object.entries(set.points)) {
       const vertex = value.vertex ?? null;
       const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
-      if (position) placed.push([id, { vertex, position }]);
+      if (!position) continue;
+      const { method = null, confidence = null, expected_error: expectedError = null } = value;
+      placed.push([
+        id,
+        { vertex, position, ...(value.proposed ? { proposal: { method, confidence, expectedError } } : {}) },
+      ]);
     }
     this.draft.reset(placed);
+    // Someone who has gone beyond the quick set, or has proposals to look over, needs the whole list.
+    if (!this.guidedByUser) {
+      const quick = new Set(quickSet.map(({ id }) => id));
+      this.guided.set(placed.every(([id, point]) => quick.has(id) && !point.proposal));
+    }
     this.warnings = set.warnings ?? [];
     this.etag = etag;
     this.touch();

@@ -38,6 +38,7 @@ export class SceneView {
   private wire = false;
   private opening: AbortController | null = null;
   private shown = '';
+  private previewKey = '';
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -56,8 +57,9 @@ export class SceneView {
 
   /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
   async open(model: Model | null): Promise<void> {
+    const axes = model?.frame?.axes;
     const key = model
-      ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${model.source?.sha256 ?? ''}`
+      ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${axes?.up ?? ''}${axes?.front ?? ''}`
       : '';
     if (key === this.shown) return;
     const sameModel = key.split(':')[0] === this.shown.split(':')[0];
@@ -86,7 +88,7 @@ export class SceneView {
     this.state.set({ kind: 'loading', title: 'Opening the head' });
     try {
       const parts = {
-        preview: this.openPreview(model, opening.signal, sameModel),
+        preview: this.openPreview(model, opening.signal),
         face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null),
       };
       const [preview, face] = await Promise.all([parts.preview, parts.face]);
@@ -164,9 +166,13 @@ export class SceneView {
     face.setVertices(performer.kernel.positions, performer.pose);
   }
 
-  private async openPreview(model: Model, signal: AbortSignal, keep: boolean): Promise<PreviewView> {
-    if (keep && this.preview) return this.preview;
-    return PreviewView.load(await this.sources.preview(model, signal), this.quality.richSkin);
+  /** The one that is shown stays, unless the head has been turned. */
+  private async openPreview(model: Model, signal: AbortSignal): Promise<PreviewView> {
+    const key = `${model.id}:${JSON.stringify(model.frame?.axes)}`;
+    if (this.preview && this.previewKey === key) return this.preview;
+    const preview = await PreviewView.load(await this.sources.preview(model, signal), this.quality.richSkin);
+    if (!signal.aborted) this.previewKey = key;
+    return preview;
   }
 
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {

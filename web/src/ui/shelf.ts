@@ -131,8 +131,13 @@ export class Shelf {
         },
         h(
           'span',
-          { class: 'thumb' },
-          picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24),
+          { class: 'thumb-seat' },
+          h(
+            'span',
+            { class: 'thumb' },
+            picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24),
+          ),
+          activity ? null : findingBadge(model.findings),
         ),
         h(
           'span',
@@ -147,7 +152,6 @@ export class Shelf {
                 facts ? ` · ${facts}` : '',
               ),
         ),
-        activity ? null : findingBadge(model.findings),
       ),
       h(
         'div',

@@ -1,4 +1,3 @@
-import { adviceFor } from '../net/problem.ts';
 import type { ViewName } from '../view/stage.ts';
 import { h, replace, setText } from './dom.ts';
 import { formatBytes } from './format.ts';
@@ -6,6 +5,7 @@ import { icon, type IconName } from './icons.ts';
 import { pointById } from '../face/feature_points.ts';
 import type { PointsModel } from './points_model.ts';
 import type { SceneView } from './scene.ts';
+import { overlayCard } from './stage_overlay.ts';
 import type { Studio } from './studio.ts';
 
 const views: { name: ViewName; label: string; key: string }[] = [
@@ -36,11 +36,16 @@ export class StagePanel {
   ) {
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'application');
-    canvas.setAttribute('aria-label', 'The head. Arrow keys turn it, plus and minus zoom, 1 to 4 choose a view.');
+    canvas.setAttribute(
+      'aria-label',
+      'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view. ' +
+        'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next.',
+    );
     this.element = h(
       'div',
       { class: 'stage-holder' },
       canvas,
+      h('div', { class: 'stage-cross', 'aria-hidden': 'true' }),
       this.label,
       h('div', { class: 'stage-top' }, driver, this.hint),
       this.overlay,
@@ -112,7 +117,8 @@ export class StagePanel {
     if (
       !down ||
       event.button !== 0 ||
-      Math.hypot(event.clientX - down.x, event.clientY - down.y) > 5 ||
+      // A finger is less steady than a mouse.
+      Math.hypot(event.clientX - down.x, event.clientY - down.y) > (event.pointerType === 'touch' ? 12 : 5) ||
       event.timeStamp - down.time > 600
     )
       return;
@@ -129,7 +135,12 @@ export class StagePanel {
       if (marker) this.points.chosen.set(marker.id);
       return;
     }
-    const pick = this.scene.preview.pick((x / width) * 2 - 1, 1 - (y / height) * 2, this.scene.stage.camera);
+    this.placeAt((x / width) * 2 - 1, 1 - (y / height) * 2);
+  }
+
+  /** Puts the chosen point where the head is seen at `x`, `y` (-1..1 from the lower left). */
+  private placeAt(x: number, y: number): void {
+    const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera);
     if (pick) this.points.place(pick.fileVertex, pick.position);
   }
 
@@ -155,19 +166,27 @@ export class StagePanel {
 
   private key(event: KeyboardEvent): void {
     const { stage } = this.scene;
-    const turn = 0.12;
     const chosen = this.points.chosen.value;
+    const move = (right: number, up: number): void =>
+      event.shiftKey ? stage.pan(right * 0.05, up * 0.05) : stage.orbit(right * 0.12, -up * 0.12);
     const actions: Record<string, () => void> = {
-      ArrowLeft: () => stage.orbit(-turn, 0),
-      ArrowRight: () => stage.orbit(turn, 0),
-      ArrowUp: () => stage.orbit(0, -turn),
-      ArrowDown: () => stage.orbit(0, turn),
+      ArrowLeft: () => move(-1, 0),
+      ArrowRight: () => move(1, 0),
+      ArrowUp: () => move(0, 1),
+      ArrowDown: () => move(0, -1),
       '+': () => stage.zoom(0.9),
       '=': () => stage.zoom(0.9),
       '-': () => stage.zoom(1.1),
       Escape: () => this.points.chosen.set(null),
     };
-    if (chosen !== null) actions['Delete'] = actions['Backspace'] = () => this.points.remove(chosen);
+    if (this.studio.tab.value === 'points') {
+      actions['n'] = actions['N'] = () => this.points.chooseNext();
+      if (chosen !== null) {
+        actions['Delete'] = actions['Backspace'] = () => this.points.remove(chosen);
+        actions[' '] = () => this.placeAt(0, 0);
+        if (this.points.draft.points.get(chosen)?.proposal) actions['Enter'] = () => this.points.confirmAndNext(chosen);
+      }
+    }
     views.forEach(({ name, key }) => (actions[key] = () => stage.look(name)));
     const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : actions[event.key];
     if (!action) return;
@@ -194,52 +213,8 @@ export class StagePanel {
     const model = this.studio.selected.value;
     const activity = model ? this.studio.activities.value.get(model.id) : undefined;
     this.overlay.hidden = state.kind === 'ready';
-    if (state.kind === 'ready') return;
-    if (state.kind === 'empty')
-      replace(
-        this.overlay,
-        h(
-          'div',
-          { class: 'stage-card' },
-          icon('head', 40),
-          h('h2', {}, 'No head on the stage'),
-          h('p', {}, 'Choose one from the list, or drop a GLB, OBJ, PLY or STL file anywhere on this page.'),
-        ),
-      );
-    if (state.kind === 'loading') {
-      const percent =
-        activity?.progress === null || activity?.progress === undefined
-          ? ''
-          : ` ${Math.round(activity.progress * 100)} %`;
-      replace(
-        this.overlay,
-        h(
-          'div',
-          { class: 'stage-card', role: 'status' },
-          h('div', { class: 'spinner', 'aria-hidden': 'true' }),
-          h('p', {}, `${activity?.title ?? state.title}…${percent}`),
-        ),
-      );
-    }
-    if (state.kind === 'failed') {
-      const { problem } = state;
-      const advice = adviceFor(problem);
-      replace(
-        this.overlay,
-        h(
-          'div',
-          { class: 'stage-card error', role: 'alert' },
-          icon('warning', 32),
-          h('h2', {}, problem.title),
-          problem.detail ? h('p', {}, problem.detail) : null,
-          problem.pointer ? h('code', {}, problem.pointer) : null,
-          advice ? h('p', { class: 'advice' }, advice) : null,
-          model && model.state !== 'failed'
-            ? h('button', { type: 'button', on: { click: () => void this.scene.open(model) } }, 'Try again')
-            : null,
-        ),
-      );
-    }
+    const again = model && model.state !== 'failed' ? () => void this.scene.open(model) : null;
+    replace(this.overlay, overlayCard(state, activity, again));
   }
 
   private drawFigures(): void {

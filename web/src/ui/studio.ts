@@ -1,7 +1,7 @@
 import type { Api } from '../net/api.ts';
 import { followJob } from '../net/jobs.ts';
 import { ApiError, problemOf } from '../net/problem.ts';
-import type { Job, Model, ParametrizationOptions, PartRole, Problem } from '../net/types.ts';
+import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem } from '../net/types.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
@@ -109,6 +109,17 @@ export class Studio {
     );
   }
 
+  /** Says the unit or the axes of a head; a change of axes has its file read again. */
+  async setFrame(model: Model, wish: FrameWish): Promise<void> {
+    await this.attempt('Unit and axes were not changed', async () => {
+      const { model: now, job } = await this.api.setFrame(model.id, wish);
+      this.replaceModel(now);
+      if (!job) return;
+      await this.follow(job, 'Turning the head');
+      await this.reload(model.id);
+    });
+  }
+
   async remove(model: Model): Promise<void> {
     await this.attempt('The head was not deleted', async () => {
       await this.api.deleteModel(model.id);
@@ -130,6 +141,14 @@ export class Studio {
     if (last.state === 'failed')
       throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
     return last.state === 'done';
+  }
+
+  /** Has missing feature points proposed. Resolves with the ended job, or null when it was cancelled; throws ApiError. */
+  async propose(model: Model, etag: string | null): Promise<Job | null> {
+    const last = await this.follow(await this.api.proposePoints(model.id, etag), 'Proposing points');
+    if (last.state === 'failed')
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The proposals failed', status: 500 });
+    return last.state === 'done' ? last : null;
   }
 
   async reload(id: string): Promise<Model | null> {
@@ -195,7 +214,8 @@ export class Studio {
     if (open?.id !== model.id) return;
     this.selected.set(model);
     // Imported while we looked at it: the next thing to do is to mark its points, unless the file itself needs care.
-    if (open.state === 'importing' && model.state === 'ready') this.tab.set(needsCare(model) ? 'fit' : 'points');
+    if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit')
+      this.tab.set(needsCare(model) ? 'fit' : 'points');
   }
 }
 

@@ -10,7 +10,7 @@ export interface Marker {
 
 const tones: Record<MarkerTone, { color: string; size: number; ring?: true }> = {
   placed: { color: '#2f7df6', size: 9 },
-  proposed: { color: '#8b3fe0', size: 11, ring: true },
+  proposed: { color: '#8b3fe0', size: 12, ring: true },
   changed: { color: '#f0a020', size: 10 },
   wrong: { color: '#e5322d', size: 12 },
   selected: { color: '#ff5a2c', size: 15 },
@@ -116,7 +116,7 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
         float inside = 1.0 - smoothstep(0.5 - edge, 0.5, r);
         float core = 1.0 - smoothstep(0.5 - rim - edge, 0.5 - rim, r);
         // A ring is a disc with a pale middle: proposed points differ by more than their colour.
-        float middle = 1.0 - smoothstep(0.2, 0.2 + edge, r);
+        float middle = 1.0 - smoothstep(0.13, 0.13 + edge, r);
         core *= 1.0 - open * middle;
         if (inside * opacity < 0.01) discard;
         gl_FragColor = vec4(mix(vec3(1.0), tint, core), inside * opacity);

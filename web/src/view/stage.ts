@@ -127,7 +127,10 @@ export class Stage {
   /** Looks at a place of the model so that a ball of `radius` about it fits, from where it can be seen. */
   lookAt(place: Vector3, radius: number, outward: Vector3): void {
     // Never from below or behind only because a triangle faces there: half of the way is the front's.
-    const direction = outward.clone().normalize().add(new Vector3(0, 0, 0.6));
+    const direction = outward
+      .clone()
+      .normalize()
+      .add(new Vector3(0, 0, 0.6));
     direction.y *= 0.5;
     if (direction.lengthSq() < 0.05) direction.set(0.3, 0, 1);
     this.fly(place, Math.max(radius, this.radius * 0.22), direction, false);

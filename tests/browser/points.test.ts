@@ -1,0 +1,117 @@
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { quickSet } from '@protocol/generated/mpeg4.ts';
+import { sampleHead, samplePoints } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+
+interface Points {
+  points: Record<string, { vertex: number; position: [number, number, number]; proposed?: boolean }>;
+}
+
+let server: RunningServer;
+let browser: Browser;
+const scratch = mkdtempSync(join(tmpdir(), 'semblante-points-'));
+const known = (JSON.parse(readFileSync(samplePoints, 'utf8')) as Points).points;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+/** The points the server has of the open head. */
+async function stored(studio: StudioPage): Promise<Points['points']> {
+  const id = await studio.page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
+  return ((await (await fetch(`${server.url}/v1/models/${id}/feature-points`)).json()) as Points).points;
+}
+
+async function openNew(name: string): Promise<StudioPage> {
+  const studio = await StudioPage.open(browser, server.url);
+  await studio.waitForStage('ready');
+  await studio.drop(sampleHead, name);
+  await studio.waitForState('ready');
+  await studio.waitForStage('ready');
+  await studio.page.locator('#tab-points').click();
+  return studio;
+}
+
+describe('feature points', () => {
+  test('Points_NoneYet_PanelLeadsThroughThemByPointerAndKeyboard', async () => {
+    const studio = await openNew('guided.glb');
+    const { page } = studio;
+    await page.getByRole('button', { name: 'Start' }).click();
+    for (const [i, id] of ['9.3', '9.15', '8.1'].entries()) {
+      await page.getByText(`Point ${i + 1} of ${quickSet.length}`).waitFor();
+      const spot = await studio.project(known[id]!.position);
+      await page.mouse.click(spot.x, spot.y);
+    }
+    await page.getByText(`Point 4 of ${quickSet.length}`).waitFor();
+    await page.getByText('3 of 84 placed').waitFor();
+
+    // By the keyboard alone: what lies under the cross in the middle of the picture.
+    await page.locator('canvas.canvas').focus();
+    await page.keyboard.press('Shift+ArrowDown');
+    await page.keyboard.press('Space');
+    await page.getByText(`Point 5 of ${quickSet.length}`).waitFor();
+    await page.keyboard.press('n');
+    await page.getByText(`Point 6 of ${quickSet.length}`).waitFor();
+    await page.getByRole('button', { name: 'Save 4 changes' }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    expect(Object.keys(await stored(studio)).sort()).toEqual(['2.2', '8.1', '9.15', '9.3']);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Points_QuickSet_RestIsProposedLookedOverAndConfirmed', async () => {
+    const studio = await openNew('proposed.glb');
+    const { page } = studio;
+    const file = join(scratch, 'quick.fps.json');
+    writeFileSync(
+      file,
+      JSON.stringify({ points: Object.fromEntries(quickSet.map((id) => [id, { vertex: known[id]!.vertex }])) }),
+    );
+    await page.setInputFiles('#points-file', file);
+    await page.getByText('20 of 84 placed').waitFor();
+    await page.getByRole('button', { name: 'Propose the rest' }).click();
+    const confirmAll = page.getByRole('button', { name: 'Confirm all' });
+    await confirmAll.waitFor();
+    const count = async (): Promise<number> =>
+      Number(/^\d+/.exec(await page.locator('.proposals strong').innerText())![0]);
+    const proposed = await count();
+    expect(proposed).toBeGreaterThan(40);
+    expect(await page.locator('.point-row.proposed').count()).toBe(proposed);
+
+    // One confirmed, one moved to another place, one taken away: none of them is a proposal any more.
+    await page.getByRole('button', { name: 'Review' }).click();
+    await page.getByRole('button', { name: 'Confirm', exact: true }).click();
+    expect(await count()).toBe(proposed - 1);
+    const chin = page.locator('[data-point="2.10"]');
+    await chin.click();
+    const spot = await studio.project(known['2.10']!.position);
+    await page.mouse.click(spot.x, spot.y);
+    expect(await chin.getAttribute('class')).toContain('changed');
+    await page.locator('[data-point="5.1"]').click();
+    await page.getByRole('button', { name: 'Remove point 5.1' }).click();
+    expect(await count()).toBe(proposed - 3);
+    await page.getByRole('button', { name: 'Save 3 changes' }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    const some = await stored(studio);
+    expect(some['5.1']).toBeUndefined();
+    expect(some['2.10']!.proposed).toBeUndefined();
+    expect(Object.values(some).filter((point) => point.proposed)).toHaveLength(proposed - 3);
+
+    await confirmAll.click();
+    await page.getByRole('button', { name: /^Save \d+ changes/ }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    expect(Object.values(await stored(studio)).filter((point) => point.proposed)).toHaveLength(0);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});
