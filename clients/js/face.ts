@@ -16,6 +16,11 @@ export interface LoadOptions {
   /** Default: the platform's. */
   fetch?: typeof fetch;
   signal?: AbortSignal;
+  /**
+   * A level of detail: the largest of no more vertices (the smallest, when all have more), or by its number, 0 the full
+   * mesh. `face.rig.levels` says which there are. Default: the full mesh.
+   */
+  level?: { maxVertices: number } | { lod: number };
 }
 
 /**
@@ -36,14 +41,20 @@ export async function loadFace(baseUrl: string, modelId: string, options: LoadOp
 async function fetchFace(folder: string, options: LoadOptions): Promise<Face> {
   const load = options.fetch ?? fetch;
   const part = async (name: string): Promise<Uint8Array> => {
-    const response = await load(`${folder}/${name}`, options.signal ? { signal: options.signal } : {});
+    const address = `${folder}/${name}${levelQuery(options.level)}`;
+    const response = await load(address, options.signal ? { signal: options.signal } : {});
     if (!response.ok) {
-      throw new FaceError('http', `${folder}/${name} answers ${response.status} ${response.statusText}`, response.status);
+      throw new FaceError('http', `${address} answers ${response.status} ${response.statusText}`, response.status);
     }
     return new Uint8Array(await response.arrayBuffer());
   };
   const [rig, weights, mesh] = await Promise.all([part('rig.json'), part('weights'), part('mesh.drc')]);
   return assembleFace(rig, weights, mesh, options.draco);
+}
+
+function levelQuery(level: LoadOptions['level']): string {
+  if (!level) return '';
+  return 'lod' in level ? `?lod=${level.lod}` : `?max_vertices=${level.maxVertices}`;
 }
 
 /** The same from bytes that are there already. */

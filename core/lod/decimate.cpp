@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "core/geometry/stitch.h"
 #include "core/lod/collapse_history.h"
@@ -12,7 +15,9 @@
 namespace semblante {
 namespace {
 
-constexpr std::array<std::uint32_t, 4> ladder = {20000, 10000, 5000, 2500};
+constexpr std::array<std::uint32_t, 5> ladder = {50000, 20000, 10000, 5000, 2500};
+/// A model with no more than this is light enough for every client.
+constexpr std::uint32_t light_model = 10000;
 /// A level with more of the vertices of the one before is not worth having.
 constexpr double most_of_level_before = 0.9;
 /// The least of its equal share that a group is cut to: teeth must not vanish because lips may not.
@@ -81,7 +86,7 @@ std::size_t count_at(const std::vector<CollapseHistory>& groups, double share) {
 }
 
 /// The greatest share at which all groups together are within the budget: where one cannot give more, the others do.
-double share_within(const std::vector<CollapseHistory>& groups, std::uint32_t budget) {
+double share_within(const std::vector<CollapseHistory>& groups, std::size_t budget) {
   double low = 0.0;
   double high = 1.0;
   for (int step = 0; step < 40; ++step) {
@@ -89,6 +94,65 @@ double share_within(const std::vector<CollapseHistory>& groups, std::uint32_t bu
     (count_at(groups, middle) <= budget ? low : high) = middle;
   }
   return low;
+}
+
+/// Triangles of all groups, cut to the same share, of at most so many corners.
+std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& groups, std::size_t corners) {
+  const double share = share_within(groups, corners);
+  std::vector<LevelTriangle> triangles;
+  for (const CollapseHistory& group : groups) group.append_triangles(budget_of(group, share), triangles);
+  std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.source < b.source; });
+  return triangles;
+}
+
+/// Vertices that a client gets: a corner once for every fan of triangles around it that no edge joins but seams, as
+/// Draco writes them.
+std::size_t drawn_vertices(const Corners& corners, const std::vector<LevelTriangle>& triangles) {
+  struct Side {
+    std::uint32_t low, high;        // file vertices
+    std::uint32_t at_low, at_high;  // places in `parent`
+    std::uint32_t corner_low, corner_high;
+  };
+  std::vector<Side> sides;
+  sides.reserve(triangles.size() * 3);
+  std::vector<std::uint32_t> parent(triangles.size() * 3);
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t at) {
+    while (parent[at] != at) at = parent[at] = parent[parent[at]];
+    return at;
+  };
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint32_t d = (c + 1) % 3;
+      Side side{0, 0, t * 3 + c, t * 3 + d, triangles[t].corners[c], triangles[t].corners[d]};
+      side.low = corners.corners[side.corner_low].file_vertex;
+      side.high = corners.corners[side.corner_high].file_vertex;
+      if (side.low > side.high) {
+        std::swap(side.low, side.high);
+        std::swap(side.at_low, side.at_high);
+        std::swap(side.corner_low, side.corner_high);
+      }
+      sides.push_back(side);
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.at_low) < std::tie(b.low, b.high, b.at_low);
+  });
+  std::size_t fans = parent.size();
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    fans -= a != b ? 1 : 0;
+    parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const Side& a = sides[i - 1];
+    const Side& b = sides[i];
+    if (a.corner_low != b.corner_low || a.corner_high != b.corner_high) continue;
+    join(a.at_low, b.at_low);
+    join(a.at_high, b.at_high);
+  }
+  return fans;
 }
 
 }  // namespace
@@ -126,12 +190,15 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   std::size_t before = count_at(groups, 1.0);
   for (const std::uint32_t budget : options.budgets) {
     if (budget >= before) continue;
-    const double share = share_within(groups, budget);
-    const std::size_t count = count_at(groups, share);
+    std::vector<LevelTriangle> triangles = triangles_within(groups, budget);
+    std::size_t count = drawn_vertices(corners, triangles);
+    // Corners are a little fewer than vertices where a mesh is no manifold: aim as much lower, a few times.
+    for (std::size_t aim = budget, attempt = 0; count > budget && attempt < 3; ++attempt) {
+      aim -= std::min(aim, count - budget);
+      triangles = triangles_within(groups, aim);
+      count = drawn_vertices(corners, triangles);
+    }
     if (static_cast<double>(count) > most_of_level_before * static_cast<double>(before)) continue;
-    std::vector<LevelTriangle> triangles;
-    for (const CollapseHistory& group : groups) group.append_triangles(budget_of(group, share), triangles);
-    std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.source < b.source; });
     levels.push_back(level_from(corners, triangles, !model.uvs.empty() && !model.uv_triangles.empty()));
     levels.back().budget = budget;
     levels.back().vertex_count = static_cast<std::uint32_t>(count);
@@ -173,8 +240,9 @@ std::vector<Part> parts_of_level(const Rig& rig, const LevelOfDetail& level) {
 
 std::vector<std::uint32_t> default_budgets(std::uint32_t vertex_count) {
   std::vector<std::uint32_t> budgets;
+  if (vertex_count <= light_model) return budgets;
   for (const std::uint32_t budget : ladder) {
-    if (budget <= vertex_count / 4 * 3) budgets.push_back(budget);
+    if (budget <= vertex_count / 2) budgets.push_back(budget);
   }
   return budgets;
 }

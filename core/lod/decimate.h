@@ -32,6 +32,8 @@ struct LodOptions {
 };
 
 inline constexpr std::size_t max_levels = 8;
+/// What a budget may be.
+inline constexpr std::uint32_t least_budget = 100, most_budget = 4'000'000;
 
 /// One level of detail of a model: its triangles. Vertices are a subset of the model's, so that positions, UVs,
 /// normals, weights, feature points and parts stay what they are, by the model's own numbers.
@@ -59,7 +61,8 @@ void apply_level(Model& model, const LevelOfDetail& level);
 /// `parts` with their counts in `level`.
 std::vector<Part> parts_of_level(const Rig& rig, const LevelOfDetail& level);
 
-/// Budgets worth having for a model of that many vertices: 20000, 10000, 5000 and 2500, those that save a quarter.
+/// The levels a model of that many vertices gets when nobody says which: 50000, 20000, 10000, 5000 and 2500, those that
+/// save half; none for a model of 10000 or less.
 std::vector<std::uint32_t> default_budgets(std::uint32_t vertex_count);
 
 }  // namespace semblante

@@ -78,7 +78,16 @@ struct RigDocument {
     std::uint64_t bytes = 0;
   };
 
+  /// One of the packages of a face: its full mesh (lod 0) or a level of detail.
+  struct Level {
+    std::uint32_t vertices = 0;
+    std::uint32_t triangles = 0;
+    std::uint64_t bytes = 0;  ///< of mesh.drc and weights together
+  };
+
   std::string name;
+  std::uint32_t lod = 0;      ///< which of the levels this package is
+  std::vector<Level> levels;  ///< by lod; empty: the package has no siblings
   Mesh mesh;
   Weights weights;
   Fapu fapu;  ///< already divided by 1024

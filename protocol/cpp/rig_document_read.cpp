@@ -83,6 +83,10 @@ RigDocument::Weights weights(const JsonCursor& at) {
   return result;
 }
 
+RigDocument::Level level(const JsonCursor& at) {
+  return {natural(at.member("vertices")), natural(at.member("triangles")), at.member("bytes").integer(0, max_exact)};
+}
+
 RigDocument::Point point(const JsonCursor& at, std::uint32_t vertices) {
   RigDocument::Point result;
   const JsonCursor id = at.member("id");
@@ -152,6 +156,12 @@ Result<RigDocument> read_rig(std::string_view text) {
     root.member("version").fail(ErrorCode::unsupported, "only version 1 is known");
   }
   rig.name = root.member("name").text(max_text_bytes);
+  if (const auto levels = root.optional_member("levels")) {
+    for (const auto& at : levels->elements(1, max_list)) rig.levels.push_back(level(at));
+    if (!rig.levels.empty()) {
+      rig.lod = static_cast<std::uint32_t>(root.member("lod").integer(0, rig.levels.size() - 1));
+    }
+  }
   rig.mesh = mesh(root.member("mesh"));
   rig.weights = weights(root.member("weights"));
   const JsonCursor fapu = root.member("fapu");

@@ -76,6 +76,13 @@ std::string write_rig(const RigDocument& rig) {
   json["format"] = "semblante.rig";
   json["version"] = 1;
   json["name"] = rig.name;
+  if (!rig.levels.empty()) {
+    json["lod"] = rig.lod;
+    json["levels"] = ordered_json::array();
+    for (const auto& level : rig.levels) {
+      json["levels"].push_back({{"vertices", level.vertices}, {"triangles", level.triangles}, {"bytes", level.bytes}});
+    }
+  }
   const auto& attributes = rig.mesh.attributes;
   json["mesh"] = {{"sha256", to_hex(rig.mesh.sha256)},
                   {"vertices", rig.mesh.vertices},

@@ -4,6 +4,10 @@ import { featurePoints, type FapUnit } from './generated/mpeg4.ts';
 /** rig.json: what a client needs to know beside the vertices. All lengths in model units, MPEG-4 frame. */
 export interface RigDocument {
   name: string;
+  /** Which of the levels this package is; 0 is the full mesh. */
+  lod: number;
+  /** By lod; empty: the package has no siblings. */
+  levels: RigLevel[];
   mesh: {
     sha256: string;
     vertices: number;
@@ -47,6 +51,13 @@ export interface RigFeaturePoint {
   /** Of the decoded mesh; null for a bare position. */
   vertex: number | null;
   position: Vec3;
+}
+
+export interface RigLevel {
+  vertices: number;
+  triangles: number;
+  /** Of mesh.drc and weights together. */
+  bytes: number;
 }
 
 export interface DisplacementSet {
@@ -147,8 +158,11 @@ export function readRig(json: string): RigDocument {
   const vertices = mesh.member('vertices').integer(1, 4_000_000);
   const list = <T>(name: string, most: number, read: (at: JsonCursor) => T): T[] =>
     root.member(name).elements(0, most).map(read);
+  const levels = root.optional('levels')?.elements(1, maxList).map(readLevel) ?? [];
   return {
     name: text(root.member('name')),
+    lod: levels.length > 0 ? root.member('lod').integer(0, levels.length - 1) : 0,
+    levels,
     mesh: {
       sha256: hash(mesh.member('sha256')),
       vertices,
@@ -184,6 +198,14 @@ export function readRig(json: string): RigDocument {
     materials: root.member('materials').elements(1, 256).map(readMaterial),
     images: list('images', maxList, readImage),
     warnings: list('warnings', maxList, text),
+  };
+}
+
+function readLevel(at: JsonCursor): RigLevel {
+  return {
+    vertices: natural(at.member('vertices')),
+    triangles: natural(at.member('triangles')),
+    bytes: size(at.member('bytes')),
   };
 }
 

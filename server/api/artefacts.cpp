@@ -1,4 +1,5 @@
 #include "server/api/common.h"
+#include "server/api/levels.h"
 #include "server/api/routes.h"
 #include "server/http/conditional.h"
 
@@ -22,7 +23,8 @@ http::Response file_response(Context& context, const http::Request& request, con
 http::Response get_model_artefact(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   const auto name = request.path.substr(request.path.rfind('/') + 1);
-  const auto artefact = context.store.artefact(model.id, name);
+  const std::size_t level = model.package && is_of_package(name) ? level_of(request, *model.package) : 0;
+  const auto artefact = context.store.artefact(model.id, store::artefact_name(level, name));
   if (!artefact) {
     const bool of_import = name == "preview.glb" || name == "report.json";
     refuse("not-found", "the model has no " + name + (of_import ? ": it is not imported" : ": it is not parametrized"));

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "core/lod/decimate.h"
 #include "core/parametrize/weight_method.h"
 #include "core/propose/propose.h"
 #include "server/api/common.h"
@@ -11,8 +12,27 @@
 namespace semblante::api {
 namespace {
 
+std::vector<std::uint32_t> read_budgets(const Json& lods) {
+  if (!lods.is_array() || lods.size() > max_levels)
+    refuse("invalid-field", "it must be a list of at most " + std::to_string(max_levels) + " numbers of vertices",
+           "/lods");
+  std::vector<std::uint32_t> budgets;
+  for (const auto& item : lods) {
+    const auto pointer = "/lods/" + std::to_string(budgets.size());
+    if (!item.is_number_integer() || item < least_budget || item > most_budget)
+      refuse("invalid-field",
+             "it must be a whole number from " + std::to_string(least_budget) + " to " + std::to_string(most_budget),
+             pointer);
+    const auto budget = item.get<std::uint32_t>();
+    if (!budgets.empty() && budget >= budgets.back())
+      refuse("invalid-field", "it must be less than the number before it", pointer);
+    budgets.push_back(budget);
+  }
+  return budgets;
+}
+
 ParametrizationOptions read_options(const Json& body) {
-  refuse_unknown_members(body, {"metric", "weights", "weight_bits"});
+  refuse_unknown_members(body, {"metric", "weights", "weight_bits", "lods"});
   ParametrizationOptions options;
   if (body.contains("metric")) {
     if (!body["metric"].is_string() || !parse_distance_metric(body["metric"].get<std::string>()))
@@ -30,6 +50,7 @@ ParametrizationOptions read_options(const Json& body) {
       refuse("invalid-field", "it must be a whole number from 8 to 16", "/weight_bits");
     options.weight_bits = bits.get<int>();
   }
+  if (body.contains("lods")) options.lods = read_budgets(body["lods"]);
   return options;
 }
 

@@ -15,6 +15,7 @@ store::JobRecord add_parametrization(store::Store& store, const std::string& mod
   job.metric = options.metric;
   job.weights = options.weights;
   job.weight_bits = options.weight_bits;
+  job.lods = options.lods;
   if (key) key->resource = job.id;
   store.create_job(job, key);
   return job;

@@ -14,9 +14,25 @@ Json json_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 
 Json box(const std::array<double, 3>& low, const std::array<double, 3>& high) { return {{"min", low}, {"max", high}}; }
 
-bool is_of_package(std::string_view name) {
-  static constexpr auto names = std::to_array<std::string_view>({"mesh.drc", "weights", "rig.json", "face.glb"});
-  return std::find(names.begin(), names.end(), name) != names.end();
+constexpr auto package_names = std::to_array<std::string_view>({"mesh.drc", "weights", "rig.json", "face.glb"});
+
+/// The artefacts of one level, by the name a client asks for.
+Json artefacts_of_level(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts,
+                        std::size_t lod) {
+  Json json = Json::object();
+  for (const auto name : package_names) {
+    const auto kept_as = store::artefact_name(lod, name);
+    const auto artefact =
+        std::find_if(artefacts.begin(), artefacts.end(), [&](const auto& item) { return item.name == kept_as; });
+    if (artefact == artefacts.end()) continue;
+    auto href = "/v1/models/" + model.id + "/" + std::string(name);
+    if (lod > 0) href += "?lod=" + std::to_string(lod);
+    json[name] = {{"href", href},
+                  {"sha256", artefact->sha256},
+                  {"bytes", artefact->bytes},
+                  {"content_type", artefact->content_type}};
+  }
+  return json;
 }
 
 Json represent_package(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
@@ -26,17 +42,22 @@ Json represent_package(const store::ModelRecord& model, const std::vector<store:
                {"metric", model.package->metric},
                {"weights", model.package->weights},
                {"weight_bits", model.package->weight_bits},
-               {"artefacts", Json::object()}};
-  for (const auto& artefact : artefacts)
-    if (is_of_package(artefact.name))
-      json["artefacts"][artefact.name] = {{"href", "/v1/models/" + model.id + "/" + artefact.name},
-                                          {"sha256", artefact.sha256},
-                                          {"bytes", artefact.bytes},
-                                          {"content_type", artefact.content_type}};
+               {"artefacts", artefacts_of_level(model, artefacts, 0)},
+               {"levels", Json::array()}};
+  const auto& levels = model.package->levels;
+  for (std::size_t lod = 0; lod < levels.size(); ++lod)
+    json["levels"].push_back({{"lod", lod},
+                              {"vertices", levels[lod].vertices},
+                              {"triangles", levels[lod].triangles},
+                              {"artefacts", artefacts_of_level(model, artefacts, lod)}});
   return json;
 }
 
 }  // namespace
+
+bool is_of_package(std::string_view name) {
+  return std::find(package_names.begin(), package_names.end(), name) != package_names.end();
+}
 
 Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
   const auto self = "/v1/models/" + model.id;

@@ -15,6 +15,9 @@ namespace semblante::api {
 
 using Json = nlohmann::ordered_json;
 
+/// One of the four artefacts that a client fetches to animate a face.
+bool is_of_package(std::string_view name);
+
 Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts);
 Json represent(const store::JobRecord& job);
 Json represent(const streams::StreamInfo& stream);

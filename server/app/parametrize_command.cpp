@@ -1,14 +1,18 @@
+#include <charconv>
 #include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "core/lod/decimate.h"
+#include "core/lod/lod_poses.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/files.h"
 #include "server/app/head_input.h"
 #include "server/app/weights_json.h"
 #include "server/package/package.h"
+#include "server/report/levels_json.h"
 
 namespace semblante {
 namespace {
@@ -19,9 +23,10 @@ struct ParametrizeCommand {
   std::string out;
   std::string name;
   int weight_bits = 12;
+  std::vector<std::string> lods;
 };
 
-/// The package as files: what a client fetches by URL, under the same names.
+/// One level's package as files: what a client fetches by URL, under the same names.
 void write_package(const FacePackage& package, const std::filesystem::path& folder) {
   std::error_code fault;
   std::filesystem::create_directories(folder, fault);
@@ -37,25 +42,61 @@ void write_package(const FacePackage& package, const std::filesystem::path& fold
   }
 }
 
-FacePackage encode(const Head& head, const ParametrizeCommand& options) {
+/// "10000,5000", "none" or nothing.
+std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const Model& model) {
+  if (options.lods.empty()) return default_budgets(static_cast<std::uint32_t>(model.positions.size()));
+  std::vector<std::uint32_t> budgets;
+  if (options.lods.size() == 1 && options.lods[0] == "none") return budgets;
+  for (const std::string& text : options.lods) {
+    std::uint32_t budget = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), budget);
+    if (fault != std::errc{} || end != text.data() + text.size() || budget < least_budget || budget > most_budget ||
+        (!budgets.empty() && budget >= budgets.back()) || budgets.size() == max_levels) {
+      throw CommandFailure(CommandFailure::bad_input,
+                           "--lods: '" + text + "' does not fit: at most " + std::to_string(max_levels) +
+                               " falling numbers of vertices, " + std::to_string(least_budget) + " or more, or none");
+    }
+    budgets.push_back(budget);
+  }
+  return budgets;
+}
+
+std::vector<FacePackage> encode(Head& head, const ParametrizeCommand& options) {
   PackageOptions package_options;
   package_options.name =
       options.name.empty() ? std::filesystem::path(options.head.model_path).stem().string() : options.name;
   package_options.weight_bits = options.weight_bits;
-  auto package = build_package(head.model, head.surface, head.rig, package_options);
-  if (!package) fail(options.head.model_path, package.error());
-  return std::move(*package);
+  LodOptions lod_options;
+  lod_options.budgets = budgets_of(options, head.model);
+  const auto poses = lod_options.budgets.empty() ? std::vector<LodPose>() : lod_poses(head.rig, head.model);
+  const auto labels = material_labels(head.model, head.surface, head.rig);
+  lod_options.poses = poses;
+  lod_options.labels = labels;
+  const auto levels = decimate(head.model, head.surface, head.rig, lod_options);
+  if (!levels) fail(options.head.model_path, levels.error());
+  if (!options.lods.empty()) {
+    for (const MissedBudget& miss : missed_budgets(lod_options.budgets, *levels)) head.warnings.push_back(miss.words);
+  }
+  auto packages = build_packages(head.model, head.surface, head.rig, *levels, package_options);
+  if (!packages) fail(options.head.model_path, packages.error());
+  return std::move(*packages);
 }
 
 void run(const ParametrizeCommand& options) {
   if (options.weights_json.empty() && options.out.empty()) {
     throw CommandFailure(CommandFailure::bad_input, "parametrize: give --weights-json, --out or both");
   }
-  const Head head = load_head(options.head);
+  Head head = load_head(options.head);
   if (!options.weights_json.empty()) {
     write_file(options.weights_json, [&head](std::ostream& out) { write_weights_json(head.rig, out); });
   }
-  if (!options.out.empty()) write_package(encode(head, options), options.out);
+  if (!options.out.empty()) {
+    const std::filesystem::path folder(options.out);
+    const auto packages = encode(head, options);
+    for (std::size_t lod = 0; lod < packages.size(); ++lod) {
+      write_package(packages[lod], lod == 0 ? folder : folder / ("lod" + std::to_string(lod)));
+    }
+  }
   print_warnings(head.warnings, options.head.quiet);
 }
 
@@ -77,6 +118,13 @@ void add_parametrize_command(CLI::App& app) {
       ->check(CLI::Range(8, 16))
       ->capture_default_str()
       ->envname("SEMBLANTE_WEIGHT_BITS");
+  command
+      ->add_option(
+          "--lods", options->lods,
+          "Levels of detail, into folders lod1, lod2, ... of --out: numbers of vertices, falling (10000,5000), or "
+          "none; else those worth having for a model of more than 10000")
+      ->delimiter(',')
+      ->envname("SEMBLANTE_LODS");
   command->callback([options] { run(*options); });
 }
 

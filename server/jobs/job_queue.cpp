@@ -182,6 +182,7 @@ Result<WorkerRequest> JobQueue::make_request(const JobRecord& job) const {
   request.weight_bits = job.weight_bits;
   request.frame = model->frame;
   request.frame_wish = model->frame_wish;
+  request.lods = job.lods;
   if (job.kind != JobKind::import) {
     request.points = store_.feature_points(job.model);
     request.parts = model->parts;
@@ -342,7 +343,8 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
     store_.finish_proposal(job, result.proposals);
     return;
   }
-  const store::PackageRecord package{job.id, store::timestamp_now(), job.metric, job.weights, job.weight_bits};
+  const store::PackageRecord package{job.id,      store::timestamp_now(), job.metric,
+                                     job.weights, job.weight_bits,        result.levels};
   const store::FrameUpdate frame{std::move(result.frame), result.turn, result.box_min, result.box_max};
   remove_orphans(store_.finish_parametrization(job, package, result.parts, result.warnings, result.findings,
                                                result.artefacts, frame));

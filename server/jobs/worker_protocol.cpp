@@ -27,6 +27,7 @@ json to_value(const WorkerResult& result) {
   if (result.frame) value["frame"] = store::frame_to_json(*result.frame, {});
   if (result.turn) value["turn"] = *result.turn;
   value["morph_targets"] = result.morph_targets;
+  value["levels"] = result.levels;
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
   return value;
@@ -45,6 +46,7 @@ WorkerResult result_from(const json& value) {
   if (value.contains("frame")) result.frame = store::frame_from_json(value["frame"]);
   if (value.contains("turn")) result.turn = value["turn"].get<store::Turn>();
   value.at("morph_targets").get_to(result.morph_targets);
+  value.at("levels").get_to(result.levels);
   result.artefacts = list_from<store::ArtefactRecord>(value.at("artefacts"), [](const json& item) {
     return store::ArtefactRecord{item.at("name"), "", 0, item.at("content_type")};
   });
@@ -76,6 +78,7 @@ std::string to_json(const WorkerRequest& request) {
                 {"points", request.points},
                 {"parts", request.parts}};
   if (request.frame) value["frame"] = store::frame_to_json(*request.frame, {});
+  if (request.lods) value["lods"] = *request.lods;
   return dump(value);
 }
 
@@ -95,6 +98,7 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
     request.weight_bits = value.at("weight_bits");
     if (value.contains("frame")) request.frame = store::frame_from_json(value["frame"]);
     request.frame_wish = store::wish_from_json(value.at("frame_wish"));
+    if (value.contains("lods")) request.lods = value["lods"].get<std::vector<std::uint32_t>>();
     value.at("points").get_to(request.points);
     value.at("parts").get_to(request.parts);
     return request;

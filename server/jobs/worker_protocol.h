@@ -27,6 +27,7 @@ struct WorkerRequest {
   std::vector<store::PartRecord> parts;           ///< of the import; roles set by the user are kept
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
+  std::optional<std::vector<std::uint32_t>> lods;  ///< as JobRecord::lods
 };
 
 /// The limits a worker puts on itself before it reads a byte of the model. 0: none.
@@ -47,6 +48,7 @@ struct WorkerResult {
   std::optional<ModelFrame> frame;
   std::optional<store::Turn> turn;  ///< from how it stood in the request to how it stands now; none: as it was
   std::vector<store::MorphTargetRecord> morph_targets;
+  std::vector<store::LevelRecord> levels;  ///< of the package, the full mesh first
   std::vector<store::ArtefactRecord> artefacts;
   std::vector<store::FeaturePointRecord> proposals;               ///< of a proposal: the points nobody placed
   std::vector<std::pair<std::string, std::string>> not_proposed;  ///< of a proposal: point, reason

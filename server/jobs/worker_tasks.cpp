@@ -11,6 +11,9 @@
 #include "core/doctor/examine.h"
 #include "core/geometry/surface.h"
 #include "core/import/import.h"
+#include "core/lod/decimate.h"
+#include "core/lod/level_error.h"
+#include "core/lod/lod_poses.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/place_feature_points.h"
@@ -18,6 +21,7 @@
 #include "protocol/cpp/rig_document.h"
 #include "server/jobs/standing.h"
 #include "server/package/package.h"
+#include "server/report/levels_json.h"
 #include "server/report/report_json.h"
 #include "server/store/frame_json.h"
 
@@ -139,6 +143,60 @@ void describe(const Model& model, WorkerResult& result) {
   result.box_max = {high.x, high.y, high.z};
 }
 
+/// Levels of detail, and what the report says of them.
+struct Levels {
+  std::vector<LevelOfDetail> levels;
+  std::string report;
+};
+
+Result<Levels> make_levels(const WorkerRequest& request, const Model& model, const Surface& surface, Rig& rig,
+                           const Progress& progress) {
+  Levels made;
+  LodOptions options;
+  options.budgets = request.lods ? *request.lods : default_budgets(static_cast<std::uint32_t>(model.positions.size()));
+  const auto poses = options.budgets.empty() ? std::vector<LodPose>() : lod_poses(rig, model);
+  const auto labels = options.budgets.empty() ? std::vector<std::uint8_t>() : material_labels(model, surface, rig);
+  options.poses = poses;
+  options.labels = labels;
+  options.progress = [&](double share) { return progress(0.74 + 0.08 * share, "levels of detail"); };
+  auto levels = decimate(model, surface, rig, options);
+  if (!levels) return levels.error();
+  made.levels = std::move(*levels);
+  std::vector<LevelError> errors;
+  for (const LevelOfDetail& level : made.levels) {
+    progress(0.82 + 0.04 * static_cast<double>(errors.size()) / static_cast<double>(made.levels.size()),
+             "measuring levels");
+    errors.push_back(measure_level(model, surface, level, poses));
+  }
+  const auto missed = missed_budgets(options.budgets, made.levels);
+  // Who asked for a level is told at once; who did not finds it in the report.
+  if (request.lods)
+    for (const MissedBudget& miss : missed) rig.warnings.push_back(miss.words);
+  const double eye_separation = 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0);
+  made.report = write_levels_of_detail(made.levels, errors, poses, eye_separation, missed);
+  return made;
+}
+
+/// The files of the next level.
+Status write_package(const WorkerRequest& request, WorkerResult& result, const FacePackage& package) {
+  const std::size_t lod = result.levels.size();
+  result.levels.push_back({package.vertices, package.triangles});
+  struct File {
+    std::string_view name, content_type;
+    const Artefact& artefact;
+  };
+  const File files[] = {{"mesh.drc", "application/octet-stream", package.mesh_drc},
+                        {"weights", "application/vnd.semblante.weights", package.weights},
+                        {"rig.json", "application/json", package.rig_json},
+                        {"face.glb", "model/gltf-binary", package.face_glb}};
+  for (const auto& file : files)
+    if (auto written = write_artefact(request, result, store::artefact_name(lod, file.name),
+                                      std::string(file.content_type), file.artefact.bytes);
+        !written)
+      return written;
+  return Unit{};
+}
+
 }  // namespace
 
 Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& progress) {
@@ -205,16 +263,19 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   const auto metric = parse_distance_metric(request.metric);
   if (!metric) return Error{ErrorCode::invalid_argument, "/metric", "there is no metric \"" + request.metric + "\""};
   options.metric = *metric;
-  options.progress = [&](double share, std::string_view stage) { return progress(0.08 + 0.72 * share, stage); };
+  options.progress = [&](double share, std::string_view stage) { return progress(0.08 + 0.64 * share, stage); };
   auto rig = parametrize(*model, surface, *points, options);
   if (!rig) return rig.error();
   rig->warnings.insert(rig->warnings.begin(), warnings.begin(), warnings.end());
 
-  progress(0.8, "report");
+  progress(0.72, "report");
   const auto report = examine(*model, surface, *rig, options.weights);
-  progress(0.82, "package");
-  const auto package = build_package(*model, surface, *rig, {request.name, request.weight_bits});
-  if (!package) return package.error();
+  auto levels = make_levels(request, *model, surface, *rig, progress);
+  if (!levels) return levels.error();
+  progress(0.86, "package");
+  const auto packages = build_packages(*model, surface, *rig, levels->levels, {request.name, request.weight_bits});
+  if (!packages) return packages.error();
+  const FacePackage* const package = &packages->front();
   progress(0.96, "writing");
   describe(*model, result);
   result.parts = records_of(rig->parts);
@@ -222,19 +283,11 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
       read_rig({reinterpret_cast<const char*>(package->rig_json.bytes.data()), package->rig_json.bytes.size()});
   if (!rig_json) return Error{ErrorCode::internal, rig_json.error().where, rig_json.error().message};
   result.warnings = rig_json->warnings;
-  struct File {
-    std::string name, content_type;
-    const Artefact& artefact;
-  };
-  const File files[] = {{"mesh.drc", "application/octet-stream", package->mesh_drc},
-                        {"weights", "application/vnd.semblante.weights", package->weights},
-                        {"rig.json", "application/json", package->rig_json},
-                        {"face.glb", "model/gltf-binary", package->face_glb}};
-  for (const auto& file : files)
-    if (auto written = write_artefact(request, result, file.name, file.content_type, file.artefact.bytes); !written)
-      return written.error();
-  const ReportSection frame = frame_section(request, result);
-  if (auto written = write_report_artefact(request, result, report, {&frame, 1}); !written) return written.error();
+  for (const FacePackage& level : *packages) {
+    if (auto written = write_package(request, result, level); !written) return written.error();
+  }
+  const ReportSection sections[] = {frame_section(request, result), {"levels_of_detail", std::move(levels->report)}};
+  if (auto written = write_report_artefact(request, result, report, sections); !written) return written.error();
   if (is_turned) {
     const auto preview = build_preview(*model, surface, rig->parts);
     if (!preview) return preview.error();

@@ -43,12 +43,18 @@ std::vector<std::uint8_t> lay_out(const std::vector<RigidMotion>& by_file_vertex
   return rigid;
 }
 
-std::vector<RigDocument::Point> name_points(const FeaturePointSet& points, std::span<const std::uint32_t> file_vertex) {
+/// A level may have another of the file vertices that are one surface vertex with the point's: then that is the one.
+std::vector<RigDocument::Point> name_points(const Surface& surface, const FeaturePointSet& points,
+                                            std::span<const std::uint32_t> file_vertex) {
   std::vector<RigDocument::Point> named;
   for (const FeaturePoint& point : points) {
     RigDocument::Point out{point.id, std::nullopt, point.position};
     if (point.vertex) {
-      const auto at = std::find(file_vertex.begin(), file_vertex.end(), point.vertex->value());
+      auto at = std::find(file_vertex.begin(), file_vertex.end(), point.vertex->value());
+      const SurfaceVertexId place = surface.surface_of[point.vertex->value()];
+      if (at == file_vertex.end())
+        at = std::find_if(file_vertex.begin(), file_vertex.end(),
+                          [&](std::uint32_t v) { return surface.surface_of[v] == place; });
       if (at != file_vertex.end()) out.vertex = static_cast<std::uint32_t>(at - file_vertex.begin());
     }
     named.push_back(out);
@@ -115,84 +121,165 @@ void describe_influence(const InfluenceTable& table, const Artefact& weights, in
       influenced == 0 ? 0.0 : static_cast<double>(table.rows.weights.size()) / static_cast<double>(influenced);
 }
 
-}  // namespace
+/// What a level takes from its model: all but the images, which can be large.
+Model model_of_level(const Model& model, const LevelOfDetail& level) {
+  Model out;
+  out.positions = model.positions;
+  out.uvs = model.uvs;
+  out.normals = model.normals;
+  out.primitives = model.primitives;
+  out.materials = model.materials;
+  apply_level(out, level);
+  return out;
+}
 
-Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
-                                  const PackageOptions& options) {
-  const MaterialAssignment materials = assign_materials(model, surface, rig.parts, eye_look(rig));
-  const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle);
-  auto encoded = encode_mesh(mesh);
-  if (!encoded) return encoded.error();
-  FacePackage package;
-  package.mesh_drc = make_artefact(std::move(encoded->bytes));
-
+/// A package in the making: rig.json of each level needs the sizes of all.
+struct Draft {
+  RenderMesh mesh;
+  EncodedMesh encoded;
   InfluenceTable table;
-  table.vertex_count = static_cast<std::uint32_t>(encoded->file_vertex.size());
-  table.mesh_sha256 = package.mesh_drc.sha256;
-  table.rows = lay_out(rig.influence, encoded->file_vertex);
-  table.rigid = lay_out(rig.rigid_of_vertex, encoded->file_vertex);
-  package.weights = make_artefact(encode_weights(table, {options.weight_bits}));
-  const auto decoded = decode_weights(package.weights.bytes);
+  std::vector<Part> parts;
+  double weight_error = 0.0;
+  FacePackage package;
+};
+
+Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, int weight_bits) {
+  Draft draft;
+  draft.mesh = std::move(mesh);
+  draft.parts = std::move(parts);
+  auto encoded = encode_mesh(draft.mesh);
+  if (!encoded) return encoded.error();
+  draft.encoded = std::move(*encoded);
+  draft.package.mesh_drc = make_artefact(std::move(draft.encoded.bytes));
+  draft.package.vertices = static_cast<std::uint32_t>(draft.encoded.file_vertex.size());
+  draft.package.triangles = static_cast<std::uint32_t>(draft.encoded.triangle_count);
+  draft.table.vertex_count = draft.package.vertices;
+  draft.table.mesh_sha256 = draft.package.mesh_drc.sha256;
+  draft.table.rows = lay_out(rig.influence, draft.encoded.file_vertex);
+  draft.table.rigid = lay_out(rig.rigid_of_vertex, draft.encoded.file_vertex);
+  draft.package.weights = make_artefact(encode_weights(draft.table, {weight_bits}));
+  const auto decoded = decode_weights(draft.package.weights.bytes);
   if (!decoded) return decoded.error();
+  draft.weight_error = max_quantization_error(draft.table, *decoded);
+  return draft;
+}
 
-  for (const Image& image : model.images) package.images.push_back(make_artefact(image.bytes));
-
+/// What all levels say alike.
+RigDocument common_document(const Model& model, const Rig& rig, const MaterialAssignment& materials,
+                            const std::vector<Artefact>& images, const std::string& name) {
   RigDocument document;
-  document.name = options.name;
-  document.mesh.sha256 = package.mesh_drc.sha256;
-  document.mesh.vertices = table.vertex_count;
-  document.mesh.triangles = static_cast<std::uint32_t>(encoded->triangle_count);
-  document.mesh.bytes = package.mesh_drc.bytes.size();
-  document.mesh.attributes.position = encoded->attributes.position;
-  document.mesh.attributes.normal = encoded->attributes.normal;
-  document.mesh.attributes.uv = encoded->attributes.uv;
-  document.mesh.attributes.material = encoded->attributes.material;
-  describe_influence(table, package.weights, options.weight_bits, max_quantization_error(table, *decoded),
-                     document.weights);
+  document.name = name;
   document.fapu = rig.fapu;
-  document.feature_points = name_points(rig.points, encoded->file_vertex);
   document.eye_pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
   document.head_pivot = rig.head_pivot;
-  for (const Part& part : rig.parts) {
-    document.parts.push_back({part.name, part.role, part.vertex_count, part.triangle_count});
-  }
   for (std::size_t v = 0; v < viseme_count; ++v) document.visemes[v] = on_this_face(viseme_library()[v], rig);
   for (std::size_t e = 0; e < expression_count; ++e)
     document.expressions[e] = on_this_face(expression_library()[e], rig);
-  document.bounds_min = document.bounds_max = mesh.positions[0];
-  for (const glm::vec3& p : mesh.positions) {
-    document.bounds_min = glm::min(document.bounds_min, p);
-    document.bounds_max = glm::max(document.bounds_max, p);
-  }
-  for (const Material& material : materials.materials) {
-    document.materials.push_back(describe(material, package.images));
-  }
+  for (const Material& material : materials.materials) document.materials.push_back(describe(material, images));
   for (std::size_t i = 0; i < model.images.size(); ++i) {
-    document.images.push_back({package.images[i].sha256, model.images[i].mime_type, package.images[i].bytes.size()});
+    document.images.push_back({images[i].sha256, model.images[i].mime_type, images[i].bytes.size()});
   }
   document.warnings = model.warnings;
   document.warnings.insert(document.warnings.end(), rig.warnings.begin(), rig.warnings.end());
+  return document;
+}
+
+/// What is of this level alone.
+void describe_level(const Draft& draft, const Surface& surface, const Rig& rig, int weight_bits,
+                    RigDocument& document) {
+  document.mesh.sha256 = draft.package.mesh_drc.sha256;
+  document.mesh.vertices = draft.package.vertices;
+  document.mesh.triangles = draft.package.triangles;
+  document.mesh.bytes = draft.package.mesh_drc.bytes.size();
+  document.mesh.attributes.position = draft.encoded.attributes.position;
+  document.mesh.attributes.normal = draft.encoded.attributes.normal;
+  document.mesh.attributes.uv = draft.encoded.attributes.uv;
+  document.mesh.attributes.material = draft.encoded.attributes.material;
+  describe_influence(draft.table, draft.package.weights, weight_bits, draft.weight_error, document.weights);
+  document.feature_points = name_points(surface, rig.points, draft.encoded.file_vertex);
+  for (const Part& part : draft.parts) {
+    document.parts.push_back({part.name, part.role, part.vertex_count, part.triangle_count});
+  }
+  document.bounds_min = document.bounds_max = draft.mesh.positions[0];
+  for (const glm::vec3& p : draft.mesh.positions) {
+    document.bounds_min = glm::min(document.bounds_min, p);
+    document.bounds_max = glm::max(document.bounds_max, p);
+  }
+}
+
+Status finish(Draft& draft, const Model& model, const Rig& rig, const MaterialAssignment& materials,
+              RigDocument document) {
   const std::string rig_json = write_rig(document);
-  package.rig_json = make_artefact({rig_json.begin(), rig_json.end()});
+  draft.package.rig_json = make_artefact({rig_json.begin(), rig_json.end()});
 
   // face.glb numbers its vertices for itself, so its copy of the rig must not point into mesh.drc.
   for (RigDocument::Point& point : document.feature_points) point.vertex.reset();
   GlbFace face;
-  const WeightTable<float> render_rows = lay_out(rig.influence, mesh.file_vertex);
-  const std::vector<std::uint8_t> render_rigid = lay_out(rig.rigid_of_vertex, mesh.file_vertex);
+  const WeightTable<float> render_rows = lay_out(rig.influence, draft.mesh.file_vertex);
+  const std::vector<std::uint8_t> render_rigid = lay_out(rig.rigid_of_vertex, draft.mesh.file_vertex);
   face.rows = &render_rows;
   face.rigid = render_rigid;
   face.rig_json = write_rig(document);
-  auto glb = write_face_glb(mesh, materials.materials, model.images, face);
+  auto glb = write_face_glb(draft.mesh, materials.materials, model.images, face);
   if (!glb) return glb.error();
-  package.face_glb = make_artefact(std::move(*glb));
-  return package;
+  draft.package.face_glb = make_artefact(std::move(*glb));
+  return Unit{};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> material_labels(const Model& model, const Surface& surface, const Rig& rig) {
+  return assign_materials(model, surface, rig.parts, eye_look(rig)).of_triangle;
+}
+
+Result<std::vector<FacePackage>> build_packages(const Model& model, const Surface& surface, const Rig& rig,
+                                                std::span<const LevelOfDetail> levels, const PackageOptions& options) {
+  const MaterialAssignment materials = assign_materials(model, surface, rig.parts, eye_look(rig));
+  const std::vector<glm::vec3> normals = smooth_normals(model, surface);
+  std::vector<Draft> drafts;
+  auto full =
+      encode(make_render_mesh(model, surface, materials.of_triangle, normals), rig, rig.parts, options.weight_bits);
+  if (!full) return full.error();
+  drafts.push_back(std::move(*full));
+  for (const LevelOfDetail& level : levels) {
+    std::vector<std::uint8_t> of_triangle;
+    for (const std::uint32_t source : level.source_triangles) of_triangle.push_back(materials.of_triangle[source]);
+    auto draft = encode(make_render_mesh(model_of_level(model, level), surface, of_triangle, normals), rig,
+                        parts_of_level(rig, level), options.weight_bits);
+    if (!draft) return draft.error();
+    drafts.push_back(std::move(*draft));
+  }
+
+  for (const Image& image : model.images) drafts[0].package.images.push_back(make_artefact(image.bytes));
+  RigDocument common = common_document(model, rig, materials, drafts[0].package.images, options.name);
+  if (!levels.empty()) {
+    for (const Draft& draft : drafts) {
+      common.levels.push_back({draft.package.vertices, draft.package.triangles,
+                               draft.package.mesh_drc.bytes.size() + draft.package.weights.bytes.size()});
+    }
+  }
+  std::vector<FacePackage> packages;
+  for (Draft& draft : drafts) {
+    RigDocument document = common;
+    document.lod = static_cast<std::uint32_t>(packages.size());
+    describe_level(draft, surface, rig, options.weight_bits, document);
+    if (const Status made = finish(draft, model, rig, materials, std::move(document)); !made) return made.error();
+    packages.push_back(std::move(draft.package));
+  }
+  return packages;
+}
+
+Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
+                                  const PackageOptions& options) {
+  auto packages = build_packages(model, surface, rig, {}, options);
+  if (!packages) return packages.error();
+  return std::move(packages->front());
 }
 
 Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
                                                 std::span<const Part> parts) {
   const MaterialAssignment materials = assign_materials(model, surface, parts);
-  const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle);
+  const RenderMesh mesh = make_render_mesh(model, surface, materials.of_triangle, smooth_normals(model, surface));
   std::vector<std::uint32_t> part_of;
   part_of.reserve(mesh.file_vertex.size());
   for (const std::uint32_t vertex : mesh.file_vertex)

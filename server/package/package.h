@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/surface.h"
+#include "core/lod/decimate.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
@@ -27,6 +28,8 @@ struct Artefact {
 /// What a client fetches to animate one face (protocol/SPEC.md). `weights` names the mesh it belongs to by hash;
 /// `rig_json` names both.
 struct FacePackage {
+  std::uint32_t vertices = 0;   ///< as mesh.drc decodes
+  std::uint32_t triangles = 0;  ///< likewise
   Artefact mesh_drc;
   Artefact weights;
   Artefact rig_json;
@@ -38,6 +41,13 @@ struct FacePackage {
 /// and lays the weight table out in the decoded order. `rig` is over the file vertices of `model`.
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options);
+
+/// The same of the model (first) and of each of its levels; their rig.json name one another. Images are with the first.
+Result<std::vector<FacePackage>> build_packages(const Model& model, const Surface& surface, const Rig& rig,
+                                                std::span<const LevelOfDetail> levels, const PackageOptions& options);
+
+/// The material of each triangle as a package has it: LodOptions::labels, so that painted irises stay round in levels.
+std::vector<std::uint8_t> material_labels(const Model& model, const Surface& surface, const Rig& rig);
 
 /// preview.glb: the model as imported, to look at and to mark feature points on; every vertex knows its number in the
 /// file and its part. `parts` (by PartId) may be empty.

@@ -21,7 +21,8 @@ struct CornerHash {
   }
 };
 
-/// One normal per surface vertex: the sum of its triangles' cross products, whose lengths are twice the areas.
+}  // namespace
+
 std::vector<glm::vec3> smooth_normals(const Model& model, const Surface& surface) {
   std::vector<glm::dvec3> sums(surface.vertex_count(), glm::dvec3(0.0));
   for (const Triangle& t : model.triangles) {
@@ -40,14 +41,11 @@ std::vector<glm::vec3> smooth_normals(const Model& model, const Surface& surface
   return normals;
 }
 
-}  // namespace
-
 RenderMesh make_render_mesh(const Model& model, const Surface& surface,
-                            std::span<const std::uint8_t> triangle_materials) {
+                            std::span<const std::uint8_t> triangle_materials, std::span<const glm::vec3> smooth) {
   RenderMesh mesh;
   const bool has_uvs = !model.uvs.empty() && !model.uv_triangles.empty();
   const bool has_normals = !model.normals.empty() && !model.normal_triangles.empty();
-  const std::vector<glm::vec3> smooth = smooth_normals(model, surface);
 
   std::unordered_map<Corner, std::uint32_t, CornerHash> index_of;
   index_of.reserve(model.positions.size() * 5 / 4);

@@ -53,4 +53,27 @@ ProposalRecord read_proposal(std::string_view text) {
   }
 }
 
+std::string write_levels(const std::vector<LevelRecord>& levels) { return nlohmann::json(levels).dump(); }
+
+std::vector<LevelRecord> read_levels(std::string_view text) {
+  try {
+    return nlohmann::json::parse(text).get<std::vector<LevelRecord>>();
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+std::string write_lods(const std::optional<std::vector<std::uint32_t>>& lods) {
+  return lods ? nlohmann::json(*lods).dump() : std::string();
+}
+
+std::optional<std::vector<std::uint32_t>> read_lods(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return nlohmann::json::parse(text).get<std::vector<std::uint32_t>>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace semblante::store

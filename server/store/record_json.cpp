@@ -38,6 +38,15 @@ void from_json(const nlohmann::json& json, FindingCounts& counts) {
   json.at("notes").get_to(counts.notes);
 }
 
+void to_json(nlohmann::json& json, const LevelRecord& level) {
+  json = {{"vertices", level.vertices}, {"triangles", level.triangles}};
+}
+
+void from_json(const nlohmann::json& json, LevelRecord& level) {
+  json.at("vertices").get_to(level.vertices);
+  json.at("triangles").get_to(level.triangles);
+}
+
 void to_json(nlohmann::json& json, const ProposalRecord& proposal) {
   json = {
       {"method", proposal.method}, {"confidence", proposal.confidence}, {"expected_error", proposal.expected_error}};

@@ -23,4 +23,7 @@ void from_json(const nlohmann::json& json, ProposalRecord& proposal);
 void to_json(nlohmann::json& json, const FeaturePointRecord& point);
 void from_json(const nlohmann::json& json, FeaturePointRecord& point);
 
+void to_json(nlohmann::json& json, const LevelRecord& level);
+void from_json(const nlohmann::json& json, LevelRecord& level);
+
 }  // namespace semblante::store

@@ -50,6 +50,10 @@ std::string_view to_string(JobState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
+std::string artefact_name(std::size_t lod, std::string_view name) {
+  return lod == 0 ? std::string(name) : "lod" + std::to_string(lod) + "." + std::string(name);
+}
+
 std::string timestamp_now() {
   const auto now = std::chrono::system_clock::now();
   const std::time_t seconds = std::chrono::system_clock::to_time_t(now);

@@ -54,12 +54,23 @@ struct ArtefactRecord {
   bool operator==(const ArtefactRecord&) const = default;
 };
 
+/// One level of detail of a package, 0 the full mesh; its artefacts are named by artefact_name().
+struct LevelRecord {
+  std::uint32_t vertices = 0, triangles = 0;  ///< as mesh.drc decodes
+
+  bool operator==(const LevelRecord&) const = default;
+};
+
+/// The name under which an artefact of a level is kept: "mesh.drc", "lod1.mesh.drc".
+std::string artefact_name(std::size_t lod, std::string_view name);
+
 /// The package a parametrization made.
 struct PackageRecord {
   std::string parametrization;  ///< id of the job
   std::string created;
   std::string metric, weights;
   int weight_bits = 12;
+  std::vector<LevelRecord> levels;  ///< by lod; empty in a store of before there were any: the full mesh alone
 
   bool operator==(const PackageRecord&) const = default;
 };
@@ -125,8 +136,9 @@ struct JobRecord {
   std::string problem;  ///< JSON of the problem document, or empty
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
-  std::uint32_t attempts = 0;  ///< how often a worker began it
-  std::string result;          ///< JSON of what it has to say beside what it changed, or empty
+  std::optional<std::vector<std::uint32_t>> lods;  ///< budgets of levels, falling; empty: those by default
+  std::uint32_t attempts = 0;                      ///< how often a worker began it
+  std::string result;                              ///< JSON of what it has to say beside what it changed, or empty
 
   bool operator==(const JobRecord&) const = default;
 };

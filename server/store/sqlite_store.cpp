@@ -49,6 +49,8 @@ CREATE TABLE idempotency(
 constexpr std::array migrations = {
     first_schema,
     "ALTER TABLE feature_points ADD COLUMN proposal TEXT; ALTER TABLE jobs ADD COLUMN result TEXT NOT NULL DEFAULT ''",
+    "ALTER TABLE packages ADD COLUMN levels TEXT NOT NULL DEFAULT '[]';"
+    "ALTER TABLE jobs ADD COLUMN lods TEXT NOT NULL DEFAULT ''",
 };
 constexpr int schema_version = migrations.size();
 
@@ -56,7 +58,7 @@ constexpr const char* model_columns =
     "SELECT m.id, m.name, m.state, m.problem, m.created, m.updated, m.revision, m.file_name, m.format, "
     "m.source_bytes, m.source_sha256, m.vertices, m.triangles, m.facts, m.points_revision, "
     "(SELECT count(*) FROM feature_points f WHERE f.model = m.id), "
-    "p.parametrization, p.created, p.metric, p.weights, p.weight_bits "
+    "p.parametrization, p.created, p.metric, p.weights, p.weight_bits, p.levels "
     "FROM models m LEFT JOIN packages p ON p.model = m.id ";
 
 ModelRecord read_model(const Statement& row) {
@@ -78,15 +80,19 @@ ModelRecord read_model(const Statement& row) {
   model.feature_points_revision = static_cast<std::uint64_t>(row.integer(14));
   model.feature_point_count = static_cast<std::uint32_t>(row.integer(15));
   if (!row.is_null(16))
-    model.package =
-        PackageRecord{row.text(16), row.text(17), row.text(18), row.text(19), static_cast<int>(row.integer(20))};
+    model.package = PackageRecord{row.text(16),
+                                  row.text(17),
+                                  row.text(18),
+                                  row.text(19),
+                                  static_cast<int>(row.integer(20)),
+                                  read_levels(row.text(21))};
   return model;
 }
 
 constexpr const char* job_columns =
     "SELECT id, model, kind, state, progress, stage, created, updated, problem, metric, weights, weight_bits, "
     "attempts, "
-    "result FROM jobs ";
+    "result, lods FROM jobs ";
 
 JobRecord read_job(const Statement& row) {
   JobRecord job;
@@ -104,6 +110,7 @@ JobRecord read_job(const Statement& row) {
   job.weight_bits = static_cast<int>(row.integer(11));
   job.attempts = static_cast<std::uint32_t>(row.integer(12));
   job.result = row.text(13);
+  job.lods = read_lods(row.text(14));
   return job;
 }
 
@@ -371,8 +378,9 @@ class SqliteStore : public Store {
     // A model that was turned has a new preview and new positions, which outlive the package.
     for (const auto& artefact : artefacts)
       insert_artefact(job.model, artefact, artefact.name != "preview.glb" && artefact.name != "positions");
-    Statement(db_, "INSERT OR REPLACE INTO packages VALUES(?,?,?,?,?,?)")
-        .bind(job.model, package.parametrization, package.created, package.metric, package.weights, package.weight_bits)
+    Statement(db_, "INSERT OR REPLACE INTO packages VALUES(?,?,?,?,?,?,?)")
+        .bind(job.model, package.parametrization, package.created, package.metric, package.weights, package.weight_bits,
+              write_levels(package.levels))
         .run();
     // A role that a user set while the job ran stays the user's.
     for (std::size_t i = 0; i < parts.size() && i < model->parts.size(); ++i)
@@ -528,9 +536,10 @@ class SqliteStore : public Store {
   }
 
   void insert_job(const JobRecord& job) {
-    Statement(db_, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+    Statement(db_, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(job.id, job.model, static_cast<int>(job.kind), static_cast<int>(job.state), job.progress, job.stage,
-              job.created, job.updated, job.problem, job.metric, job.weights, job.weight_bits, job.attempts, job.result)
+              job.created, job.updated, job.problem, job.metric, job.weights, job.weight_bits, job.attempts, job.result,
+              write_lods(job.lods))
         .run();
   }
 

@@ -178,10 +178,13 @@ std::vector<glm::vec3> Face::positions() const {
   return positions;
 }
 
-Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model) {
+Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model, const LevelChoice& level) {
+  const std::string query = level.lod            ? "?lod=" + std::to_string(*level.lod)
+                            : level.max_vertices ? "?max_vertices=" + std::to_string(*level.max_vertices)
+                                                 : "";
   const std::string base = "/v1/models/" + escape_segment(model);
   PackageBytes bytes;
-  auto rig_json = http.fetch(base + "/rig.json", max_rig_bytes);
+  auto rig_json = http.fetch(base + "/rig.json" + query, max_rig_bytes);
   if (!rig_json) {
     return std::move(rig_json).error();
   }
@@ -193,11 +196,11 @@ Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view mode
   if (rig->mesh.bytes > max_mesh_bytes || rig->weights.bytes > max_mesh_bytes) {
     return Error{ErrorCode::too_large, "rig.json", "it announces a mesh or weights of more than 128 MiB"};
   }
-  auto mesh_drc = http.fetch(base + "/mesh.drc", rig->mesh.bytes);
+  auto mesh_drc = http.fetch(base + "/mesh.drc" + query, rig->mesh.bytes);
   if (!mesh_drc) {
     return std::move(mesh_drc).error();
   }
-  auto weights = http.fetch(base + "/weights", rig->weights.bytes);
+  auto weights = http.fetch(base + "/weights" + query, rig->weights.bytes);
   if (!weights) {
     return std::move(weights).error();
   }
@@ -222,9 +225,9 @@ std::vector<std::string> fetch_images(const HttpClient& http, Face& face) {
   return warnings;
 }
 
-Result<Face> load_face(const HttpClient& http, std::string_view model) {
+Result<Face> load_face(const HttpClient& http, std::string_view model, const LevelChoice& level) {
   for (bool again : {true, false}) {
-    auto bytes = fetch_package(http, model);
+    auto bytes = fetch_package(http, model, level);
     auto face = bytes ? Face::create(*bytes) : Result<Face>(bytes.error());
     if (face || !again || face.error().code != ErrorCode::mismatch) {
       return face;

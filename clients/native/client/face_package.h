@@ -55,14 +55,20 @@ class Face {
   std::unique_ptr<semblante_head, Destroy> head_;
 };
 
+/// Which level of detail to fetch. At most one of the two; neither: the full mesh.
+struct LevelChoice {
+  std::optional<std::uint32_t> lod;           ///< by its number; 0: the full mesh
+  std::optional<std::uint32_t> max_vertices;  ///< the largest of no more; the smallest, when all have more
+};
+
 /// The three artefacts of a model's newest package. Sizes are bounded by what rig.json announces. Errors as
 /// HttpClient::fetch; too_large when the announced sizes are beyond reason.
-Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model);
+Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model, const LevelChoice& level = {});
 
 /// Fetches the images that the face's materials use. What cannot be had is left out; the words say so.
 std::vector<std::string> fetch_images(const HttpClient& http, Face& face);
 
 /// fetch_package and Face::create; once more from the start when a new package replaced the old one in between.
-Result<Face> load_face(const HttpClient& http, std::string_view model);
+Result<Face> load_face(const HttpClient& http, std::string_view model, const LevelChoice& level = {});
 
 }  // namespace semblante::client

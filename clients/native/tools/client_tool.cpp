@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -18,6 +19,7 @@ struct Arguments {
   std::string url;
   std::string stream = "demo";
   std::string model;
+  std::optional<std::uint32_t> max_vertices;
   std::string role = "subscribe";
   std::filesystem::path frames_file;
   std::size_t frames = 25;
@@ -116,7 +118,7 @@ Status subscribe(const client::Url& url, const Arguments& arguments) {
   if (model.empty()) {
     return Error{ErrorCode::missing, arguments.stream, "the stream suggests no model; name one with --model"};
   }
-  auto face = client::load_face(http, model);
+  auto face = client::load_face(http, model, {.lod = std::nullopt, .max_vertices = arguments.max_vertices});
   if (!face) {
     return std::move(face).error();
   }
@@ -161,6 +163,8 @@ int main(int argc, char** argv) {
   app.add_option("url", arguments.url, "http://HOST:PORT of the server")->required();
   app.add_option("-s,--stream", arguments.stream, "id of the stream")->capture_default_str();
   app.add_option("-m,--model", arguments.model, "id of the model; without it the one the stream suggests");
+  app.add_option("--max-vertices", arguments.max_vertices, "take the level of detail of at most that many vertices")
+      ->check(CLI::PositiveNumber);
   app.add_option("-n,--frames", arguments.frames, "how many frames to write")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();

@@ -182,6 +182,37 @@ TEST(NativeClient, PublishingAPerformance_ReachesASubscriber) {
   EXPECT_NE(std::find(jaws.begin(), jaws.end(), 40.0F), jaws.end());
 }
 
+TEST(NativeClient, ALevelOfDetail_AnimatesLikeTheFullMesh) {
+  const SampleServer server;
+  const auto full = client::load_face(server.http(), "sample");
+  const auto light = client::load_face(server.http(), "sample", {.lod = std::nullopt, .max_vertices = 5000});
+  ASSERT_TRUE(full && light);
+  EXPECT_EQ(full->rig().lod, 0U);
+  EXPECT_EQ(light->rig().lod, 1U);
+  EXPECT_LE(light->rig().mesh.vertices, 5000U);
+  semblante_frame smile{};
+  smile.expression1 = 1;
+  smile.intensity1 = SEMBLANTE_BLEND_MAX;
+  for (const client::Face* face : {&*full, &*light}) {
+    ASSERT_EQ(semblante_head_set_interpolated(face->head(), &smile, &smile, 0.0F), SEMBLANTE_OK);
+  }
+  const auto fine = full->positions();
+  const auto coarse = light->positions();
+  const float quantum = 2e-3F * glm::distance(full->rig().bounds_min, full->rig().bounds_max);
+  float moved = 0.0F;
+  for (std::size_t i = 0; i < full->rig().feature_points.size(); ++i) {
+    const auto& point = full->rig().feature_points[i];
+    const auto& same = light->rig().feature_points[i];
+    ASSERT_EQ(point.vertex.has_value(), same.vertex.has_value()) << to_string(point.id);
+    if (!point.vertex) {
+      continue;
+    }
+    EXPECT_LT(glm::distance(fine[*point.vertex], coarse[*same.vertex]), quantum) << to_string(point.id);
+    moved = std::max(moved, glm::distance(coarse[*same.vertex], same.position));
+  }
+  EXPECT_GT(moved, 3.0F * quantum) << "a smile moves the lips";
+}
+
 TEST(NativeClient, WrongIdsAndMixedPackages_AreRefusedWithTheReason) {
   const SampleServer server;
   const auto no_model = client::load_face(server.http(), "nobody");

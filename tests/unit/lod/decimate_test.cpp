@@ -409,10 +409,11 @@ TEST(Decimate, StopsOnRequest) {
   EXPECT_EQ(levels.error().code, ErrorCode::cancelled);
 }
 
-TEST(DefaultBudgets, SaveAQuarterAtLeast) {
-  EXPECT_EQ(default_budgets(28000), (std::vector<std::uint32_t>{20000, 10000, 5000, 2500}));
-  EXPECT_EQ(default_budgets(22000), (std::vector<std::uint32_t>{10000, 5000, 2500}));
-  EXPECT_TRUE(default_budgets(3000).empty());
+TEST(DefaultBudgets, SaveHalfAtLeastAndLeaveLightModelsAlone) {
+  EXPECT_EQ(default_budgets(500000), (std::vector<std::uint32_t>{50000, 20000, 10000, 5000, 2500}));
+  EXPECT_EQ(default_budgets(28000), (std::vector<std::uint32_t>{10000, 5000, 2500}));
+  EXPECT_EQ(default_budgets(10001), (std::vector<std::uint32_t>{5000, 2500}));
+  EXPECT_TRUE(default_budgets(10000).empty());
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ Rig make_rig(const Model& model) {
 }
 
 RenderMesh render(const Model& model, const Surface& surface) {
-  return make_render_mesh(model, surface, assign_materials(model, surface, {}).of_triangle);
+  return make_render_mesh(model, surface, assign_materials(model, surface, {}).of_triangle,
+                          smooth_normals(model, surface));
 }
 
 TEST(RenderMesh, Corners_AtASeam_AreSplitOnce) {

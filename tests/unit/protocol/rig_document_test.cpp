@@ -120,6 +120,30 @@ TEST(RigDocument, RoundTrip_GivesTheSameText) {
   EXPECT_EQ(rig->visemes[3].displacements[1].by, glm::vec3(1, 2, 3));
 }
 
+TEST(RigDocument, Levels_AreThereOnlyWhereThereAreSeveral) {
+  RigDocument rig = sample();
+  EXPECT_FALSE(json::parse(write_rig(rig)).contains("levels"));
+  rig.levels = {{100, 180, 5900}, {40, 70, 2000}};
+  rig.lod = 1;
+  const json written = json::parse(write_rig(rig));
+  const auto read = read_rig(written.dump());
+  ASSERT_TRUE(read.ok()) << read.error().where;
+  EXPECT_EQ(read->lod, 1U);
+  ASSERT_EQ(read->levels.size(), 2U);
+  EXPECT_EQ(read->levels[1].vertices, 40U);
+  EXPECT_EQ(read->levels[1].bytes, 2000U);
+
+  json beyond = written;
+  beyond["lod"] = 2;
+  EXPECT_EQ(read_rig(beyond.dump()).error().where, "/lod");
+  json unnamed = written;
+  unnamed.erase("lod");
+  EXPECT_EQ(read_rig(unnamed.dump()).error().where, "/lod");
+  json odd = written;
+  odd["levels"][1]["bytes"] = -1;
+  EXPECT_EQ(read_rig(odd.dump()).error().where, "/levels/1/bytes");
+}
+
 TEST(RigDocument, Read_UnknownMembers_AreSkipped) {
   json changed = json::parse(write_rig(sample()));
   changed["levels_of_detail"] = {1, 2};

@@ -185,7 +185,7 @@ TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   job.state = JobState::done;
   std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
                                      {"eye", "left_eye", false, 4, 2, {}, {}}};
-  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, guesses, {}, std::nullopt,
+  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12, {}}, guesses, {}, std::nullopt,
                                              {{"mesh.drc", std::string(64, 'd'), 3, "x"}}, {}));
   const auto model = *store_->model("m");
   EXPECT_EQ(model.name, "Renamed");
@@ -203,7 +203,7 @@ TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
     job.model = "m";
     job.kind = JobKind::parametrize;
     store_->create_job(job, std::nullopt);
-    return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12}, {}, {}, std::nullopt,
+    return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12, {}}, {}, {}, std::nullopt,
                                            {{"mesh.drc", std::string(64, hash), 3, "x"}}, {});
   };
   EXPECT_TRUE(finish("one", 'd').empty());
@@ -220,7 +220,7 @@ TEST_F(StoreTest, ReportOfTheParametrization_ReplacesThatOfTheImport) {
   job.model = "m";
   job.kind = JobKind::parametrize;
   store_->create_job(job, std::nullopt);
-  const auto freed = store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, {}, {}, FindingCounts{},
+  const auto freed = store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12, {}}, {}, {}, FindingCounts{},
                                                     {{"report.json", std::string(64, 'e'), 3, "application/json"}}, {});
   EXPECT_EQ(freed, std::vector<std::string>{std::string(64, 'c')});
   EXPECT_EQ(store_->artefact("m", "report.json")->sha256, std::string(64, 'e'));
@@ -288,7 +288,7 @@ TEST_F(StoreTest, SecondImport_TurnsMarkedPositions_KeepsRolesAndWish_DropsThePa
   import(job);
   ASSERT_TRUE(store_->edit_model("m", std::nullopt, {{1, "right_eye"}}, store_->model("m")->revision));
   ASSERT_TRUE(store_->put_feature_points("m", {{"2.1", 3, std::nullopt}, {"7.1", std::nullopt, {{1.0, 2.0, 3.0}}}}, 0));
-  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12}, {}, {}, std::nullopt,
+  ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12, {}}, {}, {}, std::nullopt,
                                              {{"mesh.drc", std::string(64, 'd'), 5, "x"}}, {}));
   const FrameWish wish{std::nullopt, Direction::plus_z, std::nullopt};
   job.id = "second";
@@ -327,6 +327,54 @@ TEST_F(StoreTest, FailedImport_FailsItsModel) {
   store_->finish_without_result(job);
   EXPECT_EQ(store_->model("m")->state, ModelState::failed);
   EXPECT_EQ(store_->model("m")->problem, job.problem);
+}
+
+TEST_F(StoreTest, LevelsAndWhatWasAskedFor_AreKept) {
+  import(add("m"));
+  for (const auto& lods : {std::optional<std::vector<std::uint32_t>>(),
+                           {std::vector<std::uint32_t>{}},
+                           {std::vector<std::uint32_t>{10000, 5000}}}) {
+    JobRecord job;
+    job.id = random_id();
+    job.model = "m";
+    job.kind = JobKind::parametrize;
+    job.lods = lods;
+    store_->create_job(job, std::nullopt);
+    reopen();
+    EXPECT_EQ(store_->job(job.id)->lods, lods);
+    PackageRecord package;
+    package.parametrization = job.id;
+    package.levels = {{26719, 52220}, {9998, 17000}};
+    ASSERT_TRUE(store_->finish_parametrization(job, package, {}, {}, std::nullopt, {}, {}));
+    EXPECT_EQ(store_->model("m")->package, package);
+  }
+}
+
+TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
+  import(add("m"));
+  JobRecord job;
+  job.id = "p";
+  job.model = "m";
+  job.kind = JobKind::parametrize;
+  store_->create_job(job, std::nullopt);
+  ASSERT_TRUE(store_->finish_parametrization(job, PackageRecord{"p", "now", "edge", "paper", 12, {}}, {}, {},
+                                             std::nullopt, {}, {}));
+  store_.reset();
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database,
+                         "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
+                         "PRAGMA user_version=2",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  reopen();
+  EXPECT_TRUE(store_->model("m")->package->levels.empty());
+  EXPECT_FALSE(store_->job("p")->lods);
+  job.id = "q";
+  job.lods = {500};
+  store_->create_job(job, std::nullopt);
+  EXPECT_EQ(store_->job("q")->lods, job.lods);
 }
 
 TEST_F(StoreTest, LaterVersionOfTheFile_IsRefused) {

@@ -17,7 +17,7 @@ function server(replaced: Record<string, (nth: number) => Response> = {}): { fet
   const answer = (input: unknown): Promise<Response> => {
     const url = String(input);
     requests.push(url);
-    const name = url.split('/').at(-1)!;
+    const name = url.split('/').at(-1)!.replace(/\?.*/, '');
     const nth = requests.filter((request) => request === url).length;
     return Promise.resolve(replaced[name]?.(nth) ?? new Response(files[name] as Uint8Array<ArrayBuffer>));
   };
@@ -86,6 +86,18 @@ describe('loadFace', () => {
     expect([face.influence.rowPoints[row], face.influence.rowWeights[row]]).toEqual([0, 1]);
     const at = Array.from(face.mesh.positions.subarray(chin.vertex! * 3, chin.vertex! * 3 + 3));
     at.forEach((coordinate, axis) => expect(coordinate).toBeCloseTo(chin.position[axis]!, 3));
+  });
+
+  it('Load_ALevelOfDetail_AsksForItInEveryPart', async () => {
+    const ends = async (level: { maxVertices: number } | { lod: number }): Promise<string[]> => {
+      const { fetch, requests } = server();
+      await loadFace('http://x', 'm', { draco, fetch, level });
+      return requests.map((url) => url.replace(/.*models/, '')).sort();
+    };
+    expect(await ends({ maxVertices: 8000 })).toEqual(
+      ['mesh.drc', 'rig.json', 'weights'].map((name) => `/m/${name}?max_vertices=8000`),
+    );
+    expect(await ends({ lod: 2 })).toEqual(['mesh.drc', 'rig.json', 'weights'].map((name) => `/m/${name}?lod=2`));
   });
 
   it('Load_PackageReplacedInBetween_AsksOnceMore', async () => {
