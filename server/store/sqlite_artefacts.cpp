@@ -1,0 +1,70 @@
+#include "server/store/sqlite_artefacts.h"
+
+namespace semblante::store {
+namespace {
+
+ArtefactRecord read_artefact(const Statement& row) {
+  return {row.text(0), row.text(1), static_cast<std::uint64_t>(row.integer(2)), row.text(3)};
+}
+
+std::optional<ArtefactRecord> read_first(Statement& statement) {
+  if (!statement.step()) return std::nullopt;
+  return read_artefact(statement);
+}
+
+}  // namespace
+
+void insert_artefact(Database& db, std::string_view model, const ArtefactRecord& artefact, bool of_package) {
+  Statement(db, "INSERT OR REPLACE INTO artefacts VALUES(?,?,?,?,?,?)")
+      .bind(model, artefact.name, artefact.sha256, artefact.bytes, artefact.content_type, of_package ? 1 : 0)
+      .run();
+}
+
+std::optional<ArtefactRecord> find_artefact(Database& db, std::string_view model, std::string_view name) {
+  Statement statement(db, "SELECT name, sha256, bytes, content_type FROM artefacts WHERE model = ? AND name = ?");
+  statement.bind(model, name);
+  return read_first(statement);
+}
+
+std::optional<ArtefactRecord> find_public_artefact(Database& db, std::string_view sha256) {
+  Statement statement(db,
+                      "SELECT name, sha256, bytes, content_type FROM artefacts WHERE sha256 = ? "
+                      "AND name NOT IN ('source', 'positions') LIMIT 1");
+  statement.bind(sha256);
+  return read_first(statement);
+}
+
+std::vector<ArtefactRecord> list_artefacts(Database& db, std::string_view model) {
+  std::vector<ArtefactRecord> list;
+  Statement statement(db, "SELECT name, sha256, bytes, content_type FROM artefacts WHERE model = ? ORDER BY name");
+  statement.bind(model);
+  while (statement.step()) list.push_back(read_artefact(statement));
+  return list;
+}
+
+std::vector<std::string> hashes_of(Database& db, std::string_view model) {
+  std::vector<std::string> hashes;
+  Statement statement(db, "SELECT DISTINCT sha256 FROM artefacts WHERE model = ?");
+  statement.bind(model);
+  while (statement.step()) hashes.push_back(statement.text(0));
+  return hashes;
+}
+
+std::vector<std::string> all_hashes(Database& db) {
+  std::vector<std::string> hashes;
+  Statement statement(db, "SELECT DISTINCT sha256 FROM artefacts");
+  while (statement.step()) hashes.push_back(statement.text(0));
+  return hashes;
+}
+
+std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes) {
+  std::vector<std::string> orphans;
+  for (const auto& hash : hashes) {
+    Statement statement(db, "SELECT 1 FROM artefacts WHERE sha256 = ? LIMIT 1");
+    statement.bind(hash);
+    if (!statement.step()) orphans.push_back(hash);
+  }
+  return orphans;
+}
+
+}  // namespace semblante::store

@@ -1,0 +1,22 @@
+#pragma once
+
+// Private to store/: rows of jobs. Within the caller's transaction.
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "server/store/records.h"
+#include "server/store/sqlite.h"
+
+namespace semblante::store {
+
+void insert_job(Database& db, const JobRecord& job);
+/// What changes of a job while it runs.
+void write_job(Database& db, const JobRecord& job);
+std::optional<JobRecord> find_job(Database& db, std::string_view id);
+std::optional<JobRecord> find_latest_job(Database& db, std::string_view model, JobKind kind);
+/// Queued and running ones, in order of creation.
+std::vector<JobRecord> list_unfinished_jobs(Database& db);
+
+}  // namespace semblante::store

@@ -1,0 +1,72 @@
+#include "server/store/sqlite_schema.h"
+
+#include <array>
+#include <string>
+
+namespace semblante::store {
+namespace {
+
+/// Lists that are only ever read whole (parts, warnings, boxes) are one JSON column; what is looked up has its own.
+constexpr const char* first_schema = R"sql(
+CREATE TABLE models(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, state INTEGER NOT NULL, problem TEXT NOT NULL,
+  created TEXT NOT NULL, updated TEXT NOT NULL, revision INTEGER NOT NULL,
+  file_name TEXT NOT NULL, format TEXT NOT NULL, source_bytes INTEGER NOT NULL, source_sha256 TEXT NOT NULL,
+  vertices INTEGER NOT NULL, triangles INTEGER NOT NULL, facts TEXT NOT NULL,
+  points_revision INTEGER NOT NULL) STRICT;
+CREATE TABLE packages(
+  model TEXT PRIMARY KEY REFERENCES models(id) ON DELETE CASCADE,
+  parametrization TEXT NOT NULL, created TEXT NOT NULL, metric TEXT NOT NULL, weights TEXT NOT NULL,
+  weight_bits INTEGER NOT NULL) STRICT;
+CREATE TABLE feature_points(
+  model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE, position INTEGER NOT NULL, id TEXT NOT NULL,
+  vertex INTEGER, x REAL, y REAL, z REAL, PRIMARY KEY(model, id)) STRICT, WITHOUT ROWID;
+CREATE TABLE artefacts(
+  model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE, name TEXT NOT NULL, sha256 TEXT NOT NULL,
+  bytes INTEGER NOT NULL, content_type TEXT NOT NULL, of_package INTEGER NOT NULL,
+  PRIMARY KEY(model, name)) STRICT, WITHOUT ROWID;
+CREATE INDEX artefacts_by_hash ON artefacts(sha256);
+CREATE TABLE jobs(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE,
+  kind INTEGER NOT NULL, state INTEGER NOT NULL, progress REAL NOT NULL, stage TEXT NOT NULL,
+  created TEXT NOT NULL, updated TEXT NOT NULL, problem TEXT NOT NULL,
+  metric TEXT NOT NULL, weights TEXT NOT NULL, weight_bits INTEGER NOT NULL, attempts INTEGER NOT NULL) STRICT;
+CREATE INDEX jobs_by_model ON jobs(model, kind);
+CREATE TABLE streams(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, title TEXT NOT NULL, model TEXT NOT NULL, created TEXT NOT NULL) STRICT;
+CREATE TABLE idempotency(
+  key TEXT PRIMARY KEY, fingerprint TEXT NOT NULL, resource TEXT NOT NULL, created TEXT NOT NULL) STRICT;
+)sql";
+
+/// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
+/// change.
+constexpr std::array migrations = {
+    first_schema,
+    "ALTER TABLE feature_points ADD COLUMN proposal TEXT; ALTER TABLE jobs ADD COLUMN result TEXT NOT NULL DEFAULT ''",
+    "ALTER TABLE packages ADD COLUMN levels TEXT NOT NULL DEFAULT '[]';"
+    "ALTER TABLE jobs ADD COLUMN lods TEXT NOT NULL DEFAULT ''",
+};
+constexpr int schema_version = migrations.size();
+
+}  // namespace
+
+Status bring_up_to_date(Database& db) {
+  int version = 0;
+  {
+    Statement statement(db, "PRAGMA user_version");
+    if (statement.step()) version = static_cast<int>(statement.integer(0));
+  }
+  if (version > schema_version)
+    return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
+  if (version == schema_version) return Unit{};
+  Transaction transaction(db);
+  for (int step = version; step < schema_version; ++step) db.execute(migrations[static_cast<std::size_t>(step)]);
+  db.execute(("PRAGMA user_version=" + std::to_string(schema_version)).c_str());
+  transaction.commit();
+  return Unit{};
+}
+
+}  // namespace semblante::store
