@@ -77,8 +77,12 @@ FrameWish frame_wish(const Json& frame, const FrameWish& before) {
 /// Gives that import, if one is needed.
 std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const Json& body) {
   const FrameWish wish = frame_wish(body, model.frame_wish);
-  if (wish == model.frame_wish) return std::nullopt;
-  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported", "/frame");
+  // An import that failed or was cancelled has left what was said undone: saying it again tries again.
+  const auto last_import = context.store.latest_job(model.id, store::JobKind::import);
+  const bool is_done = last_import && last_import->state == store::JobState::done;
+  const bool is_running = model.state == store::ModelState::importing;
+  if (wish == model.frame_wish && (is_done || is_running)) return std::nullopt;
+  if (is_running) refuse("conflict", "the model is still being imported", "/frame");
   for (const auto kind : {store::JobKind::parametrize, store::JobKind::propose}) {
     const auto last = context.store.latest_job(model.id, kind);
     if (last && !store::is_final(last->state))
@@ -86,7 +90,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
   }
   // Taking back what was said needs a new look at the file; so does a model of before there were frames.
   const bool says_unit_only =
-      model.frame && wish.unit && wish.up == model.frame_wish.up && wish.front == model.frame_wish.front;
+      is_done && model.frame && wish.unit && wish.up == model.frame_wish.up && wish.front == model.frame_wish.front;
   std::optional<store::JobRecord> job;
   ModelFrame frame = model.frame.value_or(ModelFrame{});
   if (says_unit_only) {

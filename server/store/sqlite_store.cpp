@@ -263,10 +263,15 @@ class SqliteStore : public Store {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     write_job(db_, job);
-    if (job.kind == JobKind::import)
+    const auto model = job.kind == JobKind::import ? find_model(db_, job.model) : std::nullopt;
+    if (model) {
+      const bool is_first = model->vertices == 0;
+      const ModelState before = model->package ? ModelState::parametrized : ModelState::ready;
       Statement(db_, "UPDATE models SET state = ?, problem = ?, revision = revision + 1, updated = ? WHERE id = ?")
-          .bind(static_cast<int>(ModelState::failed), job.problem, timestamp_now(), job.model)
+          .bind(static_cast<int>(is_first ? ModelState::failed : before), is_first ? job.problem : std::string(),
+                timestamp_now(), job.model)
           .run();
+    }
     transaction.commit();
   }
 

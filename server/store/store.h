@@ -76,7 +76,8 @@ class Store {
   /// The end of a proposal: job and points (see with_proposals) in one step, whatever became of the points since it
   /// began. False when the model is gone.
   virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;
-  /// The end of a job without a result; a failed or cancelled import fails its model.
+  /// The end of a job without a result. A first import that fails or is cancelled fails its model; a model that was
+  /// imported before is again what it was.
   virtual void finish_without_result(const JobRecord& job) = 0;
 
   // ---- streams

@@ -329,6 +329,21 @@ TEST_F(StoreTest, FailedImport_FailsItsModel) {
   EXPECT_EQ(store_->model("m")->problem, job.problem);
 }
 
+TEST_F(StoreTest, FailedImportAnew_LeavesTheModelAsItWas) {
+  import(add("m"));
+  JobRecord job;
+  job.id = "again";
+  job.model = "m";
+  job.state = JobState::cancelled;
+  job.problem = R"({"type":"/problems/cancelled"})";
+  ASSERT_TRUE(store_->edit_frame("m", {}, {}, job, store_->model("m")->revision));
+  EXPECT_EQ(store_->model("m")->state, ModelState::importing);
+  store_->finish_without_result(job);
+  EXPECT_EQ(store_->model("m")->state, ModelState::ready);
+  EXPECT_EQ(store_->model("m")->problem, "");
+  EXPECT_EQ(store_->job("again")->problem, job.problem);
+}
+
 TEST_F(StoreTest, LevelsAndWhatWasAskedFor_AreKept) {
   import(add("m"));
   for (const auto& lods : {std::optional<std::vector<std::uint32_t>>(),
