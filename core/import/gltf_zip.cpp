@@ -37,11 +37,12 @@ std::optional<std::string> find_entry(const std::vector<std::string>& names, con
                                       std::string_view path) {
   const auto resolved = resolve_in_zip(folder, path);
   if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
-  const std::string name(path.substr(path.find_last_of("/\\") + 1));  // npos + 1 is 0
+  const std::string name = lower_case(std::string(path.substr(path.find_last_of("/\\") + 1)));  // npos + 1 is 0
+  if (name.empty()) return std::nullopt;
   std::optional<std::string> found;
   for (const std::string& entry : names) {
     const std::string_view last = std::string_view(entry).substr(entry.rfind('/') + 1);
-    if (name.empty() || !has_ending(std::string(last), lower_case(name)) || last.size() != name.size()) continue;
+    if (last.size() != name.size() || lower_case(std::string(last)) != name) continue;
     if (found) return std::nullopt;
     found = entry;
   }

@@ -9,6 +9,8 @@ namespace semblante::import {
 namespace {
 
 constexpr std::size_t max_materials = 4096;
+/// Paths of images that are looked for: each is compared with every entry of the zip.
+constexpr std::size_t max_image_paths = 1024;
 constexpr std::size_t max_library_bytes = std::size_t{4} << 20;
 
 std::string_view trimmed(std::string_view text) {
@@ -61,8 +63,9 @@ std::optional<std::vector<std::uint8_t>> ObjMaterials::load(std::string_view nam
 int ObjMaterials::image(std::string_view rest) {
   const std::string_view path = map_path(rest);
   if (path.empty()) return -1;
-  const auto [entry, is_new] = image_by_path_.try_emplace(std::string(path), -1);
-  if (!is_new) return entry->second;
+  if (const auto known = image_by_path_.find(path); known != image_by_path_.end()) return known->second;
+  if (image_by_path_.size() == max_image_paths) return -1;
+  int& index = image_by_path_[std::string(path)] = -1;
   auto bytes = load(path);
   if (!bytes) return -1;
   const std::string_view type = image_type(*bytes);
@@ -72,7 +75,7 @@ int ObjMaterials::image(std::string_view rest) {
     return -1;
   }
   builder_.model.images.push_back({std::string(type), std::move(*bytes)});
-  return entry->second = static_cast<int>(builder_.model.images.size()) - 1;
+  return index = static_cast<int>(builder_.model.images.size()) - 1;
 }
 
 void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {

@@ -237,6 +237,21 @@ TEST(Zip, MaterialFile_OfGarbage_ChangesNothing) {
   EXPECT_EQ(model->materials[0].base_color_image, -1);
 }
 
+TEST(Zip, MaterialFile_LooksForSoManyImagesOnly) {
+  const auto images_after = [](int missing) {
+    std::string text = "newmtl skin\n";
+    for (int i = 0; i < missing; ++i) text += "map_Kd " + std::to_string(i) + ".png\n";
+    text += "map_Kd there.png\n";
+    const auto model = import_model(make_zip({{"head.obj", quad_obj()},
+                                              {"quad.mtl", to_bytes(text)},
+                                              {"there.png", to_bytes(std::string("\x89PNG\r\n\x1A\n"))}}),
+                                    ModelFormat::gltf_zip);
+    return model->images.size();
+  };
+  EXPECT_EQ(images_after(1000), 1U);
+  EXPECT_EQ(images_after(1024), 0U);
+}
+
 TEST(Zip, InvalidArchives_AreRefused) {
   const auto code_of = [](const Bytes& bytes, const ImportLimits& limits = {}) {
     const auto model = import_model(bytes, ModelFormat::gltf_zip, limits);
