@@ -122,4 +122,66 @@ describe('fit', () => {
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
+
+  test('Fit_AxesSaidByHand_HeadIsTurned', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'axes.glb');
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    await page.locator('#tab-fit').click();
+    const axes = page.locator('.frame-facts dd').nth(1);
+    await axes.getByText('+Y up, +Z to the front').waitFor();
+    const size = page.locator('.frame-facts dd').nth(2);
+    const before = (await size.innerText()).split(/ × | cm/);
+    const picture = await studio.picture();
+
+    await page.getByLabel('Top of the head').selectOption('+Z');
+    // One axis cannot be both.
+    expect(await page.getByRole('button', { name: 'Apply' }).isDisabled()).toBe(true);
+    await page.getByLabel('The face looks').selectOption('-Y');
+    await page.getByRole('button', { name: 'Apply' }).click();
+    await axes.getByText('yours').waitFor();
+    await studio.waitForStage('ready');
+    expect(await axes.innerText()).toContain('+Z up, -Y to the front');
+    const after = (await size.innerText()).split(/ × | cm/);
+    expect([after[0], after[2], after[1]]).toEqual(before.slice(0, 3));
+    expect(await studio.difference(picture, await studio.picture(), [0.2, 0.2, 0.6, 0.6])).toBeGreaterThan(5);
+
+    await page.getByRole('button', { name: 'Guess again' }).click();
+    await axes.getByText('guessed').waitFor();
+    expect(await axes.innerText()).toContain('+Y up, +Z to the front');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Levels_OfTheSample_AreListedAndShown', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.getByRole('button', { name: 'Pause the stream' }).click();
+    const shown = (): Promise<number> =>
+      page.evaluate(() => (window as unknown as Inside).semblante.scene.face!.mesh.vertexCount);
+    const full = await shown();
+    expect(await page.locator('[data-level="0"]').getAttribute('aria-pressed')).toBe('true');
+    const level = page.locator('[data-level="1"]');
+    await level.scrollIntoViewIfNeeded();
+    const words = await level.innerText();
+    expect(words).toMatch(/Off by [\d.]+ % of the distance of the eyes at most, in expressions by [\d.]+ %/);
+    await level.click();
+    await page.waitForFunction((before) => {
+      const { scene } = (window as unknown as Inside).semblante;
+      return scene.state.value.kind === 'ready' && (scene.face?.mesh.vertexCount ?? before) < before;
+    }, full);
+    expect(words).toContain(`${(await shown()).toLocaleString('en-US')} vertices`);
+    // It moves as the full mesh does.
+    await studio.settle();
+    const before = await studio.picture();
+    await page.locator('[data-viseme="10"]').click();
+    await studio.settle();
+    expect(await studio.difference(before, await studio.picture(), [0.3, 0.4, 0.4, 0.4])).toBeGreaterThan(0.5);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
 });

@@ -11,6 +11,7 @@ import { pointOutFindings } from './ui/fit_highlight.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
 import { makeLayout } from './ui/layout.ts';
 import { exposeInspection } from './ui/inspect.ts';
+import { LevelsPanel } from './ui/levels_panel.ts';
 import { LiveModel } from './ui/live_model.ts';
 import { LivePanel } from './ui/live_panel.ts';
 import { Parametrizer } from './ui/parametrizer.ts';
@@ -44,7 +45,7 @@ function main(root: HTMLElement): void {
   const canvas = h('canvas', { class: 'canvas' });
   const scene = new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
-    face: (model, signal) => loadFace(faceSources, model.id, signal),
+    face: (model, level, signal) => loadFace(faceSources, model.id, level, signal),
   });
 
   const animate = new AnimatePanel({
@@ -55,6 +56,7 @@ function main(root: HTMLElement): void {
       live.touch();
     },
   });
+  animate.element.append(new LevelsPanel(studio, fit, scene).element);
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
   const parametrizer = new Parametrizer(studio, points);

@@ -146,6 +146,7 @@ export interface Inside {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
       stage: { camera: { position: { toArray(): number[] } } };
+      face: { mesh: { vertexCount: number } } | null;
       highlight: {
         object: {
           children: {

@@ -12,10 +12,18 @@ export interface FaceSources {
   image: (sha256: string, signal: AbortSignal) => Promise<Uint8Array>;
 }
 
-/** Fetches a model's face package and makes it ready to draw and to move. Throws when its parts do not fit together. */
-export async function loadFace(sources: FaceSources, model: string, signal: AbortSignal): Promise<LoadedFace> {
+/**
+ * Fetches a model's face package, of one level of detail (0 is the full mesh), and makes it ready to draw and to move.
+ * Throws when its parts do not fit together.
+ */
+export async function loadFace(
+  sources: FaceSources,
+  model: string,
+  level: number,
+  signal: AbortSignal,
+): Promise<LoadedFace> {
   const [draco, module] = await Promise.all([sources.draco(), sources.kernel()]);
-  const face = await fetchFace(sources.base, model, { draco, signal });
+  const face = await fetchFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
   const [kernel, materials] = await Promise.all([
     Kernel.create(module, face, { poseCount }),
     loadMaterials(face.rig, (sha256) => sources.image(sha256, signal)),

@@ -24,6 +24,8 @@ export type DistanceMetric = 'edge' | 'unfolded';
 export interface ParametrizationOptions {
   weights: WeightMethod;
   metric: DistanceMetric;
+  /** The most vertices of each level of detail, falling; absent: what suits the head. */
+  lods?: number[] | undefined;
 }
 
 export type Vector = [number, number, number];
@@ -52,10 +54,22 @@ export interface Finding {
   measured: { what: string; value: number; threshold: number } | null;
 }
 
+/** Distance of a level from the full mesh; `of_es0` as shares of the distance of the eyes, where that is known. */
+export interface LevelError {
+  max: number;
+  mean: number;
+  of_es0: { max: number; mean: number } | null;
+}
+
 export interface FitReport {
   version: number;
   summary: FindingCounts;
   findings: Finding[];
+  levels_of_detail?: {
+    levels: { lod: number; neutral: LevelError; expressions: Record<string, LevelError> }[];
+    /** Levels that were asked for and are not there, or not as small as asked. */
+    missed: { budget: number; words: string }[];
+  };
 }
 
 export type ModelState = 'importing' | 'ready' | 'parametrized' | 'failed';
@@ -104,12 +118,22 @@ export interface Artefact {
 
 export type ArtefactName = 'mesh.drc' | 'weights' | 'rig.json' | 'face.glb';
 
+export interface PackageLevel {
+  /** 0 is the full mesh. */
+  lod: number;
+  vertices: number;
+  triangles: number;
+  artefacts: Partial<Record<ArtefactName, Artefact>>;
+}
+
 export interface FacePackage {
   parametrization: string;
   created: string;
   metric: string;
   weights: string;
   artefacts: Partial<Record<ArtefactName, Artefact>>;
+  /** Absent or empty: the package has no levels but the full mesh. */
+  levels?: PackageLevel[];
 }
 
 export interface Model {

@@ -17,7 +17,7 @@ export interface DoctorOptions {
 /** The findings of the open head, worst first; a click shows where. */
 export class DoctorPanel {
   readonly element: HTMLElement;
-  private readonly body = h('div', { class: 'doctor', 'aria-live': 'polite' });
+  private readonly body = h('div', { class: 'doctor' });
   /** Which groups a person has opened or closed, by severity. */
   private readonly open = new Map<Severity, boolean>();
   private rows: { finding: Finding; element: HTMLElement; button: HTMLButtonElement }[] = [];

@@ -39,6 +39,15 @@ export function replace(parent: Element, ...children: Child[]): void {
   append(parent, children);
 }
 
+/** Draws a container anew; the control that had the focus, known by its `data-focus`, has it again. */
+export function redraw(container: Element, draw: () => void): void {
+  const active = container.contains(document.activeElement) ? document.activeElement : null;
+  const key = active?.getAttribute('data-focus') ?? null;
+  draw();
+  if (key !== null)
+    container.querySelector<HTMLElement>(`[data-focus="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
+}
+
 /** Changes a text only when it differs: cheap enough for the frame loop. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;

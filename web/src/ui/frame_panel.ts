@@ -3,12 +3,12 @@ import { h, replace } from './dom.ts';
 import { icon } from './icons.ts';
 import type { Studio } from './studio.ts';
 
-const units: readonly { unit: LengthUnit; name: string; metres: number }[] = [
-  { unit: 'm', name: 'metres', metres: 1 },
-  { unit: 'dm', name: 'decimetres', metres: 0.1 },
-  { unit: 'cm', name: 'centimetres', metres: 0.01 },
-  { unit: 'mm', name: 'millimetres', metres: 0.001 },
-  { unit: 'in', name: 'inches', metres: 0.0254 },
+const units: readonly { unit: LengthUnit; name: string }[] = [
+  { unit: 'm', name: 'metres' },
+  { unit: 'dm', name: 'decimetres' },
+  { unit: 'cm', name: 'centimetres' },
+  { unit: 'mm', name: 'millimetres' },
+  { unit: 'in', name: 'inches' },
 ];
 const directions: readonly Direction[] = ['+X', '-X', '+Y', '-Y', '+Z', '-Z'];
 
@@ -19,7 +19,7 @@ export class FramePanel {
   private readonly unit = choice(
     'frame-unit',
     'Unit',
-    units.map(({ unit, name }) => [unit, name]),
+    units.map(({ unit, name }) => [unit, `${unit} (${name})`]),
   );
   private readonly up = choice(
     'frame-up',

@@ -1,6 +1,6 @@
 import { pointById } from '../face/feature_points.ts';
 import { leastKnownPoints, quickSet } from '../face/quick_set.ts';
-import { h, replace, type Child } from './dom.ts';
+import { h, redraw, replace, type Child } from './dom.ts';
 import { icon } from './icons.ts';
 import { capital } from './names.ts';
 import type { PointsModel } from './points_model.ts';
@@ -17,6 +17,10 @@ export class PointCard {
   }
 
   private draw(): void {
+    redraw(this.element, () => this.fill());
+  }
+
+  private fill(): void {
     const id = this.points.chosen.value;
     const point = id === null ? undefined : pointById(id);
     if (!point) return replace(this.element, this.points.guided.value ? this.invitation() : this.plainInvitation());
@@ -48,6 +52,7 @@ export class PointCard {
               {
                 type: 'button',
                 class: 'small',
+                'data-focus': 'confirm',
                 title: 'Confirm (Enter on the picture)',
                 on: { click: () => this.points.confirmAndNext(point.id) },
               },
@@ -88,7 +93,12 @@ export class PointCard {
     if (!this.points.hasNext) return null;
     return h(
       'button',
-      { type: 'button', class: 'quiet small next', on: { click: () => this.points.chooseNext() } },
+      {
+        type: 'button',
+        class: 'quiet small next',
+        'data-focus': 'next',
+        on: { click: () => this.points.chooseNext() },
+      },
       label,
       icon('chevron', 14),
     );
@@ -118,7 +128,12 @@ export class PointCard {
         { class: 'row end' },
         h(
           'button',
-          { type: 'button', class: 'primary small', on: { click: () => this.points.chooseNext() } },
+          {
+            type: 'button',
+            class: 'primary small',
+            'data-focus': 'next',
+            on: { click: () => this.points.chooseNext() },
+          },
           left === quickSet.length ? 'Start' : `Go on: ${left} left`,
         ),
       ),

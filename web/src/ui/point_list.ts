@@ -1,7 +1,7 @@
 import type { FeaturePoint } from '@protocol/generated/mpeg4.ts';
 import { pointById, pointGroups } from '../face/feature_points.ts';
 import { quickSet } from '../face/quick_set.ts';
-import { h, replace } from './dom.ts';
+import { h, redraw, replace } from './dom.ts';
 import { icon } from './icons.ts';
 import { capital } from './names.ts';
 import type { PointsModel } from './points_model.ts';
@@ -52,21 +52,19 @@ export class PointList {
     const guided = this.points.guided.value;
     this.search.hidden = guided;
     const top = this.element.scrollTop;
-    const focused = this.element.contains(document.activeElement)
-      ? document.activeElement?.getAttribute('data-point')
-      : null;
-    if (guided)
-      replace(
-        this.element,
-        h(
-          'ul',
-          {},
-          quickSet.map(({ id }) => this.row(pointById(id)!)),
-        ),
-      );
-    else this.drawGroups();
+    redraw(this.element, () => {
+      if (guided)
+        replace(
+          this.element,
+          h(
+            'ul',
+            {},
+            quickSet.map(({ id }) => this.row(pointById(id)!)),
+          ),
+        );
+      else this.drawGroups();
+    });
     this.element.scrollTop = top;
-    if (focused) this.element.querySelector<HTMLElement>(`[data-point="${focused}"]`)?.focus({ preventScroll: true });
   }
 
   private drawGroups(): void {
@@ -122,6 +120,7 @@ export class PointList {
           type: 'button',
           class: `point-row ${state}`,
           'data-point': point.id,
+          'data-focus': point.id,
           'aria-pressed': String(chosen.value === point.id),
           on: { click: () => this.points.toggle(point.id) },
         },

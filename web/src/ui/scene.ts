@@ -18,7 +18,8 @@ export type SceneState =
 
 export interface SceneSources {
   preview: (model: Model, signal: AbortSignal) => Promise<Uint8Array>;
-  face: (model: Model, signal: AbortSignal) => Promise<LoadedFace>;
+  /** `level` 0 is the full mesh. */
+  face: (model: Model, level: number, signal: AbortSignal) => Promise<LoadedFace>;
 }
 
 /** What stands on the stage: the still preview with its markers, or the face that moves. */
@@ -31,12 +32,15 @@ export class SceneView {
   /** Of the face that moves; null while there is none. */
   readonly performer = new Signal<Performer | null>(null);
   readonly packageBytes = new Signal(0);
+  /** Which level of detail of the face is shown; 0 is the full mesh. */
+  readonly level = new Signal(0);
   preview: PreviewView | null = null;
   face: FaceView | null = null;
   private wanted: 'preview' | 'face' = 'face';
   private path: DeformPath = 'gpu';
   private wire = false;
   private opening: AbortController | null = null;
+  private model: Model | null = null;
   private shown = '';
   private previewKey = '';
 
@@ -57,9 +61,11 @@ export class SceneView {
 
   /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
   async open(model: Model | null): Promise<void> {
+    if (packageOf(model) !== packageOf(this.model)) this.level.set(0);
+    this.model = model;
     const axes = model?.frame?.axes;
     const key = model
-      ? `${model.id}:${model.state}:${model.package?.parametrization ?? ''}:${axes?.up ?? ''}${axes?.front ?? ''}`
+      ? `${model.id}:${model.state}:${packageOf(model)}:${this.level.value}:${axes?.up ?? ''}${axes?.front ?? ''}`
       : '';
     if (key === this.shown) return;
     const sameModel = key.split(':')[0] === this.shown.split(':')[0];
@@ -101,6 +107,12 @@ export class SceneView {
       this.shown = '';
       this.state.set({ kind: 'failed', problem: problemOf(error) });
     }
+  }
+
+  /** Shows another level of detail of the face. */
+  showLevel(level: number): void {
+    this.level.set(level);
+    void this.open(this.model);
   }
 
   /** The still model with points on it, or the face that moves (where there is one). */
@@ -176,7 +188,7 @@ export class SceneView {
   }
 
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
-    const loaded = await this.sources.face(model, signal);
+    const loaded = await this.sources.face(model, this.level.value, signal);
     const materials = await makeMaterials(loaded.materials, this.quality.richSkin);
     return { view: new FaceView(loaded.mesh, materials), loaded };
   }
@@ -219,3 +231,5 @@ export class SceneView {
     this.show(this.wanted);
   }
 }
+
+const packageOf = (model: Model | null): string => model?.package?.parametrization ?? '';

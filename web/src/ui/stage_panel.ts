@@ -65,6 +65,7 @@ export class StagePanel {
     const hint = (): void => this.drawHint();
     studio.tab.watch(hint);
     points.chosen.watch(hint);
+    points.changed.watch(hint);
     scene.stage.onFrame(() => {
       this.drawFigures();
       return false;
@@ -200,11 +201,13 @@ export class StagePanel {
     this.canvas.classList.toggle('placing', !this.hint.hidden && id !== null);
     if (this.hint.hidden) return;
     const name = id === null ? '' : (pointById(id)?.name ?? '');
-    replace(
-      this.hint,
-      icon('point', 16),
-      h('span', {}, id === null ? 'Choose a point, then click on the head.' : `Click where ${id} lies: ${name}`),
-    );
+    const words =
+      id === null
+        ? 'Choose a point, then click on the head.'
+        : this.points.draft.points.has(id)
+          ? `Click elsewhere to move ${id}: ${name}`
+          : `Click where ${id} lies: ${name}`;
+    replace(this.hint, icon('point', 16), h('span', {}, words));
   }
 
   private drawOverlay(): void {
