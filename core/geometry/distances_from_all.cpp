@@ -11,6 +11,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/geometry/edge_path_search.h"
+
 namespace semblante {
 namespace {
 
@@ -20,6 +22,10 @@ constexpr double unreached = std::numeric_limits<double>::infinity();
 constexpr double surroundings = 1.3;
 /// Rounds of four sweeps over the surroundings; what is then left waits for the sweeps over everything.
 constexpr int rounds = 2;
+/// Per vertex: visits of it, and looks at eight of them counted as one. Real heads take up to seven; where ways wind so
+/// that no order suits them (a maze, a crumpled band) each sweep settles next to nothing, and one search a source is
+/// quicker.
+constexpr std::size_t most_effort = 64;
 
 /// Stable order by a key, as sorting buckets: 65536 steps are fine enough for an order that only speed depends on.
 std::vector<std::uint32_t> sorted_by(std::span<const double> keys) {
@@ -148,8 +154,9 @@ class GroupSearch {
   GroupSearch(const PartGraph& part, const DistanceKernel& kernel)
       : part_(part), kernel_(kernel), place_(part.positions.size()), pending_(part.positions.size() + 8) {}
 
-  void run(std::span<const std::uint32_t> group, const std::vector<glm::dvec3>& at,
-           std::span<const std::uint32_t> vertices, double* distances) {
+  /// False where that would take longer than searching from each source by itself: then the distances are not final.
+  [[nodiscard]] bool run(std::span<const std::uint32_t> group, const std::vector<glm::dvec3>& at,
+                         std::span<const std::uint32_t> vertices, double* distances) {
     const glm::dvec3 middle = middle_source(group, at);
     keys_.clear();
     for (const glm::dvec3& p : part_.positions) keys_.push_back(glm::distance(p, middle));
@@ -173,8 +180,13 @@ class GroupSearch {
         part_.offsets.data(), part_.to.data(), part_.lengths.data(), order_.data(), place_.data(),
         pending_.data(),      distances};
     settle_surroundings(arrays, near);
-    bool forward = true;
-    while (kernel_.sweep(arrays, order_.size(), forward) > 0) forward = !forward;
+    std::size_t effort = 0;
+    for (bool forward = true; effort <= most_effort * order_.size(); forward = !forward) {
+      const std::size_t visits = kernel_.sweep(arrays, order_.size(), forward);
+      if (visits == 0) return true;
+      effort += visits + order_.size() / 8;
+    }
+    return false;
   }
 
  private:
@@ -254,7 +266,14 @@ DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span
     const std::size_t first = g * lane_count;
     const auto group = std::span(grouped).subspan(first, std::min(lane_count, sources.size() - first));
     for (std::size_t lane = 0; lane < group.size(); ++lane) result.lane_of_[group[lane]] = g * group_size + lane;
-    search.run(group, at, vertices, result.lanes_.get() + g * group_size);
+    double* const distances = result.lanes_.get() + g * group_size;
+    if (search.run(group, at, vertices, distances)) continue;
+    EdgePathSearch single(graph);
+    for (std::size_t lane = 0; lane < group.size(); ++lane) {
+      const std::span<const double> found = single.from(sources[group[lane]]);
+      for (std::size_t m = 0; m < members.size(); ++m)
+        distances[own.vertex_of[m] * lane_count + lane] = found[members[m].value()];
+    }
   }
   result.vertex_of_ = std::move(own.vertex_of);
   return result;

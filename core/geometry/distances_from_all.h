@@ -37,7 +37,8 @@ class DistancesFromAll {
 ///
 /// The order is chosen for speed. Sources near each other form a group. Their surroundings are swept along and across,
 /// to and fro, then the part from there outwards, by straight distance, where most vertices are final at the first
-/// visit; further sweeps, back and forth, visit only what a neighbour can still improve.
+/// visit; further sweeps, back and forth, visit only what a neighbour can still improve. Where ways wind so that this
+/// does not end soon, each source of the group is searched from by itself.
 ///
 /// Every source must lie on `part`. Memory: 8 bytes a source (rounded up to eights) and member.
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,

@@ -83,6 +83,15 @@ TEST(DistancesFromAll, FoldedSnake_StraightDistanceMisleadsTheOrder_NotTheResult
   expect_bits_of_single_searches(surface, PartId(0), pick_sources(random, surface.members_of(PartId(0)), 16));
 }
 
+TEST(DistancesFromAll, CrumpledBand_NoOrderSuits_EqualsSingleSearches) {
+  std::mt19937 random(13);
+  Model model = testing::make_strip(4000);
+  std::uniform_real_distribution<float> anywhere(-1.0F, 1.0F);
+  for (glm::vec3& p : model.positions) p = glm::vec3(anywhere(random), anywhere(random), anywhere(random));
+  const Surface surface = build_surface(model);
+  expect_bits_of_single_searches(surface, PartId(0), pick_sources(random, surface.members_of(PartId(0)), 9));
+}
+
 TEST(DistancesFromAll, SecondPartAndVertexWithoutTriangles_OnlyTheirOwnMembers) {
   Model model = testing::make_strip(3);
   testing::append(model, testing::shifted(testing::make_ball({0, 0, 0}, 1.0F), {20, 0, 0}), "ball");
