@@ -125,9 +125,9 @@ struct Section {
     enum class Seen : std::uint8_t { nothing, skin, inside, upper, lower };
     std::vector<Seen> seen(samples, Seen::nothing);
     std::vector<double> front(samples, -infinite);
-    const auto draw = [&](const std::vector<Segment>& segments, Seen what) {
+    const auto draw = [&, first = from](const std::vector<Segment>& segments, Seen what) {
       for (const Segment& s : segments) {
-        rasterize(s, 0, from, step, [&](std::size_t k, double z) {
+        rasterize(s, 0, first, step, [&](std::size_t k, double z) {
           if (z <= front[k]) return;
           front[k] = z;
           seen[k] = what;
