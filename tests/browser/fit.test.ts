@@ -58,13 +58,10 @@ const camera = (studio: StudioPage): Promise<number[]> =>
 /** Triangles that tint a part, and dots on vertices, as the stage shows them now. */
 const pointedOut = (studio: StudioPage): Promise<{ triangles: number; dots: number }> =>
   studio.page.evaluate(() => {
-    const { children } = (window as unknown as Inside).semblante.scene.highlight.object;
-    const of = (type: string) => children.filter((child) => child.type === type).map(({ geometry }) => geometry);
-    // Each is drawn twice: faintly through the head, and as it can be seen.
-    return {
-      triangles: of('Mesh').reduce((sum, { index }) => sum + (index?.count ?? 0) / 3, 0) / 2,
-      dots: of('Points').reduce((sum, { attributes }) => sum + attributes.position.count, 0) / 2,
-    };
+    const { parts, dots } = (window as unknown as Inside).semblante.scene.highlight;
+    const corners = parts.children.reduce((sum, { geometry }) => sum + (geometry.index?.count ?? 0), 0);
+    // Each part is drawn twice: faintly through the head, and as it can be seen.
+    return { triangles: corners / 3 / 2, dots: dots.object.visible ? dots.count : 0 };
   });
 
 describe('fit', () => {
@@ -87,6 +84,9 @@ describe('fit', () => {
     expect(await finding.locator('.finding-show').getAttribute('aria-pressed')).toBe('true');
     await finding.locator('.finding-show').click();
     expect((await pointedOut(studio)).dots).toBe(0);
+    // Whoever goes on to another work sees the whole head again.
+    await page.locator('#tab-animate').click();
+    expect(await camera(studio)).toEqual(before);
     await page.locator('#tab-heads').click();
     expect(await page.locator('.head.selected .finding-badge').innerText()).toMatch(/^\d+/);
     expect(studio.errors).toEqual([]);

@@ -90,6 +90,9 @@ function main(root: HTMLElement): void {
   });
 
   studio.tab.watch((tab) => scene.show(tab === 'points' || tab === 'fit' ? 'preview' : 'face'));
+  studio.tab.watch((tab) => {
+    if (tab === 'animate' || tab === 'live') scene.stage.lookBack();
+  });
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   let opened = '';

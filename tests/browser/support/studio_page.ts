@@ -148,12 +148,8 @@ export interface Inside {
       stage: { camera: { position: { toArray(): number[] } } };
       face: { mesh: { vertexCount: number } } | null;
       highlight: {
-        object: {
-          children: {
-            type: string;
-            geometry: { index: { count: number } | null; attributes: { position: { count: number } } };
-          }[];
-        };
+        parts: { children: { geometry: { index: { count: number } | null } }[] };
+        dots: { count: number; object: { visible: boolean } };
       };
     };
     studio: { selected: { value: { id: string; state: string } | null } };

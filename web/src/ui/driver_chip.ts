@@ -15,7 +15,7 @@ export function makeDriverChip(
   const chip = h('div', { class: 'driver', role: 'status' });
   const draw = (): void => {
     const status = live.status.value;
-    chip.hidden = scene.performer.value === null || tab.value === 'points';
+    chip.hidden = scene.performer.value === null || tab.value === 'points' || tab.value === 'fit';
     if (chip.hidden) return;
     if (live.driving.value && status.kind !== 'off') {
       const words =

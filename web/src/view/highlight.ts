@@ -1,14 +1,5 @@
-import {
-  BufferGeometry,
-  DoubleSide,
-  Float32BufferAttribute,
-  Group,
-  Mesh,
-  MeshBasicMaterial,
-  Points,
-  PointsMaterial,
-  Vector3,
-} from 'three';
+import { DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3, type BufferGeometry, type Material } from 'three';
+import { Markers, type Marker, type MarkerTone } from './markers.ts';
 import type { PreviewView } from './preview_view.ts';
 
 export type HighlightTone = 'error' | 'warning' | 'note' | 'part';
@@ -24,9 +15,18 @@ export interface HighlightTarget {
 
 const colors: Record<HighlightTone, number> = { error: 0xe5322d, warning: 0xf0a020, note: 0x2f7df6, part: 0xff5a2c };
 
+const dotTones: Record<HighlightTone, MarkerTone> = { error: 'error', warning: 'warning', note: 'note', part: 'note' };
+
 /** Vertices as dots and parts as a tint over the still model; what lies inside the head shines through faintly. */
 export class Highlight {
   readonly object = new Group();
+  readonly parts = new Group();
+  readonly dots = new Markers();
+
+  constructor() {
+    this.object.add(this.parts, this.dots.object);
+    this.clear();
+  }
 
   show(preview: PreviewView | null, target: HighlightTarget | null): void {
     this.clear();
@@ -37,39 +37,27 @@ export class Highlight {
         for (const [order, material] of tints(color).entries()) {
           const mesh = new Mesh(geometry, material);
           mesh.renderOrder = 5 + order;
-          this.object.add(mesh);
+          this.parts.add(mesh);
         }
       }
     }
-    const places = target.vertices.flatMap((vertex) => preview.positionOf(vertex)?.toArray() ?? []);
-    if (places.length === 0) return;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new Float32BufferAttribute(places, 3));
-    for (const depthTest of [false, true]) {
-      const material = new PointsMaterial({
-        color,
-        size: 7,
-        sizeAttenuation: false,
-        transparent: true,
-        opacity: depthTest ? 1 : 0.35,
-        depthTest,
-        depthWrite: false,
-      });
-      const points = new Points(geometry, material);
-      points.renderOrder = 8;
-      points.frustumCulled = false;
-      this.object.add(points);
-    }
+    const dots = target.vertices.flatMap((vertex): Marker[] => {
+      const place = preview.positionOf(vertex);
+      return place ? [{ id: '', position: place.toArray(), tone: dotTones[target.tone] }] : [];
+    });
+    this.dots.set(dots);
+    this.dots.object.visible = dots.length > 0;
   }
 
   clear(): void {
-    for (const child of this.object.children as (Mesh | Points)[]) {
+    this.dots.object.visible = false;
+    for (const child of [...this.parts.children] as Mesh<BufferGeometry, Material>[]) {
       // A part borrows the preview's vertices, which must stay on the graphics card.
-      if (child instanceof Mesh) child.geometry.deleteAttribute('position');
+      child.geometry.deleteAttribute('position');
       child.geometry.dispose();
-      (child.material as MeshBasicMaterial | PointsMaterial).dispose();
+      child.material.dispose();
     }
-    this.object.clear();
+    this.parts.clear();
   }
 }
 

@@ -1,6 +1,7 @@
 import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera } from 'three';
 
-export type MarkerTone = 'placed' | 'proposed' | 'changed' | 'wrong' | 'selected';
+/** Of feature points, and of vertices that a finding names. */
+export type MarkerTone = 'error' | 'warning' | 'note' | 'placed' | 'proposed' | 'changed' | 'wrong' | 'selected';
 
 export interface Marker {
   id: string;
@@ -9,6 +10,9 @@ export interface Marker {
 }
 
 const tones: Record<MarkerTone, { color: string; size: number; ring?: true }> = {
+  error: { color: '#e5322d', size: 8 },
+  warning: { color: '#f0a020', size: 8 },
+  note: { color: '#2f7df6', size: 8 },
   placed: { color: '#2f7df6', size: 9 },
   proposed: { color: '#8b3fe0', size: 12, ring: true },
   changed: { color: '#f0a020', size: 10 },
@@ -36,6 +40,10 @@ export class Markers {
       points.renderOrder = 10 + order;
       this.object.add(points);
     }
+  }
+
+  get count(): number {
+    return this.markers.length;
   }
 
   set(markers: Marker[]): void {

@@ -48,6 +48,8 @@ export class Stage {
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
   private readonly flight = new Flight();
+  /** Where the camera was before it went to look at a place: what it looked at, and the way from there. */
+  private before: { target: Vector3; arm: Vector3 } | null = null;
   private radius = 1;
   private dirty = true;
   private lastTime = 0;
@@ -121,11 +123,14 @@ export class Stage {
   }
 
   look(view: ViewName, atOnce = false): void {
+    this.before = null;
     this.fly(this.center, this.radius * 1.06, new Vector3(...directions[view]), atOnce);
   }
 
   /** Looks at a place of the model so that a ball of `radius` about it fits, from where it can be seen. */
   lookAt(place: Vector3, radius: number, outward: Vector3): void {
+    const { target } = this.controls;
+    this.before ??= { target: target.clone(), arm: this.camera.position.clone().sub(target) };
     // Never from below or behind only because a triangle faces there: half of the way is the front's.
     const direction = outward
       .clone()
@@ -136,6 +141,14 @@ export class Stage {
     this.fly(place, Math.max(radius, this.radius * 0.22), direction, false);
   }
 
+  /** From a place that was looked at to where the camera was before. */
+  lookBack(): void {
+    if (!this.before) return;
+    const { target, arm } = this.before;
+    this.before = null;
+    this.start(target, arm, false);
+  }
+
   private fly(target: Vector3, radius: number, direction: Vector3, atOnce: boolean): void {
     const half = (this.camera.fov * Math.PI) / 360;
     // Room for the tools that float above and below the head.
@@ -143,7 +156,11 @@ export class Stage {
     const free = Math.max(0.6, (height - toolRoom) / Math.max(height, 1));
     const narrow = Math.min(1, this.camera.aspect * 1.3);
     const distance = radius / Math.tan(half) / (free * narrow);
-    this.flight.start(this.camera, this.controls.target, target, direction.normalize().multiplyScalar(distance));
+    this.start(target, direction.normalize().multiplyScalar(distance), atOnce);
+  }
+
+  private start(target: Vector3, arm: Vector3, atOnce: boolean): void {
+    this.flight.start(this.camera, this.controls.target, target, arm);
     if (atOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
       this.flight.arrive(this.camera, this.controls.target);
       this.camera.updateProjectionMatrix();
