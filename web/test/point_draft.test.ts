@@ -37,6 +37,44 @@ describe('point draft', () => {
     expect(draft.changes).toBe(0);
   });
 
+  test('Draft_Proposal_IsOneUntilConfirmedOrMoved', () => {
+    const proposal = { method: 'mirror', confidence: 'high', expectedError: 0.05 } as const;
+    const draft = new PointDraft();
+    draft.reset([
+      ['2.1', at(5)],
+      ['8.3', { ...at(6), proposal }],
+      ['8.4', { ...at(7), proposal }],
+      ['9.3', { ...at(8), proposal }],
+    ]);
+    expect(draft.proposed).toEqual(['8.3', '8.4', '9.3']);
+    expect(draft.toBody().points['8.3']).toEqual({
+      vertex: 6,
+      proposed: true,
+      method: 'mirror',
+      confidence: 'high',
+      expected_error: 0.05,
+    });
+    draft.confirm(['8.3', '2.1']);
+    draft.place('8.4', at(9));
+    draft.discard(['2.1', '9.3']);
+    expect(draft.proposed).toEqual([]);
+    expect(draft.toBody().points).toEqual({ '2.1': { vertex: 5 }, '8.3': { vertex: 6 }, '8.4': { vertex: 9 } });
+    expect(draft.changes).toBe(3);
+  });
+
+  test('Draft_Exchange_SwapsLeftAndRightOnce', () => {
+    const draft = new PointDraft();
+    draft.reset([
+      ['8.3', at(1)],
+      ['8.4', at(2)],
+      ['3.7', at(3)],
+    ]);
+    draft.exchange(['8.3', '8.4', '3.7']);
+    expect(draft.toBody().points).toEqual({ '8.3': { vertex: 2 }, '8.4': { vertex: 1 }, '3.12': { vertex: 3 } });
+    draft.undo();
+    expect(draft.changes).toBe(0);
+  });
+
   test('Draft_BarePosition_IsSentAsPosition', () => {
     const draft = new PointDraft();
     draft.reset([

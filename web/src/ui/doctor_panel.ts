@@ -38,7 +38,7 @@ export class DoctorPanel {
     });
   }
 
-  private draw(): void {
+  draw(): void {
     const state = this.fit.report.value;
     const model = this.studio.selected.value;
     this.rows = [];
@@ -168,7 +168,7 @@ function remarks({ warnings = [] }: Model): HTMLElement | null {
   return h(
     'div',
     { class: 'remarks small' },
-    h('h3', {}, 'Said of the file'),
+    h('h3', {}, 'Said of the file and its points'),
     h(
       'ul',
       {},

@@ -12,6 +12,9 @@ export type FindingAction =
 const aboutAxes = new Set(['upside-down', 'facing-away', 'not-upright']);
 const aboutRoles = new Set(['idle-part', 'second-skin', 'eye-cannot-turn', 'point-on-wrong-part']);
 
+/** How thick the hair is shows on no bare head. */
+const neverProposed = new Set(['11.5']);
+
 /**
  * The obvious action, or null where it is not one of this page: a mesh is mended in the tool that made it. `enough`:
  * there are as many placed points as proposals are made from.
@@ -19,10 +22,12 @@ const aboutRoles = new Set(['idle-part', 'second-skin', 'eye-cannot-turn', 'poin
 export function actionFor(finding: Finding, enough: boolean): FindingAction | null {
   const { code, place } = finding;
   if (aboutAxes.has(code)) return { kind: 'axes', label: 'Correct the axes' };
-  if (code === 'missing-points' || code === 'no-points')
-    return enough
-      ? { kind: 'propose', label: 'Propose the missing points' }
-      : { kind: 'mark', label: 'Mark the first points' };
+  if (code === 'missing-points' || code === 'no-points') {
+    if (enough && (code === 'no-points' || place.points.some((id) => !neverProposed.has(id))))
+      return { kind: 'propose', label: 'Propose the missing points' };
+    // What nothing needs may well be left unmarked.
+    return enough || finding.severity === 'note' ? null : { kind: 'mark', label: 'Mark the first points' };
+  }
   if (code === 'left-right-swapped') return { kind: 'exchange', label: 'Exchange left and right' };
   if (aboutRoles.has(code))
     return place.part === null

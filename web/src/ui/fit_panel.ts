@@ -26,6 +26,12 @@ export class FitPanel {
       enoughPoints: () => points.canPropose,
       onAction: (action, finding) => this.act(action, finding),
     });
+    let enough = points.canPropose;
+    points.changed.watch(() => {
+      if (points.canPropose === enough) return;
+      enough = points.canPropose;
+      doctor.draw();
+    });
     this.frame = new FramePanel(studio);
     this.parts = new PartsPanel(studio, fit);
     this.element = h(
