@@ -46,7 +46,7 @@ export class LevelsPanel {
             { class: 'levels' },
             levels.map((level) => this.row(level, told)),
           )
-        : h('p', { class: 'muted small' }, 'This face has the full mesh alone. Levels are made by a parametrization.'),
+        : h('p', { class: 'muted small' }, 'The full mesh alone: it is light already, or no levels were asked for.'),
       told?.missed.map(({ words }) =>
         h('p', { class: 'muted small' }, `${words.charAt(0).toUpperCase()}${words.slice(1)}.`),
       ),
