@@ -61,8 +61,8 @@ void apply_level(Model& model, const LevelOfDetail& level);
 /// `parts` with their counts in `level`.
 std::vector<Part> parts_of_level(const Rig& rig, const LevelOfDetail& level);
 
-/// The levels a model of that many vertices gets when nobody says which: 50000, 20000, 10000, 5000 and 2500, those that
-/// save half; none for a model of 10000 or less.
+/// The levels worth having for a model of that many vertices, for who names none: 50000, 20000, 10000, 5000 and 2500,
+/// those that save half; none for a model of 10000 or less.
 std::vector<std::uint32_t> default_budgets(std::uint32_t vertex_count);
 
 }  // namespace semblante

@@ -12,10 +12,12 @@
 namespace semblante::api {
 namespace {
 
-std::vector<std::uint32_t> read_budgets(const Json& lods) {
+/// Budgets of levels of detail: a list, or "auto" for those worth having for a model of that many vertices.
+std::vector<std::uint32_t> read_budgets(const Json& lods, std::uint32_t vertices) {
+  if (lods == "auto") return default_budgets(vertices);
   if (!lods.is_array() || lods.size() > max_levels)
-    refuse("invalid-field", "it must be a list of at most " + std::to_string(max_levels) + " numbers of vertices",
-           "/lods");
+    refuse("invalid-field",
+           "it must be \"auto\" or a list of at most " + std::to_string(max_levels) + " numbers of vertices", "/lods");
   std::vector<std::uint32_t> budgets;
   for (const auto& item : lods) {
     const auto pointer = "/lods/" + std::to_string(budgets.size());
@@ -31,7 +33,7 @@ std::vector<std::uint32_t> read_budgets(const Json& lods) {
   return budgets;
 }
 
-ParametrizationOptions read_options(const Json& body) {
+ParametrizationOptions read_options(const Json& body, std::uint32_t vertices) {
   refuse_unknown_members(body, {"metric", "weights", "weight_bits", "lods"});
   ParametrizationOptions options;
   if (body.contains("metric")) {
@@ -50,7 +52,7 @@ ParametrizationOptions read_options(const Json& body) {
       refuse("invalid-field", "it must be a whole number from 8 to 16", "/weight_bits");
     options.weight_bits = bits.get<int>();
   }
-  if (body.contains("lods")) options.lods = read_budgets(body["lods"]);
+  if (body.contains("lods")) options.lods = read_budgets(body["lods"], vertices);
   return options;
 }
 
@@ -87,7 +89,7 @@ store::JobRecord job_of(Context& context, const http::Request& request) {
 
 http::Response create_parametrization(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
-  const auto options = read_options(body_object(request));
+  const auto options = read_options(body_object(request), model.vertices);
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) return earlier_job(context, *check.earlier);
   refuse_unless_imported(model);

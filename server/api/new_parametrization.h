@@ -9,7 +9,7 @@ namespace semblante::api {
 struct ParametrizationOptions {
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
-  std::optional<std::vector<std::uint32_t>> lods;  ///< as JobRecord::lods
+  std::vector<std::uint32_t> lods;  ///< as JobRecord::lods
 };
 
 /// Stores a parametrize job, durably. It is not queued yet.

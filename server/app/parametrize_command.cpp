@@ -42,11 +42,12 @@ void write_package(const FacePackage& package, const std::filesystem::path& fold
   }
 }
 
-/// "10000,5000", "none" or nothing.
+/// "10000,5000", "auto" or nothing.
 std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const Model& model) {
-  if (options.lods.empty()) return default_budgets(static_cast<std::uint32_t>(model.positions.size()));
+  if (options.lods == std::vector<std::string>{"auto"}) {
+    return default_budgets(static_cast<std::uint32_t>(model.positions.size()));
+  }
   std::vector<std::uint32_t> budgets;
-  if (options.lods.size() == 1 && options.lods[0] == "none") return budgets;
   for (const std::string& text : options.lods) {
     std::uint32_t budget = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), budget);
@@ -54,7 +55,7 @@ std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const M
         (!budgets.empty() && budget >= budgets.back()) || budgets.size() == max_levels) {
       throw CommandFailure(CommandFailure::bad_input,
                            "--lods: '" + text + "' does not fit: at most " + std::to_string(max_levels) +
-                               " falling numbers of vertices, " + std::to_string(least_budget) + " or more, or none");
+                               " falling numbers of vertices, " + std::to_string(least_budget) + " or more, or auto");
     }
     budgets.push_back(budget);
   }
@@ -74,9 +75,7 @@ std::vector<FacePackage> encode(Head& head, const ParametrizeCommand& options) {
   lod_options.labels = labels;
   const auto levels = decimate(head.model, head.surface, head.rig, lod_options);
   if (!levels) fail(options.head.model_path, levels.error());
-  if (!options.lods.empty()) {
-    for (const MissedBudget& miss : missed_budgets(lod_options.budgets, *levels)) head.warnings.push_back(miss.words);
-  }
+  for (const MissedBudget& miss : missed_budgets(lod_options.budgets, *levels)) head.warnings.push_back(miss.words);
   auto packages = build_packages(head.model, head.surface, head.rig, *levels, package_options);
   if (!packages) fail(options.head.model_path, packages.error());
   return std::move(*packages);
@@ -121,8 +120,7 @@ void add_parametrize_command(CLI::App& app) {
   command
       ->add_option(
           "--lods", options->lods,
-          "Levels of detail, into folders lod1, lod2, ... of --out: numbers of vertices, falling (10000,5000), or "
-          "none; else those worth having for a model of more than 10000")
+          "Levels of detail, into folders lod1, lod2, ... of --out: numbers of vertices, falling (10000,5000), or auto")
       ->delimiter(',')
       ->envname("SEMBLANTE_LODS");
   command->callback([options] { run(*options); });

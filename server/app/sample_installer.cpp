@@ -6,6 +6,7 @@
 
 #include "core/import/axes.h"
 #include "core/import/feature_points_file.h"
+#include "core/lod/decimate.h"
 #include "server/api/new_model.h"
 #include "server/api/new_parametrization.h"
 #include "server/app/command_failure.h"
@@ -82,6 +83,7 @@ void SampleInstaller::parametrize() {
   }
   api::ParametrizationOptions options;
   options.weights = "smooth";  // the first face people see wears the better skin
+  options.lods = default_budgets(model->vertices);
   queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), options, std::nullopt));
 }
 

@@ -78,7 +78,7 @@ std::string to_json(const WorkerRequest& request) {
                 {"points", request.points},
                 {"parts", request.parts}};
   if (request.frame) value["frame"] = store::frame_to_json(*request.frame, {});
-  if (request.lods) value["lods"] = *request.lods;
+  value["lods"] = request.lods;
   return dump(value);
 }
 
@@ -98,7 +98,7 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
     request.weight_bits = value.at("weight_bits");
     if (value.contains("frame")) request.frame = store::frame_from_json(value["frame"]);
     request.frame_wish = store::wish_from_json(value.at("frame_wish"));
-    if (value.contains("lods")) request.lods = value["lods"].get<std::vector<std::uint32_t>>();
+    value.at("lods").get_to(request.lods);
     value.at("points").get_to(request.points);
     value.at("parts").get_to(request.parts);
     return request;

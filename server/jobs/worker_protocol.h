@@ -27,7 +27,7 @@ struct WorkerRequest {
   std::vector<store::PartRecord> parts;           ///< of the import; roles set by the user are kept
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
-  std::optional<std::vector<std::uint32_t>> lods;  ///< as JobRecord::lods
+  std::vector<std::uint32_t> lods;  ///< as JobRecord::lods
 };
 
 /// The limits a worker puts on itself before it reads a byte of the model. 0: none.

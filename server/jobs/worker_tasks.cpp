@@ -153,7 +153,7 @@ Result<Levels> make_levels(const WorkerRequest& request, const Model& model, con
                            const Progress& progress) {
   Levels made;
   LodOptions options;
-  options.budgets = request.lods ? *request.lods : default_budgets(static_cast<std::uint32_t>(model.positions.size()));
+  options.budgets = request.lods;
   const auto poses = options.budgets.empty() ? std::vector<LodPose>() : lod_poses(rig, model);
   const auto labels = options.budgets.empty() ? std::vector<std::uint8_t>() : material_labels(model, surface, rig);
   options.poses = poses;
@@ -169,9 +169,7 @@ Result<Levels> make_levels(const WorkerRequest& request, const Model& model, con
     errors.push_back(measure_level(model, surface, level, poses));
   }
   const auto missed = missed_budgets(options.budgets, made.levels);
-  // Who asked for a level is told at once; who did not finds it in the report.
-  if (request.lods)
-    for (const MissedBudget& miss : missed) rig.warnings.push_back(miss.words);
+  for (const MissedBudget& miss : missed) rig.warnings.push_back(miss.words);
   const double eye_separation = 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0);
   made.report = write_levels_of_detail(made.levels, errors, poses, eye_separation, missed);
   return made;

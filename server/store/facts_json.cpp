@@ -63,16 +63,13 @@ std::vector<LevelRecord> read_levels(std::string_view text) {
   }
 }
 
-std::string write_lods(const std::optional<std::vector<std::uint32_t>>& lods) {
-  return lods ? nlohmann::json(*lods).dump() : std::string();
-}
+std::string write_lods(const std::vector<std::uint32_t>& lods) { return nlohmann::json(lods).dump(); }
 
-std::optional<std::vector<std::uint32_t>> read_lods(std::string_view text) {
-  if (text.empty()) return std::nullopt;
+std::vector<std::uint32_t> read_lods(std::string_view text) {
   try {
     return nlohmann::json::parse(text).get<std::vector<std::uint32_t>>();
   } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
+    return {};
   }
 }
 

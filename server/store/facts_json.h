@@ -16,10 +16,10 @@ std::string write_proposal(const ProposalRecord& proposal);
 /// The reverse; a text that is not of this form gives a proposal of which nothing is known.
 ProposalRecord read_proposal(std::string_view json);
 
-/// Lists of their own columns, likewise: levels of a package, and what a job was asked for ("" when it was not).
+/// Lists of their own columns, likewise: levels of a package, and the budgets of them that a job was asked for.
 std::string write_levels(const std::vector<LevelRecord>& levels);
 std::vector<LevelRecord> read_levels(std::string_view json);
-std::string write_lods(const std::optional<std::vector<std::uint32_t>>& lods);
-std::optional<std::vector<std::uint32_t>> read_lods(std::string_view json);
+std::string write_lods(const std::vector<std::uint32_t>& lods);
+std::vector<std::uint32_t> read_lods(std::string_view json);
 
 }  // namespace semblante::store

@@ -136,9 +136,9 @@ struct JobRecord {
   std::string problem;  ///< JSON of the problem document, or empty
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
-  std::optional<std::vector<std::uint32_t>> lods;  ///< budgets of levels, falling; empty: those by default
-  std::uint32_t attempts = 0;                      ///< how often a worker began it
-  std::string result;                              ///< JSON of what it has to say beside what it changed, or empty
+  std::vector<std::uint32_t> lods;  ///< budgets of levels of detail, falling
+  std::uint32_t attempts = 0;       ///< how often a worker began it
+  std::string result;               ///< JSON of what it has to say beside what it changed, or empty
 
   bool operator==(const JobRecord&) const = default;
 };

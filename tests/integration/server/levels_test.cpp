@@ -144,10 +144,13 @@ TEST_F(Levels, OneThatCannotBeIsExplained) {
   EXPECT_EQ(json_of(get(model, "/report.json"))["levels_of_detail"]["missed"][0]["budget"], 5000);
 }
 
-TEST_F(Levels, ALightModelHasNoneUnlessAsked) {
-  const auto model = grid_with("{}");
-  EXPECT_EQ(json_of(get(model, ""))["package"]["levels"].size(), 1U);
-  EXPECT_FALSE(json_of(get(model, "/rig.json")).contains("levels"));
+TEST_F(Levels, AreMadeOnRequestAlone) {
+  for (const char* const options : {"{}", R"({"lods":[]})", R"({"lods":"auto"})"}) {  // a light model needs none
+    const auto model = grid_with(options);
+    EXPECT_EQ(json_of(get(model, ""))["package"]["levels"].size(), 1U);
+    EXPECT_FALSE(json_of(get(model, "/rig.json")).contains("levels"));
+    EXPECT_EQ(get(model, "/mesh.drc?lod=0").status, 200);
+  }
 }
 
 }  // namespace

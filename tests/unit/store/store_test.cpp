@@ -346,9 +346,7 @@ TEST_F(StoreTest, FailedImportAnew_LeavesTheModelAsItWas) {
 
 TEST_F(StoreTest, LevelsAndWhatWasAskedFor_AreKept) {
   import(add("m"));
-  for (const auto& lods : {std::optional<std::vector<std::uint32_t>>(),
-                           {std::vector<std::uint32_t>{}},
-                           {std::vector<std::uint32_t>{10000, 5000}}}) {
+  for (const auto& lods : {std::vector<std::uint32_t>{}, std::vector<std::uint32_t>{10000, 5000}}) {
     JobRecord job;
     job.id = random_id();
     job.model = "m";
@@ -385,7 +383,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   sqlite3_close(database);
   reopen();
   EXPECT_TRUE(store_->model("m")->package->levels.empty());
-  EXPECT_FALSE(store_->job("p")->lods);
+  EXPECT_TRUE(store_->job("p")->lods.empty());
   job.id = "q";
   job.lods = {500};
   store_->create_job(job, std::nullopt);
