@@ -1,16 +1,9 @@
 #include "core/expressions/contact.h"
 
 #include <algorithm>
-#include <array>
 
 namespace semblante {
 namespace {
-
-struct Facing {
-  const char* upper;
-  const char* lower;
-};
-constexpr std::array<Facing, 3> facing_lips = {{{"2.2", "2.3"}, {"2.6", "2.8"}, {"2.7", "2.9"}}};
 
 const FeaturePoint* find(const FeaturePointSet& points, FeaturePointId id) {
   const auto at = std::find_if(points.begin(), points.end(), [&](const FeaturePoint& p) { return p.id == id; });
@@ -25,8 +18,10 @@ Displacement* find(std::vector<Displacement>& displacements, FeaturePointId id) 
 
 }  // namespace
 
-void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePointSet& points, double mouth_nose) {
-  for (const Facing& lips : facing_lips) {
+void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePointSet& points, double mouth_nose,
+                     const std::optional<LipGaps>& gaps) {
+  for (std::size_t i = 0; i < facing_lips.size(); ++i) {
+    const FacingLips& lips = facing_lips[i];
     const FeaturePointId upper = *parse_feature_point(lips.upper);
     const FeaturePointId lower = *parse_feature_point(lips.lower);
     const FeaturePoint* const above = find(points, upper);
@@ -35,7 +30,7 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
     Displacement* const down = find(displacements, upper);
     Displacement* const up = find(displacements, lower);
     if (down == nullptr || up == nullptr) continue;
-    const double apart = std::max(0.0, static_cast<double>(above->position.y) - below->position.y);
+    const double apart = gaps ? (*gaps)[i] : std::max(0.0, static_cast<double>(above->position.y) - below->position.y);
     const double closing = static_cast<double>(up->value.y) - down->value.y;
     const double excess = closing - (apart + lip_give * mouth_nose);
     if (excess <= 0.0) continue;
@@ -44,9 +39,10 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
   }
 }
 
-ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points) {
+ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
+                           const std::optional<LipGaps>& gaps) {
   ModelDisplacements result = to_model_units(set, fapu);
-  if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns);
+  if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
+#include "core/parametrize/lip_gaps.h"
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/pivots.h"
 #include "core/parametrize/point_lookup.h"
@@ -89,6 +90,9 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
     rig.part_of_vertex.push_back(part);
     rig.rigid_of_vertex.push_back(rigid_motion_of(rig.parts[part.value()].role));
   }
+  // With the weights of Eq. 4 the skin between facing points follows those of the other lip and of the outer lips as
+  // much: what they alone close says little.
+  if (options.weights == WeightMethod::smooth) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
   rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
   rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);
   rig.head_pivot = head_pivot(rig.parts, points);

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/types/facing_lips.h"
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
 #include "core/types/weight_table.h"
@@ -44,6 +45,9 @@ struct Rig {
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
   std::vector<PartId> part_of_vertex;        ///< #V
   std::vector<Part> parts;                   ///< by PartId
+  /// Where lips that close meet; empty where that is not known: points are missing, or weights that let lips
+  /// move each other.
+  std::optional<LipGaps> lip_gaps;
   glm::vec3 left_eye_pivot{0.0F};
   glm::vec3 right_eye_pivot{0.0F};
   glm::vec3 head_pivot{0.0F};         ///< 7.1, or an estimate from the box of the model when it is not marked

@@ -84,7 +84,7 @@ RigDocument::MaterialInfo describe(const Material& material, const std::vector<A
 RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
   RigDocument::DisplacementSet out;
   out.name = set.name;
-  for (const Displacement& displacement : on_face(set, rig.fapu, rig.points).displacements) {
+  for (const Displacement& displacement : on_face(set, rig.fapu, rig.points, rig.lip_gaps).displacements) {
     const bool marked = std::any_of(rig.points.begin(), rig.points.end(),
                                     [&](const FeaturePoint& p) { return p.id == displacement.point; });
     if (marked) out.displacements.push_back({displacement.point, displacement.value});

@@ -35,6 +35,16 @@ TEST(StopAtContact, LetsLipsMeetAndNoMore) {
   EXPECT_EQ(closing[1].value.z, 0.2F);
 }
 
+TEST(StopAtContact, GoesByMeasuredGapsWhereTheyAreKnown) {
+  std::vector<Displacement> closing = {{fp("2.2"), {0.0F, -0.3F, 0.0F}},
+                                       {fp("2.3"), {0.0F, 0.1F, 0.0F}},
+                                       {fp("2.7"), {0.0F, -0.3F, 0.0F}},
+                                       {fp("2.9"), {0.0F, 0.3F, 0.0F}}};
+  stop_at_contact(closing, lips(0.2F), mouth_nose, LipGaps{0.1, 0.0, 0.5});
+  EXPECT_NEAR(y_of(closing, "2.3") - y_of(closing, "2.2"), 0.1F + give, 1e-6F);
+  EXPECT_NEAR(y_of(closing, "2.9") - y_of(closing, "2.7"), 0.5F + give, 1e-6F);
+}
+
 TEST(StopAtContact, LeavesWhatDoesNotMeetAlone) {
   const std::vector<Displacement> apart = {{fp("2.6"), {0.0F, -0.05F, 0.0F}}, {fp("2.8"), {0.0F, 0.05F, 0.0F}}};
   std::vector<Displacement> same = apart;
