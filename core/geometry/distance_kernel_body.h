@@ -1,6 +1,7 @@
-// The loops of DistanceKernel over a type `Lanes` that the including file defines first. Files that include this are
-// compiled for registers which the machine may not have, so nothing but C headers may come in here: an inline function
-// of the standard library would be compiled for those registers too, and the linker might keep that copy for everyone.
+// The loops of DistanceKernel over a type `Lanes` of eight doubles that the including file defines first. Files that
+// include this are compiled for registers which the machine may not have, so nothing but C headers may come in here: an
+// inline function of the standard library would be compiled for those registers too, and the linker might keep that
+// copy for everyone.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +12,43 @@
 namespace semblante {
 namespace {
 
+/// A vertex of all lanes: as many `Lanes` as it takes.
+struct Row {
+  static constexpr std::size_t count = DistanceGroup::lane_count / 8;
+  Lanes part[count];
+
+  static Row load(const double* from) {
+    Row row;
+    for (std::size_t i = 0; i < count; ++i) row.part[i] = Lanes::load(from + 8 * i);
+    return row;
+  }
+  void store(double* to) const {
+    for (std::size_t i = 0; i < count; ++i) part[i].store(to + 8 * i);
+  }
+  void lower_to(const Row& other, double length) {
+    for (std::size_t i = 0; i < count; ++i) part[i].lower_to(other.part[i], length);
+  }
+  [[nodiscard]] std::uint8_t improves(const Row& other, double length) const {
+    unsigned any = 0;
+    for (std::size_t i = 0; i < count; ++i) any |= part[i].improves(other.part[i], length);
+    return static_cast<std::uint8_t>(any);
+  }
+};
+
 inline void visit(const DistanceGroup& g, std::size_t position) {
   constexpr std::size_t width = DistanceGroup::lane_count;
   const std::uint32_t vertex = g.order[position];
   const std::uint32_t first = g.offsets[vertex];
   const std::uint32_t end = g.offsets[vertex + 1];
-  Lanes here = Lanes::load(g.distances + vertex * width);
+  Row here = Row::load(g.distances + vertex * width);
   for (std::uint32_t k = first; k < end; ++k) {
-    here.lower_to(Lanes::load(g.distances + g.to[k] * width), g.lengths[k]);
+    here.lower_to(Row::load(g.distances + g.to[k] * width), g.lengths[k]);
   }
   here.store(g.distances + vertex * width);
   g.pending[position] = 0;
   // No branch: whether a neighbour improves is as good as random, and a wrong guess costs more than the store.
   for (std::uint32_t k = first; k < end; ++k) {
-    g.pending[g.place[g.to[k]]] |= here.improves(Lanes::load(g.distances + g.to[k] * width), g.lengths[k]);
+    g.pending[g.place[g.to[k]]] |= here.improves(Row::load(g.distances + g.to[k] * width), g.lengths[k]);
   }
 }
 
@@ -34,8 +58,22 @@ inline bool none_pending(const std::uint8_t* eight) {
   return word == 0;
 }
 
+/// Neighbours in the order are far apart in memory, where the processor does not look ahead by itself.
+inline void prefetch(const DistanceGroup& g, std::size_t k, std::size_t count) {
+  constexpr std::size_t ahead = 12;
+  if (k + 2 * ahead >= count) return;
+  __builtin_prefetch(g.offsets + g.order[k + 2 * ahead]);
+  const std::uint32_t soon = g.order[k + ahead];
+  for (std::size_t i = 0; i < Row::count; ++i) {
+    __builtin_prefetch(g.distances + soon * DistanceGroup::lane_count + 8 * i);
+  }
+  __builtin_prefetch(g.place + soon);
+  const std::uint32_t arc = g.offsets[soon];
+  __builtin_prefetch(g.to + arc);
+  __builtin_prefetch(g.lengths + arc);
+}
+
 std::size_t sweep(const DistanceGroup& g, std::size_t count, bool forward) {
-  constexpr std::size_t ahead = 6;
   std::size_t visits = 0;
   if (forward) {
     for (std::size_t k = 0; k < count;) {
@@ -44,8 +82,7 @@ std::size_t sweep(const DistanceGroup& g, std::size_t count, bool forward) {
         continue;
       }
       if (g.pending[k] != 0) {
-        const std::uint32_t soon = g.order[k + ahead < count ? k + ahead : k];
-        __builtin_prefetch(g.distances + soon * DistanceGroup::lane_count);
+        prefetch(g, k, count);
         visit(g, k);
         ++visits;
       }

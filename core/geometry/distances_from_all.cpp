@@ -11,6 +11,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 #include "core/geometry/edge_path_search.h"
 
 namespace semblante {
@@ -239,6 +243,22 @@ void DistancesFromAll::read_row(std::size_t member, std::span<double> row) const
   for (std::size_t source = 0; source < row.size(); ++source) row[source] = from[lane_of_[source]];
 }
 
+namespace {
+/// Aligned to cache lines; large tables to huge pages, where the system has them: a sweep jumps about in them.
+double* allocate_lanes(std::size_t count) {
+  constexpr std::size_t line = 64;
+  constexpr std::size_t huge_page = std::size_t{2} << 20U;
+  const std::size_t bytes = std::max(count * sizeof(double), line);
+  if (bytes < 2 * huge_page) return static_cast<double*>(std::aligned_alloc(line, bytes));
+  const std::size_t whole = (bytes + huge_page - 1) / huge_page * huge_page;
+  auto* const lanes = static_cast<double*>(std::aligned_alloc(huge_page, whole));
+#if defined(__linux__)
+  if (lanes != nullptr) madvise(lanes, whole, MADV_HUGEPAGE);
+#endif
+  return lanes;
+}
+}  // namespace
+
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
                                     const DistanceKernel& kernel) {
   const std::span<const SurfaceVertexId> members = graph.members_of(part);
@@ -258,7 +278,7 @@ DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span
   const std::size_t group_size = members.size() * lane_count;
   const std::size_t groups = (sources.size() + lane_count - 1) / lane_count;
   DistancesFromAll result;
-  result.lanes_.reset(static_cast<double*>(std::aligned_alloc(64, std::max<std::size_t>(groups, 1) * group_size * 8)));
+  result.lanes_.reset(allocate_lanes(groups * group_size));
   if (!result.lanes_) throw std::bad_alloc();
   result.lane_of_.resize(sources.size());
   GroupSearch search(own, kernel);

@@ -31,7 +31,7 @@ class DistancesFromAll {
   std::vector<std::uint32_t> vertex_of_;   ///< by member: its number in the kernel's arrays
 };
 
-/// One search for all sources together, eight to a cache line. Bit by bit the values of EdgePathSearch: the least, over
+/// One search for all sources together, sixteen side by side. Bit by bit the values of EdgePathSearch: the least, over
 /// all paths, of the lengths added up from the source on in double. Correcting distances until nothing changes ends
 /// there in whatever order it goes, for rounded addition never falls when a summand grows.
 ///
@@ -40,7 +40,7 @@ class DistancesFromAll {
 /// visit; further sweeps, back and forth, visit only what a neighbour can still improve. Where ways wind so that this
 /// does not end soon, each source of the group is searched from by itself.
 ///
-/// Every source must lie on `part`. Memory: 8 bytes a source (rounded up to eights) and member.
+/// Every source must lie on `part`. Memory: 8 bytes a source (rounded up to sixteens) and member.
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
                                     const DistanceKernel& kernel = distance_kernels().back());
 
