@@ -10,7 +10,7 @@
 
 namespace semblante::oracle {
 
-/// A second reading of algorithm.md sections 1, 4 and 5, written from the text alone: plain containers, one vertex and
+/// A second reading of surfaces and Eq. 1 to 4, written from the text alone: plain containers, one vertex and
 /// one feature point at a time, as slow as it likes. It shares no code and no type with core/.
 using Point3 = std::array<double, 3>;
 

@@ -56,7 +56,7 @@ TEST_F(BadInput, ZipWithoutModel_IsAMalformedModel) {
       json_of(request(port(), "POST", "/v1/models?filename=a.zip", zip, {{"Content-Type", "application/zip"}}));
   const auto problem = wait_for_job(port(), made["job"]["id"])["problem"];
   EXPECT_EQ(problem["type"], "/problems/malformed-model") << problem;
-  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf or .glb"));
+  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb or .obj"));
 }
 
 TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {
@@ -80,12 +80,23 @@ TEST_F(BadInput, PointsOfAnotherFrame_AreRefused) {
   EXPECT_EQ(put(model, R"({"vertex_index_base":1,)" + points + "}")["pointer"], "/vertex_index_base");
 }
 
+/// As many points as anything asks for, on vertices of import_grid's model.
+nlohmann::json points_on_grid(const nlohmann::json& head_center) {
+  nlohmann::json points{{"7.1", head_center}};
+  int vertex = 4;
+  for (const char* id : {"2.1", "2.2", "2.3", "8.1", "8.2", "9.3", "9.15", "11.4"}) {
+    points[id] = {{"vertex", vertex}};
+    vertex += 9;
+  }
+  return points;
+}
+
 /// What the documentation shows as right must be taken: each JSON body's example goes to its route.
 TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
   const auto document = json_of(request(port(), "GET", "/openapi.json"));
   const auto model = import_grid(port());
   std::size_t sent = 0;
-  // Put before post: a parametrization needs points.
+  // Put before post: a parametrization needs points, proposals need eight.
   for (const std::string method : {"put", "patch", "post"}) {
     for (const auto& [path, item] : document["paths"].items()) {
       if (!item.contains(method) || path == "/v1/models") continue;
@@ -93,7 +104,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       auto example = item[method]["requestBody"]["content"]["application/json"]["example"];
       ASSERT_TRUE(example.is_object()) << "a body without an example";
       // The document speaks of a real head; here is a grid of one part and 81 vertices, and no sample.
-      if (example.contains("points")) example["points"] = {{"2.1", {{"vertex", 4}}}, {"7.1", example["points"]["7.1"]}};
+      if (example.contains("points")) example["points"] = points_on_grid(example["points"]["7.1"]);
       if (example.contains("roles")) example["roles"] = {{"0", example["roles"]["3"]}};
       if (example.contains("model")) example["model"] = model;
       auto target = path;
@@ -106,7 +117,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 5U);
+  EXPECT_EQ(sent, 6U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.
