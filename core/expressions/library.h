@@ -31,7 +31,7 @@ std::span<const DisplacementSet> viseme_library();
 std::span<const DisplacementSet> expression_library();
 
 /// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it so, else that of its region
-/// (algorithm.md, displacement sets).
+/// (mouth and jaw: MW, MNS; eyes: ES, IRISD; all else: ES, ENS).
 FapuUnit fapu_of(FeaturePointId point, int axis);
 
 /// A displacement that a head cannot have, because the unit it is measured in is not known there.

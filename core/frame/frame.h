@@ -30,7 +30,7 @@ int axis_of(Direction direction);
 Direction direction_along(int axis, double value);
 
 /// How a head stands in its file: where the top of the head is, and where the face looks. The default is MPEG-4's own
-/// frame (algorithm.md section 0).
+/// frame.
 struct Axes {
   Direction up = Direction::plus_y;
   Direction front = Direction::plus_z;

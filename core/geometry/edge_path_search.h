@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// Surface distance along mesh edges (algorithm.md section 1): one search gives the distances from one vertex to every
+/// Surface distance along mesh edges: one search gives the distances from one vertex to every
 /// other. Keeps its arrays between searches, so that 84 of them allocate once.
 class EdgePathSearch {
  public:

@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// Stitches seams, leaves contacts apart (algorithm.md section 1). A boundary edge has one triangle, by file index.
+/// Stitches seams, leaves contacts apart. A boundary edge has one triangle, by file index.
 /// Where boundary edges coincide, both ends at equal positions (as float32, -0 equal to +0), their ends become one.
 ///
 /// Returns #V entries: the lowest file vertex that each file vertex is one with; itself where nothing was stitched.

@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// The stitched surface of a model (algorithm.md section 1): file vertices that a seam had split are one surface vertex
+/// The stitched surface of a model: file vertices that a seam had split are one surface vertex
 /// again, and the mesh edges between surface vertices are a graph. Needs no manifold: any triangles give a graph.
 ///
 /// A part is a connected component of that graph. Parts are numbered by their lowest file vertex; vertices that no

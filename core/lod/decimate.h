@@ -47,8 +47,8 @@ struct LevelOfDetail {
       source_triangles;  ///< #T, rises: the model's triangle each one was; its look is that one's
 };
 
-/// Decimates `model` to each of the budgets, every level from the one before, parts of each role by their share
-/// (algorithm.md section 9). Deterministic. `surface` and `rig` are the model's. Levels that a budget does not make
+/// Decimates `model` to each of the budgets, every level from the one before, parts of each role by their
+/// share. Deterministic. `surface` and `rig` are the model's. Levels that a budget does not make
 /// smaller than the one before by a tenth are left out: feature points, lips, lids, borders and seams stay.
 ///
 /// Errors: `cancelled`.

@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// Which surface vertices no level of detail may drop (#S flags; algorithm.md section 9):
+/// Which surface vertices no level of detail may drop (#S flags):
 ///
 /// - feature points;
 /// - the borders of lips and eyelids: the shortest ways along edges between neighbouring marked points of the inner

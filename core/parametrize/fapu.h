@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// FAPUs of a neutral face (algorithm.md section 2), in model units, already divided by 1024:
+/// FAPUs of a neutral face, in model units, already divided by 1024:
 ///
 ///     IRISD  mean of 3.1.y - 3.3.y (left eye) and 3.2.y - 3.4.y (right); one eye alone is enough
 ///     ES     3.5.x - 3.6.x

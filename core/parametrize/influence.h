@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// Eq. 7's constant part with the roles of parts applied (algorithm.md sections 3 and 7): #S rows.
+/// Eq. 7's constant part with the roles of parts applied: #S rows.
 ///
 ///     skin          W / sum(W)
 ///     lower teeth   the jaw point 2.1 alone, fully

@@ -40,7 +40,7 @@ inline constexpr double distance_tie = 1e-6;
 /// A cosine counts as positive above this: symmetric heads are full of right angles that rounding must not decide.
 inline constexpr double least_cosine = 1e-6;
 
-/// Region of influence (algorithm.md section 4): for each member P of the part the set of points whose region P belongs
+/// Region of influence: for each member P of the part the set of points whose region P belongs
 /// to. A feature point's own vertex is not an ordinary vertex: its set is empty.
 std::vector<SlotSet> influence_regions(const Surface& surface, const PointDistances& distances);
 

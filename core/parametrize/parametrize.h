@@ -22,7 +22,7 @@ struct ParametrizeOptions {
   ProgressCallback progress;
 };
 
-/// The whole of algorithm.md sections 2 to 5 for one model, and Eq. 7's quotient with the roles of parts applied.
+/// FAPUs, regions and weights (Eq. 1 to 4) of one model, and Eq. 7's quotient with the roles of parts applied.
 /// `surface` must be build_surface(model), `points` the result of place_feature_points on them. Fails with `empty`
 /// for a model without triangles and with `cancelled`; what is merely missing becomes a warning of the rig.
 Result<Rig> parametrize(const Model& model, const Surface& surface, const FeaturePointSet& points,

@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-/// The parts of a model by PartId, with their roles (algorithm.md section 3): what the user set, else a guess from the
+/// The parts of a model by PartId, with their roles: what the user set, else a guess from the
 /// points marked on a part, its name, its place and its size. `points` may be empty: then names and places alone speak.
 std::vector<Part> describe_parts(const Model& model, const Surface& surface, const FeaturePointSet& points,
                                  std::span<const std::optional<PartRole>> roles_by_user = {});

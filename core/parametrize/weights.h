@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// Weights W_iP of Eq. 4 (algorithm.md section 5) for the members of one part: #M rows. `regions` are those of
+/// Weights W_iP of Eq. 4 for the members of one part: #M rows. `regions` are those of
 /// `influence_regions` for the same distances. The row of a feature point's own vertex is (its id, 1) alone; where
 /// several points share a vertex, each has weight 1.
 WeightTable<double> part_weights(const Surface& surface, const PointDistances& distances,

@@ -10,8 +10,8 @@
 namespace semblante {
 
 /// A shape that came with a model beside its neutral one (a glTF morph target): where each file vertex goes when the
-/// shape is on in full. Only vertices that move are kept. Displacement sets can be read off it (algorithm.md section
-/// 8).
+/// shape is on in full. Only vertices that move are kept. Displacement sets can be read off
+/// it.
 struct Example {
   std::string name;                      ///< as the file calls it, printable
   std::vector<std::uint32_t> vertices;   ///< #E file vertices that move, rising

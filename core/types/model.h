@@ -45,7 +45,7 @@ struct Primitive {
 };
 
 /// A head as it was read: indexed triangles over *file vertices*, with UVs and normals indexed on their own as OBJ
-/// does. Positions are the file's float32 in the MPEG-4 frame (algorithm.md section 0), that is, after
+/// does. Positions are the file's float32 in the MPEG-4 frame, that is, after
 /// `to_file_frame`'s inverse. A glTF has uv_triangles == triangles.
 struct Model {
   std::vector<glm::vec3> positions;  ///< #V

@@ -15,7 +15,7 @@
 
 namespace semblante {
 
-/// What a connected part is, and so what moves it (algorithm.md section 3).
+/// What a connected part is, and so what moves it.
 enum class PartRole : std::uint8_t { skin, left_eye, right_eye, upper_teeth, lower_teeth, tongue, attached, rest };
 inline constexpr std::array<std::string_view, 8> part_role_names = {
     "skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "attached", "rest"};

@@ -28,7 +28,7 @@ class StrongId {
 
 /// A vertex as the model file numbers it (OBJ: `v` order; glTF: primitives in order). From 0.
 using VertexId = StrongId<struct VertexTag>;
-/// A point of the stitched surface (algorithm.md section 1): one or more file vertices.
+/// A point of the stitched surface: one or more file vertices.
 using SurfaceVertexId = StrongId<struct SurfaceVertexTag>;
 /// A connected component of the stitched surface.
 using PartId = StrongId<struct PartTag>;

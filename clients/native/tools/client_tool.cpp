@@ -56,7 +56,7 @@ Status publish(const client::Url& url, const Arguments& arguments) {
 }
 
 /// The faces to write: one state after another as they come, or at a display's own rate, where between two states lies
-/// a straight way (algorithm.md section 7). All are read before the first is written, since writing is slower than a
+/// a straight way. All are read before the first is written, since writing is slower than a
 /// stream and a subscriber that reads late gets the newest state instead of every state.
 Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player, std::size_t count, double fps) {
   std::vector<client::DisplayedFrame> collected;
