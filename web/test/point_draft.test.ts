@@ -5,6 +5,9 @@ import { pointGroups } from '../src/face/feature_points.ts';
 
 const at = (vertex: number | null): PlacedPoint => ({ vertex, position: [vertex ?? 0, 0, 0] });
 
+const verticesOf = (draft: PointDraft): object =>
+  Object.fromEntries(Object.entries(draft.toBody().points).map(([id, { vertex }]) => [id, vertex]));
+
 describe('point draft', () => {
   test('Draft_PlaceUnknownId_Throws', () => expect(() => new PointDraft().place('1.1', at(3))).toThrow(RangeError));
 
@@ -49,6 +52,7 @@ describe('point draft', () => {
     expect(draft.proposed).toEqual(['8.3', '8.4', '9.3']);
     expect(draft.toBody().points['8.3']).toEqual({
       vertex: 6,
+      position: [6, 0, 0],
       proposed: true,
       method: 'mirror',
       confidence: 'high',
@@ -58,7 +62,8 @@ describe('point draft', () => {
     draft.place('8.4', at(9));
     draft.discard(['2.1', '9.3']);
     expect(draft.proposed).toEqual([]);
-    expect(draft.toBody().points).toEqual({ '2.1': { vertex: 5 }, '8.3': { vertex: 6 }, '8.4': { vertex: 9 } });
+    expect(verticesOf(draft)).toEqual({ '2.1': 5, '8.3': 6, '8.4': 9 });
+    expect(Object.values(draft.toBody().points).some((point) => point.proposed)).toBe(false);
     expect(draft.changes).toBe(3);
   });
 
@@ -70,18 +75,20 @@ describe('point draft', () => {
       ['3.7', at(3)],
     ]);
     draft.exchange(['8.3', '8.4', '3.7']);
-    expect(draft.toBody().points).toEqual({ '8.3': { vertex: 2 }, '8.4': { vertex: 1 }, '3.12': { vertex: 3 } });
+    expect(verticesOf(draft)).toEqual({ '8.3': 2, '8.4': 1, '3.12': 3 });
     draft.undo();
     expect(draft.changes).toBe(0);
   });
 
-  test('Draft_BarePosition_IsSentAsPosition', () => {
+  test('Draft_VertexOfAnotherFile_IsSentWithItsPosition', () => {
     const draft = new PointDraft();
     draft.reset([
       ['7.1', at(null)],
       ['2.1', at(5)],
     ]);
-    expect(draft.toBody()).toEqual({ points: { '7.1': { position: [0, 0, 0] }, '2.1': { vertex: 5 } } });
+    expect(draft.toBody()).toEqual({
+      points: { '7.1': { position: [0, 0, 0] }, '2.1': { vertex: 5, position: [5, 0, 0] } },
+    });
   });
 });
 

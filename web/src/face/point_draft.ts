@@ -113,11 +113,14 @@ export class PointDraft {
     return count;
   }
 
-  /** The body of a PUT: a vertex where there is one, else the position; and what is known of a proposal. */
+  /**
+   * The body of a PUT: the vertex where there is one, the position, and what is known of a proposal. The position goes
+   * along with the vertex: points marked on another file of the same head have vertex numbers that mean nothing here.
+   */
   toBody(): { points: Record<string, PointBody> } {
     const points: Record<string, PointBody> = {};
     for (const [id, { vertex, position, proposal }] of this.current)
-      points[id] = { ...(vertex === null ? { position } : { vertex }), ...(proposal ? proposalBody(proposal) : {}) };
+      points[id] = { ...(vertex === null ? {} : { vertex }), position, ...(proposal ? proposalBody(proposal) : {}) };
     return { points };
   }
 
