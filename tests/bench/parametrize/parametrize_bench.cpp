@@ -200,6 +200,6 @@ void run(std::uint32_t greatest) {
 }  // namespace semblante
 
 int main(int argc, char** argv) {
-  semblante::run(argc > 1 ? static_cast<std::uint32_t>(std::atoi(argv[1])) : 501);
+  semblante::run(argc > 1 ? static_cast<std::uint32_t>(std::atoi(argv[1])) : 502);
   return 0;
 }
