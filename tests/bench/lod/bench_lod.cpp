@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/expressions/kernel_rig.h"
 #include "core/expressions/library.h"
 #include "core/lod/decimate.h"
 #include "core/lod/level_error.h"
@@ -25,21 +24,13 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 
 /// The 14 visemes that move: faces the decimation did not see.
 std::vector<LodPose> visemes(const Rig& rig, const Model& model) {
-  const KernelRig kernel = make_kernel_rig(rig);
-  const semblante_rig view = kernel.view();
-  const semblante_face face = make_kernel_face(rig, &model.positions[0].x);
-  std::vector<LodPose> poses;
+  std::vector<semblante_frame> frames;
   for (std::uint8_t viseme = 1; viseme < viseme_library().size(); ++viseme) {
-    semblante_frame frame{};
+    semblante_frame& frame = frames.emplace_back();
     frame.viseme1 = viseme;
     frame.viseme_blend = SEMBLANTE_BLEND_MAX;
-    semblante_pose pose{};
-    semblante_evaluate(&view, &frame, &pose);
-    LodPose& out = poses.emplace_back();
-    out.positions.resize(model.positions.size());
-    semblante_deform(&face, &pose, &out.positions[0].x);
   }
-  return poses;
+  return poses_in(rig, model, frames);
 }
 
 SurfaceError worst_of(const std::vector<SurfaceError>& errors) {
