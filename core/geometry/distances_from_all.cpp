@@ -233,17 +233,6 @@ class GroupSearch {
   std::vector<std::uint8_t> pending_;
 };
 
-}  // namespace
-
-void DistancesFromAll::Free::operator()(double* lanes) const { std::free(lanes); }
-
-void DistancesFromAll::read_row(std::size_t member, std::span<double> row) const {
-  assert(row.size() == lane_of_.size());
-  const double* const from = lanes_.get() + vertex_of_[member] * lane_count;
-  for (std::size_t source = 0; source < row.size(); ++source) row[source] = from[lane_of_[source]];
-}
-
-namespace {
 /// Aligned to cache lines; large tables to huge pages, where the system has them: a sweep jumps about in them.
 double* allocate_lanes(std::size_t count) {
   constexpr std::size_t line = 64;
@@ -257,7 +246,16 @@ double* allocate_lanes(std::size_t count) {
 #endif
   return lanes;
 }
+
 }  // namespace
+
+void DistancesFromAll::Free::operator()(double* lanes) const { std::free(lanes); }
+
+void DistancesFromAll::read_row(std::size_t member, std::span<double> row) const {
+  assert(row.size() == lane_of_.size());
+  const double* const from = lanes_.get() + vertex_of_[member] * lane_count;
+  for (std::size_t source = 0; source < row.size(); ++source) row[source] = from[lane_of_[source]];
+}
 
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
                                     const DistanceKernel& kernel) {
