@@ -230,26 +230,43 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   return result;
 }
 
+/// A model as its feature points say it stands, and the points on it.
+struct MarkedModel {
+  Surface surface;
+  std::vector<std::optional<PartRole>> roles;
+  FeaturePointSet points;
+  std::vector<std::string> warnings;
+  bool is_turned = false;
+};
+
+Result<MarkedModel> mark(Model& model, const WorkerRequest& request, WorkerResult& result) {
+  stand_as_before(model, request);
+  MarkedModel head;
+  head.surface = build_surface(model);
+  head.roles = roles_by_user(request);
+  auto marked = marked_points(request);
+  if (!marked) return marked.error();
+  auto points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
+  if (!points) return points.error();
+  head.is_turned = stand_by_points(model, head.surface, *marked, *points, request, result);
+  if (head.is_turned) {
+    head.warnings.clear();
+    points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
+    if (!points) return points.error();
+  }
+  head.points = std::move(*points);
+  return head;
+}
+
 Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progress& progress) {
   progress(0.02, "reading");
   auto model = read_model(request);
   if (!model) return model.error();
   progress(0.06, "surface");
   WorkerResult result;
-  stand_as_before(*model, request);
-  auto surface = build_surface(*model);
-  const auto roles = roles_by_user(request);
-  auto marked = marked_points(request);
-  if (!marked) return marked.error();
-  std::vector<std::string> warnings;
-  auto points = place_feature_points(*model, surface, *marked, &warnings, roles);
-  if (!points) return points.error();
-  const bool is_turned = stand_by_points(*model, surface, *marked, *points, request, result);
-  if (is_turned) {
-    warnings.clear();
-    points = place_feature_points(*model, surface, *marked, &warnings, roles);
-    if (!points) return points.error();
-  }
+  auto head = mark(*model, request, result);
+  if (!head) return head.error();
+  auto& [surface, roles, points, warnings, is_turned] = *head;
   warnings.insert(warnings.begin(), model->warnings.begin(), model->warnings.end());
 
   ParametrizeOptions options;
@@ -262,7 +279,7 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   if (!metric) return Error{ErrorCode::invalid_argument, "/metric", "there is no metric \"" + request.metric + "\""};
   options.metric = *metric;
   options.progress = [&](double share, std::string_view stage) { return progress(0.08 + 0.64 * share, stage); };
-  auto rig = parametrize(*model, surface, *points, options);
+  auto rig = parametrize(*model, surface, points, options);
   if (!rig) return rig.error();
   rig->warnings.insert(rig->warnings.begin(), warnings.begin(), warnings.end());
 
@@ -310,20 +327,12 @@ Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& p
   if (!model) return model.error();
   progress(0.5, "surface");
   WorkerResult result;
-  stand_as_before(*model, request);
-  auto surface = build_surface(*model);
-  const auto roles = roles_by_user(request);
-  auto marked = marked_points(request);
-  if (!marked) return marked.error();
-  auto points = place_feature_points(*model, surface, *marked, nullptr, roles);
-  if (!points) return points.error();
   // Relations hold for an upright head; what is proposed is told of the model as it stands so far.
-  if (stand_by_points(*model, surface, *marked, *points, request, result)) {
-    points = place_feature_points(*model, surface, *marked, nullptr, roles);
-    if (!points) return points.error();
-  }
+  const auto head = mark(*model, request, result);
+  if (!head) return head.error();
   progress(0.8, "proposals");
-  const auto proposals = propose_feature_points(surface, describe_parts(*model, surface, *points, roles), *points);
+  const auto parts = describe_parts(*model, head->surface, head->points, head->roles);
+  const auto proposals = propose_feature_points(head->surface, parts, head->points);
   if (!proposals) return proposals.error();
   describe(*model, result);
   for (const auto& proposal : proposals->points) {
