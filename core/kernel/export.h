@@ -1,0 +1,11 @@
+/* Internal: what the WebAssembly module shows to its host. */
+#ifndef SEMBLANTE_KERNEL_EXPORT_H
+#define SEMBLANTE_KERNEL_EXPORT_H
+
+#if defined(__wasm__)
+#define SEMBLANTE_EXPORT(name) __attribute__((export_name(#name)))
+#else
+#define SEMBLANTE_EXPORT(name)
+#endif
+
+#endif

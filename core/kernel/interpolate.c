@@ -1,0 +1,45 @@
+/* Between poses. */
+#include "core/kernel/export.h"
+#include "core/kernel/semblante_kernel.h"
+
+static float lerp(float a, float b, float t) { return a + t * (b - a); }
+
+/* Normalized linear interpolation: frames are close in time, where it equals the great arc to the eye. */
+static void interpolate_rotation(const float a[4], const float b[4], float t, float out[4]) {
+  const float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+  const float side = dot < 0.0F ? -1.0F : 1.0F; /* q and -q are one rotation: take the nearer */
+  float q[4];
+  for (int i = 0; i < 4; ++i) {
+    q[i] = lerp(a[i], side * b[i], t);
+  }
+  /* With dot >= 0 the length is at least sqrt(1/2). */
+  const float length = __builtin_sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (int i = 0; i < 4; ++i) {
+    out[i] = q[i] / length;
+  }
+}
+
+SEMBLANTE_EXPORT(semblante_interpolate)
+void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, float t, semblante_pose* out) {
+  if (!(t > 0.0F)) {
+    *out = *a;
+    return;
+  }
+  if (t >= 1.0F) {
+    *out = *b;
+    return;
+  }
+  for (int i = 0; i < SEMBLANTE_FP_COUNT * 3; ++i) {
+    out->fp[i] = lerp(a->fp[i], b->fp[i], t);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int eye = 0; eye < 2; ++eye) {
+      out->eye_translation[eye][i] = lerp(a->eye_translation[eye][i], b->eye_translation[eye][i], t);
+      out->eye_pivot[eye][i] = lerp(a->eye_pivot[eye][i], b->eye_pivot[eye][i], t);
+    }
+    out->head_pivot[i] = lerp(a->head_pivot[i], b->head_pivot[i], t);
+  }
+  interpolate_rotation(a->eye_rotation[0], b->eye_rotation[0], t, out->eye_rotation[0]);
+  interpolate_rotation(a->eye_rotation[1], b->eye_rotation[1], t, out->eye_rotation[1]);
+  interpolate_rotation(a->head_rotation, b->head_rotation, t, out->head_rotation);
+}
