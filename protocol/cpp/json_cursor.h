@@ -30,6 +30,8 @@ class JsonCursor {
   }
   [[nodiscard]] bool failed() const { return report_->has_value(); }
   [[nodiscard]] bool is_null() const { return node_->is_null(); }
+  [[nodiscard]] bool is_text() const { return node_->is_string(); }
+  [[nodiscard]] bool is_array() const { return node_->is_array(); }
   [[nodiscard]] bool is_empty_array() const { return node_->is_array() && node_->empty(); }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
