@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clients/capi/semblante.h"
+#include "core/expressions/kernel_parts.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 
@@ -91,12 +92,6 @@ std::vector<float> dense(const std::array<RigDocument::DisplacementSet, N>& sets
   return values;
 }
 
-void copy_point(float (&to)[3], const glm::vec3& from) {
-  to[0] = from.x;
-  to[1] = from.y;
-  to[2] = from.z;
-}
-
 void fill_rig(semblante_head& head, const RigDocument& document, const semblante_head_options* options) {
   head.visemes = dense(document.visemes);
   head.expressions = dense(document.expressions);
@@ -105,9 +100,10 @@ void fill_rig(semblante_head& head, const RigDocument& document, const semblante
   for (std::size_t unit = 0; unit < SEMBLANTE_FAPU_COUNT; ++unit) {
     head.rig.fapu[unit] = static_cast<float>(document.fapu.value[unit].value_or(0.0));
   }
-  copy_point(head.rig.eye_pivot[0], document.eye_pivots[0]);
-  copy_point(head.rig.eye_pivot[1], document.eye_pivots[1]);
-  copy_point(head.rig.head_pivot, document.head_pivot);
+  semblante::copy_vector(document.eye_pivots[0], head.rig.eye_pivot[0]);
+  semblante::copy_vector(document.eye_pivots[1], head.rig.eye_pivot[1]);
+  semblante::copy_vector(document.head_pivot, head.rig.head_pivot);
+  semblante::set_moving_parts(document.irises, document.tongue, head.rig);
   const bool own_share = options != nullptr && options->viseme_share > 0.0F;
   head.rig.viseme_share = own_share ? options->viseme_share : static_cast<float>(document.viseme_share);
 }

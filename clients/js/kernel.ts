@@ -8,9 +8,11 @@ import { FaceError } from './face_error.ts';
 const featurePointCount = 84;
 const fapCount = 68;
 const frameBytes = 8 + (fapCount + 1) * 4;
-const rigBytes = 68;
+const rigBytes = 160;
 const faceBytes = 24;
-const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3;
+const irisFloats = 6;
+const tongueFloats = 11;
+const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats;
 
 interface KernelExports {
   memory: WebAssembly.Memory;
@@ -20,7 +22,7 @@ interface KernelExports {
   semblante_deform(face: number, pose: number, positions: number): void;
 }
 
-/** A frame on one model: where the feature points went and how the rigid parts turned. Views of the kernel's memory. */
+/** A frame on one model: where the feature points went and how single parts moved. Views of the kernel's memory. */
 export interface Pose {
   /** 84 by 3: displacement of each feature point, model units */
   readonly featurePoints: Float32Array;
@@ -30,6 +32,14 @@ export interface Pose {
   readonly headRotation: Float32Array;
   readonly eyePivots: Float32Array;
   readonly headPivot: Float32Array;
+  /** left, right: of the pupil's radius */
+  readonly pupilGrowth: Float32Array;
+  /** 1: radians that a border of the tongue turns upwards */
+  readonly tongueRoll: Float32Array;
+  /** left, right: axis, pupil radius (0: no iris), iris radius, bend */
+  readonly irises: Float32Array;
+  /** origin, left, up, half width (0: no tongue), limit of the roll */
+  readonly tongue: Float32Array;
 }
 
 /** Compiles the kernel once; each face is an instance of its own. `source`: bytes or the response of a fetch. */
@@ -99,7 +109,7 @@ export class Kernel {
     floats(visemes, rig.visemes.length * featurePointCount * 3).set(flatten(rig.visemes));
     floats(expressions, rig.expressions.length * featurePointCount * 3).set(flatten(rig.expressions));
     new Uint32Array(memory, base + rigAt, 2).set([base + visemes, base + expressions]);
-    floats(rigAt + 8, 15).set(rigNumbers(rig));
+    floats(rigAt + 8, (rigBytes - 8) / 4).set(rigNumbers(rig));
     if (vertices > 0) {
       floats(rest, vertices * 3).set(mesh.positions);
       floats(positions, vertices * 3).set(mesh.positions);
@@ -151,7 +161,7 @@ export class Kernel {
     this.exports.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
   }
 
-  /** Eq. 7, then eyes, then head, into `positions`. */
+  /** Eq. 7, then eyes and tongue, then head, into `positions`. */
   deform(pose: number): void {
     if (this.positions.length === 0) throw new RangeError('this kernel was made without vertices');
     this.exports.semblante_deform(this.at.face, this.poseAt(pose), this.at.positions);
@@ -178,7 +188,18 @@ export function flatten(sets: readonly DisplacementSet[]): Float32Array {
 /** The float members of semblante_rig, in order. An unknown FAPU is 0. */
 function rigNumbers(rig: RigDocument): number[] {
   const fapu = rigFapus.map((unit) => rig.fapu[unit] ?? 0);
-  return [...fapu, ...rig.eye_pivots[0], ...rig.eye_pivots[1], ...rig.head_pivot, rig.viseme_share];
+  const irises = rig.irises.flatMap((iris) =>
+    iris === null
+      ? new Array<number>(irisFloats).fill(0)
+      : [...iris.axis, iris.pupil_radius, iris.iris_radius, iris.bend],
+  );
+  const { tongue } = rig;
+  const tongueNumbers =
+    tongue === null
+      ? new Array<number>(tongueFloats).fill(0)
+      : [...tongue.origin, ...tongue.left, ...tongue.up, tongue.half_width, tongue.roll_limit];
+  const pivots = [...rig.eye_pivots[0], ...rig.eye_pivots[1], ...rig.head_pivot];
+  return [...fapu, ...pivots, rig.viseme_share, ...irises, ...tongueNumbers];
 }
 
 function poseViews(floats: Float32Array): Pose {
@@ -191,5 +212,9 @@ function poseViews(floats: Float32Array): Pose {
     headRotation: next(4),
     eyePivots: next(6),
     headPivot: next(3),
+    pupilGrowth: next(2),
+    tongueRoll: next(1),
+    irises: next(2 * irisFloats),
+    tongue: next(tongueFloats),
   };
 }

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "core/expressions/contact.h"
+#include "core/expressions/kernel_parts.h"
 
 namespace semblante {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 static_assert(SEMBLANTE_FP_COUNT == feature_point_count && SEMBLANTE_FAPU_COUNT == fapu_unit_count);
 static_assert(static_cast<int>(RigidMotion::left_eye) == SEMBLANTE_RIGID_LEFT_EYE);
 static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_EYE);
+static_assert(static_cast<int>(RigidMotion::left_iris) == SEMBLANTE_RIGID_LEFT_IRIS);
+static_assert(static_cast<int>(RigidMotion::right_iris) == SEMBLANTE_RIGID_RIGHT_IRIS);
+static_assert(static_cast<int>(RigidMotion::tongue_least) == SEMBLANTE_RIGID_TONGUE);
 // The kernel reads our strong ids and enums as the bytes they are.
 static_assert(sizeof(FeaturePointId) == 1 && std::is_standard_layout_v<FeaturePointId>);
 static_assert(sizeof(RigidMotion) == 1);
@@ -40,11 +44,10 @@ KernelRig make_kernel_rig(const Rig& rig) {
   for (std::size_t i = 0; i < fapu_unit_count; ++i) {
     result.fixed.fapu[i] = static_cast<float>(rig.fapu.value[i].value_or(0.0));
   }
-  for (int i = 0; i < 3; ++i) {
-    result.fixed.eye_pivot[0][i] = rig.left_eye_pivot[i];
-    result.fixed.eye_pivot[1][i] = rig.right_eye_pivot[i];
-    result.fixed.head_pivot[i] = rig.head_pivot[i];
-  }
+  copy_vector(rig.left_eye_pivot, result.fixed.eye_pivot[0]);
+  copy_vector(rig.right_eye_pivot, result.fixed.eye_pivot[1]);
+  copy_vector(rig.head_pivot, result.fixed.head_pivot);
+  set_moving_parts(rig.irises, rig.tongue, result.fixed);
   result.fixed.viseme_share = default_viseme_share;
   return result;
 }

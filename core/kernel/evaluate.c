@@ -9,8 +9,9 @@
 #if defined(__wasm__)
 /* JavaScript lays these structs out by hand (offsets in README.md): they may not move. */
 _Static_assert(sizeof(semblante_frame) == 284 && offsetof(semblante_frame, fap) == 8, "frame");
-_Static_assert(sizeof(semblante_rig) == 68 && offsetof(semblante_rig, viseme_share) == 64, "rig");
-_Static_assert(sizeof(semblante_pose) == 1116 && offsetof(semblante_pose, eye_rotation) == 1008, "pose");
+_Static_assert(sizeof(semblante_iris) == 24 && sizeof(semblante_tongue) == 44, "iris, tongue");
+_Static_assert(sizeof(semblante_rig) == 160 && offsetof(semblante_rig, iris) == 68, "rig");
+_Static_assert(sizeof(semblante_pose) == 1220 && offsetof(semblante_pose, pupil_growth) == 1116, "pose");
 #endif
 
 /* Weighted sum of two entries of a table of displacement sets at one FP. Entries out of range count as zero. */
@@ -56,6 +57,14 @@ static void evaluate_high_level(const semblante_rig* rig, const semblante_frame*
   }
 }
 
+static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
+
+/* FAPs 29 and 30. A ring of iris and a dot of pupil remain, so that no triangle turns over. */
+static float pupil_growth(const semblante_iris* iris, float diameter_growth) {
+  const float kept = 0.9F;
+  return clamped(0.5F * diameter_growth, -kept * iris->pupil_radius, kept * (iris->iris_radius - iris->pupil_radius));
+}
+
 /* Which rigid part a FAP of this FP turns: 0, 1 the eyes, 2 the head. */
 static int rigid_part_of(uint8_t fp) {
   return fp == SEMBLANTE_FP_LEFT_PUPIL ? 0 : fp == SEMBLANTE_FP_RIGHT_PUPIL ? 1 : 2;
@@ -74,6 +83,12 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
     pose->eye_pivot[1][i] = rig->eye_pivot[1][i];
     pose->head_pivot[i] = rig->head_pivot[i];
   }
+  for (int eye = 0; eye < 2; ++eye) {
+    pose->iris[eye] = rig->iris[eye];
+    pose->pupil_growth[eye] = 0.0F;
+  }
+  pose->tongue = rig->tongue;
+  pose->tongue_roll = 0.0F;
 
   for (uint32_t n = 3; n <= SEMBLANTE_FAP_COUNT; ++n) {
     const semblante_fap_entry* fap = &semblante_fap_table[n];
@@ -83,6 +98,11 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
     }
     if (fap->kind == SEMBLANTE_FAP_ROTATION) {
       angle[rigid_part_of(fap->fp)][fap->axis] = (float)fap->sign * value;
+    } else if (fap->kind == SEMBLANTE_FAP_PUPIL) {
+      const int eye = rigid_part_of(fap->fp);
+      pose->pupil_growth[eye] = pupil_growth(&rig->iris[eye], value * rig->fapu[fap->unit]);
+    } else if (fap->kind == SEMBLANTE_FAP_ROLL) {
+      pose->tongue_roll = clamped(value * SEMBLANTE_AU_RADIANS, -rig->tongue.roll_limit, rig->tongue.roll_limit);
     } else if (fap->kind == SEMBLANTE_FAP_TRANSLATION && rig->fapu[fap->unit] != 0.0F) {
       /* Eq. 6. An eyeball is thrust as a whole; every other FAP moves its point. */
       const float displacement = (float)fap->sign * value * rig->fapu[fap->unit];

@@ -35,10 +35,16 @@ void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, flo
   for (int i = 0; i < 3; ++i) {
     for (int eye = 0; eye < 2; ++eye) {
       out->eye_translation[eye][i] = lerp(a->eye_translation[eye][i], b->eye_translation[eye][i], t);
-      out->eye_pivot[eye][i] = lerp(a->eye_pivot[eye][i], b->eye_pivot[eye][i], t);
+      out->eye_pivot[eye][i] = a->eye_pivot[eye][i];
     }
-    out->head_pivot[i] = lerp(a->head_pivot[i], b->head_pivot[i], t);
+    out->head_pivot[i] = a->head_pivot[i];
   }
+  for (int eye = 0; eye < 2; ++eye) {
+    out->pupil_growth[eye] = lerp(a->pupil_growth[eye], b->pupil_growth[eye], t);
+    out->iris[eye] = a->iris[eye];
+  }
+  out->tongue_roll = lerp(a->tongue_roll, b->tongue_roll, t);
+  out->tongue = a->tongue;
   interpolate_rotation(a->eye_rotation[0], b->eye_rotation[0], t, out->eye_rotation[0]);
   interpolate_rotation(a->eye_rotation[1], b->eye_rotation[1], t, out->eye_rotation[1]);
   interpolate_rotation(a->head_rotation, b->head_rotation, t, out->head_rotation);

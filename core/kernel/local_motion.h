@@ -1,5 +1,5 @@
-/* Internal: what moves single parts of a head before the head itself moves: the eyes. Which vertices it moves is
- * semblante_face.rigid. */
+/* Internal: what moves single parts of a head before the head itself moves: irises, eyes and tongue. Which vertices it
+ * moves is semblante_face.rigid. */
 #ifndef SEMBLANTE_KERNEL_LOCAL_MOTION_H
 #define SEMBLANTE_KERNEL_LOCAL_MOTION_H
 
@@ -10,9 +10,11 @@
 
 /* A pose, prepared once for all the vertices. */
 typedef struct semblante_local_motions {
+  const semblante_pose* pose;
   semblante_rigid_motion eye[2];
 } semblante_local_motions;
 
+/* `pose` must outlive the motions. */
 void semblante_prepare_local(const semblante_pose* pose, semblante_local_motions* motions);
 
 /* Moves one vertex. `rigid` is not SEMBLANTE_RIGID_NONE; `rest` is where the vertex is on the neutral face; `p` comes

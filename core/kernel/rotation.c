@@ -3,8 +3,6 @@
 #include "core/kernel/export.h"
 #include "core/kernel/semblante_kernel.h"
 
-#define AU_RADIANS 1e-5F
-
 SEMBLANTE_EXPORT(semblante_sincos)
 void semblante_sincos(float angle, float* sine, float* cosine) {
   *sine = 0.0F;
@@ -38,7 +36,7 @@ void semblante_sincos(float angle, float* sine, float* cosine) {
 
 void semblante_turn_after(float q[4], int axis, float value) {
   float r[4] = {0.0F, 0.0F, 0.0F, 1.0F};
-  semblante_sincos(0.5F * value * AU_RADIANS, &r[axis], &r[3]);
+  semblante_sincos(0.5F * value * SEMBLANTE_AU_RADIANS, &r[axis], &r[3]);
   const float x = r[3] * q[0] + r[0] * q[3] + r[1] * q[2] - r[2] * q[1];
   const float y = r[3] * q[1] + r[1] * q[3] + r[2] * q[0] - r[0] * q[2];
   const float z = r[3] * q[2] + r[2] * q[3] + r[0] * q[1] - r[1] * q[0];

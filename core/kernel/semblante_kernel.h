@@ -1,4 +1,5 @@
-/* The per-frame kernel: face parameters -> feature points (Eq. 5, 6) -> vertices (Eq. 7, then eyes, then head).
+/* The per-frame kernel: face parameters -> feature points (Eq. 5, 6) -> vertices (Eq. 7, then pupils, eyes and tongue,
+ * then the head).
  *
  * Freestanding C99: no heap, no libm, no globals that change; every function may run on any thread. The same source
  * is the native library, the WebAssembly module and the phones' build, and gives the same bits on all of them: the
@@ -22,11 +23,15 @@ extern "C" {
 #define SEMBLANTE_EXPRESSION_COUNT 7 /* 0 is "none" */
 #define SEMBLANTE_FAPU_COUNT 5       /* IRISD, ES, ENS, MNS, MW, in this order */
 #define SEMBLANTE_BLEND_MAX 63       /* full blend or intensity in FAPs 1 and 2 */
-/* Rigid motion of a vertex before the head's. */
+/* What moves a vertex after Eq. 7 and before the head: the part it belongs to. */
 #define SEMBLANTE_RIGID_NONE 0
 #define SEMBLANTE_RIGID_LEFT_EYE 1
 #define SEMBLANTE_RIGID_RIGHT_EYE 2
-#define SEMBLANTE_RIGID_COUNT 3
+#define SEMBLANTE_RIGID_LEFT_IRIS 3 /* turns with its eye, and makes way for the pupil before */
+#define SEMBLANTE_RIGID_RIGHT_IRIS 4
+#define SEMBLANTE_RIGID_COUNT 5
+#define SEMBLANTE_RIGID_TONGUE \
+  128 /* 128..255: takes (value - 127) / 128 of the tongue's roll; 255 is the tongue itself */
 
 /* One frame of face parameters: state, not event. All zero is the neutral face. 284 bytes. */
 typedef struct semblante_frame {
@@ -35,10 +40,26 @@ typedef struct semblante_frame {
   /* FAP 2: (intensity1/63) of expression1 + (intensity2/63) of expression2. 0 none, 1..6; a greater number: none. */
   uint8_t expression1, intensity1, expression2, intensity2;
   uint8_t reserved; /* 0 */
-  /* fap[n] is FAP n in FAP units (rotations: 1e-5 rad), finite; 0 is absent. fap[0..2] are not read.
-   * FAPs 29, 30 (pupils) and 47 (roll of the tongue) have no effect on positions here. */
+  /* fap[n] is FAP n in FAP units (rotations: 1e-5 rad), finite; 0 is absent. fap[0..2] are not read. */
   float fap[SEMBLANTE_FAP_COUNT + 1];
 } semblante_frame;
+
+/* The iris of one eye on the neutral face. 24 bytes. */
+typedef struct semblante_iris {
+  float axis[3];      /* unit vector from the eye's pivot through the middle of the pupil */
+  float pupil_radius; /* 0: this eye has no iris that could move */
+  float iris_radius;  /* more than pupil_radius */
+  float bend; /* of its surface, 1 / length: at distance r from the axis it lies bend * r * r farther along it */
+} semblante_iris;
+
+/* The tongue on the neutral face. 44 bytes. */
+typedef struct semblante_tongue {
+  float origin[3];  /* on its middle line, half way through its thickness */
+  float left[3];    /* unit vector across it, to the face's left */
+  float up[3];      /* unit vector at right angles to `left` and to the tongue's length */
+  float half_width; /* from the middle line to a border (6.3, 6.4); 0: there is no tongue that could roll */
+  float roll_limit; /* radians: it rolls no farther, lest it run through itself */
+} semblante_tongue;
 
 /* What the frame needs to know about one model. The two arrays stay the caller's and must outlive the calls. */
 typedef struct semblante_rig {
@@ -47,10 +68,13 @@ typedef struct semblante_rig {
   float fapu[SEMBLANTE_FAPU_COUNT]; /* already divided by 1024; 0: unknown, and FAPs in that unit do nothing */
   float eye_pivot[2][3];            /* left, right */
   float head_pivot[3];
-  float viseme_share; /* share of the viseme at an FP that an expression moves too (Eq. 5): 0.85 */
+  float viseme_share;     /* share of the viseme at an FP that an expression moves too (Eq. 5): 0.85 */
+  semblante_iris iris[2]; /* left, right */
+  semblante_tongue tongue;
 } semblante_rig;
 
-/* A frame on one model: where the FPs went and how the rigid parts turned. Poses interpolate linearly. */
+/* A frame on one model: where the FPs went and how single parts moved. Poses interpolate linearly. Floats throughout.
+ * The pivots, `iris` and `tongue` are the rig's. */
 typedef struct semblante_pose {
   float fp[SEMBLANTE_FP_COUNT * 3]; /* displacement of each FP */
   float eye_rotation[2][4];         /* left, right; unit quaternions x, y, z, w */
@@ -58,10 +82,15 @@ typedef struct semblante_pose {
   float head_rotation[4];
   float eye_pivot[2][3];
   float head_pivot[3];
+  float pupil_growth[2]; /* left, right: of the radius */
+  float tongue_roll;     /* radians that a border of the tongue turns upwards */
+  semblante_iris iris[2];
+  semblante_tongue tongue;
 } semblante_pose;
 
 /* A mesh with its influence table in rows, one row a vertex: entries row_offsets[v] .. row_offsets[v + 1] - 1.
- * Trusted: whoever reads a table from a file checks that offsets rise, points are < 84 and rigid < 3. */
+ * Trusted: whoever reads a table from a file checks that offsets rise, points are < 84 and rigid is one of the values
+ * above. */
 typedef struct semblante_face {
   uint32_t vertex_count;
   const float* rest;           /* #V by 3: the neutral face */
@@ -74,16 +103,26 @@ typedef struct semblante_face {
 /* Frame -> pose.
  * FAPs 1 and 2 are blended first. An FP that both move gets viseme_share * viseme + (1 - viseme_share) * expression
  * (Eq. 5); an FP that one of them moves gets that one's. A low-level FAP that is not zero then replaces the
- * displacement of its FP on its own axis by value * FAPU (Eq. 6). Eyes: yaw after pitch, about their pivots.
- * Head: roll first, then pitch, then yaw. */
+ * displacement of its FP on its own axis by value * FAPU (Eq. 6).
+ * FAPs 23..26 turn the eyes: yaw after pitch, about their pivots; 27 and 28 move them whole, along z.
+ * FAPs 29 and 30: value * IRISD is how much the pupil's diameter grows. It keeps a tenth of its radius at least, and
+ * the iris around it a tenth of its width.
+ * FAP 47: the angle that the borders of the tongue turn upwards, negative downwards, within the rig's limit.
+ * FAPs 48..50 turn the head: roll first, then pitch, then yaw. */
 void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, semblante_pose* pose);
 
-/* The pose t of the way from a to b, 0 <= t <= 1 (clamped). Displacements linearly, rotations along the shorter arc.
+/* The pose t of the way from a to b, two poses of one model, 0 <= t <= 1 (clamped). Displacements, pupils and roll
+ * linearly, rotations along the shorter arc.
  * `out` may be a or b. */
 void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, float t, semblante_pose* out);
 
-/* Pose -> vertices: positions[v] = rest[v] + sum of weight * displacement over the row of v (Eq. 7), then the eye's
- * motion for the vertices of an eye, then the head's for all. positions: #V by 3, must not overlap the face.
+/* Pose -> vertices: positions[v] = rest[v] + sum of weight * displacement over the row of v (Eq. 7), then the motion of
+ * the part for the vertices of eyes and tongue, then the head's for all. positions: #V by 3, must not overlap the face.
+ * Iris: along the way out from the axis, in the eye's own frame, before the eye turns. A point at the pupil's rim goes
+ * by all of pupil_growth, one in the middle of the pupil or at the rim of the iris not at all, others in between in
+ * proportion; the surface keeps its shape.
+ * Tongue: bent like a sheet about its middle line, which stays. A point at a border turns by all of tongue_roll, others
+ * in proportion to how far out they are; points beyond the border go straight on.
  * A neutral pose gives the rest positions bit for bit. */
 void semblante_deform(const semblante_face* face, const semblante_pose* pose, float* positions);
 

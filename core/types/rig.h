@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "core/types/facing_lips.h"
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
+#include "core/types/moving_parts.h"
 #include "core/types/weight_table.h"
 
 namespace semblante {
@@ -30,10 +32,6 @@ struct Part {
   glm::vec3 box_min{0.0F}, box_max{0.0F};
 };
 
-/// The rigid motion that applies to a vertex before the head's: values of Rig::rigid_of_vertex.
-enum class RigidMotion : std::uint8_t { none, left_eye, right_eye };
-inline constexpr std::size_t rigid_motion_count = 3;
-
 /// Everything the server computes once about a model, per file vertex. The face package is this, reordered and
 /// quantized.
 struct Rig {
@@ -50,8 +48,10 @@ struct Rig {
   std::optional<LipGaps> lip_gaps;
   glm::vec3 left_eye_pivot{0.0F};
   glm::vec3 right_eye_pivot{0.0F};
-  glm::vec3 head_pivot{0.0F};         ///< 7.1, or an estimate from the box of the model when it is not marked
-  std::vector<std::string> warnings;  ///< in words: what is missing and what it stops
+  std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: the eye has none that could move
+  std::optional<Tongue> tongue;               ///< empty: there is none that could roll
+  glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
+  std::vector<std::string> warnings;          ///< in words: what is missing and what it stops
 };
 
 }  // namespace semblante

@@ -94,6 +94,8 @@ struct RigDocument {
   std::vector<Point> feature_points;
   std::array<glm::vec3, 2> eye_pivots{glm::vec3(0.0F), glm::vec3(0.0F)};  ///< left, right
   glm::vec3 head_pivot{0.0F};
+  std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: FAP 29 or 30 does nothing
+  std::optional<Tongue> tongue;               ///< empty: FAP 47 does nothing
   std::vector<PartInfo> parts;
   double viseme_share = 0.85;                                 ///< of Eq. 5
   std::array<DisplacementSet, viseme_count> visemes;          ///< entry 0 "sil"

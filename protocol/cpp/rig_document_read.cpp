@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
 
 #include "protocol/cpp/json_cursor.h"
 #include "protocol/cpp/rig_document.h"
@@ -110,6 +113,43 @@ void displacement_sets(const JsonCursor& at, std::array<RigDocument::Displacemen
   }
 }
 
+/// A unit vector, as far as its digits say.
+glm::vec3 direction(const JsonCursor& at) {
+  const glm::vec3 v = vec3(at);
+  const double square = glm::dot(glm::dvec3(v), glm::dvec3(v));
+  if (!(std::abs(square - 1.0) < 1e-3)) at.fail(ErrorCode::out_of_range, "must be a unit vector");
+  return v;
+}
+
+float above(const JsonCursor& at, float least) {
+  const float value = real(at);
+  if (!(value > least)) at.fail(ErrorCode::out_of_range, "must be more than " + std::to_string(least));
+  return value;
+}
+
+std::optional<Iris> iris(const JsonCursor& at) {
+  if (at.is_null()) return std::nullopt;
+  Iris result;
+  result.axis = direction(at.member("axis"));
+  result.pupil_radius = above(at.member("pupil_radius"), 0.0F);
+  result.iris_radius = above(at.member("iris_radius"), result.pupil_radius);
+  result.bend = real(at.member("bend"));
+  return result;
+}
+
+Tongue tongue(const JsonCursor& at) {
+  Tongue result;
+  result.origin = vec3(at.member("origin"));
+  result.left = direction(at.member("left"));
+  result.up = direction(at.member("up"));
+  if (!(std::abs(glm::dot(result.left, result.up)) < 1e-3F)) {
+    at.member("up").fail(ErrorCode::out_of_range, "must be at right angles to left");
+  }
+  result.half_width = above(at.member("half_width"), 0.0F);
+  result.roll_limit = static_cast<float>(at.member("roll_limit").number(0.0, 7.0));
+  return result;
+}
+
 RigDocument::PartInfo part(const JsonCursor& at) {
   RigDocument::PartInfo result;
   result.name = at.member("name").text(max_text_bytes);
@@ -179,6 +219,11 @@ Result<RigDocument> read_rig(std::string_view text) {
   const auto pivots = root.member("eye_pivots").elements(2, 2);
   for (std::size_t i = 0; i < pivots.size(); ++i) rig.eye_pivots[i] = vec3(pivots[i]);
   rig.head_pivot = vec3(root.member("head_pivot"));
+  if (const auto irises = root.optional_member("irises")) {
+    const auto eyes = irises->elements(2, 2);
+    for (std::size_t i = 0; i < eyes.size(); ++i) rig.irises[i] = iris(eyes[i]);
+  }
+  if (const auto at = root.optional_member("tongue"); at && !at->is_null()) rig.tongue = tongue(*at);
   for (const auto& at : root.member("parts").elements(0, max_list)) rig.parts.push_back(part(at));
   rig.viseme_share = root.member("viseme_share").number(0.0, 1.0);
   displacement_sets(root.member("visemes"), rig.visemes);

@@ -69,6 +69,22 @@ ordered_json material_of(const RigDocument::MaterialInfo& material) {
           {"normal_image", hash_or_null(material.normal_image)}};
 }
 
+ordered_json iris_of(const std::optional<Iris>& iris) {
+  if (!iris) return nullptr;
+  return {{"axis", vector_of(iris->axis)},
+          {"pupil_radius", shortest(iris->pupil_radius)},
+          {"iris_radius", shortest(iris->iris_radius)},
+          {"bend", shortest(iris->bend)}};
+}
+
+ordered_json tongue_of(const Tongue& tongue) {
+  return {{"origin", vector_of(tongue.origin)},
+          {"left", vector_of(tongue.left)},
+          {"up", vector_of(tongue.up)},
+          {"half_width", shortest(tongue.half_width)},
+          {"roll_limit", shortest(tongue.roll_limit)}};
+}
+
 }  // namespace
 
 std::string write_rig(const RigDocument& rig) {
@@ -111,6 +127,8 @@ std::string write_rig(const RigDocument& rig) {
   }
   json["eye_pivots"] = {vector_of(rig.eye_pivots[0]), vector_of(rig.eye_pivots[1])};
   json["head_pivot"] = vector_of(rig.head_pivot);
+  if (rig.irises[0] || rig.irises[1]) json["irises"] = {iris_of(rig.irises[0]), iris_of(rig.irises[1])};
+  if (rig.tongue) json["tongue"] = tongue_of(*rig.tongue);
   json["parts"] = ordered_json::array();
   for (const auto& part : rig.parts) {
     json["parts"].push_back({{"name", part.name},

@@ -4,7 +4,7 @@
 #include <string>
 #include <zlib.h>
 
-#include "core/types/rig.h"
+#include "core/types/moving_parts.h"
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/cpp/weights_layout.h"
@@ -18,6 +18,7 @@ using namespace weights_layout;
 constexpr std::uint64_t max_inflation = 1032;
 
 struct Header {
+  std::uint16_t version = 0;
   int bits = 0;
   std::uint32_t vertex_count = 0;
   std::uint32_t set_count = 0;
@@ -42,10 +43,12 @@ Result<Header> read_header(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < header_bytes) return fail(ErrorCode::truncated, "header", "shorter than its header of 64 bytes");
   if (std::memcmp(bytes.data(), magic, sizeof(magic)) != 0) return fail(ErrorCode::malformed, "magic", "not SBWT");
   const std::uint16_t file_version = byte_io::get_u16(&bytes[at_version]);
-  if (file_version != version) {
-    return fail(ErrorCode::unsupported, "version", "version " + std::to_string(file_version) + ", only 1 is known");
+  if (file_version != version_of_eyes && file_version != version_of_all_parts) {
+    return fail(ErrorCode::unsupported, "version",
+                "version " + std::to_string(file_version) + ", only 1 and 2 are known");
   }
   Header header;
+  header.version = file_version;
   header.bits = bytes[at_bits];
   header.vertex_count = byte_io::get_u32(&bytes[at_vertex_count]);
   header.set_count = byte_io::get_u32(&bytes[at_set_count]);
@@ -171,13 +174,16 @@ Status read_rows(byte_io::Reader& reader, const Header& header, const std::vecto
   return Unit{};
 }
 
-Status read_rigid(byte_io::Reader& reader, std::uint32_t vertex_count, std::vector<std::uint8_t>& rigid) {
+Status read_rigid(byte_io::Reader& reader, const Header& header, std::vector<std::uint8_t>& rigid) {
+  const std::uint32_t vertex_count = header.vertex_count;
   rigid.reserve(vertex_count);
   while (rigid.size() < vertex_count) {
     const std::uint8_t motion = reader.u8();
     const std::uint64_t run = reader.varint();
     if (reader.failed()) return fail(ErrorCode::truncated, "rigid", "ends early");
-    if (motion >= rigid_motion_count) return fail(ErrorCode::out_of_range, "rigid", "unknown rigid motion");
+    if (!is_rigid_motion(motion) || (header.version == version_of_eyes && motion > greatest_eye_motion)) {
+      return fail(ErrorCode::out_of_range, "rigid", "unknown rigid motion");
+    }
     if (run == 0 || run > vertex_count - rigid.size()) return fail(ErrorCode::out_of_range, "rigid", "length of a run");
     rigid.insert(rigid.end(), run, motion);
   }
@@ -202,7 +208,7 @@ Result<InfluenceTable> decode_weights(std::span<const std::uint8_t> bytes) {
   table.vertex_count = header->vertex_count;
   std::copy_n(bytes.begin() + at_mesh_sha256, table.mesh_sha256.size(), table.mesh_sha256.begin());
   if (const auto status = read_rows(reader, *header, *sets, *ids, table.rows); !status) return status.error();
-  if (const auto status = read_rigid(reader, header->vertex_count, table.rigid); !status) return status.error();
+  if (const auto status = read_rigid(reader, *header, table.rigid); !status) return status.error();
   if (reader.remaining() != 0) return fail(ErrorCode::malformed, "payload", "bytes after the last field");
   return table;
 }

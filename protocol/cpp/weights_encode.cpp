@@ -9,7 +9,7 @@
 #include <tuple>
 #include <zlib.h>
 
-#include "core/types/rig.h"
+#include "core/types/moving_parts.h"
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/cpp/weights_layout.h"
@@ -157,7 +157,7 @@ void assert_consistent([[maybe_unused]] const InfluenceTable& table) {
     const auto points = table.rows.points_of(v);
     assert(std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end());
     assert(points.empty() || points.back().value() < feature_point_count);
-    assert(table.rigid[v] < rigid_motion_count);
+    assert(is_rigid_motion(table.rigid[v]));
   }
   for (const float weight : table.rows.weights) assert(weight >= 0.0F && weight <= 1.0F);
 #endif
@@ -180,7 +180,9 @@ std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const Weig
   bytes.resize(header_bytes + packed);
 
   std::memcpy(bytes.data(), magic, sizeof(magic));
-  byte_io::put_u16(&bytes[at_version], version);
+  const bool eyes_only = std::all_of(table.rigid.begin(), table.rigid.end(),
+                                     [](std::uint8_t motion) { return motion <= greatest_eye_motion; });
+  byte_io::put_u16(&bytes[at_version], eyes_only ? version_of_eyes : version_of_all_parts);
   bytes[at_bits] = static_cast<std::uint8_t>(encoding.bits);
   byte_io::put_u32(&bytes[at_vertex_count], table.vertex_count);
   byte_io::put_u32(&bytes[at_set_count], static_cast<std::uint32_t>(dictionary.sets.size()));

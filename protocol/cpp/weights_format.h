@@ -15,7 +15,7 @@ struct InfluenceTable {
   std::uint32_t vertex_count = 0;
   Sha256 mesh_sha256{};             ///< of the bytes of mesh.drc whose decoded vertex order this is
   WeightTable<float> rows;          ///< #V rows, weights in [0, 1]; ids rise within a row
-  std::vector<std::uint8_t> rigid;  ///< #V: 0 none, 1 left eye, 2 right eye (RigidMotion)
+  std::vector<std::uint8_t> rigid;  ///< #V: RigidMotion values
 };
 
 struct WeightsEncoding {

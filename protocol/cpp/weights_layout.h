@@ -7,7 +7,10 @@
 namespace semblante::weights_layout {
 
 inline constexpr std::uint8_t magic[4] = {'S', 'B', 'W', 'T'};
-inline constexpr std::uint16_t version = 1;
+/// 1: no rigid motion beyond those of the eyes. 2: irises and tongue as well. Written is the lesser that will do.
+inline constexpr std::uint16_t version_of_eyes = 1;
+inline constexpr std::uint16_t version_of_all_parts = 2;
+inline constexpr std::uint8_t greatest_eye_motion = 2;
 inline constexpr int min_bits = 8;
 inline constexpr int max_bits = 16;
 

@@ -30,6 +30,10 @@ export interface RigDocument {
   /** Left, right. */
   eye_pivots: [Vec3, Vec3];
   head_pivot: Vec3;
+  /** Left, right; null: the eye has none that could move, and FAP 29 or 30 does nothing. */
+  irises: [RigIris | null, RigIris | null];
+  /** Null: there is none that could roll, and FAP 47 does nothing. */
+  tongue: RigTongue | null;
   parts: RigPart[];
   /** Of Eq. 5. */
   viseme_share: number;
@@ -51,6 +55,30 @@ export interface RigFeaturePoint {
   /** Of the decoded mesh; null for a bare position. */
   vertex: number | null;
   position: Vec3;
+}
+
+/** The iris of one eye on the neutral face. */
+export interface RigIris {
+  /** Unit vector from the eye's pivot through the middle of the pupil. */
+  axis: Vec3;
+  pupil_radius: number;
+  iris_radius: number;
+  /** At distance r from the axis the surface lies bend * r * r farther along it. */
+  bend: number;
+}
+
+/** The tongue on the neutral face. */
+export interface RigTongue {
+  /** On its middle line, half way through its thickness. */
+  origin: Vec3;
+  /** Unit vector across it, to the face's left. */
+  left: Vec3;
+  /** Unit vector at right angles to `left` and to the tongue's length. */
+  up: Vec3;
+  /** From the middle line to a border. */
+  half_width: number;
+  /** Radians that a border can turn before the tongue runs through itself. */
+  roll_limit: number;
 }
 
 export interface RigLevel {
@@ -190,6 +218,8 @@ export function readRig(json: string): RigDocument {
     feature_points: readFeaturePoints(root.member('feature_points'), vertices),
     eye_pivots: root.member('eye_pivots').elements(2, 2).map(vec3) as [Vec3, Vec3],
     head_pivot: vec3(root.member('head_pivot')),
+    irises: readIrises(root.optional('irises')),
+    tongue: readTongue(root.optional('tongue')),
     parts: list('parts', maxList, readPart),
     viseme_share: root.member('viseme_share').number(0, 1),
     visemes: root.member('visemes').elements(visemeCount, visemeCount).map(readSet),
@@ -206,6 +236,47 @@ function readLevel(at: JsonCursor): RigLevel {
     vertices: natural(at.member('vertices')),
     triangles: natural(at.member('triangles')),
     bytes: size(at.member('bytes')),
+  };
+}
+
+/** A unit vector, as far as its digits say. */
+function direction(at: JsonCursor): Vec3 {
+  const [x, y, z] = vec3(at);
+  if (!(Math.abs(x * x + y * y + z * z - 1) < 1e-3)) at.fail('out_of_range', 'must be a unit vector');
+  return [x, y, z];
+}
+
+function above(at: JsonCursor, least: number): number {
+  const value = real(at);
+  if (!(value > least)) at.fail('out_of_range', `must be more than ${least}`);
+  return value;
+}
+
+function readIrises(at: JsonCursor | undefined): RigDocument['irises'] {
+  if (at === undefined) return [null, null];
+  return at.elements(2, 2).map((eye) => orNull(eye, readIris)) as RigDocument['irises'];
+}
+
+function readIris(at: JsonCursor): RigIris {
+  const axis = direction(at.member('axis'));
+  const pupil_radius = above(at.member('pupil_radius'), 0);
+  const iris_radius = above(at.member('iris_radius'), pupil_radius);
+  return { axis, pupil_radius, iris_radius, bend: real(at.member('bend')) };
+}
+
+function readTongue(at: JsonCursor | undefined): RigTongue | null {
+  if (at === undefined || at.isNull) return null;
+  const left = direction(at.member('left'));
+  const up = direction(at.member('up'));
+  if (!(Math.abs(left[0] * up[0] + left[1] * up[1] + left[2] * up[2]) < 1e-3)) {
+    at.member('up').fail('out_of_range', 'must be at right angles to left');
+  }
+  return {
+    origin: vec3(at.member('origin')),
+    left,
+    up,
+    half_width: above(at.member('half_width'), 0),
+    roll_limit: at.member('roll_limit').number(0, 7),
   };
 }
 

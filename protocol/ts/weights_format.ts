@@ -14,7 +14,7 @@ export interface InfluenceTable {
   rowPoints: Uint8Array;
   /** Per entry: 0..1 */
   rowWeights: Float32Array;
-  /** Per vertex: 0 none, 1 left eye, 2 right eye. */
+  /** Per vertex: values of `rigidMotion`; from `tongue` on the tongue with a share of its roll. */
   rigid: Uint8Array;
 }
 
@@ -24,9 +24,19 @@ const maxEntries = 48_000_000;
 const maxSets = 2 ** 24;
 const maxInflation = 1032; // deflate cannot make more of one byte
 const featurePointCount = 84;
-const rigidMotionCount = 3;
+
+/** What moves a vertex after Eq. 7 and before the head. */
+export const rigidMotion = { none: 0, leftEye: 1, rightEye: 2, leftIris: 3, rightIris: 4, tongue: 128 } as const;
+
+/** The share of the tongue's roll that a vertex takes: 0 for all but the tongue's. */
+export const tongueShare = (rigid: number): number => (rigid < rigidMotion.tongue ? 0 : (rigid - 127) / 128);
+
+/** 0 left, 1 right; -1: not of an eye. */
+export const eyeOf = (rigid: number): -1 | 0 | 1 =>
+  rigid === rigidMotion.none || rigid >= rigidMotion.tongue ? -1 : rigid % 2 === 1 ? 0 : 1;
 
 interface WeightsHeader {
+  version: number;
   bits: number;
   vertexCount: number;
   setCount: number;
@@ -58,8 +68,9 @@ function readHeader(bytes: Uint8Array): WeightsHeader {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (view.getUint32(0, false) !== 0x53425754) fail('malformed', 'magic', 'not SBWT');
   const version = view.getUint16(4, true);
-  if (version !== 1) fail('unsupported', 'version', `version ${version}, only 1 is known`);
+  if (version !== 1 && version !== 2) fail('unsupported', 'version', `version ${version}, only 1 and 2 are known`);
   const header = {
+    version,
     bits: view.getUint8(6),
     vertexCount: view.getUint32(12, true),
     setCount: view.getUint32(16, true),
@@ -123,7 +134,7 @@ function readPayload(payload: Uint8Array, header: WeightsHeader): Rows {
     field = 'weights';
     const rows = readRows(from, header, sets, ids);
     field = 'rigid';
-    const rigid = readRigid(from, header.vertexCount);
+    const rigid = readRigid(from, header);
     if (from.remaining !== 0) fail('malformed', 'payload', 'bytes after the last field');
     return { ...rows, rigid };
   } catch (error) {
@@ -209,15 +220,21 @@ function readRows(
   return { rowOffsets, rowPoints, rowWeights };
 }
 
-function readRigid(from: ByteReader, vertexCount: number): Uint8Array {
+function readRigid(from: ByteReader, { version, vertexCount }: WeightsHeader): Uint8Array {
   const rigid = new Uint8Array(vertexCount);
   for (let v = 0; v < vertexCount; ) {
     const motion = from.u8();
     const run = from.varint();
-    if (motion >= rigidMotionCount) fail('out_of_range', 'rigid', 'unknown rigid motion');
+    if (!isKnown(motion, version)) fail('out_of_range', 'rigid', 'unknown rigid motion');
     if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'length of a run');
     rigid.fill(motion, v, v + run);
     v += run;
   }
   return rigid;
+}
+
+/** Version 1 knows the eyes alone. */
+function isKnown(motion: number, version: number): boolean {
+  if (version === 1) return motion <= rigidMotion.rightEye;
+  return motion <= rigidMotion.rightIris || motion >= rigidMotion.tongue;
 }

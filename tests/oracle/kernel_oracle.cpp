@@ -83,7 +83,19 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
   for (int n = 3; n <= 68; ++n) {
     const mpeg4::Fap& fap = mpeg4::fap(static_cast<std::size_t>(n));
     const double value = frame.fap[n];
-    if (value == 0.0 || fap.axis == mpeg4::no_axis) continue;
+    if (value == 0.0) continue;
+    if (n == 29 || n == 30) {
+      const semblante_iris& iris = rig.iris[n - 29];
+      const double wanted = 0.5 * value * rig.fapu[0];
+      const double room = static_cast<double>(iris.iris_radius) - iris.pupil_radius;
+      pose.pupil_growth[n - 29] = std::max(-0.9 * iris.pupil_radius, std::min(0.9 * room, wanted));
+      continue;
+    }
+    if (n == 47) {
+      const double limit = rig.tongue.roll_limit;
+      pose.tongue_roll = std::max(-limit, std::min(limit, value * mpeg4::radians_per_au));
+      continue;
+    }
     const int fp = fap.feature_points[0];
     const int part = fp == left_pupil ? 0 : fp == right_pupil ? 1 : 2;
     if (fap.kind == mpeg4::FapKind::rotation) {
@@ -103,6 +115,64 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
   return pose;
 }
 
+namespace {
+
+double dot(const Vec3& a, const float* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Where a growing pupil takes a rest position: along polar coordinates about the axis, piecewise linear in the radius.
+Vec3 with_pupil(const semblante_iris& iris, const float* pivot, double growth, const Vec3& rest) {
+  if (iris.pupil_radius <= 0.0F) return rest;
+  const Vec3 d{rest[0] - pivot[0], rest[1] - pivot[1], rest[2] - pivot[2]};
+  const double along = dot(d, iris.axis);
+  Vec3 outwards{};
+  for (int i = 0; i < 3; ++i) outwards[i] = d[i] - along * iris.axis[i];
+  const double r = std::sqrt(outwards[0] * outwards[0] + outwards[1] * outwards[1] + outwards[2] * outwards[2]);
+  if (r == 0.0 || r >= iris.iris_radius) return rest;
+  const double pupil = iris.pupil_radius + growth;
+  const double to = r < iris.pupil_radius
+                        ? r / iris.pupil_radius * pupil
+                        : iris.iris_radius - (iris.iris_radius - r) / (iris.iris_radius - iris.pupil_radius) *
+                                                 (iris.iris_radius - pupil);
+  const double farther = iris.bend * (to * to - r * r);
+  Vec3 result{};
+  for (int i = 0; i < 3; ++i) result[i] = pivot[i] + (along + farther) * iris.axis[i] + outwards[i] * to / r;
+  return result;
+}
+
+/// Where a rolled tongue takes a rest position: the arc walked in ten thousand straight steps.
+Vec3 rolled(const semblante_tongue& tongue, double roll, const Vec3& rest) {
+  if (tongue.half_width <= 0.0F || roll == 0.0) return rest;
+  const Vec3 d{rest[0] - tongue.origin[0], rest[1] - tongue.origin[1], rest[2] - tongue.origin[2]};
+  const double u = dot(d, tongue.left);
+  const double v = dot(d, tongue.up);
+  const double w = tongue.half_width;
+  constexpr int steps = 10000;
+  double x = 0.0;
+  double y = 0.0;
+  double angle = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double at = u * (i + 0.5) / steps;
+    angle = roll * std::max(-1.0, std::min(1.0, at / w));
+    x += std::cos(angle) * u / steps;
+    y += std::sin(angle) * u / steps;
+  }
+  angle = roll * std::max(-1.0, std::min(1.0, u / w));
+  x -= v * std::sin(angle);
+  y += v * std::cos(angle);
+  Vec3 result{};
+  for (int i = 0; i < 3; ++i) result[i] = rest[i] + (x - u) * tongue.left[i] + (y - v) * tongue.up[i];
+  return result;
+}
+
+Vec3 with_local_motion(const semblante_rig& rig, const Pose& pose, int rigid, const Vec3& rest) {
+  if (rigid == 3 || rigid == 4) {
+    return with_pupil(rig.iris[rigid - 3], rig.eye_pivot[rigid - 3], pose.pupil_growth[rigid - 3], rest);
+  }
+  return rigid >= 128 ? rolled(rig.tongue, pose.tongue_roll * (rigid - 127) / 128.0, rest) : rest;
+}
+
+}  // namespace
+
 std::vector<Vec3> deform(const semblante_face& face, const semblante_rig& rig, const Pose& pose) {
   std::vector<Vec3> positions;
   for (std::uint32_t v = 0; v < face.vertex_count; ++v) {
@@ -110,12 +180,14 @@ std::vector<Vec3> deform(const semblante_face& face, const semblante_rig& rig, c
     for (std::uint32_t e = face.row_offsets[v]; e < face.row_offsets[v + 1]; ++e) {
       for (int i = 0; i < 3; ++i) sum_of_moves[i] += face.row_weights[e] * pose.fp[face.row_points[e]][i];
     }
-    Vec3 p{};
-    for (int i = 0; i < 3; ++i) p[i] = face.rest[v * 3 + i] + sum_of_moves[i];  // Eq. 7
     const int rigid = face.rigid == nullptr ? 0 : face.rigid[v];
-    if (rigid != 0) {
-      p = turn_about(pose.eye[rigid - 1], rig.eye_pivot[rigid - 1], p);
-      for (int i = 0; i < 3; ++i) p[i] += pose.eye_translation[rigid - 1][i];
+    const Vec3 rest{face.rest[v * 3], face.rest[v * 3 + 1], face.rest[v * 3 + 2]};
+    Vec3 p = with_local_motion(rig, pose, rigid, rest);
+    for (int i = 0; i < 3; ++i) p[i] += sum_of_moves[i];  // Eq. 7
+    if (rigid != 0 && rigid < 128) {
+      const int eye = (rigid - 1) % 2;
+      p = turn_about(pose.eye[eye], rig.eye_pivot[eye], p);
+      for (int i = 0; i < 3; ++i) p[i] += pose.eye_translation[eye][i];
     }
     positions.push_back(turn_about(pose.head, rig.head_pivot, p));
   }

@@ -151,9 +151,11 @@ Result<Face> Face::create(const PackageBytes& bytes) {
   const semblante_face* table = semblante_head_face(head);
   face.roles_.assign(face.model_.positions.size(), PartRole::rest);
   for (std::size_t v = 0; v < face.roles_.size(); ++v) {
-    face.roles_[v] = table->rigid[v] == SEMBLANTE_RIGID_LEFT_EYE    ? PartRole::left_eye
-                     : table->rigid[v] == SEMBLANTE_RIGID_RIGHT_EYE ? PartRole::right_eye
-                                                                    : PartRole::rest;
+    const auto motion = static_cast<RigidMotion>(table->rigid[v]);
+    face.roles_[v] = is_left_eye(motion)             ? PartRole::left_eye
+                     : is_eye(motion)                ? PartRole::right_eye
+                     : motion == RigidMotion::tongue ? PartRole::tongue
+                                                     : PartRole::rest;
   }
   return face;
 }

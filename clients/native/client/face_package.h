@@ -35,7 +35,7 @@ class Face {
   /// The neutral mesh with its materials, vertices in decoded order; images come from fetch_images.
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] Model& model() { return model_; }
-  /// PartRole of each vertex as far as the package tells: eyes by their rigid motion, `rest` for all else.
+  /// PartRole of each vertex as far as the package tells: eyes and tongue by their rigid motion, `rest` for all else.
   [[nodiscard]] const std::vector<PartRole>& roles() const { return roles_; }
   /// For close-ups; vertices are those of the model.
   [[nodiscard]] FeaturePointSet feature_points() const;

@@ -1,5 +1,6 @@
 #include "core/tables/generate/render.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -70,33 +71,40 @@ std::string render_c_header(const TableData& data) {
   std::ostringstream out;
   out << "/* " << notice << " */\n/* clang-format off */\n"
       << "#ifndef SEMBLANTE_MPEG4_TABLES_H\n#define SEMBLANTE_MPEG4_TABLES_H\n\n#include <stdint.h>\n\n"
-      << "#define SEMBLANTE_FAP_NO_MOTION 0 /* high-level, pupils, roll of the tongue */\n"
-      << "#define SEMBLANTE_FAP_TRANSLATION 1\n#define SEMBLANTE_FAP_ROTATION 2\n\n"
+      << "#define SEMBLANTE_FAP_HIGH_LEVEL 0 /* a displacement set: nothing of one point alone */\n"
+      << "#define SEMBLANTE_FAP_TRANSLATION 1\n#define SEMBLANTE_FAP_ROTATION 2\n"
+      << "#define SEMBLANTE_FAP_PUPIL 3 /* the diameter of a pupil changes */\n"
+      << "#define SEMBLANTE_FAP_ROLL 4  /* the borders of the tongue turn up */\n\n"
       << "#define SEMBLANTE_FP_LEFT_PUPIL " << index_of(data, "3.5") << "\n"
       << "#define SEMBLANTE_FP_RIGHT_PUPIL " << index_of(data, "3.6") << "\n\n"
       << "/* displacement (or angle) = sign * value * unit along (or about) the axis */\n"
       << "typedef struct semblante_fap_entry {\n"
       << "  uint8_t kind; /* SEMBLANTE_FAP_* */\n"
       << "  uint8_t fp;   /* dense index of the feature point */\n"
-      << "  uint8_t axis; /* 0 x, 1 y, 2 z */\n"
+      << "  uint8_t axis; /* 0 x, 1 y, 2 z; 0 for pupils and roll, which have none */\n"
       << "  int8_t sign;\n"
       << "  uint8_t unit; /* 0 IRISD, 1 ES, 2 ENS, 3 MNS, 4 MW, 5 AU */\n"
       << "} semblante_fap_entry;\n\n"
       << "/* By FAP number; entry 0 is not a FAP. */\n"
       << "static const semblante_fap_entry semblante_fap_table[" << data.faps["faps"].size() + 1 << "] = {\n"
-      << "    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0},\n";
+      << "    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0},\n";
   std::vector<std::string> units;
   for (const json& fapu : data.fapus["fapus"]) units.push_back(fapu["name"]);
   for (const json& fap : data.faps["faps"]) {
     const std::string kind = fap["kind"];
-    const auto [axis, sign] = axis_and_sign(fap.value("axis", json()));
-    if (axis < 0) {
-      out << "    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}";
+    if (kind == "high_level") {
+      out << "    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0}";
     } else {
+      const auto [axis, sign] = axis_and_sign(fap.value("axis", json()));
       std::size_t unit = 0;
-      while (units.at(unit) != fap["unit"]) ++unit;
-      out << "    {" << (kind == "rotation" ? "SEMBLANTE_FAP_ROTATION" : "SEMBLANTE_FAP_TRANSLATION") << ", "
-          << index_of(data, fap["feature_points"][0]) << ", " << axis << ", " << sign << ", " << unit << "}";
+      while (unit < units.size() && units[unit] != fap["unit"]) ++unit;
+      if (unit == units.size()) throw std::runtime_error("no unit is called " + fap["unit"].dump());
+      const char* const motion = kind == "translation" ? "TRANSLATION"
+                                 : kind == "scale"     ? "PUPIL"
+                                 : axis < 0            ? "ROLL"
+                                                       : "ROTATION";
+      out << "    {SEMBLANTE_FAP_" << motion << ", " << index_of(data, fap["feature_points"][0]) << ", "
+          << std::max(axis, 0) << ", " << (axis < 0 ? 1 : sign) << ", " << unit << "}";
     }
     out << ", /* " << fap["number"] << " " << fap["name"].get<std::string>() << " */\n";
   }

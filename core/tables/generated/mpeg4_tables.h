@@ -5,9 +5,11 @@
 
 #include <stdint.h>
 
-#define SEMBLANTE_FAP_NO_MOTION 0 /* high-level, pupils, roll of the tongue */
+#define SEMBLANTE_FAP_HIGH_LEVEL 0 /* a displacement set: nothing of one point alone */
 #define SEMBLANTE_FAP_TRANSLATION 1
 #define SEMBLANTE_FAP_ROTATION 2
+#define SEMBLANTE_FAP_PUPIL 3 /* the diameter of a pupil changes */
+#define SEMBLANTE_FAP_ROLL 4  /* the borders of the tongue turn up */
 
 #define SEMBLANTE_FP_LEFT_PUPIL 18
 #define SEMBLANTE_FP_RIGHT_PUPIL 19
@@ -16,16 +18,16 @@
 typedef struct semblante_fap_entry {
   uint8_t kind; /* SEMBLANTE_FAP_* */
   uint8_t fp;   /* dense index of the feature point */
-  uint8_t axis; /* 0 x, 1 y, 2 z */
+  uint8_t axis; /* 0 x, 1 y, 2 z; 0 for pupils and roll, which have none */
   int8_t sign;
   uint8_t unit; /* 0 IRISD, 1 ES, 2 ENS, 3 MNS, 4 MW, 5 AU */
 } semblante_fap_entry;
 
 /* By FAP number; entry 0 is not a FAP. */
 static const semblante_fap_entry semblante_fap_table[69] = {
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0},
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}, /* 1 viseme */
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}, /* 2 expression */
+    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0},
+    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0}, /* 1 viseme */
+    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0}, /* 2 expression */
     {SEMBLANTE_FAP_TRANSLATION, 0, 1, -1, 3}, /* 3 open_jaw */
     {SEMBLANTE_FAP_TRANSLATION, 1, 1, -1, 3}, /* 4 lower_t_midlip */
     {SEMBLANTE_FAP_TRANSLATION, 2, 1, 1, 3}, /* 5 raise_b_midlip */
@@ -52,8 +54,8 @@ static const semblante_fap_entry semblante_fap_table[69] = {
     {SEMBLANTE_FAP_ROTATION, 19, 0, 1, 5}, /* 26 pitch_r_eyeball */
     {SEMBLANTE_FAP_TRANSLATION, 18, 2, 1, 1}, /* 27 thrust_l_eyeball */
     {SEMBLANTE_FAP_TRANSLATION, 19, 2, 1, 1}, /* 28 thrust_r_eyeball */
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}, /* 29 dilate_l_pupil */
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}, /* 30 dilate_r_pupil */
+    {SEMBLANTE_FAP_PUPIL, 18, 0, 1, 0}, /* 29 dilate_l_pupil */
+    {SEMBLANTE_FAP_PUPIL, 19, 0, 1, 0}, /* 30 dilate_r_pupil */
     {SEMBLANTE_FAP_TRANSLATION, 28, 1, 1, 2}, /* 31 raise_l_i_eyebrow */
     {SEMBLANTE_FAP_TRANSLATION, 29, 1, 1, 2}, /* 32 raise_r_i_eyebrow */
     {SEMBLANTE_FAP_TRANSLATION, 30, 1, 1, 2}, /* 33 raise_l_m_eyebrow */
@@ -70,7 +72,7 @@ static const semblante_fap_entry semblante_fap_table[69] = {
     {SEMBLANTE_FAP_TRANSLATION, 38, 1, 1, 3}, /* 44 raise_tongue_tip */
     {SEMBLANTE_FAP_TRANSLATION, 38, 2, 1, 4}, /* 45 thrust_tongue_tip */
     {SEMBLANTE_FAP_TRANSLATION, 39, 1, 1, 3}, /* 46 raise_tongue */
-    {SEMBLANTE_FAP_NO_MOTION, 0, 0, 0, 0}, /* 47 tongue_roll */
+    {SEMBLANTE_FAP_ROLL, 40, 0, 1, 5}, /* 47 tongue_roll */
     {SEMBLANTE_FAP_ROTATION, 42, 0, 1, 5}, /* 48 head_pitch */
     {SEMBLANTE_FAP_ROTATION, 42, 1, 1, 5}, /* 49 head_yaw */
     {SEMBLANTE_FAP_ROTATION, 42, 2, 1, 5}, /* 50 head_roll */

@@ -175,10 +175,10 @@ TEST(Kernel_Eq6, DoesNothing_WhenTheUnitIsUnknown) {
   EXPECT_EQ(rig.pose(frame).fp[1], -7.0F);
 }
 
-TEST(Kernel_Faps, OfPupilsAndTongueRollMoveNothing) {
+TEST(Kernel_Frame, NumbersWithoutAFapMoveNothing) {
   TestRig rig;
   const semblante_pose neutral = rig.pose({});
-  for (const int n : {0, 1, 2, 29, 30, 47}) {
+  for (const int n : {0, 1, 2}) {
     semblante_frame frame{};
     frame.fap[n] = 100.0F;
     const semblante_pose pose = rig.pose(frame);
@@ -186,7 +186,7 @@ TEST(Kernel_Faps, OfPupilsAndTongueRollMoveNothing) {
   }
 }
 
-/// One vertex at (x, y, z) with no influencer; 0 none, 1 left eye, 2 right eye.
+/// One vertex at (x, y, z) with no influencer; `rigid` is one of SEMBLANTE_RIGID_*.
 std::vector<float> one_vertex(const TestRig& rig, const semblante_frame& frame, std::vector<float> at,
                               std::uint8_t rigid = 0) {
   const std::uint32_t offsets[2] = {0, 0};
@@ -245,6 +245,79 @@ TEST(Kernel_Eyes, AreThrustForwardAsAWhole_ThenTurnWithTheHead) {
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 1), {4, 0, -3});
 }
 
+/// Looks along +z, pupil 1 and iris 3 wide, eyes at x = 10 and -10; the left one curves back like a ball of radius 5.
+TestRig& with_irises(TestRig& rig) {
+  for (int eye = 0; eye < 2; ++eye) {
+    rig.rig.eye_pivot[eye][0] = eye == 0 ? 10.0F : -10.0F;
+    rig.rig.iris[eye] = {{0, 0, 1}, 1.0F, 3.0F, eye == 0 ? -0.1F : 0.0F};
+  }
+  return rig;
+}
+
+TEST(Kernel_Pupils, GrowByTheDiameterInIrisWidths_AndLeaveTheIrisRimAndTheBall) {
+  TestRig rig;
+  with_irises(rig);
+  semblante_frame frame{};
+  frame.fap[30] = 2.0F;                                               // 2 * IRISD = 1 wider: half a unit on each side
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-8.5F, 0, 5});  // the pupil's rim
+  expect_near(one_vertex(rig, frame, {-10, -0.5F, 5}, 4), {-10, -0.75F, 5});  // half way out: half as much
+  expect_near(one_vertex(rig, frame, {-10, 2, 5}, 4), {-10, 2.25F, 5});       // half way to the iris' rim likewise
+  for (const float r : {0.0F, 3.0F, 4.0F}) {
+    expect_near(one_vertex(rig, frame, {-10, r, 5}, 4), {-10, r, 5}, 0.0F);
+  }
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 2), {-9, 0, 5}, 0.0F);  // of the eye, but not of its iris
+  expect_near(one_vertex(rig, frame, {11, 0, 5}, 3), {11, 0, 5}, 0.0F);  // the other eye
+  frame = {};
+  frame.fap[29] = -2.0F;
+  // Inwards from radius 1 to 0.5 on a surface that falls away by 0.1 r^2: 0.075 farther out of the eye.
+  expect_near(one_vertex(rig, frame, {11, 0, 5}, 3), {10.5F, 0, 5.075F});
+}
+
+TEST(Kernel_Pupils, KeepADotOfPupilAndARingOfIris) {
+  TestRig rig;
+  with_irises(rig);
+  semblante_frame frame{};
+  frame.fap[30] = 1e6F;
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-7.2F, 0, 5});
+  frame.fap[30] = -1e6F;
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-9.9F, 0, 5});
+  rig.rig.fapu[0] = 0.0F;  // IRISD is unknown
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-9, 0, 5}, 0.0F);
+  rig.rig.fapu[0] = 0.5F;
+  rig.rig.iris[1] = {};  // no iris is known
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-9, 0, 5}, 0.0F);
+}
+
+TEST(Kernel_Pupils, GrowBeforeTheEyeTurns) {
+  TestRig rig;
+  with_irises(rig);
+  semblante_frame frame{};
+  frame.fap[30] = 2.0F;
+  frame.fap[24] = quarter_turn;  // to +X: what was in front is now at the left, what was left is behind
+  expect_near(one_vertex(rig, frame, {-9, 0, 5}, 4), {-5, 0, -1.5F});
+}
+
+TEST(Kernel_Tongue, RollsItsBordersUpAboutItsMiddleLine) {
+  TestRig rig;
+  rig.rig.tongue = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2.0F, 2.0F};
+  semblante_frame frame{};
+  frame.fap[47] = quarter_turn;
+  // A quarter circle of length 2 has radius 4 / pi; a point 0.5 above the sheet is so much nearer to its centre.
+  const float radius = 4.0F / 3.14159265F;
+  expect_near(one_vertex(rig, frame, {2, 0, 7}, 255), {radius, radius, 7});
+  expect_near(one_vertex(rig, frame, {-2, 0.5F, 7}, 255), {-(radius - 0.5F), radius, 7});
+  expect_near(one_vertex(rig, frame, {3, 0, 7}, 255), {radius, radius + 1, 7});  // beyond the border: straight on
+  expect_near(one_vertex(rig, frame, {0, 0.5F, 7}, 255), {0, 0.5F, 7});          // the middle stays
+  expect_near(one_vertex(rig, frame, {2, 0, 7}, 0), {2, 0, 7}, 0.0F);
+  // Half the share is half the angle.
+  const float r = 2.0F * radius;
+  expect_near(one_vertex(rig, frame, {2, 0, 7}, 191), {r * std::sqrt(0.5F), r * (1 - std::sqrt(0.5F)), 7}, 1e-5F);
+  frame.fap[47] = -quarter_turn;
+  expect_near(one_vertex(rig, frame, {2, 0, 7}, 255), {radius, -radius, 7});
+  rig.rig.tongue.roll_limit = 0.0F;
+  expect_near(one_vertex(rig, frame, {2, 0, 7}, 255), {2, 0, 7}, 0.0F);
+}
+
 TEST(Kernel_Eq7, SumsTheRow) {
   TestRig rig;
   const float rest[] = {0, 0, 0, 1, 1, 1};
@@ -287,10 +360,24 @@ struct RandomCase {
     for (auto& pivot : rig.rig.eye_pivot) {
       for (float& p : pivot) p = unit(random);
     }
+    for (auto& iris : rig.rig.iris) {
+      iris = {{unit(random), unit(random), unit(random)}, 1.0F + 0.5F * unit(random), 4.0F + unit(random), 0};
+      const float length =
+          std::sqrt(iris.axis[0] * iris.axis[0] + iris.axis[1] * iris.axis[1] + iris.axis[2] * iris.axis[2]);
+      for (float& a : iris.axis) a /= length;
+      iris.bend = 0.1F * unit(random);
+    }
+    const float tilt = unit(random);
+    rig.rig.tongue = {{unit(random), unit(random), unit(random)},
+                      {std::cos(tilt), 0, -std::sin(tilt)},
+                      {0, 1, 0},
+                      2.0F + unit(random),
+                      1.0F + 0.5F * unit(random)};
     const std::uint32_t count = 200;
     for (std::uint32_t v = 0; v < count; ++v) {
       for (int i = 0; i < 3; ++i) rest.push_back(5 * unit(random));
-      rigid.push_back(static_cast<std::uint8_t>(random() % 3));
+      const unsigned part = random() % 7;  // none, eyes, irises, all of the tongue, some share of it
+      rigid.push_back(static_cast<std::uint8_t>(part < 5 ? part : part == 5 ? 255 : 128 + random() % 128));
       const unsigned entries = random() % 8;
       float sum = 0;
       for (unsigned e = 0; e < entries; ++e) {
@@ -316,6 +403,7 @@ struct RandomCase {
     f.intensity2 = static_cast<std::uint8_t>(random() % 64);
     for (std::size_t n = 3; n <= 68; ++n) {
       if (random() % 4 == 0) f.fap[n] = unit(random) * static_cast<float>(mpeg4::fap(n).usual_max);
+      if (n == 29 || n == 30) f.fap[n] *= 2.0F;  // far enough to show; some beyond what a pupil can
     }
     return f;
   }
@@ -364,7 +452,7 @@ TEST(Kernel_Interpolate, MovesEveryVertexLinearly_WhenNothingTurns) {
   RandomCase test(4);
   semblante_frame frames[2] = {test.frame(), test.frame()};
   for (auto& frame : frames) {
-    for (const int n : {23, 24, 25, 26, 48, 49, 50}) frame.fap[n] = 0;
+    for (const int n : {23, 24, 25, 26, 29, 30, 47, 48, 49, 50}) frame.fap[n] = 0;
   }
   const semblante_pose a = test.rig.pose(frames[0]);
   const semblante_pose b = test.rig.pose(frames[1]);

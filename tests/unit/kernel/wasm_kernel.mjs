@@ -1,7 +1,7 @@
 // The kernel's WebAssembly module with its structs laid out by hand, as any JavaScript client does it.
 // Offsets are those of semblante_kernel.h on a machine with 32-bit pointers.
 const FP = 84;
-const POSE_BYTES = 1116;
+const POSE_BYTES = 1220;
 
 export class WasmKernel {
   constructor(bytes) {
@@ -24,7 +24,7 @@ export class WasmKernel {
     return new DataView(this.exports.memory.buffer); // made anew: growth detaches the old one
   }
 
-  rig({ fapu, eye_pivot, head_pivot, viseme_share, visemes, expressions }) {
+  rig({ fapu, eye_pivot, head_pivot, viseme_share, visemes, expressions, irises = [null, null], tongue = null }) {
     const table = (sets) => {
       const all = new Float32Array(sets.length * FP * 3);
       sets.forEach((set, s) => {
@@ -34,11 +34,16 @@ export class WasmKernel {
     };
     const viseme = table(visemes);
     const expression = table(expressions);
-    const at = this.alloc(68);
+    const at = this.alloc(160);
     const view = this.view();
     view.setUint32(at, viseme, true);
     view.setUint32(at + 4, expression, true);
     const numbers = [...fapu, ...eye_pivot.flat(), ...head_pivot, viseme_share];
+    for (const iris of irises) {
+      numbers.push(...(iris ? [...iris.axis, iris.pupil_radius, iris.iris_radius, iris.bend] : new Array(6).fill(0)));
+    }
+    numbers.push(...(tongue ? [...tongue.origin, ...tongue.left, ...tongue.up] : new Array(9).fill(0)));
+    numbers.push(tongue?.half_width ?? 0, tongue?.roll_limit ?? 0);
     numbers.forEach((x, i) => view.setFloat32(at + 8 + 4 * i, x, true));
     return at;
   }

@@ -120,6 +120,48 @@ TEST(RigDocument, RoundTrip_GivesTheSameText) {
   EXPECT_EQ(rig->visemes[3].displacements[1].by, glm::vec3(1, 2, 3));
 }
 
+RigDocument with_moving_parts() {
+  RigDocument rig = sample();
+  rig.irises[1] = Iris{{0.0F, 0.6F, 0.8F}, 0.1F, 0.3F, -2.0F};
+  rig.tongue = Tongue{{0, 1, 2}, {1, 0, 0}, {0, 0.8F, 0.6F}, 2.0F, 2.5F};
+  return rig;
+}
+
+TEST(RigDocument, MovingParts_AreThereOnlyWhereTheHeadHasThem) {
+  EXPECT_FALSE(json::parse(write_rig(sample())).contains("irises"));
+  EXPECT_FALSE(json::parse(write_rig(sample())).contains("tongue"));
+  const std::string text = write_rig(with_moving_parts());
+  const auto rig = read_rig(text);
+  ASSERT_TRUE(rig.ok()) << rig.error().where << " " << rig.error().message;
+  EXPECT_EQ(write_rig(*rig), text);
+  EXPECT_FALSE(rig->irises[0].has_value());
+  EXPECT_EQ(rig->irises[1]->axis, glm::vec3(0.0F, 0.6F, 0.8F));
+  EXPECT_EQ(rig->irises[1]->bend, -2.0F);
+  EXPECT_EQ(rig->tongue->half_width, 2.0F);
+}
+
+TEST(RigDocument, Read_InvalidMovingParts_AreNamedByTheirPointer) {
+  const json good = json::parse(write_rig(with_moving_parts()));
+  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
+    json changed = good;
+    change(changed);
+    const auto result = read_rig(changed.dump());
+    ASSERT_FALSE(result.ok()) << pointer;
+    EXPECT_EQ(result.error().where, pointer) << result.error().message;
+    EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
+  };
+  refused("/irises", ErrorCode::out_of_range, [](json& j) { j["irises"].erase(0); });
+  refused("/irises/1/axis", ErrorCode::missing, [](json& j) { j["irises"][1].erase("axis"); });
+  refused("/irises/1/axis", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["axis"] = {0, 0, 0}; });
+  refused("/irises/1/pupil_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["pupil_radius"] = 0; });
+  refused("/irises/1/iris_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["iris_radius"] = 0.1; });
+  refused("/irises/1/bend", ErrorCode::malformed, [](json& j) { j["irises"][1]["bend"] = nullptr; });
+  refused("/tongue/left", ErrorCode::out_of_range, [](json& j) { j["tongue"]["left"] = {2, 0, 0}; });
+  refused("/tongue/up", ErrorCode::out_of_range, [](json& j) { j["tongue"]["up"] = {1, 0, 0}; });
+  refused("/tongue/half_width", ErrorCode::out_of_range, [](json& j) { j["tongue"]["half_width"] = -1; });
+  refused("/tongue/roll_limit", ErrorCode::out_of_range, [](json& j) { j["tongue"]["roll_limit"] = 8; });
+}
+
 TEST(RigDocument, Levels_AreThereOnlyWhereThereAreSeveral) {
   RigDocument rig = sample();
   EXPECT_FALSE(json::parse(write_rig(rig)).contains("levels"));

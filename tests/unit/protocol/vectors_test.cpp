@@ -66,7 +66,7 @@ TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
 }
 
 TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
-  for (const char* name : {"weights-8", "weights-12", "weights-16"}) {
+  for (const char* name : {"weights-8", "weights-12", "weights-16", "../v2/weights-12"}) {
     const std::string file = read(std::string(name) + ".bin");
     const json meaning = json::parse(read(std::string(name) + ".json"));
     const auto table = decode_weights(Bytes(file.begin(), file.end()));
@@ -87,10 +87,12 @@ TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
 }
 
 TEST(Vectors, Rig_ReadAndWritten_IsTheSame) {
-  const std::string text = read("rig.json");
-  const auto rig = read_rig(text);
-  ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;
-  EXPECT_EQ(write_rig(*rig) + "\n", text);
+  for (const char* name : {"rig.json", "../v2/rig.json"}) {
+    const std::string text = read(name);
+    const auto rig = read_rig(text);
+    ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;
+    EXPECT_EQ(write_rig(*rig) + "\n", text);
+  }
 }
 
 }  // namespace

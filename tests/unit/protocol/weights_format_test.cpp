@@ -103,7 +103,7 @@ TEST(WeightsFormat, Decode_InvalidHeader_IsRefusedByField) {
   expect_refused({}, ErrorCode::truncated, "header");
   expect_refused(Bytes(good.begin(), good.begin() + 63), ErrorCode::truncated, "header");
   expect_refused(changed(0, 'X', 1), ErrorCode::malformed, "magic");
-  expect_refused(changed(at_version, 2, 2), ErrorCode::unsupported, "version");
+  expect_refused(changed(at_version, 3, 2), ErrorCode::unsupported, "version");
   expect_refused(changed(at_bits, 7, 1), ErrorCode::out_of_range, "bits");
   expect_refused(changed(at_bits, 17, 1), ErrorCode::out_of_range, "bits");
   expect_refused(changed(at_reserved, 1, 1), ErrorCode::malformed, "reserved");
@@ -145,6 +145,28 @@ TEST(WeightsFormat, Decode_InvalidPayload_IsRefusedByField) {
   expect_refused(with_payload(table, [](Bytes& raw) { raw.push_back(0); }), ErrorCode::malformed, "payload");
   // The high plane of the first residual: 12 bits leave no room above 0x0F.
   expect_refused(with_payload(table, [](Bytes& raw) { raw.at(21 + 7) = 0x10; }), ErrorCode::out_of_range, "weights");
+}
+
+TEST(WeightsFormat, Encode_PartsBeyondTheEyes_MakeVersion2) {
+  InfluenceTable table = small_table();
+  EXPECT_EQ(encode_weights(table)[at_version], 1);
+  table.rigid = {0, 1, 2, 3, 4, 128, 200, 255, 255};
+  const Bytes bytes = encode_weights(table);
+  EXPECT_EQ(bytes[at_version], 2);
+  const auto decoded = decode_weights(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.error().message;
+  EXPECT_EQ(decoded->rigid, table.rigid);
+  const auto changed = [&](std::uint8_t motion) {
+    return with_payload(table, [&](Bytes& raw) { raw[raw.size() - 2] = motion; });
+  };
+  ASSERT_TRUE(decode_weights(changed(4)).ok());
+  for (const int between : {5, 100, 127}) {
+    expect_refused(changed(static_cast<std::uint8_t>(between)), ErrorCode::out_of_range, "rigid");
+  }
+  Bytes as_version_1 = bytes;
+  as_version_1[at_version] = 1;
+  fix_checksum(as_version_1);
+  expect_refused(as_version_1, ErrorCode::out_of_range, "rigid");
 }
 
 TEST(WeightsFormat, Decode_EveryPrefix_IsRefused) {

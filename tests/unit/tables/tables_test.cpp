@@ -138,14 +138,19 @@ TEST(Tables_CHeader, SaysTheSameAsTheCppTables) {
   for (std::size_t n = 1; n <= 68; ++n) {
     const semblante_fap_entry& c = semblante_fap_table[n];
     const mpeg4::Fap& f = mpeg4::fap(n);
-    if (f.sign == 0) {
-      EXPECT_EQ(c.kind, SEMBLANTE_FAP_NO_MOTION) << n;
+    if (f.kind == mpeg4::FapKind::high_level) {
+      EXPECT_EQ(c.kind, SEMBLANTE_FAP_HIGH_LEVEL) << n;
       continue;
     }
-    EXPECT_EQ(c.kind, f.kind == mpeg4::FapKind::rotation ? SEMBLANTE_FAP_ROTATION : SEMBLANTE_FAP_TRANSLATION) << n;
+    const bool no_axis = f.axis == mpeg4::no_axis;
+    EXPECT_EQ(c.kind, f.kind == mpeg4::FapKind::scale         ? SEMBLANTE_FAP_PUPIL
+                      : f.kind == mpeg4::FapKind::translation ? SEMBLANTE_FAP_TRANSLATION
+                      : no_axis                               ? SEMBLANTE_FAP_ROLL
+                                                              : SEMBLANTE_FAP_ROTATION)
+        << n;
     EXPECT_EQ(c.fp, f.feature_points[0]) << n;
-    EXPECT_EQ(c.axis, f.axis) << n;
-    EXPECT_EQ(c.sign, f.sign) << n;
+    EXPECT_EQ(c.axis, no_axis ? 0 : f.axis) << n;
+    EXPECT_EQ(c.sign, no_axis ? 1 : f.sign) << n;
     EXPECT_EQ(c.unit, static_cast<int>(f.unit)) << n;
   }
 }

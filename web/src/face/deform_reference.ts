@@ -1,4 +1,5 @@
 import type { Pose } from '@client/index.ts';
+import { eyeOf, rigidMotion, tongueShare } from '@protocol/index.ts';
 import type { FaceMesh } from './mesh.ts';
 import { tangentFrame, type TangentTable } from './tangent_table.ts';
 
@@ -44,11 +45,36 @@ export function deformNormals(mesh: FaceMesh, table: TangentTable, pose: Pose, o
     turned[0] = x;
     turned[1] = y;
     turned[2] = z;
-    if (rigid[v]! > 0) rotate(turned, pose.eyeRotations, (rigid[v]! - 1) * 4);
+    // A surface that a pupil stretches keeps its shape, and so its normals.
+    const eye = eyeOf(rigid[v]!);
+    if (eye >= 0) rotate(turned, pose.eyeRotations, eye * 4);
+    if (rigid[v]! >= rigidMotion.tongue) turnWithTongue(mesh.positions, v, rigid[v]!, pose, turned);
     rotate(turned, pose.headRotation, 0);
     out[v * 3] = turned[0]!;
     out[v * 3 + 1] = turned[1]!;
     out[v * 3 + 2] = turned[2]!;
+  }
+}
+
+/** The tongue's normals turn about its length by the angle of the arc: see core/kernel's roll_tongue. */
+function turnWithTongue(rest: Float32Array, v: number, rigid: number, pose: Pose, normal: Float64Array): void {
+  const { tongue } = pose;
+  const roll = tongueShare(rigid) * pose.tongueRoll[0]!;
+  const halfWidth = tongue[9]!;
+  if (roll === 0 || halfWidth <= 0) return;
+  let u = 0;
+  let across = 0;
+  let upwards = 0;
+  for (let i = 0; i < 3; i += 1) {
+    u += (rest[v * 3 + i]! - tongue[i]!) * tongue[3 + i]!;
+    across += normal[i]! * tongue[3 + i]!;
+    upwards += normal[i]! * tongue[6 + i]!;
+  }
+  const angle = (roll * Math.min(Math.max(u, -halfWidth), halfWidth)) / halfWidth;
+  const turnedAcross = across * Math.cos(angle) - upwards * Math.sin(angle);
+  const turnedUpwards = across * Math.sin(angle) + upwards * Math.cos(angle);
+  for (let i = 0; i < 3; i += 1) {
+    normal[i] = normal[i]! + (turnedAcross - across) * tongue[3 + i]! + (turnedUpwards - upwards) * tongue[6 + i]!;
   }
 }
 

@@ -9,6 +9,7 @@ import {
   type Material,
 } from 'three';
 import type { Pose } from '@client/index.ts';
+import { rigidMotion } from '@protocol/index.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
 /** Texels across the entry texture: entry k lies at (k mod width, k div width). */
@@ -23,6 +24,15 @@ export interface DeformUniforms {
   faceEyeTranslation: IUniform<Vector3[]>;
   faceHeadRotation: IUniform<Vector4>;
   faceHeadPivot: IUniform<Vector3>;
+  facePupilGrowth: IUniform<Float32Array>;
+  faceIrisAxis: IUniform<Vector3[]>;
+  /** pupil radius (0: no iris), iris radius, bend */
+  faceIrisShape: IUniform<Vector3[]>;
+  faceTongueRoll: IUniform<number>;
+  faceTongueOrigin: IUniform<Vector3>;
+  faceTongueLeft: IUniform<Vector3>;
+  faceTongueUp: IUniform<Vector3>;
+  faceTongueHalfWidth: IUniform<number>;
 }
 
 export function makeDeformUniforms(table: TangentTable): DeformUniforms {
@@ -41,6 +51,14 @@ export function makeDeformUniforms(table: TangentTable): DeformUniforms {
     faceEyeTranslation: { value: [new Vector3(), new Vector3()] },
     faceHeadRotation: { value: new Vector4(0, 0, 0, 1) },
     faceHeadPivot: { value: new Vector3() },
+    facePupilGrowth: { value: new Float32Array(2) },
+    faceIrisAxis: { value: [new Vector3(0, 0, 1), new Vector3(0, 0, 1)] },
+    faceIrisShape: { value: [new Vector3(), new Vector3()] },
+    faceTongueRoll: { value: 0 },
+    faceTongueOrigin: { value: new Vector3() },
+    faceTongueLeft: { value: new Vector3(1, 0, 0) },
+    faceTongueUp: { value: new Vector3(0, 1, 0) },
+    faceTongueHalfWidth: { value: 0 },
   };
 }
 
@@ -50,13 +68,21 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
     uniforms.faceEyeRotation.value[eye]!.fromArray(pose.eyeRotations, eye * 4);
     uniforms.faceEyePivot.value[eye]!.fromArray(pose.eyePivots, eye * 3);
     uniforms.faceEyeTranslation.value[eye]!.fromArray(pose.eyeTranslations, eye * 3);
+    uniforms.faceIrisAxis.value[eye]!.fromArray(pose.irises, eye * 6);
+    uniforms.faceIrisShape.value[eye]!.fromArray(pose.irises, eye * 6 + 3);
   }
   uniforms.faceHeadRotation.value.fromArray(pose.headRotation);
   uniforms.faceHeadPivot.value.fromArray(pose.headPivot);
+  uniforms.facePupilGrowth.value.set(pose.pupilGrowth);
+  uniforms.faceTongueRoll.value = pose.tongueRoll[0]!;
+  uniforms.faceTongueOrigin.value.fromArray(pose.tongue, 0);
+  uniforms.faceTongueLeft.value.fromArray(pose.tongue, 3);
+  uniforms.faceTongueUp.value.fromArray(pose.tongue, 6);
+  uniforms.faceTongueHalfWidth.value = pose.tongue[9]!;
 }
 
 /**
- * Eq. 7 in GLSL: the second version of core/kernel's semblante_deform. `faceRow` is (first entry, count + rigid << 16).
+ * Eq. 7 and the motion of single parts in GLSL: the second version of core/kernel's semblante_deform. `faceRow` is (first entry, count + rigid << 16).
  * The normal comes from the slopes beside the weights: see face/tangent_table.ts.
  */
 export const deformDeclarations = /* glsl */ `
@@ -68,12 +94,55 @@ uniform vec3 faceEyePivot[2];
 uniform vec3 faceEyeTranslation[2];
 uniform vec4 faceHeadRotation;
 uniform vec3 faceHeadPivot;
+uniform float facePupilGrowth[2];
+uniform vec3 faceIrisAxis[2];
+uniform vec3 faceIrisShape[2];
+uniform float faceTongueRoll;
+uniform vec3 faceTongueOrigin;
+uniform vec3 faceTongueLeft;
+uniform vec3 faceTongueUp;
+uniform float faceTongueHalfWidth;
 
 vec3 faceRotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
 
+/** How far a growing pupil moves a vertex of the iris. */
+vec3 faceIris(int eye, vec3 rest) {
+  vec3 shape = faceIrisShape[eye];
+  float growth = facePupilGrowth[eye];
+  vec3 axis = faceIrisAxis[eye];
+  vec3 d = rest - faceEyePivot[eye];
+  vec3 outwards = d - dot(d, axis) * axis;
+  float r = length(outwards);
+  float stretch = 0.0;
+  if (r < shape.x) stretch = growth / shape.x;
+  else if (r < shape.y) stretch = growth * (shape.y - r) / ((shape.y - shape.x) * r);
+  return stretch * outwards + shape.z * r * r * stretch * (2.0 + stretch) * axis;
+}
+
+/** Rolls the tongue: moves a vertex and turns its normal. */
+void faceRollTongue(float roll, vec3 rest, inout vec3 p, inout vec3 n) {
+  if (roll == 0.0 || faceTongueHalfWidth <= 0.0) return;
+  vec3 d = rest - faceTongueOrigin;
+  float u = dot(d, faceTongueLeft);
+  float v = dot(d, faceTongueUp);
+  float curvature = roll / faceTongueHalfWidth;
+  float onArc = clamp(u, -faceTongueHalfWidth, faceTongueHalfWidth);
+  float beyond = u - onArc;
+  float angle = curvature * onArc;
+  float s = sin(angle);
+  float versine = 2.0 * sin(0.5 * angle) * sin(0.5 * angle);
+  float across = (s / curvature - onArc) - beyond * versine - v * s;
+  float upwards = versine / curvature + beyond * s - v * versine;
+  p += across * faceTongueLeft + upwards * faceTongueUp;
+  float nu = dot(n, faceTongueLeft);
+  float nv = dot(n, faceTongueUp);
+  n += (-versine * nu - s * nv) * faceTongueLeft + (s * nu - versine * nv) * faceTongueUp;
+}
+
 void faceDeform(inout vec3 p, inout vec3 n) {
+  vec3 rest = p;
   uint count = faceRow.y & 0xffffu;
   uint rigid = faceRow.y >> 16u;
   if (count > 0u) {
@@ -95,8 +164,13 @@ void faceDeform(inout vec3 p, inout vec3 n) {
     float size = length(turned);
     if (size > 1e-12) n = turned / size;
   }
-  if (rigid > 0u) {
-    int eye = int(rigid) - 1;
+  if (rigid >= ${rigidMotion.tongue}u) {
+    faceRollTongue(float(rigid - ${rigidMotion.tongue - 1}u) / 128.0 * faceTongueRoll, rest, p, n);
+  } else if (rigid > 0u) {
+    int eye = (rigid & 1u) == 1u ? 0 : 1;
+    if (rigid >= ${rigidMotion.leftIris}u && facePupilGrowth[eye] != 0.0 && faceIrisShape[eye].x > 0.0) {
+      p += faceIris(eye, rest);
+    }
     p = faceRotate(faceEyeRotation[eye], p - faceEyePivot[eye]) + faceEyePivot[eye] + faceEyeTranslation[eye];
     n = faceRotate(faceEyeRotation[eye], n);
   }

@@ -9,5 +9,9 @@ export function neutralPose(): Pose {
     headRotation: new Float32Array([0, 0, 0, 1]),
     eyePivots: new Float32Array(6),
     headPivot: new Float32Array(3),
+    pupilGrowth: new Float32Array(2),
+    tongueRoll: new Float32Array(1),
+    irises: new Float32Array(12),
+    tongue: new Float32Array(11),
   };
 }

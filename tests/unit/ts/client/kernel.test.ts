@@ -16,6 +16,8 @@ interface Vectors {
     fapu: number[];
     eye_pivot: [Vec3, Vec3];
     head_pivot: Vec3;
+    irises?: RigDocument['irises'];
+    tongue?: RigDocument['tongue'];
     viseme_share: number;
     visemes: Sparse[];
     expressions: Sparse[];
@@ -45,6 +47,8 @@ function faceOf({ rig, face }: Vectors): Face {
       fapu: Object.fromEntries(rigFapus.map((unit, i) => [unit, rig.fapu[i]])),
       eye_pivots: rig.eye_pivot,
       head_pivot: rig.head_pivot,
+      irises: rig.irises ?? [null, null],
+      tongue: rig.tongue ?? null,
       viseme_share: rig.viseme_share,
       visemes: rig.visemes.map(named),
       expressions: rig.expressions.map(named),

@@ -57,12 +57,48 @@ describe('readRig', () => {
     }
   });
 
+  it('Read_MovingParts_AreEmptyWhereTheDocumentHasNone', () => {
+    const rig = readRig(JSON.stringify(good));
+    expect(rig.irises).toEqual([null, null]);
+    expect(rig.tongue).toBeNull();
+    const parts = readRig(JSON.stringify(vectorJson('../v2/rig.json')));
+    expect(parts.irises).toEqual([
+      { axis: [0.6, 0, 0.8], pupil_radius: 0.002, iris_radius: 0.006, bend: -40 },
+      null,
+    ]);
+    expect(parts.tongue).toEqual({
+      origin: [0, -0.05, 0.02],
+      left: [1, 0, 0],
+      up: [0, 0.8, 0.6],
+      half_width: 0.02,
+      roll_limit: 2.5,
+    });
+  });
+
+  it.each([
+    ['/irises', 'out_of_range', []],
+    ['/irises/0/axis', 'out_of_range', [0, 0, 0.5]],
+    ['/irises/0/pupil_radius', 'out_of_range', 0],
+    ['/irises/0/iris_radius', 'out_of_range', 0.002],
+    ['/irises/0/bend', 'malformed', null],
+    ['/tongue/left', 'out_of_range', [2, 0, 0]],
+    ['/tongue/up', 'out_of_range', [1, 0, 0]],
+    ['/tongue/half_width', 'out_of_range', -1],
+    ['/tongue/roll_limit', 'out_of_range', 8],
+  ])('Read_InvalidMovingParts_AreNamedByTheirPointer: %s %s', (where, code, value) => {
+    const withParts = (json: Json): void => {
+      Object.assign(json, vectorJson('../v2/rig.json'));
+      set(where, value)(json);
+    };
+    expect(errorOf(withParts)).toEqual({ where, code });
+  });
+
   it('Read_Golden_GivesItsMembers', () => {
     const rig = readRig(JSON.stringify(good));
     const { format, version, ...members } = good as Record<string, unknown>;
     expect([format, version]).toEqual(['semblante.rig', 1]);
-    // A document of before there were levels is the full mesh alone.
-    expect(rig).toEqual({ lod: 0, levels: [], ...members });
+    // A document of before there were levels is the full mesh alone; one of before irises and tongue moved has none.
+    expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...members });
   });
 });
 

@@ -55,7 +55,7 @@ describe('decodeWeights', () => {
   it.each([
     ['header', 'truncated', good.subarray(0, 63)],
     ['magic', 'malformed', changed(0, 0, 1)],
-    ['version', 'unsupported', changed(4, 2, 2)],
+    ['version', 'unsupported', changed(4, 3, 2)],
     ['bits', 'out_of_range', changed(6, 17, 1)],
     ['reserved', 'malformed', changed(7, 1, 1)],
     ['vertex_count', 'missing', changed(12, 0, 4)],
@@ -88,9 +88,29 @@ describe('decodeWeights', () => {
     }
   });
 
-  it.each([8, 12, 16])('Decode_GoldenOf%dBits_GivesItsMeaning', async (bits) => {
-    const meaning = vectorJson(`weights-${bits}.json`) as Meaning;
-    const table = await decodeWeights(vectorBytes(`weights-${bits}.bin`));
+  it('Decode_PartsBeyondTheEyes_AreRefusedInVersion1AndBetweenTheKnownInVersion2', async () => {
+    const version2 = vectorBytes('../v2/weights-12.bin');
+    const changed2 = (at: number, value: number): Uint8Array => {
+      const bytes = version2.slice();
+      bytes[at] = value;
+      return withChecksum(bytes);
+    };
+    expect(await errorOf(changed2(4, 1))).toEqual({ where: 'rigid', code: 'out_of_range' });
+    const raw = (motion: number) => withPayload((bytes) => bytes.fill(motion, bytes.length - 2, bytes.length - 1));
+    for (const [motion, version] of [[3, 1], [5, 2], [127, 2]] as const) {
+      const bytes = raw(motion);
+      bytes[4] = version;
+      expect(await errorOf(withChecksum(bytes))).toEqual({ where: 'rigid', code: 'out_of_range' });
+    }
+    const known = raw(128);
+    known[4] = 2;
+    expect((await decodeWeights(withChecksum(known))).rigid.at(-1)).toBe(128);
+  });
+
+  it.each(['weights-8', 'weights-12', 'weights-16', '../v2/weights-12'])('Decode_Golden_%s_GivesItsMeaning', async (name) => {
+    const meaning = vectorJson(`${name}.json`) as Meaning;
+    const { bits } = meaning;
+    const table = await decodeWeights(vectorBytes(`${name}.bin`));
     expect(table.bits).toBe(bits);
     expect(table.meshSha256).toBe(meaning.mesh_sha256);
     expect(table.vertexCount).toBe(meaning.rows.length);

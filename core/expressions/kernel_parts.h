@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/kernel/semblante_kernel.h"
+#include "core/types/moving_parts.h"
+
+namespace semblante {
+
+inline void copy_vector(const glm::vec3& from, float (&to)[3]) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+/// Irises (left, right) and tongue as the kernel takes them; what is empty becomes what does not move.
+inline void set_moving_parts(const std::array<std::optional<Iris>, 2>& irises, const std::optional<Tongue>& tongue,
+                             semblante_rig& rig) {
+  for (std::size_t eye = 0; eye < irises.size(); ++eye) {
+    rig.iris[eye] = {};
+    if (!irises[eye]) continue;
+    copy_vector(irises[eye]->axis, rig.iris[eye].axis);
+    rig.iris[eye].pupil_radius = irises[eye]->pupil_radius;
+    rig.iris[eye].iris_radius = irises[eye]->iris_radius;
+    rig.iris[eye].bend = irises[eye]->bend;
+  }
+  rig.tongue = {};
+  if (!tongue) return;
+  copy_vector(tongue->origin, rig.tongue.origin);
+  copy_vector(tongue->left, rig.tongue.left);
+  copy_vector(tongue->up, rig.tongue.up);
+  rig.tongue.half_width = tongue->half_width;
+  rig.tongue.roll_limit = tongue->roll_limit;
+}
+
+}  // namespace semblante

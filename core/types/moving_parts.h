@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace semblante {
+
+/// What moves a vertex after Eq. 7 and before the head: the part it belongs to. From `tongue_least` on, a value says
+/// how much of the tongue's roll the vertex takes.
+enum class RigidMotion : std::uint8_t {
+  none,
+  left_eye,
+  right_eye,
+  left_iris,   ///< of the eye, and makes way for the pupil
+  right_iris,  ///< likewise
+  tongue_least = 128,
+  tongue = 255,  ///< all of the roll
+};
+
+/// False for the bytes between.
+constexpr bool is_rigid_motion(std::uint8_t value) {
+  return value <= static_cast<std::uint8_t>(RigidMotion::right_iris) ||
+         value >= static_cast<std::uint8_t>(RigidMotion::tongue_least);
+}
+
+/// `share` 0..1 of the tongue's roll, in 128ths; less than half of one is none.
+constexpr RigidMotion tongue_motion(double share) {
+  const int steps = static_cast<int>(share * 128.0 + 0.5);
+  return steps < 1 ? RigidMotion::none : static_cast<RigidMotion>(127 + (steps < 128 ? steps : 128));
+}
+
+constexpr double tongue_share(RigidMotion motion) {
+  const int value = static_cast<int>(motion);
+  return value < 128 ? 0.0 : (value - 127) / 128.0;
+}
+
+constexpr bool is_eye(RigidMotion motion) { return motion != RigidMotion::none && motion < RigidMotion::tongue_least; }
+constexpr bool is_left_eye(RigidMotion motion) {
+  return motion == RigidMotion::left_eye || motion == RigidMotion::left_iris;
+}
+
+/// The iris of one eye on the neutral face, in model units.
+struct Iris {
+  glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit vector from the eye's pivot through the middle of the pupil
+  float pupil_radius = 0.0F;
+  float iris_radius = 0.0F;  ///< more than pupil_radius
+  float bend = 0.0F;         ///< 1 / length: at distance r from the axis the surface lies bend * r * r farther along it
+};
+
+/// The tongue on the neutral face, in model units.
+struct Tongue {
+  glm::vec3 origin{0.0F};            ///< on its middle line, half way through its thickness
+  glm::vec3 left{1.0F, 0.0F, 0.0F};  ///< unit vector across it, to the face's left
+  glm::vec3 up{0.0F, 1.0F, 0.0F};    ///< unit vector at right angles to `left` and to the tongue's length
+  float half_width = 0.0F;           ///< from the middle line to a border
+  float roll_limit = 0.0F;           ///< radians that a border can turn before the tongue runs through itself
+};
+
+}  // namespace semblante
