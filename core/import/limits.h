@@ -14,6 +14,9 @@ struct ImportLimits {
   /// in memory.
   std::size_t max_example_rows = 32'000'000;
   std::size_t max_image_bytes = std::size_t{64} << 20;  ///< of one texture image; all together: max_file_bytes
+  /// False where positions are all that is wanted of a file: then one of vertices alone is read too, as a model without
+  /// triangles.
+  bool needs_triangles = true;
 };
 
 }  // namespace semblante

@@ -8,9 +8,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/geometry/similarity.h"
 #include "core/geometry/surface.h"
 #include "core/propose/mirror_plane.h"
-#include "core/propose/similarity.h"
 #include "core/types/rig.h"
 
 namespace semblante {

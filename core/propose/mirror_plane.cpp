@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/nearest_point.h"
-#include "core/propose/similarity.h"
+#include "core/geometry/similarity.h"
 
 namespace semblante {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/geometry/similarity.h"
 #include "core/propose/reference_heads.h"
 #include "core/propose/relations.h"
-#include "core/propose/similarity.h"
 #include "core/types/feature_point_id.h"
 
 namespace semblante {

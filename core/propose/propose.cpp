@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/geometry/similarity.h"
 #include "core/parametrize/point_lookup.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mirror_plane.h"
@@ -15,7 +16,6 @@
 #include "core/propose/quick_set.h"
 #include "core/propose/relations.h"
 #include "core/propose/shape_rules.h"
-#include "core/propose/similarity.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {

@@ -13,6 +13,7 @@ namespace semblante {
 void add_parametrize_command(CLI::App& app);
 void add_deform_command(CLI::App& app);
 void add_examine_command(CLI::App& app);
+void add_extract_command(CLI::App& app);
 void add_propose_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 void add_version_command(CLI::App& app);

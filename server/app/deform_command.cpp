@@ -21,9 +21,10 @@ struct DeformCommand {
 
 void run(const DeformCommand& options) {
   const FaceOptions& face = options.face;
-  if (face.faps.empty() && face.viseme.empty() && face.expression.empty() && face.displacements.empty()) {
+  if (face.faps.empty() && face.viseme.empty() && face.expression.empty() && face.displacements.empty() &&
+      face.set.empty()) {
     throw CommandFailure(CommandFailure::bad_input,
-                         "deform: give --faps, --viseme, --expression (or several of them) or --displacements");
+                         "deform: give --faps, --viseme, --expression, --set (or several of them) or --displacements");
   }
   Head head = load_head(options.head);
   const semblante_pose pose = make_pose(face, head, head.warnings);
@@ -51,7 +52,10 @@ void add_deform_command(CLI::App& app) {
   CLI::Option* const expression =
       command->add_option("--expression", face.expression, "Expression of FAP 2: number 1..6 or name")
           ->envname("SEMBLANTE_EXPRESSION");
-  command->add_option("--intensity", face.intensity, "Of the viseme and the expression, 0..1")
+  CLI::Option* const set =
+      command->add_option("--set", face.set, "JSON file of a displacement set, as `semblante extract` writes it")
+          ->envname("SEMBLANTE_SET");
+  command->add_option("--intensity,--at", face.intensity, "Of the viseme, the expression and the set, 0..1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_INTENSITY");
@@ -61,6 +65,7 @@ void add_deform_command(CLI::App& app) {
       ->excludes(faps)
       ->excludes(viseme)
       ->excludes(expression)
+      ->excludes(set)
       ->envname("SEMBLANTE_DISPLACEMENTS");
   command->add_option("--out", options->out, "OBJ file to write; - is standard output")
       ->required()

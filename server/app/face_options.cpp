@@ -8,8 +8,10 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "core/expressions/contact.h"
 #include "core/expressions/kernel_rig.h"
 #include "core/expressions/library.h"
+#include "core/extract/set_file.h"
 #include "core/import/displacements_file.h"
 #include "core/parametrize/fapu.h"
 #include "core/tables/mpeg4.h"
@@ -143,6 +145,34 @@ void scale_set(std::vector<float>& table, std::size_t entry, double intensity) {
   for (std::size_t i = entry * row; i < (entry + 1) * row; ++i) table[i] *= static_cast<float>(intensity);
 }
 
+/// Puts a set into the first slot of its kind's library, at full strength in the frame: the place no other option may
+/// want in the same frame.
+void wear_set(const FaceOptions& options, const Rig& rig, KernelRig& kernel, semblante_frame& frame,
+              std::vector<std::string>& warnings) {
+  const auto json = read_file(options.set, max_displacements_bytes);
+  const auto set = parse_displacement_set({reinterpret_cast<const char*>(json.data()), json.size()});
+  if (!set) fail(options.set, set.error());
+  const bool is_viseme = set->kind == SetKind::viseme;
+  if (!(is_viseme ? options.viseme : options.expression).empty()) {
+    refuse("--set", options.set + " is for " + (is_viseme ? "FAP 1, as --viseme is" : "FAP 2, as --expression is") +
+                        "; give one of them");
+  }
+  check_set("--set", set->view(), rig, warnings);
+  constexpr std::size_t slot = 1;
+  constexpr std::size_t row = feature_point_count * 3;
+  auto& table = is_viseme ? kernel.visemes : kernel.expressions;
+  const auto dense = to_dense(on_face(set->view(), rig.fapu, rig.points, rig.lip_gaps).displacements);
+  std::copy(dense.begin(), dense.end(), table.begin() + slot * row);
+  scale_set(table, slot, options.intensity);
+  if (is_viseme) {
+    frame.viseme1 = slot;
+    frame.viseme_blend = SEMBLANTE_BLEND_MAX;
+  } else {
+    frame.expression1 = slot;
+    frame.intensity1 = SEMBLANTE_BLEND_MAX;
+  }
+}
+
 semblante_pose neutral_pose(const KernelRig& kernel) {
   semblante_frame frame{};
   semblante_pose pose{};
@@ -193,6 +223,7 @@ semblante_pose make_pose(const FaceOptions& options, const Head& head, std::vect
     check_set("--expression", expression_library()[frame.expression1], rig, warnings);
     scale_set(kernel.expressions, frame.expression1, options.intensity);
   }
+  if (!options.set.empty()) wear_set(options, rig, kernel, frame, warnings);
   semblante_pose pose{};
   const semblante_rig view = kernel.view();
   semblante_evaluate(&view, &frame, &pose);

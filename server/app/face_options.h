@@ -15,8 +15,9 @@ struct FaceOptions {
   std::string faps;           ///< "3=200,19=512"
   std::string viseme;         ///< number 0..14 or name; empty: none
   std::string expression;     ///< number 1..6 or name; empty: none
-  double intensity = 1.0;     ///< of both, 0..1
+  double intensity = 1.0;     ///< of both and of the set, 0..1
   std::string displacements;  ///< path of a JSON file; empty: none
+  std::string set;            ///< path of a displacement set; empty: none
 };
 
 /// The pose these ask of a head. Throws CommandFailure naming the option, or the place in the file, and the reason: an

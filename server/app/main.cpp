@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   add_parametrize_command(app);
   add_deform_command(app);
   add_examine_command(app);
+  add_extract_command(app);
   add_propose_command(app);
   add_serve_command(app);
   add_version_command(app);
@@ -25,11 +26,12 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr << "semblante: "
-              << (has_command
-                      ? fault.what()
-                      : "give a subcommand: parametrize, deform, examine, propose or serve (see semblante --help)")
-              << "\n";
+    std::cerr
+        << "semblante: "
+        << (has_command
+                ? fault.what()
+                : "give a subcommand: parametrize, deform, examine, extract, propose or serve (see semblante --help)")
+        << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";

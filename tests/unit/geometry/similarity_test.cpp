@@ -1,4 +1,4 @@
-#include "core/propose/similarity.h"
+#include "core/geometry/similarity.h"
 
 #include <array>
 

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/expressions/library.h"
+#include "core/types/feature_points.h"
+#include "core/types/result.h"
+
+namespace semblante {
+
+struct ExtractOptions {
+  /// Take the motion of the whole head out first, as the vertices tell that only it moves (head_motion.h). Otherwise
+  /// the meshes are compared as they lie, as the paper does.
+  bool align = false;
+  /// A point that moves by less than this many units along every axis is not in the set: by Eq. 5 a point that is takes
+  /// its share from an expression that moves it too. One unit is the least that a FAP can say.
+  double least = 1.0;
+  /// How much of the expression the example shows, from least_strength to most_strength: displacements are divided by
+  /// it.
+  double strength = 1.0;
+};
+
+inline constexpr double least_strength = 0.01;
+inline constexpr double most_strength = 100.0;
+
+/// What was taken out where align was asked for.
+struct RemovedMotion {
+  double degrees = 0.0;   ///< the angle of the turn, never negative
+  double distance = 0.0;  ///< of the middle of the still vertices, in model units
+};
+
+struct Extraction {
+  std::vector<Displacement> displacements;  ///< FAPU units, rising; none is all zero
+  std::vector<MissingUnit> skipped;      ///< moved points left out for want of a FAPU, with the first that is missing
+  std::vector<FeaturePointId> at_rest;   ///< marked points that move by less than `least`
+  std::vector<FeaturePointId> bare;      ///< bare positions (7.1, a pupil inside a triangle): they follow no vertex
+  std::vector<FeaturePointId> unmarked;  ///< of the 84, those the head does not have
+  std::optional<RemovedMotion> removed;
+};
+
+/// A displacement set from an example (algorithm, section 8): for each marked point the difference of its vertex
+/// between the two shapes of one mesh, each component divided by the head's FAPU for that point and axis (fapu_of).
+///
+/// `neutral` and `expression`: #V file vertices each, model units, both in the MPEG-4 frame. `points` and `fapu`: of
+/// the neutral head. Errors: `mismatch` of the numbers of vertices; `not_finite` (where: "vertex 12"); `out_of_range`
+/// for a displacement beyond most_set_units; `invalid_argument` for an option, and where `align` finds no still
+/// vertices to go by; `empty` when nothing is left to put into a set.
+Result<Extraction> extract_displacements(const FeaturePointSet& points, const Fapu& fapu,
+                                         std::span<const glm::vec3> neutral, std::span<const glm::vec3> expression,
+                                         const ExtractOptions& options = {});
+
+/// The extraction in sentences for people: which points are not in the set, and why. Empty when there is nothing to
+/// say.
+std::vector<std::string> explain(const Extraction& extraction);
+
+}  // namespace semblante
