@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/bridges/generated/arkit_tables.h"
+#include "core/kernel/semblante_kernel.h"
+
+namespace semblante::arkit {
+
+/// Index of a shape by its name, at compile time.
+consteval std::size_t shape(std::string_view name) {
+  for (std::size_t i = 0; i < generated::arkit_shapes.size(); ++i) {
+    if (generated::arkit_shapes[i].name == name) return i;
+  }
+  throw "no such shape";  // NOLINT(hicpp-exception-baseclass): never compiled
+}
+
+inline constexpr std::size_t jaw_open = shape("jawOpen");
+inline constexpr std::size_t mouth_close = shape("mouthClose");
+inline constexpr std::size_t mouth_funnel = shape("mouthFunnel");
+inline constexpr std::size_t mouth_pucker = shape("mouthPucker");
+inline constexpr std::size_t tongue_out = shape("tongueOut");
+
+/// The visemes of FAP 1 that carry what no low-level FAP moves.
+inline constexpr std::uint8_t viseme_a = 10;
+inline constexpr std::uint8_t viseme_u = 14;
+
+/// What moves one eye and its lids; FAPs and shapes of that side.
+struct Eye {
+  std::size_t blink, look_down, look_in, look_out, look_up, squint, wide;
+  std::size_t upper_lid, lower_lid, yaw, pitch;  ///< FAPs
+  double outwards;                               ///< sign of the yaw FAP when the eye looks away from the nose
+};
+inline constexpr Eye eyes[2] = {
+    {shape("eyeBlinkLeft"), shape("eyeLookDownLeft"), shape("eyeLookInLeft"), shape("eyeLookOutLeft"),
+     shape("eyeLookUpLeft"), shape("eyeSquintLeft"), shape("eyeWideLeft"), 19, 21, 23, 25, 1.0},
+    {shape("eyeBlinkRight"), shape("eyeLookDownRight"), shape("eyeLookInRight"), shape("eyeLookOutRight"),
+     shape("eyeLookUpRight"), shape("eyeSquintRight"), shape("eyeWideRight"), 20, 22, 24, 26, -1.0},
+};
+
+/// Lids that have met: FAPs 19 and 21 (20 and 22) sum to IRISD, which is how far the lids of a neutral face are apart.
+inline constexpr double lids_shut = 1024.0;
+/// Where lids meet that close from rest: how far the lower one comes up.
+inline constexpr double lower_lid_shut = (1.0 - generated::arkit_upper_lid_share) * lids_shut;
+/// FAP units of an eye that looks as far as a coefficient of 1 says.
+inline constexpr double full_turn = generated::arkit_eye_full_turn_degrees * 3.14159265358979323846 / 180.0 * 1e5;
+
+/// What shape `index` does to a FAP, FAP units.
+constexpr double amount(std::size_t index, std::size_t fap) {
+  const generated::ArkitShape& shape = generated::arkit_shapes[index];
+  for (std::size_t i = shape.first; i < shape.first + shape.count; ++i) {
+    if (generated::arkit_entries[i].fap == fap) return generated::arkit_entries[i].value;
+  }
+  return 0.0;
+}
+
+}  // namespace semblante::arkit

@@ -1,0 +1,136 @@
+#include "core/bridges/generate/render.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "core/tables/mpeg4.h"
+
+namespace semblante::bridges {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 5> units = {"IRISD", "ES", "ENS", "MNS", "MW"};
+constexpr std::array<const char*, 4> setting_names = {"eye_full_turn_degrees", "upper_lid_share", "tongue_parting",
+                                                      "lip_overlap"};
+
+std::map<int, double> read_faps(const std::string& shape, const json& source) {
+  std::map<int, double> faps;
+  for (const auto& [key, value] : source.items()) {
+    const int number = std::stoi(key);
+    if (number < 3 || number > 68) throw std::runtime_error(shape + ": no low-level FAP " + key);
+    if (mpeg4::fap(static_cast<std::size_t>(number)).kind != mpeg4::FapKind::translation) {
+      throw std::runtime_error(shape + ": FAP " + key + " moves no point; eyes and head turn by rule");
+    }
+    faps[number] = value.get<double>();
+  }
+  return faps;
+}
+
+std::map<int, double> mirrored(const std::map<int, double>& faps) {
+  std::map<int, double> result;
+  for (const auto& [number, value] : faps) {
+    const mpeg4::Fap& fap = mpeg4::fap(static_cast<std::size_t>(number));
+    result[fap.mirror] = fap.mirror_sign * value;
+  }
+  return result;
+}
+
+}  // namespace
+
+ArkitData read_arkit_data(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot open " + file);
+  const json source = json::parse(in);
+  ArkitData data;
+  data.rotations = source.at("rotations").get<std::vector<std::string>>();
+  for (const char* const name : setting_names) data.settings[name] = source.at(name).get<double>();
+  for (std::size_t u = 0; u < units.size(); ++u) data.millimetres[u] = source.at("millimetres").at(units[u]);
+  std::map<std::string, std::size_t> index;
+  for (const json& entry : source.at("shapes")) {
+    ShapeData shape;
+    shape.name = entry.at("name");
+    shape.cost = entry.value("cost", 0.0);
+    shape.mirror = data.shapes.size();
+    if (!index.insert({shape.name, data.shapes.size()}).second) throw std::runtime_error(shape.name + " twice");
+    if (entry.contains("mirror_of")) {
+      const auto other = index.find(entry.at("mirror_of"));
+      if (other == index.end()) throw std::runtime_error(shape.name + ": mirrors what is not before it");
+      ShapeData& original = data.shapes[other->second];
+      original.mirror = data.shapes.size();
+      shape.mirror = other->second;
+      shape.cost = original.cost;
+      shape.faps = mirrored(original.faps);
+    } else {
+      shape.faps = read_faps(shape.name, entry.at("faps"));
+    }
+    data.shapes.push_back(std::move(shape));
+  }
+  if (data.shapes.size() != 52 || data.rotations.size() != 9)
+    throw std::runtime_error(file + ": 52 shapes, 9 rotations");
+  return data;
+}
+
+std::string render_cpp(const ArkitData& data) {
+  std::ostringstream shapes;
+  std::ostringstream entries;
+  std::size_t count = 0;
+  for (const ShapeData& shape : data.shapes) {
+    shapes << "    {\"" << shape.name << "\", " << shape.mirror << ", " << count << ", " << shape.faps.size() << ", "
+           << shape.cost << "},\n";
+    entries << "    // " << shape.name << "\n";
+    for (const auto& [fap, value] : shape.faps) entries << "    {" << fap << ", " << value << "},\n";
+    count += shape.faps.size();
+  }
+  std::ostringstream out;
+  out << "// Generated from core/bridges/data/arkit.json by semblante-codegen-bridges; change the data, not this.\n"
+      << "// clang-format off\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n"
+      << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
+      << "struct ArkitEntry {\n  std::uint8_t fap;\n  double value;  ///< FAP units at coefficient 1\n};\n\n"
+      << "/// arkit_entries[first] .. arkit_entries[first + count - 1]; cost in square millimetres\n"
+      << "struct ArkitShape {\n  std::string_view name;\n  std::uint8_t mirror;\n  std::size_t first, count;\n"
+      << "  double cost;\n};\n\n";
+  for (const auto& [name, value] : data.settings) {
+    out << "inline constexpr double arkit_" << name << " = " << value << ";\n";
+  }
+  out << "/// IRISD, ES, ENS, MNS, MW on a usual head, whole units\n"
+      << "inline constexpr std::array<double, 5> arkit_millimetres = {";
+  for (std::size_t u = 0; u < units.size(); ++u) out << (u > 0 ? ", " : "") << data.millimetres[u];
+  out << "};\n\ninline constexpr std::array<std::string_view, 9> arkit_rotations = {";
+  for (std::size_t r = 0; r < data.rotations.size(); ++r) out << (r > 0 ? ", " : "") << '"' << data.rotations[r] << '"';
+  out << "};\n\ninline constexpr std::array<ArkitEntry, " << count << "> arkit_entries = {{\n"
+      << entries.str() << "}};\n\ninline constexpr std::array<ArkitShape, 52> arkit_shapes = {{\n"
+      << shapes.str() << "}};\n\n}  // namespace semblante::generated\n";
+  return out.str();
+}
+
+std::string render_typescript(const ArkitData& data) {
+  std::ostringstream out;
+  out << "// Generated from core/bridges/data/arkit.json by semblante-codegen-bridges; change the data, not this.\n\n"
+      << "/** mirror: index of the shape of the other side. faps: [FAP, FAP units at coefficient 1]. cost: mm^2. */\n"
+      << "export interface ArkitShape {\n  name: string;\n  mirror: number;\n  cost: number;\n"
+      << "  faps: readonly (readonly [number, number])[];\n}\n\n"
+      << "export const arkitSettings = {\n";
+  for (const auto& [name, value] : data.settings) out << "  " << name << ": " << value << ",\n";
+  out << "  /** IRISD, ES, ENS, MNS, MW on a usual head, whole units */\n  millimetres: [";
+  for (std::size_t u = 0; u < units.size(); ++u) out << (u > 0 ? ", " : "") << data.millimetres[u];
+  out << "],\n} as const;\n\nexport const arkitRotationNames = [\n";
+  for (const std::string& name : data.rotations) out << "  '" << name << "',\n";
+  out << "] as const;\n\n// prettier-ignore\nexport const arkitShapes: readonly ArkitShape[] = [\n";
+  for (const ShapeData& shape : data.shapes) {
+    out << "  { name: '" << shape.name << "', mirror: " << shape.mirror << ", cost: " << shape.cost << ", faps: [";
+    const char* separator = "";
+    for (const auto& [fap, value] : shape.faps) {
+      out << separator << "[" << fap << ", " << value << "]";
+      separator = ", ";
+    }
+    out << "] },\n";
+  }
+  out << "];\n";
+  return out.str();
+}
+
+}  // namespace semblante::bridges

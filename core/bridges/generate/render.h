@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace semblante::bridges {
+
+/// A blend shape as authored, mirrored where it says so.
+struct ShapeData {
+  std::string name;
+  std::size_t mirror = 0;      ///< index of the shape of the other side; its own where it has two sides or none
+  std::map<int, double> faps;  ///< FAP -> FAP units at coefficient 1
+  double cost = 0.0;           ///< square millimetres
+};
+
+struct ArkitData {
+  std::vector<ShapeData> shapes;
+  std::vector<std::string> rotations;
+  std::map<std::string, double> settings;
+  std::array<double, 5> millimetres{};  ///< a FAPU's whole unit on a usual head, in the order of mpeg4::Unit
+};
+
+/// Reads arkit.json. Throws std::exception naming what is wrong: this runs at development time only.
+ArkitData read_arkit_data(const std::string& file);
+
+/// core/bridges/generated/arkit_tables.h
+std::string render_cpp(const ArkitData& data);
+/// protocol/ts/generated/arkit.ts
+std::string render_typescript(const ArkitData& data);
+
+}  // namespace semblante::bridges
