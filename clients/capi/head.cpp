@@ -13,6 +13,12 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 
+namespace {
+struct FreeAligned {
+  void operator()(void* memory) const { ::operator delete (memory, std::align_val_t{64}); }
+};
+}  // namespace
+
 /// Owned by the caller through the opaque handle. `rig` and `face` point into the vectors beside them.
 struct semblante_head {
   std::vector<float> rest;
@@ -23,6 +29,8 @@ struct semblante_head {
   semblante_rig rig{};
   semblante_face face{};
   semblante_pose pose{};
+  std::unique_ptr<void, FreeAligned> prepared_memory;
+  const semblante_prepared_face* prepared = nullptr;
 };
 
 namespace {
@@ -119,6 +127,9 @@ void fill_face(semblante_head& head) {
   head.face.row_points = head.points.data();
   head.face.row_weights = head.table.rows.weights.data();
   head.face.rigid = head.table.rigid.data();
+  // Cannot be 0: decode_weights lets no row pass whose points do not rise.
+  head.prepared_memory.reset(::operator new (semblante_prepared_size(&head.face), std::align_val_t{64}));
+  head.prepared = semblante_prepare(&head.face, head.prepared_memory.get());
 }
 
 semblante_result check_pairing(const semblante_package& package, const semblante::InfluenceTable& table,
@@ -292,7 +303,19 @@ semblante_result semblante_head_positions(const semblante_head* head, float* pos
   if (capacity < std::size_t{head->face.vertex_count} * 3) {
     return SEMBLANTE_BUFFER_TOO_SMALL;
   }
-  semblante_deform(&head->face, &head->pose, positions);
+  semblante_deform_prepared(head->prepared, &head->pose, positions);
+  return SEMBLANTE_OK;
+}
+
+semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
+                                                 float* positions, size_t capacity) {
+  if (head == nullptr || before == nullptr || positions == nullptr || !is_finite(*before)) {
+    return SEMBLANTE_INVALID_ARGUMENT;
+  }
+  if (capacity < std::size_t{head->face.vertex_count} * 3) {
+    return SEMBLANTE_BUFFER_TOO_SMALL;
+  }
+  semblante_deform_changed(head->prepared, before, &head->pose, positions);
   return SEMBLANTE_OK;
 }
 

@@ -26,6 +26,7 @@
 #include <stdint.h>
 
 #include "core/kernel/semblante_kernel.h"
+#include "core/kernel/semblante_prepared_face.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -103,6 +104,11 @@ semblante_result semblante_head_set_pose(semblante_head* head, const semblante_p
 /* The vertices of the pose in use (Eq. 7, then eyes, then head): 3 * vertex_count floats, in decoded order.
  * `capacity` is in floats. */
 semblante_result semblante_head_positions(const semblante_head* head, float* positions, size_t capacity);
+
+/* The same when `positions` still holds what this head gave in the pose `before`: only vertices that may have changed
+ * are written. A face that talks but does not turn its head moves half of them. */
+semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
+                                                 float* positions, size_t capacity);
 
 #ifdef __cplusplus
 }

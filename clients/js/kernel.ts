@@ -19,7 +19,9 @@ interface KernelExports {
   semblante_alloc(bytes: number): number;
   semblante_evaluate(rig: number, frame: number, pose: number): void;
   semblante_interpolate(a: number, b: number, t: number, out: number): void;
-  semblante_deform(face: number, pose: number, positions: number): void;
+  semblante_prepared_size(face: number): number;
+  semblante_prepare(face: number, memory: number): number;
+  semblante_deform_changed(face: number, before: number, now: number, positions: number): number;
 }
 
 /** A frame on one model: where the feature points went and how single parts moved. Views of the kernel's memory. */
@@ -50,18 +52,27 @@ export async function compileKernel(source: BufferSource | Response | Promise<Re
 
 /**
  * One face in the kernel (core/kernel, as WebAssembly): frames become poses (Eq. 5, 6), poses become vertices (Eq. 7).
- * Holds `poseCount` poses, by number. Everything lives in one allocation that is made here, so that nothing is
+ * Holds `poseCount` poses, by number. All memory is taken here, so that nothing is
  * allocated afterwards and the views stay valid.
  */
 export class Kernel {
-  /** #V by 3: what `deform` wrote. */
+  /** #V by 3: what `deform` wrote. Only for reading: `deform` writes no more than what changed since. */
   readonly positions: Float32Array;
   readonly poses: readonly Pose[];
 
   private readonly exports: KernelExports;
   private readonly frameNumbers: Uint8Array;
   private readonly frameFaps: Float32Array;
-  private readonly at: { frame: number; rig: number; face: number; positions: number; poses: number[] };
+  private readonly at: {
+    frame: number;
+    rig: number;
+    /** the prepared face; 0 when there are no vertices */
+    face: number;
+    positions: number;
+    poses: number[];
+    /** the pose that `positions` is in */
+    shown: number;
+  };
 
   /**
    * `withVertices: false` leaves the influence table out (the GPU moves the vertices): `deform` must not be called and
@@ -93,6 +104,7 @@ export class Kernel {
     const visemes = place(rig.visemes.length * featurePointCount * 12);
     const expressions = place(rig.expressions.length * featurePointCount * 12);
     const poses = Array.from({ length: options.poseCount ?? 3 }, () => place(poseFloats * 4));
+    const shown = place(poseFloats * 4);
     const rest = place(vertices * 12);
     const positions = place(vertices * 12);
     const rowOffsets = place((vertices + 1) * 4);
@@ -102,7 +114,7 @@ export class Kernel {
 
     const base = exports.semblante_alloc(size);
     if (base === 0) throw new FaceError('memory', `no ${size} bytes of memory for the kernel`);
-    const memory = exports.memory.buffer; // after the only growth: views from here on stay valid
+    let memory = exports.memory.buffer;
     new Uint8Array(memory, base, size).fill(0);
     const floats = (offset: number, count: number): Float32Array => new Float32Array(memory, base + offset, count);
 
@@ -126,19 +138,22 @@ export class Kernel {
         base + rigid,
       ]);
     }
+    const prepared = vertices > 0 ? prepare(exports, base + faceAt) : 0;
+    memory = exports.memory.buffer; // after the last growth: views from here on stay valid
 
     this.at = {
       frame: base + frame,
       rig: base + rigAt,
-      face: base + faceAt,
+      face: prepared,
       positions: base + positions,
       poses: poses.map((offset) => base + offset),
+      shown: base + shown,
     };
     this.frameNumbers = new Uint8Array(memory, base + frame, 7);
     this.frameFaps = floats(frame + 8, fapCount + 1);
     this.positions = floats(positions, vertices * 3);
     this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
-    for (const pose of this.at.poses) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
+    for (const pose of [...this.at.poses, this.at.shown]) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
   }
 
   /** Eq. 5 and 6. `steps`: FAP units per level, of the stream the frame came from. */
@@ -164,7 +179,9 @@ export class Kernel {
   /** Eq. 7, then eyes and tongue, then head, into `positions`. */
   deform(pose: number): void {
     if (this.positions.length === 0) throw new RangeError('this kernel was made without vertices');
-    this.exports.semblante_deform(this.at.face, this.poseAt(pose), this.at.positions);
+    const { face, positions, shown } = this.at;
+    this.exports.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
+    new Uint8Array(this.exports.memory.buffer).copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
   }
 
   private poseAt(pose: number): number {
@@ -172,6 +189,15 @@ export class Kernel {
     if (at === undefined) throw new RangeError(`no pose ${pose}`);
     return at;
   }
+}
+
+/** Lays the face at `face` out for speed; returns where. */
+function prepare(exports: KernelExports, face: number): number {
+  const bytes = exports.semblante_prepared_size(face);
+  if (bytes === 0) throw new FaceError('malformed', 'weights: the feature points of a vertex do not rise');
+  const at = exports.semblante_alloc(bytes);
+  if (at === 0) throw new FaceError('memory', `no ${bytes} bytes of memory for the kernel`);
+  return exports.semblante_prepare(face, at);
 }
 
 /** #sets by 84 by 3 */

@@ -218,5 +218,24 @@ TEST(Sdk, ResultNames_AreDistinct) {
   EXPECT_EQ(semblante_sdk_version(), SEMBLANTE_SDK_VERSION);
 }
 
+TEST(HeadUpdatePositions, GivesWhatAllPositionsWouldBe) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  std::array<float, 12> updated = positions_of(head.get());
+  semblante_pose before{};
+  ASSERT_EQ(semblante_head_get_pose(head.get(), &before), SEMBLANTE_OK);
+  semblante_frame frame{};
+  frame.fap[3] = 300.0F;
+  ASSERT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_OK);
+  ASSERT_EQ(semblante_head_update_positions(head.get(), &before, updated.data(), updated.size()), SEMBLANTE_OK);
+  EXPECT_EQ(updated, positions_of(head.get()));
+
+  EXPECT_EQ(semblante_head_update_positions(head.get(), &before, updated.data(), 11), SEMBLANTE_BUFFER_TOO_SMALL);
+  EXPECT_EQ(semblante_head_update_positions(nullptr, &before, updated.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_head_update_positions(head.get(), nullptr, updated.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
+  before.fp[5] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(semblante_head_update_positions(head.get(), &before, updated.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace semblante::testing

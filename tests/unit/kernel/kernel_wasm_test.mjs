@@ -11,10 +11,11 @@ const module = new WebAssembly.Module(bytes);
 assert.deepEqual(WebAssembly.Module.imports(module), [], "the module asks nothing of its host");
 assert.deepEqual(
   WebAssembly.Module.exports(module).map((e) => e.name).sort(),
-  ["memory", "semblante_alloc", "semblante_deform", "semblante_evaluate", "semblante_free_all", "semblante_interpolate",
+  ["memory", "semblante_alloc", "semblante_deform", "semblante_deform_changed", "semblante_deform_prepared",
+    "semblante_evaluate", "semblante_free_all", "semblante_interpolate", "semblante_prepare", "semblante_prepared_size",
     "semblante_sincos"],
   "the export list is the interface");
-assert.ok(bytes.length < 16384, `the module is small (${bytes.length} bytes)`);
+assert.ok(bytes.length < 32768, `the module is small (${bytes.length} bytes)`);
 
 const kernel = new WasmKernel(bytes);
 const rig = kernel.rig(vectors.rig);
@@ -27,6 +28,7 @@ vectors.cases.forEach((c, i) => {
   // + 0: zero has two signs, which are equal here
   assert.deepEqual(kernel.displacements(poses[i]).map((x) => x + 0), expected, `${c.name}: displacements`);
   assert.deepEqual(kernel.deform(face, poses[i]).map((x) => x + 0), f32(c.positions), `${c.name}: positions`);
+  assert.deepEqual(kernel.deformPrepared(face, poses[i]).map((x) => x + 0), f32(c.positions), `${c.name}: prepared`);
 });
 for (const { from, to, t, positions } of vectors.interpolations) {
   assert.deepEqual(kernel.deform(face, kernel.interpolate(poses[from], poses[to], t)), f32(positions), `${from}..${to}`);

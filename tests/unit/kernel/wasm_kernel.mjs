@@ -98,4 +98,14 @@ export class WasmKernel {
     this.exports.semblante_deform(face, pose, at);
     return new Float32Array(this.exports.memory.buffer, at, count * 3).slice();
   }
+
+  /** What semblante_deform_prepared gives. */
+  deformPrepared(face, pose) {
+    const { semblante_prepared_size, semblante_prepare, semblante_deform_prepared, memory } = this.exports;
+    const prepared = semblante_prepare(face, this.alloc(semblante_prepared_size(face)));
+    const count = this.view().getUint32(face, true);
+    const at = this.alloc(count * 12);
+    semblante_deform_prepared(prepared, pose, at);
+    return new Float32Array(memory.buffer, at, count * 3).slice();
+  }
 }

@@ -1,0 +1,108 @@
+/* Pose -> vertices of a prepared face, by the best registers that the machine has. */
+#include "core/kernel/export.h"
+#include "core/kernel/prepared_layout.h"
+
+const semblante_deform_variant* semblante_deform_variants(uint32_t* count) {
+  static const semblante_deform_variant variants[] = {
+#if defined(__aarch64__)
+    {"NEON", semblante_deform_groups_plain},
+#elif defined(__wasm_simd128__)
+    {"SIMD128", semblante_deform_groups_plain},
+#elif defined(__SSE2__)
+    {"SSE2", semblante_deform_groups_plain},
+#else
+    {"plain", semblante_deform_groups_plain},
+#endif
+#if defined(__x86_64__)
+    {"AVX2", semblante_deform_groups_avx2},
+#endif
+  };
+  *count = sizeof variants / sizeof variants[0];
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") == 0) {
+    --*count;
+  }
+#endif
+  return variants;
+}
+
+static int differ(const float* a, const float* b, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    if (a[i] != b[i]) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) {
+  static const float still[3] = {0.0F, 0.0F, 0.0F};
+  for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
+    for (uint32_t i = 0; i < 3; ++i) {
+      out->fp[fp][i] = pose->fp[fp * 3 + i];
+    }
+    out->fp[fp][3] = 0.0F;
+  }
+  out->head = semblante_rigid_motion_of(pose->head_rotation, pose->head_pivot, still);
+  static const float none[9] = {0.0F};
+  out->head_moves = differ(&out->head.change[0][0], none, 9);
+  semblante_prepare_local(pose, &out->local);
+  for (uint32_t eye = 0; eye < 2; ++eye) {
+    out->eye_moves[eye] =
+        differ(&out->local.eye[eye].change[0][0], none, 9) || differ(out->local.eye[eye].translation, none, 3);
+    out->iris_moves[eye] = pose->pupil_growth[eye] != 0.0F;
+  }
+  out->tongue_moves = pose->tongue_roll != 0.0F;
+  out->changed_points = NULL;
+  out->local_changed = 0;
+}
+
+void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,
+                         const semblante_pose* pose, float* positions) {
+  semblante_group_pose prepared;
+  prepare_pose(pose, &prepared);
+  variant->run(face, &prepared, positions);
+}
+
+static semblante_deform_groups best(void) {
+  uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  return variants[count - 1].run;
+}
+
+SEMBLANTE_EXPORT(semblante_deform_prepared)
+void semblante_deform_prepared(const semblante_prepared_face* face, const semblante_pose* pose, float* positions) {
+  semblante_group_pose prepared;
+  prepare_pose(pose, &prepared);
+  best()(face, &prepared, positions);
+}
+
+/* Whether eyes, pupils or tongue differ: all of a pose but the points and the head. */
+static int parts_differ(const semblante_pose* a, const semblante_pose* b) {
+  return differ(&a->eye_rotation[0][0], &b->eye_rotation[0][0], 8) ||
+         differ(&a->eye_translation[0][0], &b->eye_translation[0][0], 6) ||
+         differ(&a->eye_pivot[0][0], &b->eye_pivot[0][0], 6) || differ(a->pupil_growth, b->pupil_growth, 2) ||
+         a->tongue_roll != b->tongue_roll ||
+         differ(&a->iris[0].axis[0], &b->iris[0].axis[0], sizeof a->iris / (sizeof(float))) ||
+         differ(a->tongue.origin, b->tongue.origin, sizeof a->tongue / (sizeof(float)));
+}
+
+SEMBLANTE_EXPORT(semblante_deform_changed)
+uint32_t semblante_deform_changed(const semblante_prepared_face* face, const semblante_pose* before,
+                                  const semblante_pose* now, float* positions) {
+  semblante_group_pose prepared;
+  semblante_group_pose previous;
+  prepare_pose(now, &prepared);
+  prepare_pose(before, &previous);
+  uint8_t changed[SEMBLANTE_FP_COUNT];
+  for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
+    changed[fp] = (uint8_t)differ(prepared.fp[fp], previous.fp[fp], 3);
+  }
+  const int head_changed = differ(&prepared.head.change[0][0], &previous.head.change[0][0], 9) ||
+                           (prepared.head_moves && differ(prepared.head.pivot, previous.head.pivot, 3));
+  if (!head_changed) {
+    prepared.changed_points = changed;
+  }
+  prepared.local_changed = parts_differ(before, now);
+  return best()(face, &prepared, positions);
+}

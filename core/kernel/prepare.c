@@ -1,0 +1,217 @@
+/* The influence table regrouped: see semblante_prepared_face.h. */
+#include "core/kernel/export.h"
+#include "core/kernel/prepared_layout.h"
+
+/* Groups are ordered within windows of so many, so that what is written stays near. */
+#define WINDOW 256U
+#define KEYS (SEMBLANTE_GROUP_PARTS * (SEMBLANTE_FP_COUNT + 1))
+
+/* What is known of one group before it is written. */
+typedef struct group_facts {
+  uint32_t point_count;
+  uint32_t part;
+  uint8_t points[SEMBLANTE_FP_COUNT];
+  int rises; /* the points of its rows do */
+} group_facts;
+
+/* The part of a group that holds one more vertex. */
+static uint32_t join_part(uint32_t part, int is_first, uint8_t rigid) {
+  const uint32_t own = rigid >= SEMBLANTE_RIGID_TONGUE       ? SEMBLANTE_GROUP_TONGUE
+                       : rigid == SEMBLANTE_RIGID_LEFT_EYE   ? SEMBLANTE_GROUP_LEFT_EYE
+                       : rigid == SEMBLANTE_RIGID_RIGHT_EYE  ? SEMBLANTE_GROUP_RIGHT_EYE
+                       : rigid == SEMBLANTE_RIGID_LEFT_IRIS  ? SEMBLANTE_GROUP_LEFT_IRIS
+                       : rigid == SEMBLANTE_RIGID_RIGHT_IRIS ? SEMBLANTE_GROUP_RIGHT_IRIS
+                                                             : SEMBLANTE_GROUP_NONE;
+  if (is_first || own == part) {
+    return own;
+  }
+  const uint32_t both = 1U << own | 1U << part;
+  if (both == (1U << SEMBLANTE_GROUP_LEFT_EYE | 1U << SEMBLANTE_GROUP_LEFT_IRIS)) {
+    return SEMBLANTE_GROUP_LEFT_IRIS;
+  }
+  if (both == (1U << SEMBLANTE_GROUP_RIGHT_EYE | 1U << SEMBLANTE_GROUP_RIGHT_IRIS)) {
+    return SEMBLANTE_GROUP_RIGHT_IRIS;
+  }
+  if (both == (1U << SEMBLANTE_GROUP_NONE | 1U << SEMBLANTE_GROUP_TONGUE)) {
+    return SEMBLANTE_GROUP_TONGUE;
+  }
+  return SEMBLANTE_GROUP_MIXED;
+}
+
+static __attribute__((noinline)) group_facts facts_of(const semblante_face* face, uint32_t group) {
+  group_facts facts;
+  facts.point_count = 0;
+  facts.part = SEMBLANTE_GROUP_NONE;
+  facts.rises = 1;
+  uint8_t used[SEMBLANTE_FP_COUNT];
+  for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
+    used[fp] = 0;
+  }
+  const uint32_t first = group * SEMBLANTE_GROUP;
+  const uint32_t left = face->vertex_count - first;
+  const uint32_t end = first + (left < SEMBLANTE_GROUP ? left : SEMBLANTE_GROUP);
+  for (uint32_t v = first; v < end; ++v) {
+    facts.part = join_part(facts.part, v == first, face->rigid == NULL ? SEMBLANTE_RIGID_NONE : face->rigid[v]);
+    for (uint32_t k = face->row_offsets[v]; k < face->row_offsets[v + 1]; ++k) {
+      if (k > face->row_offsets[v] && face->row_points[k] <= face->row_points[k - 1]) {
+        facts.rises = 0;
+      }
+      used[face->row_points[k]] = 1;
+    }
+  }
+  if (left < SEMBLANTE_GROUP) {
+    facts.part = SEMBLANTE_GROUP_MIXED;
+  }
+  for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
+    if (used[fp]) {
+      facts.points[facts.point_count++] = (uint8_t)fp;
+    }
+  }
+  return facts;
+}
+
+static uint32_t key_of(const group_facts* facts) { return facts->part * (SEMBLANTE_FP_COUNT + 1) + facts->point_count; }
+
+static uint32_t group_count_of(const semblante_face* face) {
+  return face->vertex_count / SEMBLANTE_GROUP + (face->vertex_count % SEMBLANTE_GROUP != 0);
+}
+
+static uint32_t window_end(uint32_t first, uint32_t groups) {
+  return groups - first < WINDOW ? groups : first + WINDOW;
+}
+
+/* Groups of a window by key; false if a row does not rise. */
+static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, uint16_t by_key[KEYS]) {
+  for (uint32_t key = 0; key < KEYS; ++key) {
+    by_key[key] = 0;
+  }
+  for (uint32_t group = first; group < end; ++group) {
+    const group_facts facts = facts_of(face, group);
+    if (!facts.rises) {
+      return 0;
+    }
+    ++by_key[key_of(&facts)];
+  }
+  return 1;
+}
+
+/* Where a prepared face's arrays lie behind its header. */
+typedef struct layout {
+  size_t runs, first, rest, weights, points, rigid, end;
+  uint32_t run_count;
+} layout;
+
+static size_t place(size_t* end, size_t bytes) {
+  const size_t at = *end;
+  *end = (at + bytes + 63) / 64 * 64;
+  return at;
+}
+
+/* `end` is 0 if a row does not rise. */
+static layout lay_out(const semblante_face* face) {
+  layout l = {0};
+  const uint32_t groups = group_count_of(face);
+  size_t united = 0;
+  for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
+    uint16_t by_key[KEYS];
+    if (!count_keys(face, first, window_end(first, groups), by_key)) {
+      return l;
+    }
+    for (uint32_t key = 0; key < KEYS; ++key) {
+      l.run_count += by_key[key] != 0;
+      united += (size_t)by_key[key] * (key % (SEMBLANTE_FP_COUNT + 1));
+    }
+  }
+  place(&l.end, sizeof(semblante_prepared_face));
+  l.runs = place(&l.end, l.run_count * sizeof(semblante_run));
+  l.first = place(&l.end, groups * sizeof(uint32_t));
+  l.rest = place(&l.end, (size_t)groups * SEMBLANTE_GROUP * 3 * sizeof(float));
+  l.weights = place(&l.end, united * SEMBLANTE_GROUP * sizeof(float));
+  l.points = place(&l.end, united);
+  l.rigid = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
+  return l;
+}
+
+SEMBLANTE_EXPORT(semblante_prepared_size)
+size_t semblante_prepared_size(const semblante_face* face) { return lay_out(face).end; }
+
+static void write_rest(const semblante_face* face, uint32_t group, float* rest) {
+  for (uint32_t lane = 0; lane < SEMBLANTE_GROUP; ++lane) {
+    const uint32_t v = group * SEMBLANTE_GROUP + lane;
+    for (uint32_t i = 0; i < 3; ++i) {
+      rest[i * SEMBLANTE_GROUP + lane] = v < face->vertex_count ? face->rest[(size_t)v * 3 + i] : 0.0F;
+    }
+  }
+}
+
+static void write_weights(const semblante_face* face, uint32_t group, const group_facts* facts, float* weights) {
+  for (uint32_t i = 0; i < facts->point_count * SEMBLANTE_GROUP; ++i) {
+    weights[i] = 0.0F;
+  }
+  for (uint32_t lane = 0; lane < SEMBLANTE_GROUP; ++lane) {
+    const uint32_t v = group * SEMBLANTE_GROUP + lane;
+    if (v >= face->vertex_count) {
+      return;
+    }
+    uint32_t at = 0;
+    for (uint32_t k = face->row_offsets[v]; k < face->row_offsets[v + 1]; ++k) {
+      while (facts->points[at] != face->row_points[k]) {
+        ++at;
+      }
+      weights[at * SEMBLANTE_GROUP + lane] = face->row_weights[k];
+    }
+  }
+}
+
+SEMBLANTE_EXPORT(semblante_prepare)
+const semblante_prepared_face* semblante_prepare(const semblante_face* face, void* memory) {
+  char* const base = memory;
+  const uint32_t groups = group_count_of(face);
+  const layout l = lay_out(face);
+  semblante_run* run = (semblante_run*)(base + l.runs);
+  uint32_t* const first_vertex = (uint32_t*)(base + l.first);
+  float* rest = (float*)(base + l.rest);
+  float* weights = (float*)(base + l.weights);
+  uint8_t* points = (uint8_t*)(base + l.points);
+  uint8_t* const rigid = (uint8_t*)(base + l.rigid);
+  const semblante_prepared_face prepared = {
+      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, rigid};
+  *(semblante_prepared_face*)memory = prepared;
+
+  for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
+    const uint32_t end = window_end(first, groups);
+    uint16_t slot[KEYS]; /* of the next group with a key, from the window's first */
+    count_keys(face, first, end, slot);
+    uint16_t taken = 0;
+    for (uint32_t key = 0; key < KEYS; ++key) {
+      const uint16_t here = slot[key];
+      slot[key] = taken;
+      taken = (uint16_t)(taken + here);
+      if (here != 0) {
+        const semblante_run next = {here, (uint16_t)(key % (SEMBLANTE_FP_COUNT + 1)),
+                                    (uint16_t)(key / (SEMBLANTE_FP_COUNT + 1))};
+        *run++ = next;
+      }
+    }
+    for (uint32_t group = first; group < end; ++group) {
+      const group_facts facts = facts_of(face, group);
+      first_vertex[first + slot[key_of(&facts)]++] = group * SEMBLANTE_GROUP;
+    }
+    for (uint32_t at = first; at < end; ++at) {
+      const uint32_t group = first_vertex[at] / SEMBLANTE_GROUP;
+      const group_facts facts = facts_of(face, group);
+      write_rest(face, group, rest);
+      write_weights(face, group, &facts, weights);
+      for (uint32_t k = 0; k < facts.point_count; ++k) {
+        points[k] = facts.points[k];
+      }
+      rest += (size_t)SEMBLANTE_GROUP * 3;
+      weights += (size_t)facts.point_count * SEMBLANTE_GROUP;
+      points += facts.point_count;
+    }
+  }
+  for (uint32_t v = 0; v < groups * SEMBLANTE_GROUP; ++v) {
+    rigid[v] = v < face->vertex_count && face->rigid != NULL ? face->rigid[v] : SEMBLANTE_RIGID_NONE;
+  }
+  return (const semblante_prepared_face*)memory;
+}

@@ -1,0 +1,81 @@
+/* Internal: what semblante_prepare writes and the loops over groups read. */
+#ifndef SEMBLANTE_KERNEL_PREPARED_LAYOUT_H
+#define SEMBLANTE_KERNEL_PREPARED_LAYOUT_H
+
+#include "core/kernel/local_motion.h"
+#include "core/kernel/rigid_motion.h"
+#include "core/kernel/semblante_prepared_face.h"
+
+#define SEMBLANTE_GROUP 8U /* vertices */
+
+/* What moves the vertices of a group after Eq. 7 and before the head. */
+typedef enum semblante_group_part {
+  SEMBLANTE_GROUP_NONE,
+  SEMBLANTE_GROUP_LEFT_EYE,
+  SEMBLANTE_GROUP_RIGHT_EYE,
+  SEMBLANTE_GROUP_LEFT_IRIS, /* all of the eye, some of the iris */
+  SEMBLANTE_GROUP_RIGHT_IRIS,
+  SEMBLANTE_GROUP_TONGUE, /* some; the others nothing */
+  SEMBLANTE_GROUP_MIXED,  /* anything else, and a last group that is not full */
+  SEMBLANTE_GROUP_PARTS
+} semblante_group_part;
+
+/* Groups one after the other with equally many points and one part: a loop without surprises for the processor. */
+typedef struct semblante_run {
+  uint32_t group_count;
+  uint16_t point_count; /* of each group */
+  uint16_t part;        /* semblante_group_part of each */
+} semblante_run;
+
+/* Groups are stored run after run. Every array starts at a multiple of 64 bytes. */
+struct semblante_prepared_face {
+  uint32_t vertex_count;
+  uint32_t group_count; /* #G, the last one filled up with vertices that are never written */
+  uint32_t run_count;   /* #R */
+  const semblante_run* runs;
+  const uint32_t* first; /* #G: number of the group's first vertex */
+  const float* rest;     /* #G by 3 by 8: x of the group, y, z */
+  const float* weights;  /* #U by 8: for each point of each group the weights of its vertices */
+  const uint8_t* points; /* #U, rise within a group */
+  const uint8_t* rigid;  /* #V filled up, by the number of the vertex, of SEMBLANTE_RIGID_* */
+};
+
+/* One pose, prepared for all groups. */
+typedef struct semblante_group_pose {
+  float fp[SEMBLANTE_FP_COUNT][4]; /* the fourth is not used */
+  semblante_rigid_motion head;
+  int head_moves;
+  semblante_local_motions local;
+  int eye_moves[2]; /* left, right; what does not move is left out, which gives the same bits */
+  int iris_moves[2];
+  int tongue_moves;
+  /* For semblante_deform_changed; null: everything is computed. */
+  const uint8_t* changed_points; /* 84: 1 where the displacement changed */
+  int local_changed;             /* whether eyes, pupils or tongue moved */
+} semblante_group_pose;
+
+/* Goes over all groups; returns how many vertices were written. */
+typedef uint32_t (*semblante_deform_groups)(const semblante_prepared_face* face, const semblante_group_pose* pose,
+                                            float* positions);
+
+/* The loop compiled for one kind of register. */
+typedef struct semblante_deform_variant {
+  const char* name;
+  semblante_deform_groups run;
+} semblante_deform_variant;
+
+/* The variants that this machine can run, the fastest last; *count of them. */
+const semblante_deform_variant* semblante_deform_variants(uint32_t* count);
+
+/* semblante_deform_prepared by a variant of choice. */
+void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,
+                         const semblante_pose* pose, float* positions);
+
+uint32_t semblante_deform_groups_plain(const semblante_prepared_face* face, const semblante_group_pose* pose,
+                                       float* positions);
+#if defined(__x86_64__)
+uint32_t semblante_deform_groups_avx2(const semblante_prepared_face* face, const semblante_group_pose* pose,
+                                      float* positions);
+#endif
+
+#endif
