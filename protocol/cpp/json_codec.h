@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/types/result.h"
+#include "protocol/cpp/face_values.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/quantizers.h"
 
@@ -19,5 +21,15 @@ Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps =
 /// The body of POST /v1/streams/{id}/frames: {"frames": [{"time", "viseme", "expression", "faps"}, ...]}, at least one.
 Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text,
                                                    const QuantizerSteps& steps = standard_quantizers());
+
+struct JsonValuesLimits {
+  std::size_t bytes = std::size_t{64} << 20U;
+  std::size_t frames = 100'000;
+};
+
+/// The same form as a file: in FAP units as they stand (finite, within +-1e9), not quantized.
+Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits = {});
+/// One frame a line. FAPs that are 0 are left out, and FAPs 1 and 2 that are none.
+std::string encode_json_values(std::span<const TimedValues> frames);
 
 }  // namespace semblante

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/json_cursor.h"
 #include "protocol/cpp/state_codec.h"
@@ -25,8 +27,10 @@ std::size_t low_level_fap(std::string_view name) {
   return number >= first_low_level_fap && number <= last_low_level_fap ? number : 0;
 }
 
-FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps) {
-  FaceFrame state;
+/// A FaceFrame or FaceValues; `set(state, fap, units, at)` puts a low-level FAP into it.
+template <class State, class Set>
+State read_state_of(const JsonCursor& at, const Set& set) {
+  State state;
   if (const auto viseme = at.optional_member("viseme")) {
     state.viseme.select1 = small(viseme->member("select1"), max_viseme);
     state.viseme.select2 = small_or(*viseme, "select2", max_viseme, 0);
@@ -47,26 +51,47 @@ FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps) {
       }
       const double units = value.number();
       if (value.failed()) continue;
-      const auto level = quantize(units, steps[fap]);
-      if (!level) value.fail(level.error().code, level.error().message);
-      state.level[fap] = level ? *level : std::int16_t{0};
+      set(state, fap, units, value);
     }
   }
   return state;
 }
 
-std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps) {
-  std::vector<TimedFrame> frames;
+FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps) {
+  return read_state_of<FaceFrame>(at, [&](FaceFrame& state, std::size_t fap, double units, const JsonCursor& value) {
+    const auto level = quantize(units, steps[fap]);
+    if (!level) value.fail(level.error().code, level.error().message);
+    state.level[fap] = level ? *level : std::int16_t{0};
+  });
+}
+
+FaceValues read_values(const JsonCursor& at) {
+  return read_state_of<FaceValues>(at, [](FaceValues& state, std::size_t fap, double units, const JsonCursor& value) {
+    if (std::abs(units) > max_fap_value) value.fail(ErrorCode::out_of_range, "is beyond 1e9 FAP units");
+    state.fap[fap] = units;
+  });
+}
+
+/// `read(element)` reads the state of each frame.
+template <class Timed, class Read>
+std::vector<Timed> read_timed(const JsonCursor& at, std::size_t most, const Read& read) {
+  std::vector<Timed> frames;
   std::uint32_t time = 0;
-  for (const auto& element : at.elements(1, max_frames_per_message)) {
+  for (const auto& element : at.elements(1, most)) {
     if (const auto given = element.optional_member("time")) {
-      const auto read = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
-      if (read < time) given->fail(ErrorCode::out_of_range, "times must not fall");
-      time = read;
+      const auto own = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
+      if (own < time) given->fail(ErrorCode::out_of_range, "times must not fall");
+      time = own;
     }
-    frames.push_back({time, read_frame(element, steps)});
+    frames.push_back({time, read(element)});
+    if (at.failed()) break;
   }
   return frames;
+}
+
+std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps) {
+  return read_timed<TimedFrame>(at, max_frames_per_message,
+                                [&](const JsonCursor& element) { return read_frame(element, steps); });
 }
 
 class FieldReader {
@@ -154,6 +179,15 @@ Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const 
   if (!tree) return tree.error();
   JsonCursor::Report report;
   auto frames = read_frames(JsonCursor(*tree, "", report).member("frames"), steps);
+  if (report) return *report;
+  return frames;
+}
+
+Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits) {
+  const auto tree = parse_json_object(text, limits.bytes);
+  if (!tree) return tree.error();
+  JsonCursor::Report report;
+  auto frames = read_timed<TimedValues>(JsonCursor(*tree, "", report).member("frames"), limits.frames, read_values);
   if (report) return *report;
   return frames;
 }

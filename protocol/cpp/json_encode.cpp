@@ -17,13 +17,21 @@ Json number(double value) {
   return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
 }
 
+void write_viseme(Json& to, const VisemeBlend& viseme) {
+  to["viseme"] = {{"select1", viseme.select1}, {"select2", viseme.select2}, {"blend", viseme.blend}};
+}
+
+void write_expression(Json& to, const ExpressionBlend& expression) {
+  to["expression"] = {{"select1", expression.select1},
+                      {"intensity1", expression.intensity1},
+                      {"select2", expression.select2},
+                      {"intensity2", expression.intensity2}};
+}
+
 void write_state(Json& to, const FaceFrame& state, const QuantizerSteps& steps) {
   assert(is_valid(state));
-  to["viseme"] = {{"select1", state.viseme.select1}, {"select2", state.viseme.select2}, {"blend", state.viseme.blend}};
-  to["expression"] = {{"select1", state.expression.select1},
-                      {"intensity1", state.expression.intensity1},
-                      {"select2", state.expression.select2},
-                      {"intensity2", state.expression.intensity2}};
+  write_viseme(to, state.viseme);
+  write_expression(to, state.expression);
   Json faps = Json::object();
   for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
     if (state.level[fap] != 0) faps[std::to_string(fap)] = number(state.level[fap] * steps[fap]);
@@ -94,6 +102,22 @@ std::string encode_json(const Message& message, const QuantizerSteps& steps) {
       },
       message);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string encode_json_values(std::span<const TimedValues> frames) {
+  std::string text = "{\"frames\": [";
+  for (const auto& [time, state] : frames) {
+    Json item = {{"time", time}};
+    if (!(state.viseme == VisemeBlend{})) write_viseme(item, state.viseme);
+    if (!(state.expression == ExpressionBlend{})) write_expression(item, state.expression);
+    Json faps = Json::object();
+    for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
+      if (state.fap[fap] != 0.0) faps[std::to_string(fap)] = number(state.fap[fap]);
+    }
+    if (!faps.empty()) item["faps"] = std::move(faps);
+    text.append(text.back() == '[' ? "\n" : ",\n").append(item.dump());
+  }
+  return text + "\n]}\n";
 }
 
 }  // namespace semblante

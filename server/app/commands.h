@@ -11,6 +11,7 @@ namespace semblante {
 // (command_failure.h); one that returns has succeeded.
 
 void add_parametrize_command(CLI::App& app);
+void add_convert_command(CLI::App& app);
 void add_deform_command(CLI::App& app);
 void add_examine_command(CLI::App& app);
 void add_extract_command(CLI::App& app);

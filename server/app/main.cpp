@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
   add_parametrize_command(app);
+  add_convert_command(app);
   add_deform_command(app);
   add_examine_command(app);
   add_extract_command(app);
@@ -26,12 +27,12 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr
-        << "semblante: "
-        << (has_command
-                ? fault.what()
-                : "give a subcommand: parametrize, deform, examine, extract, propose or serve (see semblante --help)")
-        << "\n";
+    std::cerr << "semblante: "
+              << (has_command
+                      ? fault.what()
+                      : "give a subcommand: parametrize, deform, convert, examine, extract, propose or serve (see "
+                        "semblante --help)")
+              << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";

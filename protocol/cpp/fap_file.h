@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types/result.h"
+
+/// The ASCII FAP file (.fap), the input of MPEG-4's reference encoder that players took over. Rules:
+/// protocol/FAP_FILE.md.
+namespace semblante {
+
+/// FAP 1 as a file has it. Selects 0..14, blend 0..63.
+struct FapFileViseme {
+  std::uint8_t select1 = 0, select2 = 0, blend = 0;
+  std::uint8_t viseme_def = 0;  ///< 0 or 1; kept, of no effect here
+  friend bool operator==(const FapFileViseme&, const FapFileViseme&) = default;
+};
+
+/// FAP 2 as a file has it. Selects 0..6, intensities 0..63.
+struct FapFileExpression {
+  std::uint8_t select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0;
+  std::uint8_t init_face = 0, expression_def = 0;  ///< 0 or 1; kept, of no effect here
+  friend bool operator==(const FapFileExpression&, const FapFileExpression&) = default;
+};
+
+struct FapFileFrame {
+  std::uint32_t number = 0;  ///< from 0, rising; numbers may be left out
+  std::bitset<69> present;   ///< by FAP number: which the frame speaks of; bit 0 unused
+  FapFileViseme viseme;      ///< neutral unless FAP 1 is present
+  FapFileExpression expression;
+  std::array<double, 69> value{};  ///< by FAP number 3..68, FAP units, within +-1e9; 0 unless present
+
+  friend bool operator==(const FapFileFrame&, const FapFileFrame&) = default;
+};
+
+/// What a file says, in whatever dialect it says it.
+struct FapFile {
+  double rate = 25;                  ///< frames a second, 0.001..1000
+  std::string name;                  ///< printable ASCII without blanks; of no meaning
+  std::vector<FapFileFrame> frames;  ///< by rising number, the first is 0; at least one
+
+  friend bool operator==(const FapFile&, const FapFile&) = default;
+};
+
+/// What a file does that the usual form does not, and what was made of it.
+enum class FapFileOddity : std::uint8_t {
+  other_version,             ///< neither 2.0, 2.1 nor 2.2: read all the same
+  blank_in_name,             ///< joined by _
+  count_differs,             ///< the header's number of frames is not the file's: the file's counts
+  extra_flag,                ///< 69 flags: the last is dropped
+  few_values,                ///< flags without a value: absent
+  more_values,               ///< values without a flag: dropped
+  not_finite,                ///< inf or nan: zero
+  first_number_not_zero,     ///< counts from 1, or begins later: the first frame is 0
+  numbers_not_rising,        ///< sorted; of two frames with one number the later in the file stays
+  numbers_left_out,          ///< there are gaps
+  single_number_viseme,      ///< FAP 1 as one number 0..14: that viseme in full
+  packed_viseme,             ///< FAP 1 as one number of six digits: unpacked
+  single_number_expression,  ///< FAP 2 as one number 0..6: that expression in full
+  unknown_select,            ///< FAP 1 or 2 means nothing (no such viseme, a weight of lips): absent
+  strength_out_of_range,     ///< blend or intensity beyond 0..63: clamped
+  strength_not_whole,        ///< blend or intensity with a fraction: rounded
+};
+std::string_view to_string(FapFileOddity oddity);
+
+struct FapFileWarning {
+  FapFileOddity oddity{};
+  std::uint32_t line = 0;   ///< the first such line, from 1
+  std::uint32_t count = 0;  ///< of such lines or values
+  friend bool operator==(const FapFileWarning&, const FapFileWarning&) = default;
+};
+
+/// For people: "line 3: 69 flags instead of 68: the last is dropped (108 times)".
+std::string to_sentence(const FapFileWarning& warning);
+
+struct FapFileReading {
+  FapFile file;
+  std::vector<FapFileWarning> warnings;  ///< one of each oddity at most, in the order of the enumeration
+};
+
+struct FapFileLimits {
+  std::size_t bytes = std::size_t{64} << 20U;
+  std::size_t line_bytes = 8192;
+  std::size_t frames = 100'000;
+};
+/// Of a frame's number after the first, whatever the rate: eleven hours at 25 a second.
+inline constexpr std::uint32_t max_fap_file_number = 1'000'000;
+
+/// Errors: malformed (no header, a mask or number that is none), truncated (a mask without values), empty (no frame),
+/// out_of_range, too_large. `where` is "line 12" or "line 12, word 3".
+Result<FapFileReading> read_fap_file(std::string_view text, const FapFileLimits& limits = {});
+
+/// Version 2.1, 68 flags, frames from 0, LF, one blank between; whole numbers as such, others as the shortest that read
+/// back the same. Reading it gives `file` again without a warning, or only that numbers are left out.
+std::string write_fap_file(const FapFile& file);
+
+}  // namespace semblante

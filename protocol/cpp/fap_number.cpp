@@ -1,0 +1,72 @@
+#include "protocol/cpp/fap_number.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace semblante {
+namespace {
+
+constexpr std::size_t max_word = 64;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool same_word(std::string_view word, std::string_view lower) {
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+/// digits [. digits] [e [sign] digits], with a digit before or after the point.
+bool is_decimal(std::string_view word) {
+  std::size_t i = 0;
+  const auto digits = [&] {
+    const std::size_t begin = i;
+    while (i < word.size() && is_digit(word[i])) ++i;
+    return i - begin;
+  };
+  std::size_t mantissa = digits();
+  if (i < word.size() && word[i] == '.') ++i, mantissa += digits();
+  if (mantissa == 0) return false;
+  if (i < word.size() && (word[i] == 'e' || word[i] == 'E')) {
+    ++i;
+    if (i < word.size() && (word[i] == '+' || word[i] == '-')) ++i;
+    if (digits() == 0) return false;
+  }
+  return i == word.size();
+}
+
+}  // namespace
+
+std::optional<double> read_fap_number(std::string_view word) {
+  if (word.size() > max_word) return std::nullopt;
+  const bool negative = word.starts_with('-');
+  if (negative || word.starts_with('+')) word.remove_prefix(1);
+  if (same_word(word, "inf") || same_word(word, "infinity") || same_word(word, "1.#inf")) {
+    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  }
+  if (same_word(word, "nan") || same_word(word, "1.#qnan") || same_word(word, "1.#ind")) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!is_decimal(word)) return std::nullopt;
+  double value = 0;
+  if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc::result_out_of_range) {
+    // Too near to zero or too far from it: in so few characters its exponent tells.
+    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+    value = tiny ? 0.0 : std::numeric_limits<double>::max();
+  }
+  if (value < least_fap_value) return 0.0;
+  return negative ? -value : value;
+}
+
+std::string write_fap_number(double value) {
+  assert(std::abs(value) <= max_fap_value && (value == 0.0 || std::abs(value) >= least_fap_value));
+  std::array<char, 64> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value, std::chars_format::fixed);
+  return {text.data(), end.ptr};
+}
+
+}  // namespace semblante

@@ -1,0 +1,68 @@
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include <CLI/CLI.hpp>
+
+#include "server/app/commands.h"
+#include "server/app/face_formats.h"
+#include "server/app/face_reading_options.h"
+#include "server/app/files.h"
+#include "server/app/head_input.h"
+
+namespace semblante {
+namespace {
+
+struct ConvertCommand {
+  std::string in, out;
+  std::string in_format, out_format;  ///< names; empty: by the file's name
+  FaceReading reading;
+  FaceWriting writing;
+  bool quiet = false;
+};
+
+void run(ConvertCommand& options) {
+  const FaceSequence sequence = read_faces(options.in, options.in_format, options.reading);
+  const std::string text = write_faces(sequence, options.out, options.out_format, options.writing);
+  write_file(options.out, [&text](std::ostream& out) { out << text; });
+  print_warnings(sequence.warnings, options.quiet);
+}
+
+std::string list_of_formats() {
+  std::string text = "\n\nFormats:";
+  for (const FaceFormat& format : face_formats()) {
+    text.append("\n  ").append(format.name).append(" (").append(format.extension).append("): ").append(format.meaning);
+    if (format.read == nullptr) text += "; written only";
+    if (format.write == nullptr) text += "; read only";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto options = std::make_shared<ConvertCommand>();
+  CLI::App* const command =
+      app.add_subcommand("convert", "Convert faces in time from one file format to another" + list_of_formats());
+  command->add_option("FILE", options->in, "File to read")->required()->envname("SEMBLANTE_IN");
+  command->add_option("--out", options->out, "File to write; - is standard output")
+      ->required()
+      ->envname("SEMBLANTE_OUT");
+  command
+      ->add_option("--in-format", options->in_format, "Of FILE, if its name does not tell: " + readable_face_formats())
+      ->envname("SEMBLANTE_IN_FORMAT");
+  command
+      ->add_option("--out-format", options->out_format,
+                   "Of --out, if its name does not tell: " + writable_face_formats())
+      ->envname("SEMBLANTE_OUT_FORMAT");
+  add_face_reading_options(*command, options->reading);
+  command
+      ->add_option("--rate", options->writing.rate,
+                   "Frames a second of a format that has a rate; left out: that of FILE, or told from its times")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->envname("SEMBLANTE_RATE");
+  command->add_flag("--quiet", options->quiet, "No warnings")->envname("SEMBLANTE_QUIET");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace semblante

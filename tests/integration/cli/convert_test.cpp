@@ -1,0 +1,65 @@
+// `semblante convert`: faces in time from one format to another.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/integration/cli/program.h"
+
+namespace semblante::test {
+namespace {
+
+std::string mask(const std::vector<int>& faps) {
+  std::string text;
+  for (int fap = 1; fap <= 68; ++fap) {
+    const bool present = std::find(faps.begin(), faps.end(), fap) != faps.end();
+    text.append(fap > 1 ? " " : "").append(present ? "1" : "0");
+  }
+  return text + "\n";
+}
+
+TEST(Convert, FapFile_ToFramesAndBack_IsTheSame) {
+  const Workspace work;
+  const std::string fap =
+      work.write("in.fap", "2.1 semblante 25 2\n" + mask({3, 19}) + "0 10 -20\n" + mask({3, 19}) + "1 30 0\n");
+  ASSERT_EQ(run_semblante({"convert", fap, "--out", work.path("out.json")}).exit_code, 0);
+  EXPECT_EQ(read_text(work.path("out.json")),
+            "{\"frames\": [\n{\"time\":0,\"faps\":{\"3\":10,\"19\":-20}},\n{\"time\":40,\"faps\":{\"3\":30}}\n]}\n");
+  ASSERT_EQ(run_semblante({"convert", work.path("out.json"), "--out", work.path("back.fap")}).exit_code, 0);
+  EXPECT_EQ(read_text(work.path("back.fap")), read_text(fap));
+}
+
+TEST(Convert, AbsentFaps_AreZeroOrKept) {
+  const Workspace work;
+  const std::string fap = work.write("in.fap", "2.1 x 25 2\n" + mask({3}) + "0 10\n" + mask({}) + "1\n");
+  EXPECT_EQ(run_semblante({"convert", fap, "--out", "-", "--out-format", "frames"}).out,
+            "{\"frames\": [\n{\"time\":0,\"faps\":{\"3\":10}},\n{\"time\":40}\n]}\n");
+  EXPECT_EQ(run_semblante({"convert", fap, "--out", "-", "--out-format", "frames", "--absent", "keep"}).out,
+            "{\"frames\": [\n{\"time\":0,\"faps\":{\"3\":10}},\n{\"time\":40,\"faps\":{\"3\":10}}\n]}\n");
+}
+
+TEST(Convert, Faults_NameFileAndPlace) {
+  const Workspace work;
+  const std::string fap = work.write("in.fap", "2.1 x 25 1\n" + mask({3}) + "0 zehn\n");
+  Outcome outcome = run_semblante({"convert", fap, "--out", work.path("out.json")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("in.fap: line 3, word 2"), std::string::npos) << outcome.err;
+  const std::string frames = work.write("in.json", R"({"frames":[{"faps":{"99":1}}]})");
+  outcome = run_semblante({"convert", frames, "--out", work.path("out.fap")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("/frames/0/faps/99"), std::string::npos) << outcome.err;
+  outcome = run_semblante({"convert", frames, "--out", work.path("out.xyz")});
+  EXPECT_EQ(outcome.exit_code, 2);
+}
+
+TEST(Convert, Oddities_AreWarningsUnlessQuiet) {
+  const Workspace work;
+  const std::string fap = work.write("in.fap", "2.1 x 25 7\n" + mask({3}) + "0 inf\n");
+  const Outcome outcome = run_semblante({"convert", fap, "--out", work.path("out.json")});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("line 1: the header's number of frames"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("line 3: a value that is infinite"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_semblante({"convert", fap, "--out", work.path("out.json"), "--quiet"}).err, "");
+}
+
+}  // namespace
+}  // namespace semblante::test
