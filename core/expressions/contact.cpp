@@ -1,9 +1,12 @@
 #include "core/expressions/contact.h"
 
 #include <algorithm>
+#include <array>
 
 namespace semblante {
 namespace {
+
+constexpr std::array lower_lip = {"2.3", "2.8", "2.9", "8.2", "8.7", "8.8"};
 
 const FeaturePoint* find(const FeaturePointSet& points, FeaturePointId id) {
   const auto at = std::find_if(points.begin(), points.end(), [&](const FeaturePoint& p) { return p.id == id; });
@@ -39,9 +42,25 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
   }
 }
 
+void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
+  const FeaturePoint* const lip = find(points, *parse_feature_point("2.3"));
+  const FeaturePoint* const teeth = find(points, *parse_feature_point("9.10"));
+  const Displacement* const middle = find(displacements, *parse_feature_point("2.3"));
+  if (lip == nullptr || teeth == nullptr || middle == nullptr || middle->value.z >= 0.0F) return;
+  const double back = static_cast<double>(lip->position.z) - teeth->position.z;
+  const double scale =
+      std::clamp(-share_to_teeth * back / static_cast<double>(middle->value.z), 1.0 / most_to_teeth, most_to_teeth);
+  for (const char* const name : lower_lip) {
+    if (Displacement* const d = find(displacements, *parse_feature_point(name))) {
+      d->value.z = static_cast<float>(scale * static_cast<double>(d->value.z));
+    }
+  }
+}
+
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
                            const std::optional<LipGaps>& gaps) {
   ModelDisplacements result = to_model_units(set, fapu);
+  if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
   if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;
 }

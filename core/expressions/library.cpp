@@ -28,7 +28,8 @@ Library build(const std::array<generated::Set, N>& source) {
       library.displacements.push_back({FeaturePointId(entry.point), {entry.x, entry.y, entry.z}});
     }
     // Reserved above, so the array does not move and the spans stay.
-    library.sets.push_back({set.name, std::span<const Displacement>(library.displacements).subspan(first)});
+    library.sets.push_back(
+        {set.name, std::span<const Displacement>(library.displacements).subspan(first), set.meets_upper_teeth});
   }
   return library;
 }

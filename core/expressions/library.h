@@ -22,6 +22,7 @@ struct Displacement {
 struct DisplacementSet {
   std::string_view name;
   std::span<const Displacement> displacements;
+  bool meets_upper_teeth = false;  ///< the lower lip goes to the edge of the upper teeth, wherever a head has it
 };
 
 /// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Lives as long as the

@@ -60,7 +60,7 @@ std::map<std::string, Displacements> read_actions(const std::string& path) {
 }
 
 NamedSet read_set(const json& entry, const std::map<std::string, Displacements>& actions) {
-  NamedSet set{entry.at("name"), {}};
+  NamedSet set{entry.at("name"), {}, entry.value("meets_upper_teeth", false)};
   const json amounts = entry.value("actions", json::object());
   for (const auto& [name, amount] : amounts.items()) {
     const auto action = actions.find(name);
@@ -127,7 +127,8 @@ std::string render_header(const Sets& sets) {
   const auto table = [&](const char* name, const std::vector<NamedSet>& list) {
     tables << "inline constexpr std::array<Set, " << list.size() << "> " << name << " = {{\n";
     for (const NamedSet& set : list) {
-      tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size() << "},\n";
+      tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size()
+             << (set.meets_upper_teeth ? ", true},\n" : ", false},\n");
       entries << "    // " << set.name << "\n";
       for (const auto& [point, d] : set.displacements) {
         entries << "    {" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
@@ -146,7 +147,7 @@ std::string render_header(const Sets& sets) {
       << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
       << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  float x, y, z;      ///< FAPU units\n};\n\n"
       << "/// displacements[first] .. displacements[first + count - 1]\n"
-      << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n};\n\n"
+      << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n  bool meets_upper_teeth;\n};\n\n"
       << "inline constexpr std::array<Entry, " << count << "> displacements = {{\n"
       << entries.str() << "}};\n\n"
       << tables.str() << "}  // namespace semblante::generated\n";

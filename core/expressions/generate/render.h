@@ -15,6 +15,7 @@ using Vec3 = std::array<double, 3>;
 struct NamedSet {
   std::string name;
   std::map<FeaturePointId, Vec3> displacements;
+  bool meets_upper_teeth = false;
 };
 
 struct Sets {

@@ -221,8 +221,8 @@ std::optional<Opening> Opening::find(const PosedFace& face, OpeningKind kind) {
   return opening;
 }
 
-Closure Opening::measure(std::span<const glm::vec3> moved) const {
-  Closure worst;
+std::vector<Closure> Opening::columns_of(std::span<const glm::vec3> moved) const {
+  std::vector<Closure> result;
   for (std::size_t c = 0; c < columns; ++c) {
     const double x = from_x_ + (to_x_ - from_x_) * static_cast<double>(c) / static_cast<double>(columns - 1);
     Section section;
@@ -235,11 +235,23 @@ Closure Opening::measure(std::span<const glm::vec3> moved) const {
                                    : section.skin)
           .push_back(*segment);
     }
-    if (section.upper.empty() || section.lower.empty()) continue;
-    worst.slit = std::max(worst.slit, section.slit() / unit_);
-    if (!section.crosses()) continue;
-    ++worst.crossing_columns;
-    worst.crossing = std::max(worst.crossing, section.overlap() / unit_);
+    Closure column;
+    if (!section.upper.empty() && !section.lower.empty()) {
+      column.slit = section.slit() / unit_;
+      column.crossing_columns = section.crosses() ? 1 : 0;
+      if (column.crossing_columns == 1) column.crossing = section.overlap() / unit_;
+    }
+    result.push_back(column);
+  }
+  return result;
+}
+
+Closure Opening::measure(std::span<const glm::vec3> moved) const {
+  Closure worst;
+  for (const Closure& column : columns_of(moved)) {
+    worst.slit = std::max(worst.slit, column.slit);
+    worst.crossing = std::max(worst.crossing, column.crossing);
+    worst.crossing_columns += column.crossing_columns;
   }
   return worst;
 }

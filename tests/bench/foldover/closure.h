@@ -28,7 +28,10 @@ class Opening {
   /// Empty where points or parts are missing (a mask without eyeballs has no eye to close).
   static std::optional<Opening> find(const PosedFace& face, OpeningKind kind);
 
+  /// The worst column, and the sum of those that cross.
   [[nodiscard]] Closure measure(std::span<const glm::vec3> moved) const;
+  /// Column by column, from the right corner to the left.
+  [[nodiscard]] std::vector<Closure> columns_of(std::span<const glm::vec3> moved) const;
 
  private:
   enum class Side : std::uint8_t { neither, upper, lower };

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/expressions/contact.h"
 #include "tests/bench/foldover/fold_over.h"
 #include "tests/bench/foldover/posed_face.h"
 
@@ -62,7 +63,8 @@ TEST(PBM, ShutsTheLipsAndStopsThere) {
     const PosedFace face(head, WeightMethod::smooth);
     const Closure shut = measure(face, OpeningKind::mouth, bench::frame_of(1, 0));
     EXPECT_LE(shut.slit, head.name == "makehuman" ? 0.05 : 0.02) << head.name;
-    EXPECT_LE(shut.crossing, 0.02) << head.name;
+    // Lips press flat by lip_give; nothing beyond what that explains.
+    EXPECT_LE(shut.crossing, lip_give + 0.02) << head.name;
     EXPECT_GT(measure(face, OpeningKind::mouth, bench::frame_of(10, 0)).slit, 0.2) << head.name;  // a
   }
 }

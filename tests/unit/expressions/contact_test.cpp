@@ -66,6 +66,63 @@ TEST(StopAtContact, NeedsBothPoints) {
   EXPECT_EQ(y_of(closing, "2.2"), -0.3F);
 }
 
+FeaturePointSet lip_and_teeth(float back) {
+  return {{fp("2.3"), VertexId(0), {0.0F, 0.0F, back}}, {fp("9.10"), VertexId(0), {0.0F, 0.0F, 0.0F}}};
+}
+
+float z_of(const std::vector<Displacement>& displacements, const char* name) {
+  for (const Displacement& d : displacements) {
+    if (d.point == fp(name)) return d.value.z;
+  }
+  return 0.0F;
+}
+
+TEST(ReachUpperTeeth, TakesTheLowerLipToWhereThisHeadHasThem) {
+  for (const float back : {0.3F, 0.5F, 0.8F}) {
+    std::vector<Displacement> lip = {
+        {fp("2.2"), {0.0F, 0.1F, 0.01F}}, {fp("2.3"), {0.0F, 0.1F, -0.4F}}, {fp("8.2"), {0.0F, 0.1F, -0.2F}}};
+    reach_upper_teeth(lip, lip_and_teeth(back));
+    EXPECT_NEAR(z_of(lip, "2.3"), -share_to_teeth * back, 1e-6);
+    EXPECT_NEAR(z_of(lip, "8.2"), -share_to_teeth * back / 2.0, 1e-6);  // as the set has them to each other
+    EXPECT_EQ(z_of(lip, "2.2"), 0.01F);
+    EXPECT_EQ(y_of(lip, "2.3"), 0.1F);
+  }
+}
+
+TEST(ReachUpperTeeth, KeepsWithinReason) {
+  const std::vector<Displacement> lip = {{fp("2.3"), {0.0F, 0.1F, -0.1F}}};
+  for (const auto& [back, scale] : {std::pair(10.0F, most_to_teeth), std::pair(-1.0F, 1.0 / most_to_teeth)}) {
+    std::vector<Displacement> there = lip;
+    reach_upper_teeth(there, lip_and_teeth(back));
+    EXPECT_NEAR(z_of(there, "2.3"), -0.1 * scale, 1e-6);
+  }
+}
+
+TEST(ReachUpperTeeth, NeedsLipAndTeeth) {
+  std::vector<Displacement> lip = {{fp("2.3"), {0.0F, 0.1F, -0.1F}}};
+  reach_upper_teeth(lip, lips(0.1F));
+  EXPECT_EQ(z_of(lip, "2.3"), -0.1F);
+  std::vector<Displacement> other = {{fp("2.2"), {0.0F, 0.1F, -0.1F}}};
+  reach_upper_teeth(other, lip_and_teeth(1.0F));
+  EXPECT_EQ(z_of(other, "2.2"), -0.1F);
+}
+
+TEST(OnFace, BringsTheLipToTheTeethInFvAlone) {
+  Fapu fapu;
+  fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};
+  for (std::size_t v = 0; v < viseme_library().size(); ++v) {
+    const DisplacementSet& set = viseme_library()[v];
+    EXPECT_EQ(set.meets_upper_teeth, set.name == "f_v");
+    const float plain = z_of(to_model_units(set, fapu).displacements, "2.3");
+    const float there = z_of(on_face(set, fapu, lip_and_teeth(1.0F)).displacements, "2.3");
+    if (set.name == "f_v") {
+      EXPECT_NEAR(there, -share_to_teeth, 1e-5);
+    } else {
+      EXPECT_EQ(there, plain) << set.name;
+    }
+  }
+}
+
 TEST(OnFace, ShutsTheLipsInPbmHoweverFarTheyAreApart) {
   Fapu fapu;
   fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};
