@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "protocol/cpp/performance_document.h"
 #include "server/api/common.h"
 #include "server/api/routes.h"
 #include "server/http/media_type.h"
@@ -36,7 +37,7 @@ std::string allowed_methods(const Match& match) {
 /// What the body of a route may be sent as; a body without a Content-Type is taken for what it should be.
 bool takes(BodyKind kind, std::string_view media_type) {
   if (media_type.empty() || kind == BodyKind::none) return true;
-  if (kind == BodyKind::json) return media_type == "application/json";
+  if (kind == BodyKind::json || kind == BodyKind::performance) return media_type == "application/json";
   if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
   static constexpr auto uploads = std::to_array<std::string_view>(
       {"model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "model/ply", "model/vnd.ply",
@@ -99,6 +100,8 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     case BodyKind::json:
     case BodyKind::merge:
       return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
+    case BodyKind::performance:
+      return http::BodyPlan{max_performance_bytes, true, true};
     case BodyKind::upload:
       return http::BodyPlan{limits.max_upload_bytes, true, true};
   }

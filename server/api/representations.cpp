@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -127,7 +128,18 @@ Json represent(const streams::StreamInfo& stream) {
           {"sequence", stream.sequence},
           {"subscribers", stream.subscribers},
           {"publishers", stream.publishers},
-          {"source", stream.source}};
+          {"source", stream.source},
+          {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}};
+}
+
+Json represent(const streams::PlayStatus& playing) {
+  return {{"id", playing.id},
+          {"kind", playing.kind},
+          {"name", playing.name},
+          {"duration", playing.duration > 0.0 ? Json(playing.duration) : Json(nullptr)},
+          {"position", std::round(playing.position)},
+          {"fps", playing.rate},
+          {"loop", playing.loop}};
 }
 
 std::string model_etag(const store::ModelRecord& model) { return "\"model-" + std::to_string(model.revision) + "\""; }

@@ -21,6 +21,7 @@ bool is_of_package(std::string_view name);
 Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts);
 Json represent(const store::JobRecord& job);
 Json represent(const streams::StreamInfo& stream);
+Json represent(const streams::PlayStatus& playing);
 
 std::string model_etag(const store::ModelRecord& model);
 std::string points_etag(const store::ModelRecord& model);

@@ -12,10 +12,11 @@
 namespace semblante::api {
 
 enum class BodyKind {
-  none,    ///< a body is read and ignored
-  json,    ///< application/json, may be left out
-  merge,   ///< application/json or application/merge-patch+json
-  upload,  ///< a model: raw or multipart, to disk
+  none,         ///< a body is read and ignored
+  json,         ///< application/json, may be left out
+  merge,        ///< application/json or application/merge-patch+json
+  performance,  ///< application/json of a performance's size
+  upload,       ///< a model: raw or multipart, to disk
 };
 
 using Handler = http::Response (*)(Context& context, http::Request& request);
@@ -72,5 +73,9 @@ http::Response create_stream(Context&, http::Request&);
 http::Response get_stream(Context&, http::Request&);
 http::Response delete_stream(Context&, http::Request&);
 http::Response post_frames(Context&, http::Request&);
+// performance_routes.cpp
+http::Response post_performance(Context&, http::Request&);
+http::Response get_performance(Context&, http::Request&);
+http::Response stop_performance(Context&, http::Request&);
 
 }  // namespace semblante::api

@@ -31,6 +31,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"invalid-feature-point", 422, "A feature point cannot be where it is said to be"},
     {"missing-feature-points", 422, "Feature points are missing"},
     {"invalid-frame", 422, "A frame of the stream cannot be read"},
+    {"invalid-performance", 422, "The performance cannot be played"},
     {"invalid-field", 422, "A field of the body is wrong"},
     {"idempotency-key-reused", 422, "The idempotency key was used for another request"},
     {"upgrade-required", 426, "The resource speaks WebSocket"},

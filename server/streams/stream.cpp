@@ -1,6 +1,7 @@
 #include "server/streams/stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "protocol/cpp/json_codec.h"
@@ -10,10 +11,9 @@
 namespace semblante::streams {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Stream::Clock;
 constexpr double demo_frames_per_second = 25.0;
-constexpr std::uint32_t demo_batch_interval = 40;
-/// The demo comes back when nobody has published for so long.
+/// A stream's own source comes back when nobody has published for so long.
 constexpr std::chrono::seconds demo_patience{3};
 /// A publisher's clock may run ahead of or behind the stream's by so much before it is set anew.
 constexpr std::int64_t clock_ahead = 10'000;
@@ -34,9 +34,11 @@ double Stream::server_time_now() {
   return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::uint64_t Stream::media_time_now() const {
-  return static_cast<std::uint64_t>(
-      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began_).count());
+std::uint64_t Stream::media_time_now() const { return media_time_at(Clock::now()); }
+
+std::uint64_t Stream::media_time_at(Clock::time_point when) const {
+  const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(when - began_).count();
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(since, 0));
 }
 
 StreamInfo Stream::info() const {
@@ -51,6 +53,12 @@ StreamInfo Stream::info() const {
 StreamCounts Stream::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
+}
+
+std::uint64_t Stream::place_played(Clock::time_point when) const {
+  const auto at = media_time_at(when);
+  const bool just_behind = media_time_ > at && media_time_ - at < static_cast<std::uint64_t>(clock_behind);
+  return just_behind ? media_time_ : at;
 }
 
 std::uint64_t Stream::place_in_time(Source source, std::uint64_t media_time) {
@@ -73,15 +81,15 @@ Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, 
   if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
   if (source == Source::request && publisher_ != nullptr)
     return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
-  if (source == Source::demo) {
-    if (publisher_ != nullptr || Clock::now() - last_live_ < demo_patience) return PublishReceipt{0, info_.sequence};
-  } else {
-    last_live_ = Clock::now();
-  }
+  if (player_ != 0) return Error{ErrorCode::mismatch, "", "a performance plays into this stream: one source at a time"};
+  last_live_ = Clock::now();
+  return take(place_in_time(source, media_time), frames);
+}
 
+PublishReceipt Stream::take(std::uint64_t media_time, const std::vector<TimedFrame>& frames) {
   Batch batch;
   batch.message.sequence = info_.sequence + 1;
-  batch.message.media_time = place_in_time(source, media_time);
+  batch.message.media_time = media_time;
   batch.message.frames = frames;
   batch.state_before = state_;
   batch.binary = shared(encoder_.encode(batch.message));
@@ -100,6 +108,46 @@ Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, 
     ++counts_.messages_sent;
   }
   return PublishReceipt{frames.size(), info_.sequence};
+}
+
+Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over) {
+  const std::lock_guard lock(mutex_);
+  if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
+  if (!take_over && publisher_ != nullptr)
+    return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
+  if (!take_over && player_ != 0)
+    return Error{ErrorCode::mismatch, "", "something plays into this stream already: one source at a time"};
+  if (publisher_ != nullptr) {
+    publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
+    publisher_ = nullptr;
+  }
+  rate_ = rate;
+  player_ = ++last_ticket_;
+  return player_;
+}
+
+Status Stream::publish_playing(std::uint64_t ticket, Clock::time_point when, const TimedFrame& frame) {
+  const std::lock_guard lock(mutex_);
+  if (ended_ || ticket != player_) return Error{ErrorCode::mismatch, "", "it plays no more"};
+  last_live_ = Clock::now();
+  take(place_played(when), {frame});
+  return Unit{};
+}
+
+void Stream::end_playing(std::uint64_t ticket, bool neutral) {
+  const std::lock_guard lock(mutex_);
+  if (ended_ || ticket != player_) return;
+  player_ = 0;
+  last_live_ = Clock::now();
+  if (neutral) take(place_played(Clock::now()), {TimedFrame{}});
+}
+
+Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
+  const std::lock_guard lock(mutex_);
+  if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
+  if (publisher_ != nullptr || player_ != 0 || Clock::now() - last_live_ < demo_patience) return Unit{};
+  take(place_played(when), {frame});
+  return Unit{};
 }
 
 const SharedBytes& Stream::encoded(Batch& batch, bool binary) const {
@@ -133,9 +181,9 @@ Header Stream::make_header(bool recovered) const {
   header.sequence = info_.sequence;
   header.media_time = media_time_now();
   header.server_time = server_time_now();
-  if (info_.source == "demo") {
-    header.fps_hint = demo_frames_per_second;
-    header.batch_interval = demo_batch_interval;
+  if (const double rate = player_ != 0 ? rate_ : info_.source == "demo" ? demo_frames_per_second : 0.0; rate > 0.0) {
+    header.fps_hint = rate;
+    header.batch_interval = static_cast<std::uint32_t>(std::lround(1000.0 / rate));
   }
   const auto& steps = standard_quantizers();
   header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
@@ -173,7 +221,7 @@ void Stream::subscribe(StreamConnection& connection, const Hello& hello) {
 
 bool Stream::begin_publishing(StreamConnection& connection) {
   const std::lock_guard lock(mutex_);
-  if (publisher_ != nullptr && publisher_ != &connection) {
+  if (player_ != 0 || (publisher_ != nullptr && publisher_ != &connection)) {
     ++counts_.refused;
     return false;
   }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,21 +29,31 @@ struct StreamLimits {
   std::uint32_t frames_burst = 2000;
 };
 
+/// What is being played into a stream. Times in ms.
+struct PlayStatus {
+  std::string id, kind, name;
+  double duration = 0.0;  ///< 0: without end
+  double position = 0.0;
+  double rate = 0.0;  ///< frames a second
+  bool loop = false;
+};
+
 /// What a stream says about itself.
 struct StreamInfo {
   std::string id, title, model, created;
   std::string source;  ///< "demo" or "none": what feeds it when nobody publishes
   std::uint64_t epoch = 0, sequence = 0;
   std::size_t subscribers = 0, publishers = 0;
+  std::optional<PlayStatus> playing;  ///< filled in by the hub
 };
 
 struct StreamCounts {
   std::uint64_t frames = 0, messages_sent = 0, messages_replaced = 0, closed_slow = 0, refused = 0;
 };
 
-/// Who feeds a stream. One connection publishes at a time; a REST call comes between only while no connection
-/// publishes; the demo gives way to both.
-enum class Source { connection, request, demo };
+/// Who feeds a stream. One connection publishes or one source plays at a time; a REST call comes between only while
+/// neither does.
+enum class Source { connection, request };
 
 struct PublishReceipt {
   std::size_t accepted = 0;
@@ -54,6 +65,8 @@ struct PublishReceipt {
 /// subscribers get the same bytes.
 class Stream : public std::enable_shared_from_this<Stream> {
  public:
+  using Clock = std::chrono::steady_clock;
+
   Stream(StreamInfo info, StreamLimits limits);
 
   [[nodiscard]] const StreamLimits& limits() const { return limits_; }
@@ -63,6 +76,17 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// Takes frames in and sends them on. Errors: conflict (somebody else publishes) as `mismatch`; empty list as
   /// `empty`.
   Result<PublishReceipt> publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+
+  /// Makes what plays (frames a second: rate) the stream's only source. The ticket for publish_playing. Errors:
+  /// conflict (a connection publishes, or something else plays) as `mismatch`, unless it takes over: then that
+  /// connection is told `replaced` and closed.
+  Result<std::uint64_t> begin_playing(double rate, bool take_over);
+  /// One frame of what plays, at its own time. Errors: `mismatch` when it plays no more.
+  Status publish_playing(std::uint64_t ticket, Clock::time_point when, const TimedFrame& frame);
+  /// Nothing when somebody else plays by now. `neutral`: the face goes back to rest.
+  void end_playing(std::uint64_t ticket, bool neutral);
+  /// A frame of the stream's own source, which gives way to all others and comes back when they are silent.
+  Status fill(Clock::time_point when, const TimedFrame& frame);
 
   /// A new connection, before its hello. False when the stream has as many as it takes, or has ended.
   bool admit(const std::shared_ptr<StreamConnection>& connection);
@@ -90,6 +114,10 @@ class Stream : public std::enable_shared_from_this<Stream> {
     std::chrono::steady_clock::time_point when;
   };
 
+  PublishReceipt take(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+  [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const;
+  /// A played frame keeps its own time, but never falls behind the frame before it by a breath.
+  [[nodiscard]] std::uint64_t place_played(Clock::time_point when) const;
   Header make_header(bool recovered) const;
   const SharedBytes& encoded(Batch& batch, bool binary) const;
   void send_keyframe(StreamConnection& connection, std::uint64_t sequence, std::uint64_t media_time,
@@ -105,10 +133,13 @@ class Stream : public std::enable_shared_from_this<Stream> {
   FrameEncoder encoder_;
   std::deque<Batch> held_;
   std::vector<std::shared_ptr<StreamConnection>> connections_;
-  const StreamConnection* publisher_ = nullptr;
+  StreamConnection* publisher_ = nullptr;
+  std::uint64_t player_ = 0;  ///< ticket of what plays; 0: nothing
+  std::uint64_t last_ticket_ = 0;
+  double rate_ = 0.0;  ///< frames a second of what plays
   bool ended_ = false;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_live_;  ///< when somebody other than the demo last published
+  std::chrono::steady_clock::time_point last_live_;  ///< when somebody other than its own source did
   std::int64_t publisher_offset_ = 0;                ///< stream clock minus the publisher's
   bool publisher_offset_known_ = false;
 };

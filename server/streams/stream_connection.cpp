@@ -139,8 +139,8 @@ void StreamConnection::handle_hello(const Hello& hello) {
     stream_->subscribe(*this, hello);
   } else if (!stream_->begin_publishing(*this)) {
     close(Message(StreamError{StreamErrorCode::conflict, "/role",
-                              "another connection publishes to this stream: one publisher at a time"}),
-          {1008, "another connection publishes"});
+                              "somebody else publishes or plays to this stream: one source at a time"}),
+          {1008, "another source is there"});
   }
 }
 

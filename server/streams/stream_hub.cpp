@@ -4,14 +4,15 @@
 #include <utility>
 
 #include "server/http/media_type.h"
-#include "server/streams/demo_performance.h"
+#include "server/streams/performance_source.h"
 #include "server/streams/stream_connection.h"
 
 namespace semblante::streams {
 namespace {
 
-constexpr std::chrono::milliseconds demo_interval{40};
-constexpr int ticks_per_look = 5;
+constexpr std::chrono::milliseconds look_interval{200};
+/// The own filling of a stream: see Player's ticket.
+constexpr std::uint64_t no_ticket = 0;
 
 void add(StreamCounts& sum, const StreamCounts& counts) {
   sum.frames += counts.frames;
@@ -23,14 +24,14 @@ void add(StreamCounts& sum, const StreamCounts& counts) {
 
 }  // namespace
 
-InProcessHub::InProcessHub(StreamLimits limits) : limits_(limits), thread_([this] { tick(); }) {}
+InProcessHub::InProcessHub(StreamLimits limits) : limits_(limits), thread_([this] { run(); }) {}
 
 InProcessHub::~InProcessHub() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  stopping_changed_.notify_all();
+  changed_.notify_all();
   thread_.join();
 }
 
@@ -47,8 +48,16 @@ bool InProcessHub::open(const StreamInfo& info) {
   last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
   StreamInfo full = info;
   full.epoch = last_epoch_;
-  streams_.emplace(info.id, std::make_shared<Stream>(std::move(full), limits_));
+  const auto stream = streams_.emplace(info.id, std::make_shared<Stream>(std::move(full), limits_)).first->second;
   order_.push_back(info.id);
+  if (info.source == "demo") {
+    PlayOptions options;
+    options.loop = true;
+    fillings_.emplace(info.id, std::make_shared<Playing>(
+                                   Player("", stream, no_ticket, demo_source(), options, Player::Clock::now())));
+    more_to_play_ = true;
+    changed_.notify_all();
+  }
   return true;
 }
 
@@ -61,6 +70,9 @@ bool InProcessHub::close(std::string_view id, EndReason reason) {
     stream = found->second;
     streams_.erase(found);
     std::erase(order_, id);
+    for (auto* players : {&playing_, &fillings_}) {
+      if (const auto player = players->find(id); player != players->end()) players->erase(player);
+    }
     add(gone_, stream->counts());
   }
   stream->end(reason);
@@ -76,17 +88,38 @@ void InProcessHub::close_all(EndReason reason) {
   for (const auto& id : ids) close(id, reason);
 }
 
-std::vector<StreamInfo> InProcessHub::list() const {
+std::shared_ptr<InProcessHub::Playing> InProcessHub::find_playing(std::string_view id) const {
   const std::lock_guard lock(mutex_);
+  const auto found = playing_.find(id);
+  return found == playing_.end() ? nullptr : found->second;
+}
+
+StreamInfo InProcessHub::full_info(std::string_view id, const Stream& stream) const {
+  StreamInfo info = stream.info();
+  if (const auto playing = find_playing(id)) {
+    const std::lock_guard lock(playing->mutex);
+    if (!playing->player.finished()) info.playing = playing->player.status(Player::Clock::now());
+  }
+  return info;
+}
+
+std::vector<StreamInfo> InProcessHub::list() const {
+  std::vector<std::shared_ptr<Stream>> all;
+  std::vector<std::string> ids;
+  {
+    const std::lock_guard lock(mutex_);
+    ids = order_;
+    for (const auto& id : ids) all.push_back(streams_.find(id)->second);
+  }
   std::vector<StreamInfo> list;
-  for (const auto& id : order_) list.push_back(streams_.find(id)->second->info());
+  for (std::size_t i = 0; i < all.size(); ++i) list.push_back(full_info(ids[i], *all[i]));
   return list;
 }
 
 std::optional<StreamInfo> InProcessHub::info(std::string_view id) const {
   const auto stream = find(id);
   if (!stream) return std::nullopt;
-  return stream->info();
+  return full_info(id, *stream);
 }
 
 StreamCounts InProcessHub::counts() const {
@@ -120,23 +153,76 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> InProcessHub::connec
   return std::shared_ptr<http::WebSocketPeer>(std::move(connection));
 }
 
-void InProcessHub::tick() {
-  const DemoPerformance performance;
-  const auto begin = std::chrono::steady_clock::now();
-  for (int round = 0;; ++round) {
+Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const FrameSource> source,
+                                      const PlayOptions& options) {
+  const std::lock_guard lock(mutex_);
+  const auto found = streams_.find(id);
+  if (stopping_ || found == streams_.end()) return Error{ErrorCode::missing, "", "there is no such stream"};
+  auto ticket = found->second->begin_playing(options.rate, options.take_over);
+  if (!ticket) return std::move(ticket).error();
+  const auto now = Player::Clock::now();
+  // As epochs, ids never repeat over restarts: nobody stops another's performance by an old address.
+  last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
+  auto playing = std::make_shared<Playing>(
+      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, now));
+  PlayStatus status = playing->player.status(now);
+  playing_[std::string(id)] = std::move(playing);
+  more_to_play_ = true;
+  changed_.notify_all();
+  return status;
+}
+
+bool InProcessHub::stop(std::string_view id, std::string_view play_id) {
+  const auto playing = find_playing(id);
+  if (!playing) return false;
+  const std::lock_guard lock(playing->mutex);
+  Player& player = playing->player;
+  if (player.finished() || player.id() != play_id) return false;
+  player.stop();
+  return true;
+}
+
+std::vector<std::shared_ptr<InProcessHub::Playing>> InProcessHub::all_playing() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<Playing>> all;
+  for (const auto& [id, playing] : playing_) all.push_back(playing);
+  for (const auto& [id, filling] : fillings_) all.push_back(filling);
+  return all;
+}
+
+void InProcessHub::forget(const std::vector<std::shared_ptr<Playing>>& finished) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& done : finished) {
+    const auto found = std::find_if(playing_.begin(), playing_.end(), [&](const auto& p) { return p.second == done; });
+    if (found != playing_.end()) playing_.erase(found);
+  }
+}
+
+void InProcessHub::run() {
+  auto next_look = Player::Clock::now();
+  auto next = next_look;
+  while (true) {
     std::vector<std::shared_ptr<Stream>> all;
-    std::vector<std::shared_ptr<Stream>> demos;
     {
       std::unique_lock lock(mutex_);
-      if (stopping_changed_.wait_until(lock, begin + round * demo_interval, [this] { return stopping_; })) return;
-      for (const auto& [id, stream] : streams_) {
-        if (stream->info().source == "demo") demos.push_back(stream);
-        if (round % ticks_per_look == 0) all.push_back(stream);
+      changed_.wait_until(lock, next, [this] { return stopping_ || more_to_play_; });
+      if (stopping_) return;
+      more_to_play_ = false;
+      if (Player::Clock::now() >= next_look) {
+        for (const auto& [id, stream] : streams_) all.push_back(stream);
       }
     }
-    const auto frame = performance.frame_at(round * demo_interval);
-    for (const auto& stream : demos) (void)stream->publish(Source::demo, 0, {TimedFrame{0, frame}});
     for (const auto& stream : all) stream->look_after_connections();
+    if (!all.empty() || Player::Clock::now() >= next_look) next_look += look_interval;
+    next = next_look;
+    std::vector<std::shared_ptr<Playing>> finished;
+    for (const auto& playing : all_playing()) {
+      const std::lock_guard lock(playing->mutex);
+      playing->player.play(Player::Clock::now());
+      next = std::min(next, playing->player.next());
+      if (playing->player.finished()) finished.push_back(playing);
+    }
+    if (!finished.empty()) forget(finished);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/http/websocket_peer.h"
+#include "server/streams/player.h"
 #include "server/streams/stream.h"
 
 namespace semblante::streams {
@@ -34,12 +35,19 @@ class StreamHub {
   [[nodiscard]] virtual StreamCounts counts() const = 0;
   /// Frames from a request. Errors: missing (no such stream), mismatch (a connection publishes), empty.
   virtual Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) = 0;
+  /// Plays a source into a stream, from now on. Frames of it stand in for a publisher's: while it plays, connections
+  /// and requests are refused. What plays is live state: a restart of the server ends it. Errors: missing (no such
+  /// stream); mismatch (somebody publishes or plays, and options.take_over is not set).
+  virtual Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
+                                  const PlayOptions& options) = 0;
+  /// Ends it; the face returns to neutral. False when it does not play there (any more).
+  virtual bool stop(std::string_view id, std::string_view play_id) = 0;
   /// A WebSocket to a stream. `offered`: the client's Sec-WebSocket-Protocol, may be empty.
   virtual std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
                                                                               std::string_view offered) = 0;
 };
 
-/// All streams in this process. Its thread feeds the demo stream and looks after the connections. Any thread.
+/// All streams in this process. Its thread plays what is to be played and looks after the connections. Any thread.
 class InProcessHub : public StreamHub {
  public:
   explicit InProcessHub(StreamLimits limits = {});
@@ -54,20 +62,38 @@ class InProcessHub : public StreamHub {
   [[nodiscard]] std::optional<StreamInfo> info(std::string_view id) const override;
   [[nodiscard]] StreamCounts counts() const override;
   Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) override;
+  Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
+                          const PlayOptions& options) override;
+  bool stop(std::string_view id, std::string_view play_id) override;
   std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
                                                                       std::string_view offered) override;
 
  private:
+  /// Its mutex is taken before the stream's, never after.
+  struct Playing {
+    explicit Playing(Player made) : player(std::move(made)) {}
+    std::mutex mutex;
+    Player player;
+  };
+
   [[nodiscard]] std::shared_ptr<Stream> find(std::string_view id) const;
-  void tick();
+  [[nodiscard]] std::shared_ptr<Playing> find_playing(std::string_view id) const;
+  [[nodiscard]] StreamInfo full_info(std::string_view id, const Stream& stream) const;
+  void run();
+  [[nodiscard]] std::vector<std::shared_ptr<Playing>> all_playing() const;
+  void forget(const std::vector<std::shared_ptr<Playing>>& finished);
 
   const StreamLimits limits_;
   mutable std::mutex mutex_;
-  std::condition_variable stopping_changed_;
+  std::condition_variable changed_;
   bool stopping_ = false;
+  bool more_to_play_ = false;  ///< the thread has to look again when the next frame is due
   std::uint64_t last_epoch_ = 0;
   std::vector<std::string> order_;  ///< ids by creation
   std::map<std::string, std::shared_ptr<Stream>, std::less<>> streams_;
+  std::map<std::string, std::shared_ptr<Playing>, std::less<>> playing_;   ///< by stream
+  std::map<std::string, std::shared_ptr<Playing>, std::less<>> fillings_;  ///< by stream: what it plays when left alone
+  std::uint64_t last_play_ = 0;
   StreamCounts gone_;  ///< counts of streams that have ended
   std::thread thread_;
 };

@@ -105,10 +105,16 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"patch /v1/models/{model}", {R"({"name":"Renamed"})", "application/json"}},
       {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
       {"post /v1/streams", {R"({"name":"walk"})", "application/json"}},
-      {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}}};
-  // Creating before reading, deleting last.
+      {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
+      {"post /v1/streams/{stream}/performances",
+       {R"({"format":"semblante.performance","version":1,"idle":{"seed":7}})", "application/json"}}};
+  // Creating before reading, deleting last, and what is within a thing before the thing.
+  std::vector<std::string> paths;
+  for (const auto& [path, item] : document["paths"].items()) paths.push_back(path);
   for (const std::string method : {"post", "get", "put", "patch", "delete"}) {
-    for (const auto& [path, item] : document["paths"].items()) {
+    if (method == "delete") std::reverse(paths.begin(), paths.end());
+    for (const auto& path : paths) {
+      const auto& item = document["paths"][path];
       if (!item.contains(method)) continue;
       const auto fill = [&](const std::map<std::string, std::string>& values) {
         std::string target = path;
@@ -123,6 +129,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       const Fields fields = body.type.empty() ? Fields{} : Fields{{"Content-Type", body.type}};
       const auto reply = request(port(), upper, fill(good), body.text, fields);
       SCOPED_TRACE(upper + " " + fill(good));
+      if (method + path == "post/v1/streams/{stream}/performances") good["{performance}"] = json_of(reply)["id"];
       expect_documented(document, method, path, reply);
       // A finished job cannot be cancelled any more; all else succeeds.
       if (upper + path != "DELETE/v1/jobs/{job}") {
@@ -134,6 +141,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
                                   fill({{"{model}", "absent"},
                                         {"{job}", "absent"},
                                         {"{stream}", "absent"},
+                                        {"{performance}", "absent"},
                                         {"{sha256}", std::string(64, '0')},
                                         {"{slug}", "absent"}}),
                                   body.text, fields);

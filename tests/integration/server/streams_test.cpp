@@ -1,6 +1,7 @@
 // Streams of a real server, by a WebSocket client that shares no code with it.
 
 #include <csignal>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -142,6 +143,99 @@ TEST_F(Streams, Published_ReachesSubscribersOfBothKinds) {
   EXPECT_FALSE(second.receive());
   EXPECT_EQ(second.close_code(), 1008);
   EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})").status, 409);
+}
+
+const Fields as_json = {{"Content-Type", "application/json"}};
+
+TEST_F(Streams, Performance_IsPlayedAtItsTimesSeenAndEnds) {
+  const auto stream = create("stage");
+  WebSocket subscriber(port(), stream, "semblante.v1.json");
+  subscriber.send_text(hello("subscribe"));
+  EXPECT_EQ(next(subscriber).value("type", ""), "header");
+  EXPECT_EQ(next(subscriber).value("type", ""), "keyframe");
+  const auto document = R"({"format":"semblante.performance","version":1,"name":"Jaw","duration":1000,"cues":[
+    {"time":0,"fap":"open_jaw","keys":[[0,0],[1000,1000]],"easing":"linear"}]})";
+  const auto reply = request(port(), "POST", stream + "/performances?fps=50&from=200", document, as_json);
+  ASSERT_EQ(reply.status, 202) << reply.body;
+  const auto playing = json::parse(reply.body);
+  EXPECT_EQ(playing["kind"], "performance");
+  EXPECT_EQ(playing["name"], "Jaw");
+  EXPECT_EQ(playing["duration"], 1000.0);
+  EXPECT_EQ(reply.headers.at("location"), stream + "/performances/" + playing["id"].get<std::string>());
+  EXPECT_EQ(json::parse(request(port(), "GET", stream).body)["playing"]["id"], playing["id"]);
+  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, as_json).status, 409);
+  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", as_json).status, 409);
+
+  double begin = -1.0;
+  double last = -1.0;
+  int count = 0;
+  while (true) {
+    const auto message = next(subscriber);
+    ASSERT_EQ(message.value("type", ""), "frames") << message;
+    const auto time = message["media_time"].get<double>();
+    const auto& frame = message["frames"][0];
+    const double jaw = frame.contains("faps") && frame["faps"].contains("3") ? frame["faps"]["3"].get<double>() : 0.0;
+    if (begin < 0.0) begin = time;
+    // The value tells the time it belongs to: that and the media time agree to a millisecond and the quantizer's step.
+    if (jaw > 0.0) {
+      EXPECT_NEAR(time - begin, jaw - 200.0, 3.0);
+    }
+    ++count;
+    if (jaw == 0.0) break;  // from its duration on no cue is active
+    EXPECT_GT(jaw, last);
+    last = jaw;
+  }
+  EXPECT_GE(count, 3);
+  for (int i = 0; i < 100 && !json::parse(request(port(), "GET", stream).body)["playing"].is_null(); ++i)
+    std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_TRUE(json::parse(request(port(), "GET", stream).body)["playing"].is_null());
+}
+
+TEST_F(Streams, Performance_TakesOverOnlyIfItSaysSo) {
+  const auto stream = create("contested");
+  WebSocket publisher(port(), stream, "semblante.v1.json");
+  publisher.send_text(hello("publish"));
+  EXPECT_EQ(next(publisher).value("type", ""), "header");
+  const auto document = R"({"format":"semblante.performance","version":1,"idle":{"seed":3}})";
+  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, as_json).status, 409);
+  const auto reply = request(port(), "POST", stream + "/performances?take_over=true&loop=true", document, as_json);
+  ASSERT_EQ(reply.status, 202) << reply.body;
+  const auto end = next(publisher);
+  EXPECT_EQ(end.value("type", ""), "end");
+  EXPECT_EQ(end.value("reason", ""), "replaced");
+  const auto address = reply.headers.at("location");
+  EXPECT_EQ(request(port(), "GET", address).status, 200);
+  EXPECT_EQ(request(port(), "DELETE", address).status, 204);
+  EXPECT_EQ(request(port(), "DELETE", address).status, 404);
+  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", as_json).status, 202);
+}
+
+TEST_F(Streams, BadPerformances_NameThePlace) {
+  const auto stream = create("strict");
+  const auto refused = [&](const std::string& body, const std::string& query, int status, const std::string& pointer) {
+    const auto reply = request(port(), "POST", stream + "/performances" + query, body, as_json);
+    EXPECT_EQ(reply.status, status) << reply.body;
+    EXPECT_EQ(json::parse(reply.body).value("pointer", ""), pointer) << reply.body;
+  };
+  const auto with = [](const std::string& cues) {
+    return R"({"format":"semblante.performance","version":1,"cues":[)" + cues + "]}";
+  };
+  const std::string blink = R"({"time":9,"blink":"both"})";
+  refused(with(blink + R"(,{"time":8,"blink":"both"})"), "", 422, "/cues/1/time");
+  refused(with(R"({"time":0,"duration":1,"fap":69,"value":1})"), "", 422, "/cues/0/fap");
+  refused(with(R"({"time":0,"duration":1,"fap":3,"value":1e999})"), "", 422, "/cues/0");
+  refused(with(R"({"time":0,"duration":1,"fap":3,"value":NaN})"), "", 422, "/cues/0");
+  refused("{", "", 400, "");
+  refused(with(blink), "?fps=1000", 400, "?fps");
+  refused(with(blink), "?loop=yes", 400, "?loop");
+  refused(with(blink), "?from=9000", 400, "?from");
+  std::string cues;
+  for (int i = 0; i < 100'000; ++i) cues += R"({"time":0,"blink":"both"},)";
+  refused(with(cues + blink), "", 413, "/cues");
+  const auto huge = raw_exchange(port(), "POST " + stream +
+                                             "/performances HTTP/1.1\r\nHost: localhost\r\n"
+                                             "Content-Type: application/json\r\nContent-Length: 400000000\r\n\r\n");
+  EXPECT_THAT(huge, HasSubstr(" 413 ")) << "ten million cues are refused by their size, before they are read";
 }
 
 TEST_F(Streams, LateJoin_GetsTheNewestStateAtOnce) {

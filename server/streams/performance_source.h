@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "core/performance/performance.h"
+#include "server/streams/frame_source.h"
+
+namespace semblante::streams {
+
+std::shared_ptr<const FrameSource> make_performance_source(Performance performance);
+
+/// The minute that the stream `demo` plays: a document of ours, compiled in.
+std::shared_ptr<const FrameSource> demo_source();
+
+}  // namespace semblante::streams

@@ -1,0 +1,71 @@
+#include "server/streams/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace semblante::streams {
+namespace {
+
+double ms_between(Player::Clock::time_point from, Player::Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
+               std::shared_ptr<const FrameSource> source, PlayOptions options, Clock::time_point begin)
+    : id_(std::move(id)),
+      stream_(std::move(stream)),
+      ticket_(ticket),
+      source_(std::move(source)),
+      options_(options),
+      begin_(begin),
+      end_(options.loop || source_->duration() <= 0.0 ? std::numeric_limits<double>::infinity()
+                                                      : std::max(0.0, source_->duration() - options.from)),
+      next_(begin) {}
+
+Player::Clock::time_point Player::time_of(double played_ms) const {
+  return begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double, std::milli>(played_ms));
+}
+
+void Player::play(Clock::time_point now) {
+  if (finished_ || now < next_) return;
+  const double since = ms_between(begin_, now);
+  frame_ = std::max(frame_, static_cast<std::uint64_t>(std::floor(since / frame_ms())));
+  double played = static_cast<double>(frame_) * frame_ms();
+  const bool last = played >= end_ || since >= end_;
+  if (last) played = end_;
+  double at = options_.from + played;
+  if (options_.loop && source_->duration() > 0.0) at = std::fmod(at, source_->duration());
+  const TimedFrame frame{0, source_->frame_at(at, options_.from + played)};
+  const bool taken = ticket_ == 0 ? stream_->fill(time_of(played), frame).ok()
+                                  : stream_->publish_playing(ticket_, time_of(played), frame).ok();
+  ++frame_;
+  finished_ = last || !taken;
+  if (last) stream_->end_playing(ticket_, false);
+  next_ = finished_ ? Clock::time_point::max() : time_of(std::min(end_, static_cast<double>(frame_) * frame_ms()));
+}
+
+void Player::stop() {
+  finished_ = true;
+  next_ = Clock::time_point::max();
+  stream_->end_playing(ticket_, true);
+}
+
+PlayStatus Player::status(Clock::time_point now) const {
+  PlayStatus status;
+  status.id = id_;
+  status.kind = source_->kind();
+  status.name = source_->name();
+  status.duration = source_->duration();
+  status.rate = options_.rate;
+  status.loop = options_.loop;
+  const double played = std::clamp(ms_between(begin_, now), 0.0, end_);
+  status.position = options_.from + played;
+  if (options_.loop && status.duration > 0.0) status.position = std::fmod(status.position, status.duration);
+  return status;
+}
+
+}  // namespace semblante::streams
