@@ -15,7 +15,7 @@ product_packages=(build-essential cmake ninja-build pkg-config
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
   g++-aarch64-linux-gnu qemu-user-static
-  libgtest-dev libgmock-dev libclang-rt-14-dev clang-format-14 clang-tidy-14 chromium fonts-dejavu-core git)
+  libeigen3-dev libgtest-dev libgmock-dev libclang-rt-14-dev clang-format-14 clang-tidy-14 chromium fonts-dejavu-core git)
 
 as_root() {
   if [ "$(id -u)" = 0 ]; then
