@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/bridges/arkit.h"
+#include "core/bridges/head_turn.h"
+#include "core/types/result.h"
+
+namespace semblante {
+
+/// One row of a take: what ARKit saw at one moment.
+struct LiveLinkRow {
+  double seconds = 0.0;  ///< from the first row; never falls
+  ArkitCoefficients coefficients{};
+  HeadTurn head;
+  EyeTurn left_eye, right_eye;
+};
+
+struct LiveLinkTake {
+  std::vector<LiveLinkRow> rows;      ///< at least one
+  std::vector<std::string> warnings;  ///< columns that were skipped or are not there, in words
+};
+
+/// Frames a second that the app's timecodes count in; a take of 30 frames a second steps by two.
+inline constexpr double live_link_timecode_rate = 60.0;
+inline constexpr std::size_t max_live_link_bytes = std::size_t{64} << 20U;
+inline constexpr std::size_t max_live_link_rows = 500'000;
+inline constexpr std::size_t max_live_link_columns = 256;
+
+/// The CSV file of Live Link Face: `Timecode,BlendShapeCount,` and a column a shape, found by their names, since the
+/// file's order (JawRight before JawLeft) is not that of the stream. Timecodes are HH:MM:SS:FF.sub. A row that counts 0
+/// shapes is a moment without a face: it repeats the row before. Errors name the line ("line 12").
+Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate = live_link_timecode_rate);
+
+/// The same file again: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines ended by LF.
+std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate = live_link_timecode_rate);
+
+}  // namespace semblante
