@@ -27,19 +27,16 @@ void Picture::paste(const Picture& other, int x, int y) {
   }
 }
 
-std::vector<std::uint8_t> encode_png(const Picture& picture) {
-  std::vector<std::uint8_t> bytes;
-  const auto append = [](void* context, void* data, int size) {
-    const auto* first = static_cast<const std::uint8_t*>(data);
-    static_cast<std::vector<std::uint8_t>*>(context)->insert(static_cast<std::vector<std::uint8_t>*>(context)->end(),
-                                                             first, first + size);
-  };
-  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), picture.width * 3);
-  return bytes;
+namespace {
+
+/// What stb hands the bytes of a file to; `context` is a vector of bytes.
+void append(void* context, void* data, int size) {
+  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
+  const auto* const first = static_cast<const std::uint8_t*>(data);
+  bytes.insert(bytes.end(), first, first + size);
 }
 
-Status write_png(const Picture& picture, const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = encode_png(picture);
+Status write_bytes(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
@@ -47,6 +44,28 @@ Status write_png(const Picture& picture, const std::filesystem::path& path) {
     return Error{ErrorCode::io, path.string(), "could not write the picture"};
   }
   return Unit{};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const Picture& picture) {
+  std::vector<std::uint8_t> bytes;
+  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), picture.width * 3);
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality) {
+  std::vector<std::uint8_t> bytes;
+  stbi_write_jpg_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), quality);
+  return bytes;
+}
+
+Status write_png(const Picture& picture, const std::filesystem::path& path) {
+  return write_bytes(encode_png(picture), path);
+}
+
+Status write_jpeg(const Picture& picture, const std::filesystem::path& path, int quality) {
+  return write_bytes(encode_jpeg(picture, quality), path);
 }
 
 double mean_difference(const Picture& a, const Picture& b) {

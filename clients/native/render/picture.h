@@ -28,8 +28,13 @@ struct Picture {
 /// The picture as the bytes of a PNG file. Never empty for a picture with pixels.
 std::vector<std::uint8_t> encode_png(const Picture& picture);
 
+/// The picture as the bytes of a JPEG file. `quality`: 1 to 100.
+std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality);
+
 /// Writes a PNG. Errors: io, with the path in `where`.
 Status write_png(const Picture& picture, const std::filesystem::path& path);
+/// Writes a JPEG. Errors: io, with the path in `where`.
+Status write_jpeg(const Picture& picture, const std::filesystem::path& path, int quality);
 
 /// Mean absolute difference of two pictures of the same size, 0..255 a channel.
 double mean_difference(const Picture& a, const Picture& b);

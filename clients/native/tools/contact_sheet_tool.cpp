@@ -25,6 +25,8 @@ struct Arguments {
   std::string size = "340x400";
   std::vector<WeightMethod> weights = {WeightMethod::paper};
   std::uint32_t max_vertices = 0;
+  int jpeg_quality = 0;  ///< 0: PNG
+  bool matrix = false;
   bool only_faps = false;
 };
 
@@ -39,32 +41,49 @@ struct Sheet {
   std::vector<NamedFrame> frames;
 };
 
-constexpr std::uint8_t full = SEMBLANTE_BLEND_MAX;
+/// A viseme over an expression, both in full, as Eq. 5 mixes them; 0 of either moves nothing.
+semblante_frame frame_of(std::uint8_t viseme, std::uint8_t expression) {
+  semblante_frame frame{};
+  frame.viseme1 = viseme;
+  frame.viseme_blend = SEMBLANTE_BLEND_MAX;
+  frame.expression1 = expression;
+  frame.intensity1 = SEMBLANTE_BLEND_MAX;
+  return frame;
+}
+
+std::string name_of(std::uint8_t viseme, std::uint8_t expression) {
+  const std::string speech(viseme_library()[viseme].name);
+  const std::string mood(expression_library()[expression].name);
+  return expression == 0 ? speech : viseme == 0 ? mood : speech + " + " + mood;
+}
+
+/// Expressions in columns, visemes in rows; `sil` is the row of the expressions alone, and "none" their column.
+Sheet matrix() {
+  Sheet sheet{"matrix", static_cast<int>(expression_library().size()), {}};
+  for (std::uint8_t v = 0; v < viseme_library().size(); ++v) {
+    for (std::uint8_t x = 0; x < expression_library().size(); ++x) {
+      // The first column names the viseme: a cell has no room for both.
+      const std::string name = x == 0 || v == 0 ? name_of(v, x) : "+ " + name_of(0, x);
+      sheet.frames.push_back({name, frame_of(v, x)});
+    }
+  }
+  return sheet;
+}
 
 Result<std::vector<Sheet>> sheets(const Arguments& arguments) {
   std::vector<Sheet> list;
-  if (!arguments.only_faps) {
+  if (arguments.matrix) {
+    list.push_back(matrix());
+  } else if (!arguments.only_faps) {
     Sheet expressions{"expressions", 4, {{"neutral", {}}}};
     for (std::uint8_t i = 1; i < expression_library().size(); ++i) {
-      NamedFrame named{std::string(expression_library()[i].name), {}};
-      named.frame.expression1 = i;
-      named.frame.intensity1 = full;
-      expressions.frames.push_back(named);
+      expressions.frames.push_back({name_of(0, i), frame_of(0, i)});
     }
-    // Speech over an expression, as Eq. 5 mixes them.
-    NamedFrame both{"joy + a", {}};
-    both.frame.expression1 = 1;
-    both.frame.intensity1 = full;
-    both.frame.viseme1 = 10;
-    both.frame.viseme_blend = full;
-    expressions.frames.push_back(both);
+    expressions.frames.push_back({name_of(10, 1), frame_of(10, 1)});
     list.push_back(std::move(expressions));
     Sheet visemes{"visemes", 5, {}};
     for (std::uint8_t i = 0; i < viseme_library().size(); ++i) {
-      NamedFrame named{std::string(viseme_library()[i].name), {}};
-      named.frame.viseme1 = i;
-      named.frame.viseme_blend = full;
-      visemes.frames.push_back(named);
+      visemes.frames.push_back({name_of(i, 0), frame_of(i, 0)});
     }
     list.push_back(std::move(visemes));
   }
@@ -93,7 +112,7 @@ struct Posed {
 };
 
 Result<Posed> pose_with(const Arguments& arguments, WeightMethod method) {
-  auto head = load_posed_head(arguments.model, arguments.feature_points, method);
+  auto head = load_posed_head(arguments.model, arguments.feature_points, method, arguments.max_vertices);
   if (!head) {
     return std::move(head).error();
   }
@@ -114,9 +133,9 @@ Result<Posed> pose_with(const Arguments& arguments, WeightMethod method) {
                *std::move(renderer)};
 }
 
-std::string file_name(std::string text) {
+std::string file_name(std::string text, bool jpeg) {
   std::replace(text.begin(), text.end(), ':', '-');
-  return text + ".png";
+  return text + (jpeg ? ".jpg" : ".png");
 }
 
 Status run(const Arguments& arguments) {
@@ -159,9 +178,12 @@ Status run(const Arguments& arguments) {
     }
     for (std::size_t s = 0; s < shots->size(); ++s) {
       const std::string title = arguments.model.filename().string() + "  " + sheet.name + "  " + (*shots)[s].name;
-      const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + (*shots)[s].name);
+      const bool jpeg = arguments.jpeg_quality > 0;
+      const std::filesystem::path path = arguments.out / file_name(sheet.name + "-" + (*shots)[s].name, jpeg);
       const int columns = posed.size() > 1 ? static_cast<int>(posed.size()) * side_by_side : sheet.columns;
-      if (auto written = write_png(contact_sheet(pictures[s], title, columns), path); !written) {
+      const render::Picture picture = contact_sheet(pictures[s], title, columns);
+      if (auto written = jpeg ? write_jpeg(picture, path, arguments.jpeg_quality) : write_png(picture, path);
+          !written) {
         return written;
       }
       std::cout << path.string() << '\n';
@@ -189,6 +211,10 @@ int main(int argc, char** argv) {
       ->expected(1, 2)
       ->transform(CLI::CheckedTransformer(methods));
   app.add_option("--max-vertices", arguments.max_vertices, "draw the level of detail of that many vertices; 0: all");
+  app.add_flag("--matrix", arguments.matrix,
+               "one sheet of all combinations: the visemes down, the expressions across; instead of the two sheets");
+  app.add_option("--jpeg", arguments.jpeg_quality, "JPEG of this quality, 1 to 100, instead of PNG")
+      ->check(CLI::Range(1, 100));
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::tools::run(arguments); !done) {

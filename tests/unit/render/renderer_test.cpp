@@ -124,6 +124,24 @@ TEST(Picture, Png_ReadsBackTheSame) {
   stbi_image_free(pixels);
 }
 
+TEST(Picture, Jpeg_ReadsBackNearlyTheSame) {
+  Picture picture(32, 16, {40, 80, 160});
+  picture.paste(Picture(16, 16, {200, 100, 50}), 16, 0);
+  const std::vector<std::uint8_t> jpeg = encode_jpeg(picture, 90);
+  Picture back(32, 16, {0, 0, 0});
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  stbi_uc* pixels = stbi_load_from_memory(jpeg.data(), static_cast<int>(jpeg.size()), &width, &height, &channels, 3);
+  ASSERT_NE(pixels, nullptr);
+  ASSERT_TRUE(width == 32 && height == 16);
+  std::copy_n(pixels, back.rgb.size(), back.rgb.begin());
+  stbi_image_free(pixels);
+  EXPECT_LT(mean_difference(picture, back), 4.0);
+  EXPECT_GT(encode_jpeg(picture, 90).size(), encode_jpeg(picture, 10).size());
+  EXPECT_EQ(write_jpeg(picture, "/nowhere/at/all.jpg", 90).error().code, ErrorCode::io);
+}
+
 TEST(Picture, UnwritablePath_IsAnError) {
   const Status written = write_png(Picture(2, 2, {0, 0, 0}), "/nowhere/at/all.png");
   ASSERT_FALSE(written);
