@@ -6,10 +6,12 @@
 #include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
+#include "core/parametrize/iris.h"
 #include "core/parametrize/lip_gaps.h"
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/pivots.h"
 #include "core/parametrize/point_lookup.h"
+#include "core/parametrize/tongue_shape.h"
 
 namespace semblante {
 namespace {
@@ -56,6 +58,41 @@ RigidMotion rigid_motion_of(PartRole role) {
   return RigidMotion::none;
 }
 
+/// What FAPs 29, 30 and 47 need: where irises and tongue are, and which vertices are theirs.
+void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig) {
+  std::vector<RigidMotion> motion(surface.vertex_count(), RigidMotion::none);
+  for (std::size_t s = 0; s < motion.size(); ++s)
+    motion[s] = rigid_motion_of(rig.parts[surface.part_of[s].value()].role);
+  const auto iris_diameter =
+      rig.fapu[FapuUnit::irisd] ? std::optional(1024.0 * *rig.fapu[FapuUnit::irisd]) : std::nullopt;
+  for (std::size_t eye = 0; eye < rig.irises.size(); ++eye) {
+    const bool left = eye == 0;
+    const PartRole role = left ? PartRole::left_eye : PartRole::right_eye;
+    std::string why_not;
+    const auto iris = find_iris(model, surface, rig.parts, role, rig.points,
+                                left ? rig.left_eye_pivot : rig.right_eye_pivot, iris_diameter, why_not);
+    if (!iris) {
+      rig.warnings.push_back(std::string(left ? "the left eye " : "the right eye ") + why_not + "; FAP " +
+                             (left ? "29" : "30") + " does nothing");
+      continue;
+    }
+    rig.irises[eye] = iris->shape;
+    for (const SurfaceVertexId v : iris->vertices) {
+      motion[v.value()] = left ? RigidMotion::left_iris : RigidMotion::right_iris;
+    }
+  }
+  if (const auto tongue = find_tongue(surface, rig.parts, points)) {
+    rig.tongue = tongue->shape;
+    for (std::size_t s = 0; s < motion.size(); ++s) {
+      if (tongue->share[s] > 0.0) motion[s] = tongue_motion(tongue->share[s]);
+    }
+  } else {
+    rig.warnings.emplace_back("there is no tongue; FAP 47 rolls nothing");
+  }
+  rig.rigid_of_vertex.reserve(surface.surface_of.size());
+  for (const SurfaceVertexId vertex : surface.surface_of) rig.rigid_of_vertex.push_back(motion[vertex.value()]);
+}
+
 }  // namespace
 
 Result<Rig> parametrize(const Model& model, const Surface& surface, const FeaturePointSet& points,
@@ -84,11 +121,8 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   rig.influence =
       rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights, options.weights));
   rig.part_of_vertex.reserve(surface.surface_of.size());
-  rig.rigid_of_vertex.reserve(surface.surface_of.size());
   for (const SurfaceVertexId vertex : surface.surface_of) {
-    const PartId part = surface.part_of[vertex.value()];
-    rig.part_of_vertex.push_back(part);
-    rig.rigid_of_vertex.push_back(rigid_motion_of(rig.parts[part.value()].role));
+    rig.part_of_vertex.push_back(surface.part_of[vertex.value()]);
   }
   // With the weights of Eq. 4 the skin between facing points follows those of the other lip and of the outer lips as
   // much: what they alone close says little.
@@ -100,6 +134,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   rig.warnings = explain_missing_fapu(rig.fapu, points);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
+  find_moving_parts(model, surface, on_surface, rig);
   if (options.progress && !options.progress(1.0, "done")) {
     return Error{ErrorCode::cancelled, "", "stopped on request"};
   }

@@ -5,3 +5,4 @@ export * from './json_codec.ts';
 export * from './quantizers.ts';
 export * from './weights_format.ts';
 export * from './rig_document.ts';
+export * from './mirrored.ts';

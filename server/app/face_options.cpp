@@ -57,8 +57,12 @@ std::string why_missing(const Rig& rig, mpeg4::Unit unit) {
 /// Refuses what would silently do nothing.
 void check_fap(const mpeg4::Fap& fap, const std::string& option, const Rig& rig, std::vector<std::string>& warnings) {
   const std::string name = "FAP " + std::to_string(fap.number) + " (" + std::string(fap.name) + ")";
-  if (fap.kind == mpeg4::FapKind::scale || fap.axis == mpeg4::no_axis) {
-    warnings.push_back(option + ": " + name + " has no effect on vertices here");
+  if (fap.kind == mpeg4::FapKind::scale && !rig.irises[fap.number == 29 ? 0 : 1]) {
+    warnings.push_back(option + ": " + name + " does nothing: this head has no iris there that could move");
+    return;
+  }
+  if (fap.kind == mpeg4::FapKind::rotation && fap.axis == mpeg4::no_axis && !rig.tongue) {
+    warnings.push_back(option + ": " + name + " does nothing: this head has no tongue that could roll");
     return;
   }
   if (fap.kind != mpeg4::FapKind::translation) return;

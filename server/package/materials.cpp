@@ -86,9 +86,21 @@ Plain plain_of(std::string_view material, std::string_view primitive, PartRole r
 }
 
 /// What a triangle of a plain eyeball shows: by the neutral face, a pupil is a third of the iris.
-Plain painted(const glm::vec3& center, PartRole role, const EyeLook& eyes) {
-  const std::optional<glm::vec3>& pupil = eyes.pupils[role == PartRole::left_eye ? 0 : 1];
-  if (!pupil) return Plain::sclera;
+Plain painted(const glm::vec3& center, const Triangle& corners, Plain plain, PartRole role, const EyeLook& eyes) {
+  const std::size_t eye = role == PartRole::left_eye ? 0 : 1;
+  if (const std::optional<Iris>& iris = eyes.irises[eye]) {
+    const glm::vec3 d = center - eyes.pivots[eye];
+    const float along = glm::dot(d, iris->axis);
+    const float radius = glm::length(d - along * iris->axis);
+    if (along <= 0.0F || radius >= iris->iris_radius) return plain;
+    const bool of_iris = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+      return eyes.motion[v] == RigidMotion::left_iris || eyes.motion[v] == RigidMotion::right_iris;
+    });
+    if (!of_iris) return Plain::fluid;  // the cornea
+    return radius < iris->pupil_radius ? Plain::pupil : Plain::iris;
+  }
+  const std::optional<glm::vec3>& pupil = eyes.pupils[eye];
+  if (plain != Plain::sclera || !pupil) return plain;
   const float distance = glm::distance(center, *pupil);
   if (distance < eyes.iris_diameter / 6.0F) return Plain::pupil;
   return distance < eyes.iris_diameter / 2.0F ? Plain::iris : Plain::sclera;
@@ -124,10 +136,11 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
       const PartId part = surface.part_of[surface.surface_of[model.triangles[t][0]].value()];
       const PartRole role = part.value() < parts.size() ? parts[part.value()].role : PartRole::skin;
       Plain plain = plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
-      if (plain == Plain::sclera && (role == PartRole::left_eye || role == PartRole::right_eye)) {
+      if ((plain == Plain::sclera || plain == Plain::iris) &&
+          (role == PartRole::left_eye || role == PartRole::right_eye)) {
         const Triangle& corners = model.triangles[t];
         const glm::vec3 sum = model.positions[corners[0]] + model.positions[corners[1]] + model.positions[corners[2]];
-        plain = painted(sum / 3.0F, role, eyes);
+        plain = painted(sum / 3.0F, corners, plain, role, eyes);
       }
       const PlainMaterial& look = plain_materials[static_cast<std::size_t>(plain)];
       Material material;

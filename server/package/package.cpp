@@ -102,6 +102,9 @@ EyeLook eye_look(const Rig& rig) {
   }
   // The neutral face has its lids tangent to the iris, so the unit of the eyes is the diameter of the iris.
   look.iris_diameter = static_cast<float>(rig.fapu[FapuUnit::irisd].value_or(0.0) * 1024.0);
+  look.irises = rig.irises;
+  look.pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
+  look.motion = rig.rigid_of_vertex;
   return look;
 }
 
@@ -172,6 +175,8 @@ RigDocument common_document(const Model& model, const Rig& rig, const MaterialAs
   document.fapu = rig.fapu;
   document.eye_pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
   document.head_pivot = rig.head_pivot;
+  document.irises = rig.irises;
+  document.tongue = rig.tongue;
   for (std::size_t v = 0; v < viseme_count; ++v) document.visemes[v] = on_this_face(viseme_library()[v], rig);
   for (std::size_t e = 0; e < expression_count; ++e)
     document.expressions[e] = on_this_face(expression_library()[e], rig);
