@@ -50,7 +50,10 @@ void scalar_deform(const semblante_face& face, const semblante_pose& pose, float
 }
 
 #if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default"), optimize("O3")))
+__attribute__((target_clones("avx2", "default")))
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+__attribute__((optimize("O3")))
 #endif
 static std::uint64_t
 sum(const std::byte* from, std::size_t words) {

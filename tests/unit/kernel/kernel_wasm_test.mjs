@@ -1,9 +1,10 @@
-// node kernel_wasm_test.mjs MODULE.wasm VECTORS.json: the module gives the golden numbers, to the last bit.
+// node kernel_wasm_test.mjs MODULE.wasm small-face.json golden-frames.json: the module gives the numbers of the first to
+// the last bit and those of the second within the tolerance it states.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import { WasmKernel } from "./wasm_kernel.mjs";
 
-const [, , modulePath, vectorsPath] = process.argv;
+const [, , modulePath, vectorsPath, goldenPath] = process.argv;
 const bytes = fs.readFileSync(modulePath);
 const vectors = JSON.parse(fs.readFileSync(vectorsPath, "utf8"));
 
@@ -12,8 +13,8 @@ assert.deepEqual(WebAssembly.Module.imports(module), [], "the module asks nothin
 assert.deepEqual(
   WebAssembly.Module.exports(module).map((e) => e.name).sort(),
   ["memory", "semblante_alloc", "semblante_deform", "semblante_deform_changed", "semblante_deform_prepared",
-    "semblante_evaluate", "semblante_free_all", "semblante_interpolate", "semblante_prepare", "semblante_prepared_size",
-    "semblante_sincos"],
+    "semblante_evaluate", "semblante_free_all", "semblante_interpolate", "semblante_join_scratch",
+    "semblante_join_seams", "semblante_normals", "semblante_prepare", "semblante_prepared_size", "semblante_sincos"],
   "the export list is the interface");
 assert.ok(bytes.length < 32768, `the module is small (${bytes.length} bytes)`);
 
@@ -34,6 +35,28 @@ for (const { from, to, t, positions } of vectors.interpolations) {
   assert.deepEqual(kernel.deform(face, kernel.interpolate(poses[from], poses[to], t)), f32(positions), `${from}..${to}`);
 }
 
+const golden = JSON.parse(fs.readFileSync(goldenPath, "utf8"));
+{
+  const kernel = new WasmKernel(bytes);
+  const rig = kernel.rig(golden.rig);
+  const face = kernel.face(golden.face);
+  const mesh = kernel.triangles(golden.face);
+  const { tolerance } = golden;
+  const check = (pose, { name, positions, vertex_normals: normals }) => {
+    const found = kernel.deformPrepared(face, pose);
+    positions.forEach((x, i) => assert.ok(Math.abs(found[i] - x) <= tolerance.position, `${name}: vertex ${Math.floor(i / 3)}`));
+    const turned = kernel.normals(mesh, found);
+    for (let i = 0; i < normals.length; i += 3) {
+      const chord = Math.hypot(turned[i] - normals[i], turned[i + 1] - normals[i + 1], turned[i + 2] - normals[i + 2]);
+      const degrees = (2 * Math.asin(Math.min(1, chord / 2)) * 180) / Math.PI;
+      assert.ok(degrees <= tolerance.normal_degrees, `${name}: normal ${i / 3}`);
+    }
+  };
+  const poses = golden.cases.map((c) => kernel.evaluate(rig, kernel.frame(c.frame)));
+  golden.cases.forEach((c, i) => check(poses[i], c));
+  golden.interpolations.forEach((m) => check(kernel.interpolate(poses[m.from], poses[m.to], m.t), { ...m, name: `${m.from}..${m.to}` }));
+}
+
 // The allocator: aligned, apart, growing past the first page, refusing what cannot be, and starting over when told.
 const { semblante_alloc: alloc, semblante_free_all: freeAll, memory } = kernel.exports;
 const first = alloc(5);
@@ -48,4 +71,4 @@ assert.ok(alloc(16) >= large + (3 << 20), "a refusal takes nothing");
 freeAll();
 assert.ok(alloc(16) < large);
 
-console.log(`${vectors.cases.length} frames, ${vectors.interpolations.length} interpolations: equal to the last bit`);
+console.log(`${vectors.cases.length} frames, ${vectors.interpolations.length} interpolations: equal to the last bit; ${golden.cases.length} golden frames`);

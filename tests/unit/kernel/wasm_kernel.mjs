@@ -108,4 +108,26 @@ export class WasmKernel {
     semblante_deform_prepared(prepared, pose, at);
     return new Float32Array(memory.buffer, at, count * 3).slice();
   }
+
+  /** A semblante_triangles with seams joined. */
+  triangles({ rest, normals, triangles }) {
+    const { semblante_join_scratch, semblante_join_seams, memory } = this.exports;
+    const restAt = this.floats(rest.flat());
+    const normalsAt = this.floats(normals.flat());
+    const cornersAt = this.alloc(triangles.length * 12);
+    const joinedAt = this.alloc(rest.length * 4);
+    const scratchAt = this.alloc(semblante_join_scratch(rest.length) * 4);
+    new Uint32Array(memory.buffer, cornersAt, triangles.length * 3).set(triangles.flat());
+    semblante_join_seams(rest.length, restAt, normalsAt, scratchAt, joinedAt);
+    const at = this.alloc(16);
+    new Uint32Array(memory.buffer, at, 4).set([rest.length, triangles.length, cornersAt, joinedAt]);
+    return at;
+  }
+
+  normals(triangles, positions) {
+    const positionsAt = this.floats(positions);
+    const at = this.alloc(positions.length * 4);
+    this.exports.semblante_normals(triangles, positionsAt, at);
+    return new Float32Array(this.exports.memory.buffer, at, positions.length).slice();
+  }
 }

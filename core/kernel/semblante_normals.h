@@ -1,0 +1,40 @@
+/* Normals of a deformed face, from its triangles.
+ *
+ * Every corner adds its triangle's normal, weighted by N. Max's weights ("Weights for Computing Vertex Normals from
+ * Facet Normals", 1999): exact on a sphere, nearly independent of how a surface is cut into triangles, and free of
+ * trigonometry. Vertices that a UV seam splits share one normal; hard edges stay hard.
+ */
+#ifndef SEMBLANTE_NORMALS_H
+#define SEMBLANTE_NORMALS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The triangles of a face. Trusted: corners are < vertex_count, joined[v] <= v. */
+typedef struct semblante_triangles {
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  const uint32_t* corners; /* #T by 3, counter-clockwise seen from outside */
+  const uint32_t* joined;  /* #V: the lowest vertex that has the same normal, often v itself */
+} semblante_triangles;
+
+/* Numbers of uint32_t that semblante_join_seams needs to work with. */
+size_t semblante_join_scratch(uint32_t vertex_count);
+
+/* joined[v]: the lowest vertex at the place of v on the neutral face with the same normal there, both to the last bit:
+ * the two sides of a UV seam, not those of a hard edge. positions, normals: #V by 3, neutral. */
+void semblante_join_seams(uint32_t vertex_count, const float* positions, const float* normals, uint32_t* scratch,
+                          uint32_t* joined);
+
+/* Unit normals of the deformed positions, both #V by 3; +Z where no triangle has an area. */
+void semblante_normals(const semblante_triangles* triangles, const float* positions, float* normals);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
