@@ -43,6 +43,8 @@ const frames: Record<string, Edit> = {
   expression: { expression: 1 },
   'viseme and expression': { viseme: 13, expression: 6 },
   'jaw, lids, brows': { faps: { 3: 150, 19: 900, 20: 900, 31: 300, 32: 300, 6: 100 } },
+  'one pupil wide, one narrow, looking aside': { faps: { 23: 150, 24: 150, 29: 300, 30: -250 } },
+  'jaw and rolled tongue': { faps: { 3: 150, 47: 170 } },
   'gaze and head': { faps: { 23: 150, 24: 150, 25: -60, 26: -60, 48: 80, 49: -150, 50: 60 } },
 };
 
