@@ -31,6 +31,9 @@ struct semblante_head {
   semblante_pose pose{};
   std::unique_ptr<void, FreeAligned> prepared_memory;
   const semblante_prepared_face* prepared = nullptr;
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint32_t> joined;  ///< empty: the package had no triangles
+  semblante_triangles triangles{};
 };
 
 namespace {
@@ -132,6 +135,37 @@ void fill_face(semblante_head& head) {
   head.prepared = semblante_prepare(&head.face, head.prepared_memory.get());
 }
 
+void fill_triangles(semblante_head& head, const semblante_package& package) {
+  if (package.triangles == nullptr) {
+    return;
+  }
+  head.corners.assign(package.triangles, package.triangles + std::size_t{package.triangle_count} * 3);
+  head.joined.resize(package.vertex_count);
+  std::vector<std::uint32_t> scratch(semblante_join_scratch(package.vertex_count));
+  semblante_join_seams(package.vertex_count, package.positions, package.normals, scratch.data(), head.joined.data());
+  head.triangles = {package.vertex_count, package.triangle_count, head.corners.data(), head.joined.data()};
+}
+
+semblante_result check_triangles(const semblante_package& package, semblante_error* error) {
+  if (package.triangles == nullptr && package.normals == nullptr && package.triangle_count == 0) {
+    return SEMBLANTE_OK;
+  }
+  if (package.triangles == nullptr || package.normals == nullptr) {
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "triangles and normals are given both or not");
+  }
+  if (package.triangle_count > 3 * semblante::max_weights_vertices) {
+    return fail(error, SEMBLANTE_TOO_LARGE, "package.triangle_count", "more than 12 million triangles");
+  }
+  const std::span corners(package.triangles, std::size_t{package.triangle_count} * 3);
+  if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return v >= package.vertex_count; })) {
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "a corner is no vertex");
+  }
+  if (!all_finite({package.normals, std::size_t{package.vertex_count} * 3})) {
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.normals", "a normal is not a finite number");
+  }
+  return SEMBLANTE_OK;
+}
+
 semblante_result check_pairing(const semblante_package& package, const semblante::InfluenceTable& table,
                                const RigDocument& document, semblante_error* error) {
   if (table.vertex_count != package.vertex_count) {
@@ -168,7 +202,7 @@ semblante_result check_arguments(const semblante_package* package, const semblan
   if (options != nullptr && !(options->viseme_share >= 0.0F && options->viseme_share <= 1.0F)) {
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "options.viseme_share", "the share is 0 to 1");
   }
-  return SEMBLANTE_OK;
+  return check_triangles(*package, error);
 }
 
 semblante_result create(const semblante_package& package, const semblante_head_options* options,
@@ -189,6 +223,7 @@ semblante_result create(const semblante_package& package, const semblante_head_o
   made->table = *std::move(table);
   fill_rig(*made, *document, options);
   fill_face(*made);
+  fill_triangles(*made, package);
   const semblante_frame neutral{};
   semblante_evaluate(&made->rig, &neutral, &made->pose);
   return SEMBLANTE_OK;
@@ -316,6 +351,18 @@ semblante_result semblante_head_update_positions(const semblante_head* head, con
     return SEMBLANTE_BUFFER_TOO_SMALL;
   }
   semblante_deform_changed(head->prepared, before, &head->pose, positions);
+  return SEMBLANTE_OK;
+}
+
+semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
+                                        size_t capacity) {
+  if (head == nullptr || positions == nullptr || normals == nullptr || head->joined.empty()) {
+    return SEMBLANTE_INVALID_ARGUMENT;
+  }
+  if (capacity < std::size_t{head->face.vertex_count} * 3) {
+    return SEMBLANTE_BUFFER_TOO_SMALL;
+  }
+  semblante_normals(&head->triangles, positions, normals);
   return SEMBLANTE_OK;
 }
 

@@ -26,6 +26,7 @@
 #include <stdint.h>
 
 #include "core/kernel/semblante_kernel.h"
+#include "core/kernel/semblante_normals.h"
 #include "core/kernel/semblante_prepared_face.h"
 
 #ifdef __cplusplus
@@ -63,6 +64,10 @@ typedef struct semblante_package {
   size_t weights_size;
   const char* rig_json; /* bytes of rig.json, UTF-8, need not end in zero */
   size_t rig_json_size;
+  /* For semblante_head_normals; all null and 0 if the caller has its own way. */
+  const uint32_t* triangles; /* #T by 3: faces of mesh.drc in decoded order */
+  uint32_t triangle_count;   /* #T */
+  const float* normals;      /* #V by 3: NORMAL of mesh.drc */
 } semblante_package;
 
 typedef struct semblante_head_options {
@@ -109,6 +114,11 @@ semblante_result semblante_head_positions(const semblante_head* head, float* pos
  * are written. A face that talks but does not turn its head moves half of them. */
 semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
                                                  float* positions, size_t capacity);
+
+/* Unit normals of `positions`, which this head gave: both 3 * #V floats, `capacity` of `normals`. Seams do not show,
+ * hard edges stay. INVALID_ARGUMENT for a head whose package came without triangles and normals. */
+semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
+                                        size_t capacity);
 
 #ifdef __cplusplus
 }

@@ -1,11 +1,10 @@
 #include "clients/native/render/smooth_normals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
 
-#include <glm/geometric.hpp>
+#include "core/kernel/semblante_normals.h"
 
 namespace semblante::render {
 
@@ -32,28 +31,15 @@ SmoothNormals::SmoothNormals(std::span<const glm::vec3> positions, std::span<con
 }
 
 std::vector<glm::vec3> SmoothNormals::compute(std::span<const glm::vec3> positions) const {
-  std::vector<glm::vec3> normals(joined_.size(), glm::vec3(0.0F));
-  for (const Triangle& triangle : triangles_) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const glm::vec3& p = positions[triangle[corner]];
-      const glm::vec3 a = positions[triangle[(corner + 1) % 3]] - p;
-      const glm::vec3 b = positions[triangle[(corner + 2) % 3]] - p;
-      const glm::vec3 across = glm::cross(a, b);
-      const float twice_area = glm::length(across);
-      if (twice_area > 0.0F) {
-        // By angle, so that the way a polygon was cut into triangles does not show.
-        const float angle = std::atan2(twice_area, glm::dot(a, b));
-        normals[joined_[triangle[corner]]] += across * (angle / twice_area);
-      }
-    }
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t) && sizeof(glm::vec3) == 3 * sizeof(float));
+  std::vector<glm::vec3> normals(joined_.size());
+  if (normals.empty()) {
+    return normals;
   }
-  for (glm::vec3& normal : normals) {
-    const float length = glm::length(normal);
-    normal = length > 0.0F ? normal / length : glm::vec3(0, 0, 1);
-  }
-  for (std::size_t v = 0; v < normals.size(); ++v) {
-    normals[v] = normals[joined_[v]];
-  }
+  const semblante_triangles triangles{static_cast<std::uint32_t>(joined_.size()),
+                                      static_cast<std::uint32_t>(triangles_.size()),
+                                      triangles_.empty() ? nullptr : triangles_.front().data(), joined_.data()};
+  semblante_normals(&triangles, &positions.front().x, &normals.front().x);
   return normals;
 }
 

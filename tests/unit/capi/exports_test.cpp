@@ -56,6 +56,7 @@ TEST(SdkExports, Header_DeclaresExactlyTheList) {
       matches(read(SEMBLANTE_SOURCE_DIR "/clients/capi/exports.map"), std::regex(R"((semblante_\w+);)"));
   std::string headers = read(SEMBLANTE_SOURCE_DIR "/clients/capi/semblante.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_prepared_face.h");
+  headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_normals.h");
   const std::string kernel = read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_kernel.h");
   headers += std::regex_replace(kernel, std::regex(R"(#ifdef __wasm__[^#]*#endif)"), "");
   const std::string code = std::regex_replace(headers, std::regex(R"(/\*(.|\n)*?\*/)"), "");

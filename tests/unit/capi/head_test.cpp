@@ -237,5 +237,36 @@ TEST(HeadUpdatePositions, GivesWhatAllPositionsWouldBe) {
   EXPECT_EQ(semblante_head_update_positions(head.get(), &before, updated.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
 }
 
+TEST(HeadNormals, FollowTheFace_AndNeedTriangles) {
+  const SmallPackage small;
+  const std::array<std::uint32_t, 6> triangles{0, 1, 2, 0, 2, 3};
+  const std::array<float, 12> flat{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  semblante_package package = small.view();
+  package.triangles = triangles.data();
+  package.triangle_count = 2;
+  package.normals = flat.data();
+  semblante_head* made = nullptr;
+  ASSERT_EQ(semblante_head_create(&package, nullptr, &made, nullptr), SEMBLANTE_OK);
+  const OwnedHead head(made);
+  const std::array<float, 12> corner{0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 1};  // in the plane x = 0
+  std::array<float, 12> normals{};
+  ASSERT_EQ(semblante_head_normals(head.get(), corner.data(), normals.data(), normals.size()), SEMBLANTE_OK);
+  for (std::size_t v = 0; v < 4; ++v) {
+    EXPECT_FLOAT_EQ(normals[v * 3], 1.0F) << v;
+    EXPECT_FLOAT_EQ(normals[v * 3 + 1], 0.0F) << v;
+  }
+  EXPECT_EQ(semblante_head_normals(head.get(), corner.data(), normals.data(), 11), SEMBLANTE_BUFFER_TOO_SMALL);
+  EXPECT_EQ(semblante_head_normals(make(small).get(), corner.data(), normals.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
+
+  semblante_error error{};
+  const std::array<std::uint32_t, 6> beyond{0, 1, 2, 0, 2, 4};
+  package.triangles = beyond.data();
+  EXPECT_EQ(create_result(package, &error), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_STREQ(error.where, "package.triangles");
+  package.triangles = triangles.data();
+  package.normals = nullptr;
+  EXPECT_EQ(create_result(package, &error), SEMBLANTE_INVALID_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace semblante::testing
