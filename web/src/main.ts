@@ -15,6 +15,8 @@ import { LevelsPanel } from './ui/levels_panel.ts';
 import { LiveModel } from './ui/live_model.ts';
 import { LivePanel } from './ui/live_panel.ts';
 import { Parametrizer } from './ui/parametrizer.ts';
+import { PerformanceModel } from './ui/performance_model.ts';
+import { PerformancePanel } from './ui/performance_panel.ts';
 import { PointsModel } from './ui/points_model.ts';
 import { PointsPanel } from './ui/points_panel.ts';
 import { SceneView } from './ui/scene.ts';
@@ -62,7 +64,8 @@ function main(root: HTMLElement): void {
   const parametrizer = new Parametrizer(studio, points);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
   const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, demo));
-  const livePanel = new LivePanel(studio, live);
+  const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
+  const livePanel = new LivePanel(studio, live, performance.element);
   const layout = makeLayout(
     studio,
     {
@@ -76,7 +79,15 @@ function main(root: HTMLElement): void {
     theme,
   );
   root.replaceChildren(layout, toasts.element);
-  acceptDrops(layout, (files) => void studio.upload(files));
+  acceptDrops(layout, (files) => {
+    const scripts = files.filter(({ name }) => /\.json$/i.test(name));
+    const script = scripts.at(-1);
+    if (script) {
+      studio.tab.set('live');
+      void performance.takeFile(script);
+    }
+    void studio.upload(files.filter((file) => !scripts.includes(file)));
+  });
 
   live.driving.watch((driving) => {
     if (!driving) scene.performer.value?.follow(frame);
@@ -116,6 +127,7 @@ function main(root: HTMLElement): void {
   });
 
   setInterval(() => livePanel.refreshFigures(scene.performer.value?.playhead ?? NaN), 500);
+  setInterval(() => performance.tick(), 200);
   setInterval(() => {
     if (studio.tab.value === 'live' && document.visibilityState === 'visible') void live.refresh();
   }, 3000);

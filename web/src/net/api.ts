@@ -11,6 +11,8 @@ import type {
   ModelPage,
   ParametrizationOptions,
   PartRole,
+  Playing,
+  PlayWish,
   StreamInfo,
   VersionInfo,
 } from './types.ts';
@@ -141,6 +143,17 @@ export class Api {
     await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE' });
   }
 
+  /** Plays a performance document into a stream, from now on. */
+  async playPerformance(stream: string, document: Blob, wish: PlayWish): Promise<Playing> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/performances?${playQuery(wish)}`;
+    return (await requestJson<Playing>(url, { method: 'POST', body: document, contentType: 'application/json' })).value;
+  }
+
+  /** Ends what plays; the face returns to neutral. */
+  async stopPlaying(stream: string, id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/streams/${segment(stream)}/performances/${segment(id)}`, { method: 'DELETE' });
+  }
+
   streamUrl(id: string): string {
     return streamUrl(new URL(this.base === '' ? '/' : this.base, location.href).href, id);
   }
@@ -149,3 +162,6 @@ export class Api {
     return (await requestJson<VersionInfo>(`${this.base}/version`)).value;
   }
 }
+
+const playQuery = ({ loop, from, takeOver }: PlayWish): string =>
+  new URLSearchParams({ loop: String(loop), from: String(from), take_over: String(takeOver) }).toString();

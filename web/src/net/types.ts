@@ -196,6 +196,26 @@ export interface FeaturePointSet {
   warnings?: string[];
 }
 
+/** What is played into a stream; times in ms. */
+export interface Playing {
+  id: string;
+  kind: string;
+  name: string;
+  /** null: it has no end. */
+  duration: number | null;
+  position: number;
+  fps: number;
+  loop: boolean;
+}
+
+export interface PlayWish {
+  loop: boolean;
+  /** Where to begin, ms. */
+  from: number;
+  /** From whoever sends or plays there. */
+  takeOver: boolean;
+}
+
 export interface StreamInfo {
   id: string;
   title: string;
@@ -205,6 +225,7 @@ export interface StreamInfo {
   subscribers: number;
   publishers: number;
   source?: string;
+  playing?: Playing | null;
 }
 
 export interface VersionInfo {

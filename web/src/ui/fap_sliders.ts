@@ -11,9 +11,6 @@ export interface FapSlidersOptions {
   onChange: () => void;
 }
 
-// The kernel moves no vertices for these (pupil size, tongue roll): a slider that does nothing would be a lie.
-const withoutEffect = new Set([29, 30, 47]);
-
 /** Low-level FAPs in the standard's groups, folded away until opened. */
 export class FapSliders {
   readonly element = h('div', { class: 'fap-groups' });
@@ -73,10 +70,10 @@ export class FapSliders {
       ),
       body,
     );
-    // Built when first opened: 65 sliders at once are felt on a phone.
+    // Built when first opened: 66 sliders at once are felt on a phone.
     details.addEventListener('toggle', () => {
       if (details.open && body.childElementCount === 0) {
-        for (const fap of list) if (!withoutEffect.has(fap.number)) body.append(this.makeSlider(fap).element);
+        for (const fap of list) body.append(this.makeSlider(fap).element);
         this.refresh();
       }
     });

@@ -106,7 +106,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
     h(
       'div',
       { class: 'drop-veil', 'aria-hidden': 'true' },
-      h('div', {}, icon('upload', 40), h('p', {}, 'Drop the head here')),
+      h('div', {}, icon('upload', 40), h('p', {}, 'Drop a head or a performance here')),
     ),
   );
 }

@@ -54,6 +54,13 @@ export class LiveModel {
     void this.refresh();
   }
 
+  /** Resolves when what is followed is there to be seen, or after `patience` ms without. */
+  async opened(patience = 2000): Promise<void> {
+    const end = performance.now() + patience;
+    while (this.status.value.kind !== 'open' && performance.now() < end)
+      await new Promise((wake) => setTimeout(wake, 20));
+  }
+
   unsubscribe(): void {
     this.subscriber.value?.close();
     this.subscriber.set(null);

@@ -36,6 +36,7 @@ export class LivePanel {
   constructor(
     private readonly studio: Studio,
     private readonly live: LiveModel,
+    performance: HTMLElement,
   ) {
     const figure = (term: string, value: HTMLElement): HTMLElement => h('div', {}, h('dt', {}, term), value);
     this.publishBox.addEventListener('change', () => void this.togglePublish());
@@ -80,6 +81,7 @@ export class LivePanel {
         ),
         this.list,
       ),
+      performance,
       h(
         'section',
         {},
@@ -184,8 +186,9 @@ export class LivePanel {
   private item(stream: StreamInfo): HTMLElement {
     const on = this.live.following.value === stream.id;
     const viewers = `${stream.subscribers} watching`;
-    const senders =
-      stream.source === 'demo'
+    const senders = stream.playing
+      ? `plays ${stream.playing.name || 'without a name'}`
+      : stream.source === 'demo'
         ? 'plays by itself'
         : stream.publishers === 0
           ? 'nobody sends'

@@ -1,0 +1,109 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { root } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+const scratch = mkdtempSync(join(tmpdir(), 'semblante-performance-'));
+const faceAlone = [0.3, 0.1, 0.4, 0.8] as const;
+const hello = readFileSync(join(root, 'protocol/examples/performances/hello.json'), 'utf8');
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(scratch, { recursive: true, force: true });
+});
+
+const file = (name: string, text: string): string => {
+  const path = join(scratch, name);
+  writeFileSync(path, text);
+  return path;
+};
+
+describe('performance', () => {
+  test('Performance_Dropped_PlaysOnTheFaceAndStops', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    // A smile that lasts, so that there is time to look.
+    const cues = [{ time: 0, duration: 590_000, expression: 'joy', value: 1 }];
+    const smile = { format: 'semblante.performance', version: 1, name: 'A long smile', duration: 600_000, cues };
+    await studio.drop(file('smile.json', JSON.stringify(smile)));
+    await page.locator('#tab-live[aria-selected="true"]').waitFor();
+    await page.locator('.performance').getByText('smile.json').waitFor();
+    await page.locator('.performance').getByRole('button', { name: 'Play', exact: true }).click();
+    await page.locator('.performance .transport').getByText('A long smile').waitFor();
+    await page.locator('.performance').getByText('/ 10:00.0').waitFor();
+    await page.getByText(/^Live: .*performing/).first().waitFor();
+    await page.waitForTimeout(2500);
+    const smiling = await studio.picture();
+    await page.locator('.performance').scrollIntoViewIfNeeded();
+    await studio.keep('performance-playing');
+
+    await page.locator('.performance').getByRole('button', { name: 'Stop' }).click();
+    await page.locator('.performance').getByRole('button', { name: 'Stop' }).waitFor({ state: 'detached' });
+    await page.waitForTimeout(2500);
+    expect(await studio.difference(smiling, await studio.picture(), faceAlone)).toBeGreaterThan(0.5);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Performance_WithAFault_ShowsTheLine', async () => {
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(file('wrong.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"')));
+    await page.locator('.performance').getByRole('button', { name: 'Play', exact: true }).click();
+    await page.locator('.performance .excerpt .marked').filter({ hasText: '"xyz"' }).waitFor();
+    await page.locator('.performance').getByText('/cues/3/viseme').waitFor();
+    await page.locator('.performance .excerpt').scrollIntoViewIfNeeded();
+    await studio.keep('performance-wrong');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Performance_BusyStream_CanBeTakenOver', async () => {
+    const made = await fetch(`${server.url}/v1/streams`, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json' },
+      body: JSON.stringify({ name: 'busy', title: 'Busy' }),
+    });
+    expect(made.status).toBe(201);
+    const started = await fetch(`${server.url}/v1/streams/busy/performances?loop=true`, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json' },
+      body: hello.replace('"name": "Hello"', '"name": "Aria"'),
+    });
+    expect(started.status).toBe(202);
+
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 409/ });
+    const { page } = studio;
+    const section = page.locator('.performance');
+    await studio.waitForStage('ready');
+    await page.locator('#tab-live').click();
+    await section.getByLabel('Stream to play into').selectOption({ label: 'Busy' });
+    await section.locator('.transport').getByText('Aria').waitFor();
+    await section.getByLabel('Example').selectOption({ index: 2 });
+    await section.getByRole('button', { name: 'Play', exact: true }).click();
+    await section.getByRole('alert').filter({ hasText: 'Aria' }).waitFor();
+    await section.getByRole('alert').scrollIntoViewIfNeeded();
+    await studio.keep('performance-busy');
+    await section.getByRole('button', { name: 'Take over' }).click();
+    await section.locator('.transport').getByText('A minute').waitFor();
+
+    // The slider begins it anew somewhere else.
+    await section.getByRole('slider', { name: 'Position' }).fill('50000');
+    await section.getByText(/^0:5\d\.\d \/ 1:00\.0$/).waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});
