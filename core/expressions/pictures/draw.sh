@@ -17,6 +17,10 @@ draw() { # draw NAME MODEL POINTS: the sheet of all combinations
 
 "$build/bin/semblante-sample-head" "$work" >/dev/null
 draw sample-head "$work/sample-head.glb" "$work/sample-head.fps.json"
+"$build/bin/semblante-contact-sheet" "$work/sample-head.glb" -f "$work/sample-head.fps.json" -o "$work/close" \
+  --weights smooth -s front:face -s three-quarter:mouth --size 240x240 --jpeg 80
+mv "$work/close/expressions-front-face.jpg" "$here/expressions.jpg"
+mv "$work/close/visemes-three-quarter-mouth.jpg" "$here/visemes.jpg"
 if [ -d "$faces" ]; then
   draw makehuman "$faces/makehuman/head.glb" "$faces/makehuman/makehuman.fps.json"
   draw ict-facekit "$faces/ict-facekit/neutral.obj" "$faces/ict-facekit/ict-facekit.fps.json"
