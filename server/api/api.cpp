@@ -39,6 +39,7 @@ bool takes(BodyKind kind, std::string_view media_type) {
   if (media_type.empty() || kind == BodyKind::none) return true;
   if (kind == BodyKind::json || kind == BodyKind::performance) return media_type == "application/json";
   if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
+  if (kind == BodyKind::example) return media_type == "application/json" || media_type == "multipart/form-data";
   static constexpr auto uploads = std::to_array<std::string_view>(
       {"model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "model/ply", "model/vnd.ply",
        "application/zip", "application/x-zip-compressed", "application/octet-stream", "application/sla",
@@ -48,6 +49,7 @@ bool takes(BodyKind kind, std::string_view media_type) {
 
 std::string_view taken_types(BodyKind kind) {
   if (kind == BodyKind::upload) return "application/octet-stream, a type of the model's own, or multipart/form-data";
+  if (kind == BodyKind::example) return "application/json or multipart/form-data";
   return "application/json";
 }
 
@@ -102,6 +104,9 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
       return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
     case BodyKind::performance:
       return http::BodyPlan{max_performance_bytes, true, true};
+    case BodyKind::example:
+      if (content_type != "multipart/form-data") return http::BodyPlan{limits.max_json_bytes, false, true};
+      [[fallthrough]];
     case BodyKind::upload:
       return http::BodyPlan{limits.max_upload_bytes, true, true};
   }

@@ -22,6 +22,7 @@ struct ApiLimits {
   std::uint64_t max_json_bytes = std::uint64_t{1} << 20U;
   std::size_t max_models = 1000;
   std::size_t max_streams = 256;
+  std::size_t max_expressions = 1000;
 };
 
 struct ApiConfig {

@@ -1,6 +1,7 @@
 #include "server/api/common.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,13 @@
 #include "server/http/conditional.h"
 
 namespace semblante::api {
+namespace {
+
+constexpr std::size_t default_page = 50;
+constexpr std::size_t max_page = 200;
+constexpr std::size_t max_file_name_bytes = 200;
+
+}  // namespace
 
 void refuse(std::string_view slug, std::string detail, std::string pointer) {
   throw Refused{http::make_problem(slug, std::move(detail), std::move(pointer))};
@@ -72,6 +80,42 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   if (earlier->fingerprint != record.fingerprint)
     refuse("idempotency-key-reused", "this key came with another request before");
   return {std::nullopt, earlier->resource};
+}
+
+std::size_t page_size(const http::Request& request) {
+  const auto text = request.query_value("limit");
+  if (!text) return default_page;
+  std::size_t limit = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), limit);
+  if (error != std::errc() || end != text->data() + text->size() || limit == 0 || limit > max_page)
+    refuse("invalid-argument", "limit is a number from 1 to " + std::to_string(max_page), "?limit");
+  return limit;
+}
+
+std::string clean_file_name(std::string_view name) {
+  const auto slash = name.find_last_of("/\\");
+  if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
+  std::string clean;
+  for (const char c : name.substr(0, max_file_name_bytes))
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
+  return clean;
+}
+
+http::Response accepted(const store::JobRecord& job) {
+  auto response = json_response(202, represent(job));
+  response.headers["Location"] = "/v1/jobs/" + job.id;
+  return response;
+}
+
+http::Response no_room() {
+  auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
+  response.headers["Retry-After"] = "10";
+  return response;
+}
+
+void refuse_unless_imported(const store::ModelRecord& model) {
+  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported");
+  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
 }
 
 }  // namespace semblante::api

@@ -42,4 +42,17 @@ struct IdempotencyCheck {
 };
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash);
 
+/// `?limit=` of a list: 50 unless told, at most 200.
+std::size_t page_size(const http::Request& request);
+
+/// The last segment of a path of any system, without what a file name cannot hold; at most 200 bytes.
+std::string clean_file_name(std::string_view name);
+
+/// 202 with a job, and 429 when no more may wait.
+http::Response accepted(const store::JobRecord& job);
+http::Response no_room();
+
+/// Refuses with 409 a model whose vertices are not known.
+void refuse_unless_imported(const store::ModelRecord& model);
+
 }  // namespace semblante::api

@@ -56,26 +56,9 @@ ParametrizationOptions read_options(const Json& body, std::uint32_t vertices) {
   return options;
 }
 
-http::Response accepted(const store::JobRecord& job) {
-  auto response = json_response(202, represent(job));
-  response.headers["Location"] = "/v1/jobs/" + job.id;
-  return response;
-}
-
 http::Response earlier_job(Context& context, const std::string& id) {
   if (const auto job = context.jobs.find(id)) return accepted(*job);
   refuse("conflict", "what this key made has been removed");
-}
-
-void refuse_unless_imported(const store::ModelRecord& model) {
-  if (model.state == store::ModelState::importing) refuse("conflict", "the model is still being imported");
-  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
-}
-
-http::Response no_room() {
-  auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
-  response.headers["Retry-After"] = "10";
-  return response;
 }
 
 store::JobRecord job_of(Context& context, const http::Request& request) {

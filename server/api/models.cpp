@@ -8,24 +8,13 @@
 #include "server/api/common.h"
 #include "server/api/new_model.h"
 #include "server/api/routes.h"
+#include "server/api/sets.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {
 namespace {
 
-constexpr std::size_t default_page = 50;
-constexpr std::size_t max_page = 200;
 constexpr std::size_t max_name_bytes = 200;
-
-std::size_t page_size(const http::Request& request) {
-  const auto text = request.query_value("limit");
-  if (!text) return default_page;
-  std::size_t limit = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), limit);
-  if (error != std::errc() || end != text->data() + text->size() || limit == 0 || limit > max_page)
-    refuse("invalid-argument", "limit is a number from 1 to " + std::to_string(max_page), "?limit");
-  return limit;
-}
 
 std::vector<store::RoleChange> role_changes(const Json& roles, std::size_t part_count) {
   if (!roles.is_object()) refuse("invalid-field", "roles is an object of part indices", "/roles");
@@ -105,6 +94,17 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
   return job;
 }
 
+/// From the next package on the face wears these sets. A package that is there is made again, unless it goes anyway.
+std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord& model,
+                                     const std::vector<store::WornSet>& worn, bool package_goes) {
+  const auto job = package_goes ? std::nullopt : make_package_again(context, model);
+  if (job && !context.jobs.has_room()) refuse("too-many-requests", "too many jobs are waiting");
+  if (!context.store.edit_worn(model.id, worn, job, model.revision))
+    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+  if (job) context.jobs.enqueue(*job);
+  return job;
+}
+
 http::Response full_model(Context& context, const store::ModelRecord& model) {
   auto response = json_response(200, represent(model, context.store.artefacts(model.id)));
   response.headers["ETag"] = model_etag(model);
@@ -135,12 +135,14 @@ http::Response patch_model(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   check_if_match(request, model_etag(model));
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "roles", "frame"});
+  refuse_unknown_members(body, {"name", "roles", "frame", "expressions"});
   std::optional<std::string> name;
   if (body.contains("name")) name = checked_text(body["name"], max_name_bytes, "/name");
   std::vector<store::RoleChange> roles;
   if (body.contains("roles")) roles = role_changes(body["roles"], model.parts.size());
-  const bool has_more = name || !roles.empty() || !body.contains("frame");
+  std::vector<store::WornSet> worn;
+  if (body.contains("expressions")) worn = worn_from_json(context, body["expressions"]);
+  const bool has_more = name || !roles.empty() || !(body.contains("frame") || body.contains("expressions"));
   std::optional<store::JobRecord> import;
   auto now = model;
   if (body.contains("frame")) {
@@ -149,10 +151,13 @@ http::Response patch_model(Context& context, http::Request& request) {
   }
   if (has_more && !context.store.edit_model(model.id, name, roles, now.revision))
     refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+  auto job = import;
+  if (!worn.empty()) job = wear(context, model_of(context, request), worn, import.has_value());
+  if (!job) job = import;
   auto response = full_model(context, model_of(context, request));
-  if (import) {
+  if (job) {
     response.status = 202;
-    response.headers["Location"] = "/v1/jobs/" + import->id;
+    response.headers["Location"] = "/v1/jobs/" + job->id;
   }
   return response;
 }

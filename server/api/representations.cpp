@@ -99,6 +99,9 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
         {"errors", model.findings->errors}, {"warnings", model.findings->warnings}, {"notes", model.findings->notes}};
   json["feature_point_count"] = model.feature_point_count;
   json["package"] = represent_package(model, artefacts);
+  auto& worn = json["expressions"] = Json::object();
+  for (const auto& set : model.worn)
+    worn[set.slot] = {{"expression", set.set}, {"name", set.name}, {"revision", set.revision}};
   json["links"] = {{"self", self},
                    {"feature_points", self + "/feature-points"},
                    {"preview", imported ? Json(self + "/preview.glb") : Json(nullptr)},
@@ -109,7 +112,7 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
 Json represent(const store::JobRecord& job) {
   return {{"id", job.id},
           {"kind", std::string(store::to_string(job.kind))},
-          {"model", job.model},
+          {"model", job.model.empty() ? Json(nullptr) : Json(job.model)},
           {"state", std::string(store::to_string(job.state))},
           {"progress", job.progress},
           {"stage", job.stage},
@@ -141,6 +144,20 @@ Json represent(const streams::PlayStatus& playing) {
           {"fps", playing.rate},
           {"loop", playing.loop}};
 }
+
+Json represent(const store::SetRecord& set) {
+  return {{"id", set.id},
+          {"name", set.name},
+          {"kind", set.kind},
+          {"built_in", false},
+          {"revision", set.revision},
+          {"created", set.created},
+          {"updated", set.updated},
+          {"source", json_or_null(set.source)},
+          {"href", "/v1/expressions/" + set.id}};
+}
+
+std::string set_etag(const store::SetRecord& set) { return "\"set-" + std::to_string(set.revision) + "\""; }
 
 std::string model_etag(const store::ModelRecord& model) { return "\"model-" + std::to_string(model.revision) + "\""; }
 

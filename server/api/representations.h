@@ -22,8 +22,11 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
 Json represent(const store::JobRecord& job);
 Json represent(const streams::StreamInfo& stream);
 Json represent(const streams::PlayStatus& playing);
+/// All but the displacements.
+Json represent(const store::SetRecord& set);
 
 std::string model_etag(const store::ModelRecord& model);
+std::string set_etag(const store::SetRecord& set);
 std::string points_etag(const store::ModelRecord& model);
 
 /// JSON with its media type, not cached. Text that is not UTF-8 is repaired rather than refused: it came from a file.

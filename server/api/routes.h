@@ -17,6 +17,7 @@ enum class BodyKind {
   merge,        ///< application/json or application/merge-patch+json
   performance,  ///< application/json of a performance's size
   upload,       ///< a model: raw or multipart, to disk
+  example,      ///< application/json, or multipart with files, to disk
 };
 
 using Handler = http::Response (*)(Context& context, http::Request& request);
@@ -47,7 +48,6 @@ http::Response get_version(Context&, http::Request&);
 http::Response get_openapi(Context&, http::Request&);
 http::Response get_metrics(Context&, http::Request&);
 http::Response get_problem(Context&, http::Request&);
-http::Response get_expressions(Context&, http::Request&);
 // models.cpp
 http::Response list_models(Context&, http::Request&);
 http::Response get_model(Context&, http::Request&);
@@ -67,6 +67,13 @@ http::Response get_job_events(Context&, http::Request&);
 // artefacts.cpp
 http::Response get_model_artefact(Context&, http::Request&);
 http::Response get_artefact(Context&, http::Request&);
+// expressions.cpp
+http::Response list_expressions(Context&, http::Request&);
+http::Response get_expression(Context&, http::Request&);
+http::Response put_expression(Context&, http::Request&);
+http::Response delete_expression(Context&, http::Request&);
+// new_expression.cpp
+http::Response create_expression(Context&, http::Request&);
 // stream_routes.cpp
 http::Response list_streams(Context&, http::Request&);
 http::Response create_stream(Context&, http::Request&);

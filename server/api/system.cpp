@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "core/expressions/library.h"
 #include "server/api/common.h"
 #include "server/api/openapi.h"
 #include "server/api/routes.h"
@@ -47,19 +46,13 @@ http::Response get_problem(Context&, http::Request& request) {
   refuse("not-found", "there is no problem " + slug);
 }
 
-http::Response get_expressions(Context&, http::Request&) {
-  Json json = {{"visemes", Json::array()}, {"expressions", Json::array()}};
-  for (const auto& set : viseme_library()) json["visemes"].push_back(std::string(set.name));
-  for (const auto& set : expression_library()) json["expressions"].push_back(std::string(set.name));
-  return json_response(200, json);
-}
-
 http::Response get_metrics(Context& context, http::Request&) {
   std::string text;
   if (context.net_metrics)
     for (const auto& [name, value] : context.net_metrics())
       metric(text, name, name.ends_with("_total") ? "counter" : "gauge", value);
   metric(text, "models", "gauge", context.store.model_count());
+  metric(text, "expressions", "gauge", context.store.set_count());
   metric(text, "jobs_waiting", "gauge", context.jobs.waiting());
   metric(text, "jobs_running", "gauge", context.jobs.running());
   const auto streams = context.hub.list();

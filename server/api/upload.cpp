@@ -23,16 +23,6 @@ struct Upload {
   std::shared_ptr<http::TemporaryFile> extracted;  ///< holds the file of a form's part
 };
 
-/// The last segment of a path of any system, without what a file name cannot hold.
-std::string clean_file_name(std::string_view name) {
-  const auto slash = name.find_last_of("/\\");
-  if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
-  std::string clean;
-  for (const char c : name.substr(0, max_name_bytes))
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
-  return clean;
-}
-
 Upload take_form(Context& context, const http::Request& request) {
   const auto& body = request.body_file->path();
   const MappedFile mapped(body);

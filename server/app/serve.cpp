@@ -112,6 +112,7 @@ void run_serve(const ServeOptions& options) {
   api_config.limits.max_upload_bytes = options.max_upload_bytes;
   api_config.limits.max_models = options.max_models;
   api_config.limits.max_streams = options.max_streams;
+  api_config.limits.max_expressions = options.max_expressions;
   api_config.version = SEMBLANTE_VERSION;
   api_config.web_root = options.web_root;
   api_config.access = {options.allowed_hosts, options.allowed_origins};

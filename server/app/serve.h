@@ -20,6 +20,7 @@ struct ServeOptions {
   std::uint64_t max_upload_bytes = std::uint64_t{256} << 20U;
   std::uint64_t max_models = 1000;
   std::uint64_t max_streams = 256;
+  std::uint64_t max_expressions = 1000;
   std::uint64_t max_connections = 1024;
   std::uint64_t worker_memory = std::uint64_t{4} << 30U;
   std::uint64_t worker_cpu_seconds = 300;

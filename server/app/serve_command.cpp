@@ -35,6 +35,9 @@ void add_serve_command(CLI::App& app) {
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(std::uint64_t{1}, max_size));
   add("--max-models", options->max_models, "Models kept at most", "MAX_MODELS")->check(count);
+  add("--max-expressions", options->max_expressions, "Displacement sets kept at most, beside the library's",
+      "MAX_EXPRESSIONS")
+      ->check(count);
   add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS")->check(count);
   add("--max-connections", options->max_connections, "Connections served at a time", "MAX_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));

@@ -130,8 +130,8 @@ void JobQueue::publish(const JobRecord& job) {
 
 std::deque<JobRecord>::iterator JobQueue::next() {
   return std::find_if(queue_.begin(), queue_.end(), [&](const JobRecord& job) {
-    return std::none_of(running_.begin(), running_.end(),
-                        [&](const auto& item) { return item.second->job.model == job.model; });
+    return job.model.empty() || std::none_of(running_.begin(), running_.end(),
+                                             [&](const auto& item) { return item.second->job.model == job.model; });
   });
 }
 
@@ -167,16 +167,30 @@ void JobQueue::work() {
 }
 
 Result<WorkerRequest> JobQueue::make_request(const JobRecord& job) const {
+  WorkerRequest request;
+  request.kind = job.kind;
+  request.output_directory = (blobs_.temporary() / ("job-" + job.id)).string();
+  request.extraction = job.extraction;
+  if (job.extraction && !job.extraction->expression_sha256.empty()) {
+    const auto expression = blobs_.find(job.extraction->expression_sha256);
+    if (!expression) return Error{ErrorCode::io, "", "the bytes of the expression are not in the data folder any more"};
+    request.expression_source = expression->string();
+  }
+  if (job.extraction && job.model.empty()) {
+    const auto neutral = blobs_.find(job.extraction->neutral_sha256);
+    if (!neutral) return Error{ErrorCode::io, "", "the bytes of the neutral head are not in the data folder any more"};
+    request.source = neutral->string();
+    request.file_name = job.extraction->neutral_file;
+    request.points = job.extraction->points;
+    return request;
+  }
   const auto model = store_.model(job.model);
   if (!model) return Error{ErrorCode::missing, "", "the model of this job is gone"};
   const auto source = blobs_.find(model->source_sha256);
   if (!source) return Error{ErrorCode::io, "", "the bytes of the model are not in the data folder any more"};
-  WorkerRequest request;
-  request.kind = job.kind;
   request.source = source->string();
   request.file_name = model->file_name;
   request.name = model->name;
-  request.output_directory = (blobs_.temporary() / ("job-" + job.id)).string();
   request.metric = job.metric;
   request.weights = job.weights;
   request.weight_bits = job.weight_bits;
@@ -187,6 +201,7 @@ Result<WorkerRequest> JobQueue::make_request(const JobRecord& job) const {
     request.points = store_.feature_points(job.model);
     request.parts = model->parts;
   }
+  if (job.kind == JobKind::parametrize) request.worn = store_.worn_sets(job.model);
   if (job.kind == JobKind::propose)
     std::erase_if(request.points, [](const auto& point) { return point.proposal.has_value(); });
   return request;
@@ -299,6 +314,10 @@ void JobQueue::remove_orphans(const std::optional<std::vector<std::string>>& has
 }
 
 void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, WorkerResult result) {
+  if (job.kind == JobKind::extract) {
+    finish_extraction(job, result);
+    return;
+  }
   // Alone where something goes with the same commit: what the result before it used, and no one else.
   std::shared_lock shared(blobs_.references(), std::defer_lock);
   std::unique_lock alone(blobs_.references(), std::defer_lock);
@@ -350,11 +369,36 @@ void JobQueue::finish_with_result(JobRecord& job, const WorkerRequest& request, 
                                                result.artefacts, frame));
 }
 
+void JobQueue::finish_extraction(JobRecord& job, const WorkerResult& result) {
+  const store::ExtractionRecord& wish = *job.extraction;
+  store::SetRecord set;
+  set.id = store::random_id();
+  set.name = wish.name;
+  set.kind = wish.kind;
+  set.created = set.updated = store::timestamp_now();
+  set.displacements = result.displacements;
+  set.source = extraction_source(job, result);
+  job.state = JobState::done;
+  job.progress = 1.0;
+  job.stage = "done";
+  job.updated = set.created;
+  job.result = extraction_result(set.id, result);
+  store_.finish_extraction(job, set);
+  release_files(job);
+}
+
+void JobQueue::release_files(const JobRecord& job) {
+  if (!job.extraction) return;
+  const std::unique_lock alone(blobs_.references());
+  for (const auto& hash : store_.release_job_files(job.id)) blobs_.remove(hash);
+}
+
 void JobQueue::fail(JobRecord& job, JobState state, const http::Problem& problem) {
   job.state = state;
   job.problem = http::to_json(problem);
   job.updated = store::timestamp_now();
   store_.finish_without_result(job);
+  release_files(job);
   log::info("job " + job.id + " (" + std::string(store::to_string(job.kind)) + " of " + job.model + ") " +
             std::string(store::to_string(state)) + ": " + problem.detail);
 }

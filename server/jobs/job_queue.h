@@ -84,6 +84,9 @@ class JobQueue {
               std::optional<WorkerLine> last_line, const Result<WorkerExit>& exit);
   void finish_with_result(store::JobRecord& job, const WorkerRequest& request, WorkerResult result);
   void remove_orphans(const std::optional<std::vector<std::string>>& hashes) const;
+  /// The end of an extraction: the set, and its files no more.
+  void finish_extraction(store::JobRecord& job, const WorkerResult& result);
+  void release_files(const store::JobRecord& job);
   void fail(store::JobRecord& job, store::JobState state, const http::Problem& problem);
   http::Problem problem_of(const WorkerExit& exit) const;
   Result<WorkerRequest> make_request(const store::JobRecord& job) const;

@@ -34,6 +34,8 @@ Result<WorkerResult> run(const WorkerRequest& request, const Progress& progress)
       return run_parametrize(request, progress);
     case store::JobKind::propose:
       return run_propose(request, progress);
+    case store::JobKind::extract:
+      return run_extract(request, progress);
   }
   return Error{ErrorCode::internal, "", "there is no such job"};
 }

@@ -28,6 +28,8 @@ json to_value(const WorkerResult& result) {
   if (result.turn) value["turn"] = *result.turn;
   value["morph_targets"] = result.morph_targets;
   value["levels"] = result.levels;
+  if (!result.displacements.empty()) value["displacements"] = result.displacements;
+  if (!result.taken.empty()) value["taken"] = result.taken;
   for (const auto& artefact : result.artefacts)
     value["artefacts"].push_back({{"name", artefact.name}, {"content_type", artefact.content_type}});
   return value;
@@ -52,6 +54,8 @@ WorkerResult result_from(const json& value) {
   });
   if (value.contains("proposals")) value["proposals"].get_to(result.proposals);
   if (value.contains("not_proposed")) value["not_proposed"].get_to(result.not_proposed);
+  result.displacements = value.value("displacements", "");
+  result.taken = value.value("taken", "");
   return result;
 }
 
@@ -63,6 +67,29 @@ std::string proposal_result(const WorkerResult& result) {
   json value = {{"proposed", result.proposals.size()}, {"not_proposed", json::object()}};
   for (const auto& [id, reason] : result.not_proposed) value["not_proposed"][id] = reason;
   return dump(value);
+}
+
+std::string extraction_result(const std::string& set, const WorkerResult& result) {
+  nlohmann::ordered_json value = {{"expression", set}, {"href", "/v1/expressions/" + set}};
+  value.update(nlohmann::ordered_json::parse(result.taken));
+  return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string extraction_source(const store::JobRecord& job, const WorkerResult& result) {
+  const auto or_null = [](const std::string& text) {
+    return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+  };
+  const store::ExtractionRecord& wish = *job.extraction;
+  nlohmann::ordered_json value = {{"model", or_null(job.model)},
+                                  {"neutral_file", or_null(wish.neutral_file)},
+                                  {"expression_file", or_null(wish.expression_file)},
+                                  {"target", or_null(wish.target)},
+                                  {"from", or_null(wish.from)},
+                                  {"align", wish.align},
+                                  {"least", wish.least},
+                                  {"strength", wish.strength}};
+  value.update(nlohmann::ordered_json::parse(result.taken));
+  return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string to_json(const WorkerRequest& request) {
@@ -79,6 +106,9 @@ std::string to_json(const WorkerRequest& request) {
                 {"parts", request.parts}};
   if (request.frame) value["frame"] = store::frame_to_json(*request.frame, {});
   value["lods"] = request.lods;
+  value["worn"] = request.worn;
+  if (request.extraction) value["extraction"] = *request.extraction;
+  value["expression_source"] = request.expression_source;
   return dump(value);
 }
 
@@ -99,6 +129,9 @@ Result<WorkerRequest> worker_request_from_json(std::string_view text) {
     if (value.contains("frame")) request.frame = store::frame_from_json(value["frame"]);
     request.frame_wish = store::wish_from_json(value.at("frame_wish"));
     value.at("lods").get_to(request.lods);
+    value.at("worn").get_to(request.worn);
+    if (value.contains("extraction")) request.extraction = value["extraction"].get<store::ExtractionRecord>();
+    request.expression_source = value.at("expression_source");
     value.at("points").get_to(request.points);
     value.at("parts").get_to(request.parts);
     return request;

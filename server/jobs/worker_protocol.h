@@ -27,7 +27,11 @@ struct WorkerRequest {
   std::vector<store::PartRecord> parts;           ///< of the import; roles set by the user are kept
   std::string metric = "edge", weights = "paper";
   int weight_bits = 12;
-  std::vector<std::uint32_t> lods;  ///< as JobRecord::lods
+  std::vector<std::uint32_t> lods;   ///< as JobRecord::lods
+  std::vector<store::WornSet> worn;  ///< to parametrize: what the face wears in place of the library's sets
+  // extract only
+  std::optional<store::ExtractionRecord> extraction;
+  std::string expression_source;  ///< path of the expression's bytes; empty: morph targets of the source
 };
 
 /// The limits a worker puts on itself before it reads a byte of the model. 0: none.
@@ -52,6 +56,8 @@ struct WorkerResult {
   std::vector<store::ArtefactRecord> artefacts;
   std::vector<store::FeaturePointRecord> proposals;               ///< of a proposal: the points nobody placed
   std::vector<std::pair<std::string, std::string>> not_proposed;  ///< of a proposal: point, reason
+  std::string displacements;  ///< of an extraction: JSON, as displacements_to_json writes it
+  std::string taken;          ///< of an extraction: JSON of what is in the set and what is not, and why
 };
 
 /// One line of a worker's standard output: progress, or the end.
@@ -65,6 +71,11 @@ struct WorkerLine {
 
 /// What a proposal has to say beside the points it added, as JSON: how many, and why not the others.
 std::string proposal_result(const WorkerResult& result);
+
+/// What an extraction's job has to say: the id of the set, and what is in it.
+std::string extraction_result(const std::string& set, const WorkerResult& result);
+/// What the set itself says of where it is from.
+std::string extraction_source(const store::JobRecord& job, const WorkerResult& result);
 
 std::string to_json(const WorkerRequest& request);
 Result<WorkerRequest> worker_request_from_json(std::string_view text);

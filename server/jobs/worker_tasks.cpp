@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/doctor/examine.h"
+#include "core/extract/set_file.h"
 #include "core/geometry/surface.h"
 #include "core/import/import.h"
 #include "core/lod/decimate.h"
@@ -19,6 +20,7 @@
 #include "core/parametrize/place_feature_points.h"
 #include "core/propose/propose.h"
 #include "protocol/cpp/rig_document.h"
+#include "server/jobs/marked_model.h"
 #include "server/jobs/standing.h"
 #include "server/package/package.h"
 #include "server/report/levels_json.h"
@@ -29,12 +31,6 @@ namespace semblante::jobs {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "`positions` is written as it lies in memory");
-
-Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Error{ErrorCode::io, "", "the bytes of the model cannot be read"};
-  return std::vector<std::uint8_t>((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-}
 
 /// Adds one file to the output directory and to the result.
 Status write_artefact(const WorkerRequest& request, WorkerResult& result, const std::string& name,
@@ -69,25 +65,6 @@ ReportSection frame_section(const WorkerRequest& request, const WorkerResult& re
   return {"frame", store::frame_to_json(*result.frame, request.frame_wish).dump()};
 }
 
-/// What a model file lacks or contradicts is a fault of the file. Elsewhere in a job the same codes are about the
-/// feature points and fields of the request, and problem_from names them so.
-Error about_the_file(Error error) {
-  if (error.code == ErrorCode::missing || error.code == ErrorCode::mismatch ||
-      error.code == ErrorCode::invalid_argument)
-    error.code = ErrorCode::malformed;
-  return error;
-}
-
-Result<Model> read_model(const WorkerRequest& request) {
-  auto bytes = read_file(request.source);
-  if (!bytes) return bytes.error();
-  const auto format = detect_format(*bytes, request.file_name);
-  if (!format) return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
-  auto model = import_model(*bytes, *format);
-  if (!model) return about_the_file(model.error());
-  return model;
-}
-
 std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
   std::vector<store::PartRecord> records;
   for (const auto& part : parts) {
@@ -104,30 +81,6 @@ std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
   return records;
 }
 
-std::vector<std::optional<PartRole>> roles_by_user(const WorkerRequest& request) {
-  std::vector<std::optional<PartRole>> roles;
-  for (const auto& part : request.parts) {
-    const auto* found = std::find(part_role_names.begin(), part_role_names.end(), part.role);
-    roles.push_back(part.role_by_user && found != part_role_names.end()
-                        ? std::optional(static_cast<PartRole>(found - part_role_names.begin()))
-                        : std::nullopt);
-  }
-  return roles;
-}
-
-Result<std::vector<MarkedPoint>> marked_points(const WorkerRequest& request) {
-  std::vector<MarkedPoint> points;
-  for (const auto& record : request.points) {
-    const auto id = parse_feature_point(record.id);
-    if (!id) return Error{ErrorCode::invalid_argument, "/points/" + record.id, "it is none of the 84 feature points"};
-    MarkedPoint point{*id, record.vertex, std::nullopt};
-    if (record.position)
-      point.position = glm::dvec3((*record.position)[0], (*record.position)[1], (*record.position)[2]);
-    points.push_back(point);
-  }
-  return points;
-}
-
 void describe(const Model& model, WorkerResult& result) {
   result.format = model.format;
   result.vertices = static_cast<std::uint32_t>(model.positions.size());
@@ -141,6 +94,18 @@ void describe(const Model& model, WorkerResult& result) {
   }
   result.box_min = {low.x, low.y, low.z};
   result.box_max = {high.x, high.y, high.z};
+}
+
+/// The server's own sets come back to it as they were checked when they were made.
+Result<std::vector<NamedSet>> read_worn(const WorkerRequest& request) {
+  std::vector<NamedSet> sets;
+  for (const auto& worn : request.worn) {
+    auto set = parse_displacement_set("{\"displacements\":" + worn.displacements + "}");
+    if (!set) return Error{ErrorCode::internal, set.error().where, set.error().message};
+    set->name = worn.slot;
+    sets.push_back(std::move(*set));
+  }
+  return sets;
 }
 
 /// Levels of detail, and what the report says of them.
@@ -230,34 +195,6 @@ Result<WorkerResult> run_import(const WorkerRequest& request, const Progress& pr
   return result;
 }
 
-/// A model as its feature points say it stands, and the points on it.
-struct MarkedModel {
-  Surface surface;
-  std::vector<std::optional<PartRole>> roles;
-  FeaturePointSet points;
-  std::vector<std::string> warnings;
-  bool is_turned = false;
-};
-
-Result<MarkedModel> mark(Model& model, const WorkerRequest& request, WorkerResult& result) {
-  stand_as_before(model, request);
-  MarkedModel head;
-  head.surface = build_surface(model);
-  head.roles = roles_by_user(request);
-  auto marked = marked_points(request);
-  if (!marked) return marked.error();
-  auto points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
-  if (!points) return points.error();
-  head.is_turned = stand_by_points(model, head.surface, *marked, *points, request, result);
-  if (head.is_turned) {
-    head.warnings.clear();
-    points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
-    if (!points) return points.error();
-  }
-  head.points = std::move(*points);
-  return head;
-}
-
 Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progress& progress) {
   progress(0.02, "reading");
   auto model = read_model(request);
@@ -288,7 +225,10 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
   auto levels = make_levels(request, *model, surface, *rig, progress);
   if (!levels) return levels.error();
   progress(0.86, "package");
-  const auto packages = build_packages(*model, surface, *rig, levels->levels, {request.name, request.weight_bits});
+  auto worn = read_worn(request);
+  if (!worn) return worn.error();
+  const auto packages =
+      build_packages(*model, surface, *rig, levels->levels, {request.name, request.weight_bits, std::move(*worn)});
   if (!packages) return packages.error();
   const FacePackage* const package = &packages->front();
   progress(0.96, "writing");

@@ -20,4 +20,7 @@ Result<WorkerResult> run_parametrize(const WorkerRequest& request, const Progres
 /// Model bytes and placed feature points -> proposals for the others.
 Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& progress);
 
+/// Neutral head, feature points and an expression of the same mesh -> a displacement set.
+Result<WorkerResult> run_extract(const WorkerRequest& request, const Progress& progress);
+
 }  // namespace semblante::jobs

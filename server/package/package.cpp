@@ -80,7 +80,7 @@ RigDocument::MaterialInfo describe(const Material& material, const std::vector<A
   return out;
 }
 
-/// The library's sets on this face: FAPUs become model units, and points that are not marked fall away.
+/// A set on this face: FAPUs become model units, and points that are not marked fall away.
 RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
   RigDocument::DisplacementSet out;
   out.name = set.name;
@@ -90,6 +90,12 @@ RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig&
     if (marked) out.displacements.push_back({displacement.point, displacement.value});
   }
   return out;
+}
+
+/// What the face wears by that name: a set of its own, or the library's.
+DisplacementSet worn_as(const DisplacementSet& of_library, std::span<const NamedSet> worn) {
+  const auto own = std::find_if(worn.begin(), worn.end(), [&](const NamedSet& s) { return s.name == of_library.name; });
+  return own == worn.end() ? of_library : own->view();
 }
 
 EyeLook eye_look(const Rig& rig) {
@@ -169,17 +175,18 @@ Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, i
 
 /// What all levels say alike.
 RigDocument common_document(const Model& model, const Rig& rig, const MaterialAssignment& materials,
-                            const std::vector<Artefact>& images, const std::string& name) {
+                            const std::vector<Artefact>& images, const PackageOptions& options) {
   RigDocument document;
-  document.name = name;
+  document.name = options.name;
   document.fapu = rig.fapu;
   document.eye_pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
   document.head_pivot = rig.head_pivot;
   document.irises = rig.irises;
   document.tongue = rig.tongue;
-  for (std::size_t v = 0; v < viseme_count; ++v) document.visemes[v] = on_this_face(viseme_library()[v], rig);
+  for (std::size_t v = 0; v < viseme_count; ++v)
+    document.visemes[v] = on_this_face(worn_as(viseme_library()[v], options.worn), rig);
   for (std::size_t e = 0; e < expression_count; ++e)
-    document.expressions[e] = on_this_face(expression_library()[e], rig);
+    document.expressions[e] = on_this_face(worn_as(expression_library()[e], options.worn), rig);
   for (const Material& material : materials.materials) document.materials.push_back(describe(material, images));
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     document.images.push_back({images[i].sha256, model.images[i].mime_type, images[i].bytes.size()});
@@ -256,7 +263,7 @@ Result<std::vector<FacePackage>> build_packages(const Model& model, const Surfac
   }
 
   for (const Image& image : model.images) drafts[0].package.images.push_back(make_artefact(image.bytes));
-  RigDocument common = common_document(model, rig, materials, drafts[0].package.images, options.name);
+  RigDocument common = common_document(model, rig, materials, drafts[0].package.images, options);
   if (!levels.empty()) {
     for (const Draft& draft : drafts) {
       common.levels.push_back({draft.package.vertices, draft.package.triangles,

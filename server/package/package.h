@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/extract/named_set.h"
 #include "core/geometry/surface.h"
 #include "core/lod/decimate.h"
 #include "core/types/model.h"
@@ -15,8 +16,9 @@
 namespace semblante {
 
 struct PackageOptions {
-  std::string name;      ///< of the model, for people
-  int weight_bits = 12;  ///< 8..16, of each normalized weight in `weights`
+  std::string name;                 ///< of the model, for people
+  int weight_bits = 12;             ///< 8..16, of each normalized weight in `weights`
+  std::vector<NamedSet> worn = {};  ///< worn in place of the library's set of the same name
 };
 
 /// One artefact and its content address.

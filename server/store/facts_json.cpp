@@ -63,6 +63,20 @@ std::vector<LevelRecord> read_levels(std::string_view text) {
   }
 }
 
+std::string write_extraction(const std::optional<ExtractionRecord>& extraction) {
+  if (!extraction) return {};
+  return nlohmann::json(*extraction).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<ExtractionRecord> read_extraction(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return nlohmann::json::parse(text).get<ExtractionRecord>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::string write_lods(const std::vector<std::uint32_t>& lods) { return nlohmann::json(lods).dump(); }
 
 std::vector<std::uint32_t> read_lods(std::string_view text) {

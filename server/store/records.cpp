@@ -19,7 +19,7 @@ std::string_view to_string(ModelState state) {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> job_kind_names = {"import", "parametrize", "propose"};
+constexpr std::array<std::string_view, 4> job_kind_names = {"import", "parametrize", "propose", "extract"};
 
 }  // namespace
 

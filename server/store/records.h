@@ -40,7 +40,7 @@ struct FrameUpdate {
 };
 
 enum class ModelState { importing, ready, parametrized, failed };
-enum class JobKind { import, parametrize, propose };
+enum class JobKind { import, parametrize, propose, extract };
 enum class JobState { queued, running, done, failed, cancelled };
 
 /// An immutable thing a model has, by name; the bytes are in the blob folder under the hash.
@@ -83,6 +83,29 @@ struct MorphTargetRecord {
   bool operator==(const MorphTargetRecord&) const = default;
 };
 
+/// A displacement set that clients made (core/extract/named_set.h).
+struct SetRecord {
+  std::string id, name;
+  std::string kind = "expression";  ///< as set_kind_names
+  std::uint64_t revision = 1;       ///< rises with every PUT
+  std::string created, updated;
+  std::string displacements;  ///< JSON, as displacements_to_json writes it
+  std::string source;         ///< JSON of what it was taken from, or empty: made by hand
+
+  bool operator==(const SetRecord&) const = default;
+};
+
+/// A set that a model wears in place of one of the library's: its own copy, so that nothing that happens to the set
+/// later changes the face.
+struct WornSet {
+  std::string slot;  ///< name of the viseme or the expression
+  std::string set, name;
+  std::uint64_t revision = 1;
+  std::string displacements;  ///< JSON; empty in ModelRecord, which only says what is worn
+
+  bool operator==(const WornSet&) const = default;
+};
+
 struct ModelRecord {
   std::string id, name;
   ModelState state = ModelState::importing;
@@ -103,6 +126,7 @@ struct ModelRecord {
   std::uint32_t feature_point_count = 0;
   std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
   std::optional<PackageRecord> package;
+  std::vector<WornSet> worn;  ///< by slot name, without displacements
 
   bool operator==(const ModelRecord&) const = default;
 };
@@ -126,8 +150,24 @@ struct FeaturePointRecord {
   bool operator==(const FeaturePointRecord&) const = default;
 };
 
+/// What an extraction is asked: either a morph target of the model, or a file of the expression beside it; without a
+/// model the neutral head is a file too.
+struct ExtractionRecord {
+  std::string name;                 ///< of the set to be
+  std::string kind = "expression";  ///< as set_kind_names
+  bool align = false;
+  double least = 1.0, strength = 1.0;  ///< as ExtractOptions
+  std::string target, from;
+  std::string expression_file, expression_sha256;
+  std::string neutral_file, neutral_sha256;
+  std::vector<FeaturePointRecord> points;  ///< of the neutral file
+
+  bool operator==(const ExtractionRecord&) const = default;
+};
+
 struct JobRecord {
-  std::string id, model;
+  std::string id;
+  std::string model;  ///< empty: an extraction from two files
   JobKind kind = JobKind::import;
   JobState state = JobState::queued;
   double progress = 0.0;  ///< 0..1
@@ -139,6 +179,7 @@ struct JobRecord {
   std::vector<std::uint32_t> lods;  ///< budgets of levels of detail, falling
   std::uint32_t attempts = 0;       ///< how often a worker began it
   std::string result;               ///< JSON of what it has to say beside what it changed, or empty
+  std::optional<ExtractionRecord> extraction;
 
   bool operator==(const JobRecord&) const = default;
 };

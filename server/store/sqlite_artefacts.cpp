@@ -44,15 +44,20 @@ std::vector<ArtefactRecord> list_artefacts(Database& db, std::string_view model)
 
 std::vector<std::string> hashes_of(Database& db, std::string_view model) {
   std::vector<std::string> hashes;
-  Statement statement(db, "SELECT DISTINCT sha256 FROM artefacts WHERE model = ?");
-  statement.bind(model);
+  Statement statement(db,
+                      "SELECT sha256 FROM artefacts WHERE model = ? "
+                      "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.model = ?");
+  statement.bind(model, model);
   while (statement.step()) hashes.push_back(statement.text(0));
   return hashes;
 }
 
 std::vector<std::string> all_hashes(Database& db) {
   std::vector<std::string> hashes;
-  Statement statement(db, "SELECT DISTINCT sha256 FROM artefacts");
+  // A job that has ended needs its files no more, even if the end came between that and their removal.
+  Statement statement(db,
+                      "SELECT sha256 FROM artefacts "
+                      "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.state IN (0, 1)");
   while (statement.step()) hashes.push_back(statement.text(0));
   return hashes;
 }
@@ -60,8 +65,10 @@ std::vector<std::string> all_hashes(Database& db) {
 std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes) {
   std::vector<std::string> orphans;
   for (const auto& hash : hashes) {
-    Statement statement(db, "SELECT 1 FROM artefacts WHERE sha256 = ? LIMIT 1");
-    statement.bind(hash);
+    Statement statement(db,
+                        "SELECT 1 FROM artefacts WHERE sha256 = ? UNION SELECT 1 FROM job_files WHERE sha256 = ? "
+                        "LIMIT 1");
+    statement.bind(hash, hash);
     if (!statement.step()) orphans.push_back(hash);
   }
   return orphans;

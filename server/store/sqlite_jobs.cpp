@@ -10,7 +10,7 @@ namespace {
 constexpr const char* job_columns =
     "SELECT id, model, kind, state, progress, stage, created, updated, problem, metric, weights, weight_bits, "
     "attempts, "
-    "result, lods FROM jobs ";
+    "result, lods, extraction FROM jobs ";
 
 JobRecord read_job(const Statement& row) {
   JobRecord job;
@@ -29,17 +29,23 @@ JobRecord read_job(const Statement& row) {
   job.attempts = static_cast<std::uint32_t>(row.integer(12));
   job.result = row.text(13);
   job.lods = read_lods(row.text(14));
+  job.extraction = read_extraction(row.text(15));
   return job;
 }
 
 }  // namespace
 
 void insert_job(Database& db, const JobRecord& job) {
-  Statement(db, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
-      .bind(job.id, job.model, static_cast<int>(job.kind), static_cast<int>(job.state), job.progress, job.stage,
+  const auto model = job.model.empty() ? std::nullopt : std::optional(job.model);
+  Statement(db, "INSERT INTO jobs VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+      .bind(job.id, model, static_cast<int>(job.kind), static_cast<int>(job.state), job.progress, job.stage,
             job.created, job.updated, job.problem, job.metric, job.weights, job.weight_bits, job.attempts, job.result,
-            write_lods(job.lods))
+            write_lods(job.lods), write_extraction(job.extraction))
       .run();
+  if (!job.extraction) return;
+  for (const auto& hash : {job.extraction->expression_sha256, job.extraction->neutral_sha256}) {
+    if (!hash.empty()) Statement(db, "INSERT OR IGNORE INTO job_files VALUES(?,?)").bind(job.id, hash).run();
+  }
 }
 
 void write_job(Database& db, const JobRecord& job) {

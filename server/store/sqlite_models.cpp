@@ -3,6 +3,7 @@
 #include <string>
 
 #include "server/store/facts_json.h"
+#include "server/store/sqlite_sets.h"
 
 namespace semblante::store {
 namespace {
@@ -57,7 +58,9 @@ std::optional<ModelRecord> find_model(Database& db, std::string_view id) {
   Statement statement(db, std::string(model_columns) + "WHERE m.id = ?");
   statement.bind(id);
   if (!statement.step()) return std::nullopt;
-  return read_model(statement);
+  auto model = read_model(statement);
+  model.worn = read_worn_names(db, model.id);
+  return model;
 }
 
 std::optional<std::vector<ModelRecord>> list_models(Database& db, std::string_view after, std::size_t limit) {
@@ -72,6 +75,7 @@ std::optional<std::vector<ModelRecord>> list_models(Database& db, std::string_vi
   Statement statement(db, std::string(model_columns) + "WHERE m.number > ? ORDER BY m.number LIMIT ?");
   statement.bind(number, static_cast<std::uint64_t>(limit));
   while (statement.step()) list.push_back(read_model(statement));
+  for (auto& model : list) model.worn = read_worn_names(db, model.id);
   return list;
 }
 

@@ -41,6 +41,34 @@ CREATE TABLE idempotency(
   key TEXT PRIMARY KEY, fingerprint TEXT NOT NULL, resource TEXT NOT NULL, created TEXT NOT NULL) STRICT;
 )sql";
 
+/// Jobs may be of no model; files that one needs beside its model's are its own.
+constexpr const char* with_displacement_sets = R"sql(
+CREATE TABLE new_jobs(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, model TEXT REFERENCES models(id) ON DELETE CASCADE,
+  kind INTEGER NOT NULL, state INTEGER NOT NULL, progress REAL NOT NULL, stage TEXT NOT NULL,
+  created TEXT NOT NULL, updated TEXT NOT NULL, problem TEXT NOT NULL,
+  metric TEXT NOT NULL, weights TEXT NOT NULL, weight_bits INTEGER NOT NULL, attempts INTEGER NOT NULL,
+  result TEXT NOT NULL, lods TEXT NOT NULL, extraction TEXT NOT NULL) STRICT;
+INSERT INTO new_jobs SELECT number, id, model, kind, state, progress, stage, created, updated, problem, metric, weights,
+  weight_bits, attempts, result, lods, '' FROM jobs;
+DROP TABLE jobs;
+ALTER TABLE new_jobs RENAME TO jobs;
+CREATE INDEX jobs_by_model ON jobs(model, kind);
+CREATE TABLE job_files(
+  job TEXT NOT NULL REFERENCES jobs(id) ON DELETE CASCADE, sha256 TEXT NOT NULL,
+  PRIMARY KEY(job, sha256)) STRICT, WITHOUT ROWID;
+CREATE INDEX job_files_by_hash ON job_files(sha256);
+CREATE TABLE displacement_sets(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, kind TEXT NOT NULL, revision INTEGER NOT NULL,
+  created TEXT NOT NULL, updated TEXT NOT NULL, displacements TEXT NOT NULL, source TEXT NOT NULL) STRICT;
+CREATE TABLE worn_sets(
+  model TEXT NOT NULL REFERENCES models(id) ON DELETE CASCADE, slot TEXT NOT NULL,
+  displacement_set TEXT NOT NULL, name TEXT NOT NULL, revision INTEGER NOT NULL, displacements TEXT NOT NULL,
+  PRIMARY KEY(model, slot)) STRICT, WITHOUT ROWID;
+)sql";
+
 /// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
 /// change.
 constexpr std::array migrations = {
@@ -48,6 +76,7 @@ constexpr std::array migrations = {
     "ALTER TABLE feature_points ADD COLUMN proposal TEXT; ALTER TABLE jobs ADD COLUMN result TEXT NOT NULL DEFAULT ''",
     "ALTER TABLE packages ADD COLUMN levels TEXT NOT NULL DEFAULT '[]';"
     "ALTER TABLE jobs ADD COLUMN lods TEXT NOT NULL DEFAULT ''",
+    with_displacement_sets,
 };
 constexpr int schema_version = migrations.size();
 

@@ -8,6 +8,7 @@
 #include "server/store/sqlite_jobs.h"
 #include "server/store/sqlite_models.h"
 #include "server/store/sqlite_schema.h"
+#include "server/store/sqlite_sets.h"
 
 namespace semblante::store {
 namespace {
@@ -88,6 +89,25 @@ class SqliteStore : public Store {
         .run();
     transaction.commit();
     return true;
+  }
+
+  bool edit_worn(std::string_view id, const std::vector<WornSet>& changes,
+                 const std::optional<JobRecord>& parametrization, std::uint64_t expected_revision) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    Statement(db_, "UPDATE models SET revision = revision + 1, updated = ? WHERE id = ? AND revision = ?")
+        .bind(timestamp_now(), id, expected_revision)
+        .run();
+    if (db_.changes() == 0) return false;
+    for (const auto& worn : changes) write_worn(db_, id, worn);
+    if (parametrization) insert_job(db_, *parametrization);
+    transaction.commit();
+    return true;
+  }
+
+  std::vector<WornSet> worn_sets(std::string_view model) override {
+    const std::lock_guard lock(mutex_);
+    return read_worn(db_, model);
   }
 
   std::optional<std::vector<std::string>> remove_model(std::string_view id) override {
@@ -273,6 +293,70 @@ class SqliteStore : public Store {
           .run();
     }
     transaction.commit();
+  }
+
+  void finish_extraction(const JobRecord& job, const SetRecord& set) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    insert_set(db_, set);
+    write_job(db_, job);
+    transaction.commit();
+  }
+
+  std::vector<std::string> release_job_files(std::string_view job) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    std::vector<std::string> hashes;
+    {
+      Statement statement(db_, "SELECT sha256 FROM job_files WHERE job = ?");
+      statement.bind(job);
+      while (statement.step()) hashes.push_back(statement.text(0));
+    }
+    Statement(db_, "DELETE FROM job_files WHERE job = ?").bind(job).run();
+    auto orphans = without_reference(db_, hashes);
+    transaction.commit();
+    return orphans;
+  }
+
+  void create_set(const SetRecord& set, const std::optional<IdempotencyRecord>& key) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    insert_set(db_, set);
+    insert_key(key);
+    transaction.commit();
+  }
+
+  std::optional<SetRecord> set(std::string_view id) override {
+    const std::lock_guard lock(mutex_);
+    return find_set(db_, id);
+  }
+
+  std::optional<std::vector<SetRecord>> sets(std::string_view after, std::size_t limit) override {
+    const std::lock_guard lock(mutex_);
+    return list_sets(db_, after, limit);
+  }
+
+  std::size_t set_count() override {
+    const std::lock_guard lock(mutex_);
+    Statement statement(db_, "SELECT count(*) FROM displacement_sets");
+    statement.step();
+    return static_cast<std::size_t>(statement.integer(0));
+  }
+
+  bool put_set(const SetRecord& set) override {
+    const std::lock_guard lock(mutex_);
+    Statement(db_,
+              "UPDATE displacement_sets SET name = ?, kind = ?, displacements = ?, revision = revision + 1, "
+              "updated = ? WHERE id = ? AND revision = ?")
+        .bind(set.name, set.kind, set.displacements, timestamp_now(), set.id, set.revision)
+        .run();
+    return db_.changes() != 0;
+  }
+
+  bool remove_set(std::string_view id) override {
+    const std::lock_guard lock(mutex_);
+    Statement(db_, "DELETE FROM displacement_sets WHERE id = ?").bind(id).run();
+    return db_.changes() != 0;
   }
 
   bool create_stream(const StreamRecord& stream, const std::optional<IdempotencyRecord>& key) override {

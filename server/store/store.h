@@ -35,6 +35,12 @@ class Store {
   /// model back to importing and creates that job. False as edit_model.
   virtual bool edit_frame(std::string_view id, const FrameWish& wish, const ModelFrame& frame,
                           const std::optional<JobRecord>& import, std::uint64_t expected_revision) = 0;
+  /// Puts sets into slots of the library for this model alone; one without displacements gives the slot back. With
+  /// `parametrization` also creates that job. False as edit_model.
+  virtual bool edit_worn(std::string_view id, const std::vector<WornSet>& changes,
+                         const std::optional<JobRecord>& parametrization, std::uint64_t expected_revision) = 0;
+  /// What a model wears in place of the library's sets, with displacements, by slot name.
+  virtual std::vector<WornSet> worn_sets(std::string_view model) = 0;
   /// Removes the model with everything it has. nullopt when there is none, else the hashes no one refers to any more.
   virtual std::optional<std::vector<std::string>> remove_model(std::string_view id) = 0;
 
@@ -79,6 +85,22 @@ class Store {
   /// The end of a job without a result. A first import that fails or is cancelled fails its model; a model that was
   /// imported before is again what it was.
   virtual void finish_without_result(const JobRecord& job) = 0;
+
+  /// The end of an extraction: job and set in one step.
+  virtual void finish_extraction(const JobRecord& job, const SetRecord& set) = 0;
+  /// The files of a job that has ended are its no more; hashes no one refers to any more are returned.
+  virtual std::vector<std::string> release_job_files(std::string_view job) = 0;
+
+  // ---- displacement sets
+  virtual void create_set(const SetRecord& set, const std::optional<IdempotencyRecord>& key) = 0;
+  virtual std::optional<SetRecord> set(std::string_view id) = 0;
+  /// As models().
+  virtual std::optional<std::vector<SetRecord>> sets(std::string_view after, std::size_t limit) = 0;
+  virtual std::size_t set_count() = 0;
+  /// Name, kind and displacements. False when the set is gone, or `set.revision` is not its revision any more.
+  virtual bool put_set(const SetRecord& set) = 0;
+  /// False when there is none. Models that wear it keep their copy.
+  virtual bool remove_set(std::string_view id) = 0;
 
   // ---- streams
   /// False when the id is taken.

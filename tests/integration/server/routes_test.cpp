@@ -95,8 +95,10 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   ASSERT_EQ(request(port(), "PUT", "/v1/models/" + model + "/feature-points", enough.dump(), json_type).status, 200);
   const auto package = json_of(request(port(), "GET", "/v1/models/" + model));
   const auto hash = package["package"]["artefacts"]["mesh.drc"]["sha256"].get<std::string>();
-  std::map<std::string, std::string> good = {
-      {"{model}", model}, {"{job}", job["id"]}, {"{stream}", "walk"}, {"{sha256}", hash}, {"{slug}", "not-found"}};
+  const std::string by_hand = R"({"name":"Grin","displacements":{"2.4":[100,50,0]}})";
+  const auto set = json_of(request(port(), "POST", "/v1/expressions", by_hand, json_type));
+  std::map<std::string, std::string> good = {{"{model}", model}, {"{job}", job["id"]},    {"{stream}", "walk"},
+                                             {"{sha256}", hash}, {"{slug}", "not-found"}, {"{expression}", set["id"]}};
   struct Body {
     std::string text, type;
   };
@@ -104,6 +106,8 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"post /v1/models", {grid_obj(5), "model/obj"}},
       {"patch /v1/models/{model}", {R"({"name":"Renamed"})", "application/json"}},
       {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
+      {"post /v1/expressions", {by_hand, "application/json"}},
+      {"put /v1/expressions/{expression}", {by_hand, "application/json"}},
       {"post /v1/streams", {R"({"name":"walk"})", "application/json"}},
       {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
       {"post /v1/streams/{stream}/performances",
@@ -142,6 +146,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
                                         {"{job}", "absent"},
                                         {"{stream}", "absent"},
                                         {"{performance}", "absent"},
+                                        {"{expression}", "absent"},
                                         {"{sha256}", std::string(64, '0')},
                                         {"{slug}", "absent"}}),
                                   body.text, fields);

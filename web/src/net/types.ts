@@ -165,7 +165,7 @@ export type JobState = 'queued' | 'running' | 'done' | 'failed' | 'cancelled';
 
 export interface Job {
   id: string;
-  kind: 'import' | 'parametrize' | 'propose';
+  kind: 'import' | 'parametrize' | 'propose' | 'extract';
   model: string;
   state: JobState;
   progress: number;

@@ -1,0 +1,64 @@
+#include <nlohmann/json.hpp>
+
+#include "core/expressions/library.h"
+#include "core/extract/set_file.h"
+#include "server/api/common.h"
+#include "server/api/sets.h"
+
+namespace semblante::api {
+namespace {
+
+/// The kind of set that a slot takes; "sil" and "none" stay at rest.
+std::optional<SetKind> kind_of_slot(std::string_view slot) {
+  const auto built_in = find_built_in(slot);
+  if (!built_in || slot == viseme_library().front().name || slot == expression_library().front().name)
+    return std::nullopt;
+  return built_in->kind;
+}
+
+store::WornSet worn_from_json(Context& context, const std::string& slot, const Json& value) {
+  const auto pointer = std::string("/expressions/").append(http::pointer_segment(slot));
+  const auto kind = kind_of_slot(slot);
+  if (!kind) refuse("invalid-field", "there is no viseme or expression of this name to replace", pointer);
+  store::WornSet worn;
+  worn.slot = slot;
+  if (value.is_null()) return worn;
+  if (!value.is_string()) refuse("invalid-field", "it must be the id of a set, or null", pointer);
+  const auto set = context.store.set(value.get<std::string>());
+  if (!set) refuse("invalid-field", "there is no set of this id", pointer);
+  if (set->kind != to_string(*kind))
+    refuse("invalid-field",
+           "this set is of the kind " + set->kind + ", \"" + slot + "\" is a " + std::string(to_string(*kind)),
+           pointer);
+  worn.set = set->id;
+  worn.name = set->name;
+  worn.revision = set->revision;
+  worn.displacements = set->displacements;
+  return worn;
+}
+
+}  // namespace
+
+std::vector<store::WornSet> worn_from_json(Context& context, const Json& changes) {
+  if (!changes.is_object())
+    refuse("invalid-field", "expressions is an object of visemes and expressions", "/expressions");
+  std::vector<store::WornSet> worn;
+  for (const auto& [slot, value] : changes.items()) worn.push_back(worn_from_json(context, slot, value));
+  return worn;
+}
+
+std::optional<store::JobRecord> make_package_again(Context& context, const store::ModelRecord& model) {
+  if (!model.package) return std::nullopt;
+  store::JobRecord job;
+  job.id = store::random_id();
+  job.model = model.id;
+  job.kind = store::JobKind::parametrize;
+  job.created = job.updated = store::timestamp_now();
+  job.metric = model.package->metric;
+  job.weights = model.package->weights;
+  job.weight_bits = model.package->weight_bits;
+  if (const auto before = context.store.job(model.package->parametrization)) job.lods = before->lods;
+  return job;
+}
+
+}  // namespace semblante::api
