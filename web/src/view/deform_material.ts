@@ -121,6 +121,16 @@ vec3 faceIris(int eye, vec3 rest) {
   return stretch * outwards + shape.z * r * r * stretch * (2.0 + stretch) * axis;
 }
 
+/** GLSL promises no more than eleven bits of its own. To 1e-7 for |x| < pi / 2; a tongue rolls less than twice that. */
+float faceSine(float x) {
+  float y = x * x;
+  return x * (1.0 + y * (-1.0 / 6.0 + y * (1.0 / 120.0 + y * (-1.0 / 5040.0 + y * (1.0 / 362880.0 - y / 39916800.0)))));
+}
+float faceCosine(float x) {
+  float y = x * x;
+  return 1.0 + y * (-0.5 + y * (1.0 / 24.0 + y * (-1.0 / 720.0 + y * (1.0 / 40320.0 - y / 3628800.0))));
+}
+
 /** Rolls the tongue: moves a vertex and turns its normal. */
 void faceRollTongue(float roll, vec3 rest, inout vec3 p, inout vec3 n) {
   if (roll == 0.0 || faceTongueHalfWidth <= 0.0) return;
@@ -131,8 +141,9 @@ void faceRollTongue(float roll, vec3 rest, inout vec3 p, inout vec3 n) {
   float onArc = clamp(u, -faceTongueHalfWidth, faceTongueHalfWidth);
   float beyond = u - onArc;
   float angle = curvature * onArc;
-  float s = sin(angle);
-  float versine = 2.0 * sin(0.5 * angle) * sin(0.5 * angle);
+  float halfSine = faceSine(0.5 * angle);
+  float s = 2.0 * halfSine * faceCosine(0.5 * angle);
+  float versine = 2.0 * halfSine * halfSine;
   float across = (s / curvature - onArc) - beyond * versine - v * s;
   float upwards = versine / curvature + beyond * s - v * versine;
   p += across * faceTongueLeft + upwards * faceTongueUp;

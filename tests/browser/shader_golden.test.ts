@@ -1,0 +1,135 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+import { expect, test } from 'vitest';
+import { compileKernel, Kernel, neutralFrame, type Face, type Pose } from '../../clients/js/index.ts';
+import { featurePoints } from '../../protocol/ts/generated/mpeg4.ts';
+import { rigFapus, type RigDocument, type Vec3 } from '../../protocol/ts/index.ts';
+import { buildDir } from './support/paths.ts';
+import type { GoldenMesh } from './support/golden_page.ts';
+import { launch } from './support/studio_page.ts';
+
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+interface Golden {
+  tolerance: { position: number };
+  rig: {
+    fapu: number[];
+    eye_pivot: [Vec3, Vec3];
+    head_pivot: Vec3;
+    irises: RigDocument['irises'];
+    tongue: RigDocument['tongue'];
+    viseme_share: number;
+    visemes: Record<string, Vec3>[];
+    expressions: Record<string, Vec3>[];
+  };
+  face: { rest: Vec3[]; normals: Vec3[]; triangles: Vec3[]; rows: [number, number][][]; rigid: number[] };
+  cases: {
+    name: string;
+    frame: {
+      viseme: { select1: number; select2: number; blend: number };
+      expression: { select1: number; intensity1: number; select2: number; intensity2: number };
+      faps: Record<string, number>;
+    };
+    positions: number[];
+  }[];
+  interpolations: { from: number; to: number; t: number; positions: number[] }[];
+}
+
+const golden = JSON.parse(
+  readFileSync(here('../../protocol/vectors/kernel/golden-frames.json'), 'utf8'),
+) as Golden;
+
+function rigOf({ rig }: Golden): RigDocument {
+  const named = (set: Record<string, Vec3>) => ({
+    name: '',
+    displacements: Object.fromEntries(Object.entries(set).map(([fp, by]) => [featurePoints[Number(fp)]!.id, by])),
+  });
+  return {
+    fapu: Object.fromEntries(rigFapus.map((unit, i) => [unit, rig.fapu[i]])),
+    eye_pivots: rig.eye_pivot,
+    head_pivot: rig.head_pivot,
+    irises: rig.irises,
+    tongue: rig.tongue,
+    viseme_share: rig.viseme_share,
+    visemes: rig.visemes.map(named),
+    expressions: rig.expressions.map(named),
+  } as unknown as RigDocument;
+}
+
+function meshOf({ face }: Golden): GoldenMesh {
+  const offsets = [0];
+  for (const row of face.rows) offsets.push(offsets.at(-1)! + row.length);
+  return {
+    positions: face.rest.flat(),
+    normals: face.normals.map((n) => n.map((x) => x / Math.hypot(...n))).flat(),
+    indices: face.triangles.flat(),
+    rowOffsets: offsets,
+    rowPoints: face.rows.flat().map(([point]) => point),
+    rowWeights: face.rows.flat().map(([, weight]) => weight),
+    rigid: face.rigid,
+  };
+}
+
+/** The poses of all cases, then of all interpolations, by the kernel: the shader begins where they end. */
+async function poses(): Promise<Record<keyof Pose, number[]>[]> {
+  const wasm = process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm/semblante_kernel.wasm');
+  expect(existsSync(wasm), wasm).toBe(true);
+  const face = { rig: rigOf(golden) } as Face;
+  const count = golden.cases.length;
+  const kernel = await Kernel.create(await compileKernel(new Uint8Array(readFileSync(wasm))), face, {
+    poseCount: count + golden.interpolations.length,
+    withVertices: false,
+  });
+  golden.cases.forEach(({ frame: { viseme, expression, faps } }, pose) => {
+    const frame = { ...neutralFrame(), viseme, expression };
+    const steps = new Float64Array(69).fill(1);
+    for (const [fap, value] of Object.entries(faps)) {
+      frame.levels[Number(fap)] = 1;
+      steps[Number(fap)] = value;
+    }
+    kernel.evaluate(frame, pose, steps);
+  });
+  golden.interpolations.forEach(({ from, to, t }, i) => kernel.interpolate(from, to, t, count + i));
+  return kernel.poses.map(
+    (pose) =>
+      Object.fromEntries(Object.entries(pose).map(([name, values]) => [name, Array.from(values as Float32Array)])) as Record<
+        keyof Pose,
+        number[]
+      >,
+  );
+}
+
+test('Shader_GoldenFrames_GiveTheGoldenVertices', async () => {
+  const bundle = await build({
+    entryPoints: [here('support/golden_page.ts')],
+    bundle: true,
+    write: false,
+    format: 'iife',
+    nodePaths: [here('../../web/node_modules')],
+    alias: { '@client': here('../../clients/js') },
+  });
+  const browser = await launch();
+  try {
+    const page = await browser.newPage();
+    const errors: string[] = [];
+    page.on('console', (message) => void (message.type() === 'error' && errors.push(message.text())));
+    page.on('pageerror', (error) => errors.push(String(error)));
+    await page.addScriptTag({ content: bundle.outputFiles[0]!.text });
+    const found = await page.evaluate(
+      ([mesh, all]) =>
+        (window as unknown as { deformAll(mesh: unknown, poses: unknown): number[][] }).deformAll(mesh, all),
+      [meshOf(golden), await poses()] as const,
+    );
+    expect(errors).toEqual([]);
+    const expected = [...golden.cases, ...golden.interpolations];
+    expect(found.length).toBe(expected.length);
+    expected.forEach(({ positions, ...rest }, i) => {
+      const worst = Math.max(...positions.map((x, k) => Math.abs(x - found[i]![k]!)));
+      expect(worst, 'name' in rest ? rest.name : `${rest.from} to ${rest.to}`).toBeLessThanOrEqual(golden.tolerance.position);
+    });
+  } finally {
+    await browser.close();
+  }
+});

@@ -1,0 +1,42 @@
+// Runs in the page: the golden face, deformed by the shader alone.
+import { WebGLRenderer } from 'three';
+import type { Pose } from '@client/index.ts';
+import type { FaceMesh } from '../../../web/src/face/mesh.ts';
+import { setPose } from '../../../web/src/view/deform_material.ts';
+import { readDeformed } from '../../../web/src/view/deform_probe.ts';
+import { FaceView } from '../../../web/src/view/face_view.ts';
+
+export interface GoldenMesh {
+  positions: number[];
+  normals: number[];
+  indices: number[];
+  rowOffsets: number[];
+  rowPoints: number[];
+  rowWeights: number[];
+  rigid: number[];
+}
+
+/** For each pose the vertices that the shader makes, #V by 3. */
+function deformAll(given: GoldenMesh, poses: Record<keyof Pose, number[]>[]): number[][] {
+  const mesh: FaceMesh = {
+    vertexCount: given.rigid.length,
+    positions: Float32Array.from(given.positions),
+    normals: Float32Array.from(given.normals),
+    uvs: null,
+    indices: Uint32Array.from(given.indices),
+    groups: [],
+    rowOffsets: Uint32Array.from(given.rowOffsets),
+    rowPoints: Uint8Array.from(given.rowPoints),
+    rowWeights: Float32Array.from(given.rowWeights),
+    rigid: Uint8Array.from(given.rigid),
+  };
+  const view = new FaceView(mesh, []);
+  const renderer = new WebGLRenderer();
+  return poses.map((numbers) => {
+    const pose = Object.fromEntries(Object.entries(numbers).map(([name, values]) => [name, Float32Array.from(values)]));
+    setPose(view.uniforms, pose as unknown as Pose);
+    return Array.from(readDeformed(renderer, view).positions);
+  });
+}
+
+(window as unknown as { deformAll: typeof deformAll }).deformAll = deformAll;
