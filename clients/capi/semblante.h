@@ -120,6 +120,17 @@ semblante_result semblante_head_update_positions(const semblante_head* head, con
 semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
                                         size_t capacity);
 
+/* ARKit's 52 blend shape coefficients, in the order of Live Link Face's stream (core/bridges/data/arkit.json), 0..1:
+ * what is outside is taken as 0 or 1. NaN and infinity are refused, `where` names the shape. `error` may be null. */
+semblante_result semblante_frame_from_arkit(const float coefficients[52], semblante_frame* frame,
+                                            semblante_error* error);
+/* What ARKit would say of the face of a frame, each in 0..1. FAPs that are not finite are refused. */
+semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float coefficients[52]);
+/* The 15 visemes of Oculus Lipsync, in its order, which is that of FAP 1: sets FAP 1 of the frame and clears the rest. */
+semblante_result semblante_frame_from_oculus(const float weights[15], semblante_frame* frame, semblante_error* error);
+/* The weights of a mouth, at least 0, of sum 1. FAPs that are not finite are refused. */
+semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,3 +6,15 @@ export * from './stream_client.ts';
 export * from './player.ts';
 export { neutralFrame, type FaceFrame, type TimedFrame } from '../../protocol/ts/face_frame.ts';
 export type { RigDocument } from '../../protocol/ts/rig_document.ts';
+export {
+  arkitNames,
+  fromArkit,
+  fromOculus,
+  oculusNames,
+  toArkit,
+  toOculus,
+  type ArkitInput,
+  type FromArkit,
+  type FromOculus,
+  type OculusInput,
+} from '../../protocol/ts/index.ts';

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "protocol/cpp/fap_number.h"
+#include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/json_cursor.h"
 #include "protocol/cpp/state_codec.h"
@@ -31,6 +32,12 @@ std::size_t low_level_fap(std::string_view name) {
 template <class State, class Set>
 State read_state_of(const JsonCursor& at, const Set& set) {
   State state;
+  if (const auto bridged = read_json_bridges(at)) {
+    state.viseme = {bridged->viseme1, bridged->viseme2, bridged->viseme_blend};
+    for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
+      set(state, fap, static_cast<double>(bridged->fap[fap]), at);
+    }
+  }
   if (const auto viseme = at.optional_member("viseme")) {
     state.viseme.select1 = small(viseme->member("select1"), max_viseme);
     state.viseme.select2 = small_or(*viseme, "select2", max_viseme, 0);

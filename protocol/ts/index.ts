@@ -6,3 +6,7 @@ export * from './quantizers.ts';
 export * from './weights_format.ts';
 export * from './rig_document.ts';
 export * from './mirrored.ts';
+export { arkitNames } from './bridges/arkit_shapes.ts';
+export { fromArkit, type ArkitInput, type FromArkit } from './bridges/from_arkit.ts';
+export { toArkit } from './bridges/to_arkit.ts';
+export { fromOculus, oculusNames, toOculus, type FromOculus, type OculusInput } from './bridges/oculus.ts';

@@ -8,6 +8,8 @@ import {
   type FaceFrame,
   type TimedFrame,
 } from './face_frame.ts';
+import { frameOf } from './bridges/face_values.ts';
+import { readJsonBridges } from './bridges/json_bridges.ts';
 import { limits, messages, type Field, type Message } from './generated/messages.ts';
 import { parseJsonObject, type JsonCursor } from './json_cursor.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
@@ -110,7 +112,8 @@ function readFrames(at: JsonCursor, steps: QuantizerSteps): TimedFrame[] {
 }
 
 function readFrame(at: JsonCursor, steps: QuantizerSteps): FaceFrame {
-  const state = neutralFrame();
+  const bridged = readJsonBridges(at);
+  const state = bridged ? frameOf(bridged, steps) : neutralFrame();
   const viseme = at.optional('viseme');
   if (viseme) {
     state.viseme.select1 = viseme.member('select1').integer(0, maxViseme);

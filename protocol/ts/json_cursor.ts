@@ -20,6 +20,10 @@ export class JsonCursor {
     return this.value === null;
   }
 
+  get isArray(): boolean {
+    return Array.isArray(this.value);
+  }
+
   /** Throws `missing` when there is no such member. */
   member(name: string): JsonCursor {
     return this.optional(name) ?? new JsonCursor(null, this.child(name)).fail('missing', 'is required');

@@ -15,6 +15,8 @@ constexpr std::size_t max_file_bytes = std::size_t{64} << 20U;
 /// Of two formats with one extension the first that recognizes a text has it; the one that recognizes all comes last.
 constexpr std::array formats = {
     FaceFormat{"fap", ".fap", "the FAP file of MPEG-4's reference encoder", nullptr, read_fap_faces, write_fap_faces},
+    FaceFormat{"arkit-csv", ".csv", "a take of Live Link Face: ARKit's 52 coefficients and the angles of the head",
+               nullptr, read_live_link_faces, write_live_link_faces},
     FaceFormat{"frames", ".json", "the frames of POST /v1/streams/{id}/frames, as many as you like", nullptr,
                read_frames_faces, write_frames_faces},
 };

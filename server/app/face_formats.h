@@ -60,6 +60,8 @@ std::string write_faces(const FaceSequence& sequence, const std::string& path, c
 // Each in face_format_NAME.cpp.
 Result<FaceSequence> read_fap_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_fap_faces(const FaceSequence& sequence, const FaceWriting& writing);
+Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReading& reading);
+Result<std::string> write_live_link_faces(const FaceSequence& sequence, const FaceWriting& writing);
 Result<FaceSequence> read_frames_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_frames_faces(const FaceSequence& sequence, const FaceWriting& writing);
 

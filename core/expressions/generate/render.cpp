@@ -154,4 +154,29 @@ std::string render_header(const Sets& sets) {
   return out.str();
 }
 
+std::string render_typescript(const Sets& sets) {
+  std::ostringstream out;
+  out << "// Generated from core/expressions/data by semblante-codegen-expressions; change the data, not this.\n\n"
+      << "/** FPs by dense index (2.1 is 0) with their displacement, FAPU units: [point, x, y, z]. */\n"
+      << "export interface DisplacementSet {\n  readonly name: string;\n"
+      << "  readonly displacements: readonly (readonly [number, number, number, number])[];\n}\n";
+  const auto list = [&](const char* name, const std::vector<NamedSet>& entries) {
+    out << "\n// prettier-ignore\nexport const " << name << ": readonly DisplacementSet[] = [\n";
+    for (const NamedSet& set : entries) {
+      out << "  { name: '" << set.name << "', displacements: [";
+      const char* separator = "";
+      for (const auto& [point, d] : set.displacements) {
+        out << separator << "[" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
+            << "]";
+        separator = ", ";
+      }
+      out << "] },\n";
+    }
+    out << "];\n";
+  };
+  list("visemeSets", sets.visemes);
+  list("expressionSets", sets.expressions);
+  return out.str();
+}
+
 }  // namespace semblante::expressions

@@ -29,5 +29,7 @@ Sets read_sets(const std::string& data_folder);
 
 /// core/expressions/generated/displacement_sets.h
 std::string render_header(const Sets& sets);
+/// protocol/ts/generated/displacement_sets.ts
+std::string render_typescript(const Sets& sets);
 
 }  // namespace semblante::expressions

@@ -49,6 +49,14 @@ TEST(Expressions_Generated, AreWhatTheDataGive) {
   EXPECT_EQ(text.str(), expressions::render_header(sets)) << "run: ninja -C build semblante-generate-expressions";
 }
 
+TEST(Expressions_Generated, TypeScript_IsWhatTheDataGive) {
+  std::ifstream in(std::string(SEMBLANTE_SOURCE_DIR) + "/protocol/ts/generated/displacement_sets.ts", std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  const auto sets = expressions::read_sets(std::string(SEMBLANTE_SOURCE_DIR) + "/core/expressions/data");
+  EXPECT_EQ(text.str(), expressions::render_typescript(sets)) << "run: ninja -C build semblante-generate-expressions";
+}
+
 TEST(Expressions_Units, FollowTheFapOfTheAxis) {
   EXPECT_EQ(fapu_of(fp("2.1"), 1), FapuUnit::mns);    // FAP 3
   EXPECT_EQ(fapu_of(fp("2.1"), 0), FapuUnit::mw);     // FAP 15

@@ -1,0 +1,150 @@
+import { lastLowLevelFap, maxBlend, type FaceFrame } from '../face_frame.ts';
+import { arkitSettings, arkitShapes } from '../generated/arkit.ts';
+import { faps as allFaps } from '../generated/mpeg4.ts';
+import { standardQuantizers, type QuantizerSteps } from '../quantizers.ts';
+import {
+  amount,
+  arkitCount,
+  arkitNames,
+  eyes,
+  findArkit,
+  fullTurn,
+  jawOpen,
+  lidsShut,
+  lowerLidShut,
+  mouthClose,
+  mouthFunnel,
+  mouthPucker,
+  tongueOut,
+  type Eye,
+} from './arkit_shapes.ts';
+import { axisDisplacements } from './axis_displacements.ts';
+import { clamp, frameOf, neutralValues, type FaceValues } from './face_values.ts';
+
+/** The 52 in order, or some of them by name; what is not named is 0. */
+export type ArkitInput = ArrayLike<number> | Readonly<Record<string, number>>;
+
+export interface FromArkit {
+  frame: FaceFrame;
+  /** Coefficients that were outside 0..1 and were taken as 0 or 1. */
+  clamped: number;
+}
+
+function coefficientsOf(input: ArkitInput): { c: Float64Array; clamped: number } {
+  const c = new Float64Array(arkitCount);
+  if ('length' in input && typeof input.length === 'number') {
+    if (input.length !== arkitCount) throw new RangeError(`${arkitCount} coefficients, not ${input.length}`);
+    c.set(input as ArrayLike<number>);
+  } else {
+    for (const [name, value] of Object.entries(input)) {
+      const shape = findArkit(name);
+      if (shape === undefined) throw new RangeError(`${name} is no shape of ARKit`);
+      c[shape] = value;
+    }
+  }
+  let clamped = 0;
+  for (let s = 0; s < arkitCount; ++s) {
+    if (!Number.isFinite(c[s])) throw new RangeError(`${arkitNames[s]} is not a finite number`);
+    if (c[s]! < 0 || c[s]! > 1) ++clamped;
+    c[s] = clamp(c[s]!, 0, 1);
+  }
+  return { c, clamped };
+}
+
+/** mouthClose takes back what jawOpen parts, no more; and a tongue needs room to come out. */
+function settleTheMouth(c: Float64Array): void {
+  const closed = Math.min(c[mouthClose]!, c[jawOpen]!);
+  const parted = Math.max(c[jawOpen]! - closed, arkitSettings.tongue_parting * c[tongueOut]!);
+  c[mouthClose] = closed;
+  c[jawOpen] = closed + parted;
+}
+
+/** A blink takes the lids from wherever they are to where they meet. */
+function closeLids(eye: Eye, c: Float64Array, faps: Float64Array): void {
+  const crossed = Math.max(faps[eye.upperLid]! + faps[eye.lowerLid]! - lidsShut, 0);
+  let upper = faps[eye.upperLid]! - crossed / 2;
+  let lower = faps[eye.lowerLid]! - crossed / 2;
+  const blink = c[eye.blink]!;
+  const meet = Math.max(lower, lowerLidShut);
+  upper += blink * (lidsShut - meet - upper);
+  lower += blink * (meet - lower);
+  faps[eye.upperLid] = upper;
+  faps[eye.lowerLid] = lower;
+}
+
+function turnEye(eye: Eye, c: Float64Array, faps: Float64Array): void {
+  faps[eye.yaw] = eye.outwards * (c[eye.lookOut]! - c[eye.lookIn]!) * fullTurn;
+  faps[eye.pitch] = (c[eye.lookDown]! - c[eye.lookUp]!) * fullTurn;
+}
+
+/** Lips press into each other a little and no more, however many shapes close them. */
+function stopLips(faps: Float64Array): void {
+  for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]] as const) {
+    const over = Math.max(faps[upper]! + faps[lower]! - arkitSettings.lip_overlap, 0);
+    faps[upper]! -= over / 2;
+    faps[lower]! -= over / 2;
+  }
+}
+
+const visemeA = 10;
+const visemeU = 14;
+
+function ofViseme(select1: number, blend: number): Float64Array {
+  const values = neutralValues();
+  values.viseme = { select1, select2: 0, blend };
+  return axisDisplacements(values);
+}
+const open = ofViseme(visemeA, maxBlend)[3]!;
+const forward = ofViseme(visemeU, maxBlend)[16]!;
+
+/** FAP 1 carries what no low-level FAP moves: an open jaw by "a", lips pushed forward by "u", the stronger of the two. */
+function carryByViseme(c: Float64Array, faps: Float64Array, values: FaceValues): void {
+  const share = (part: number, full: number): number => (full > 0 ? clamp(part / full, 0, 1) : 0);
+  const pushed = c[mouthPucker]! * amount(mouthPucker, 16) + c[mouthFunnel]! * amount(mouthFunnel, 16);
+  const moreOpen = share(faps[3]!, open) - share(pushed, forward);
+  const blend = Math.round(Math.abs(moreOpen) * maxBlend);
+  if (blend === 0) return;
+  values.viseme = { select1: moreOpen > 0 ? visemeA : visemeU, select2: 0, blend };
+}
+
+/** What a viseme moves and no coefficient does must be held: a FAP of 0 would leave it to the viseme. */
+function holdAgainstViseme(values: FaceValues): void {
+  if (values.viseme.blend === 0) return;
+  const moved = ofViseme(values.viseme.select1, values.viseme.blend);
+  for (const fap of allFaps) {
+    if (fap.kind !== 'translation' || fap.group === 6 || moved[fap.number] === 0) continue;
+    if (Math.abs(values.faps[fap.number]!) < fap.quantizerStep) values.faps[fap.number] = fap.quantizerStep;
+  }
+}
+
+/** As fromArkit, in FAP units. */
+export function valuesFromArkit(input: ArkitInput): { values: FaceValues; clamped: number } {
+  const { c, clamped } = coefficientsOf(input);
+  settleTheMouth(c);
+  const sum = new Float64Array(lastLowLevelFap + 1);
+  arkitShapes.forEach((shape, s) => {
+    for (const [fap, value] of shape.faps) sum[fap]! += c[s]! * value;
+  });
+  for (const eye of eyes) {
+    closeLids(eye, c, sum);
+    turnEye(eye, c, sum);
+  }
+  stopLips(sum);
+  const values = neutralValues();
+  for (const fap of allFaps) {
+    // As float32, as frames are everywhere.
+    if (fap.number > 2) values.faps[fap.number] = Math.fround(clamp(sum[fap.number]!, fap.min, fap.max));
+  }
+  carryByViseme(c, sum, values);
+  holdAgainstViseme(values);
+  return { values, clamped };
+}
+
+/**
+ * ARKit's coefficients as a frame for any head. What is outside 0..1 is taken as 0 or 1 and counted; NaN, infinity, an
+ * unknown name or a wrong number of them throws RangeError. The rules: core/bridges/README.md.
+ */
+export function fromArkit(input: ArkitInput, steps: QuantizerSteps = standardQuantizers): FromArkit {
+  const { values, clamped } = valuesFromArkit(input);
+  return { frame: frameOf(values, steps), clamped };
+}
