@@ -80,7 +80,10 @@ void carry_by_viseme(const Coefficients& c, const Faps& faps, semblante_frame& f
   const auto share = [](double amount, double full) { return full > 0.0 ? std::clamp(amount / full, 0.0, 1.0) : 0.0; };
   const double pushed = c[arkit::mouth_pucker] * arkit::amount(arkit::mouth_pucker, 16) +
                         c[arkit::mouth_funnel] * arkit::amount(arkit::mouth_funnel, 16);
-  const double more_open = share(faps[3], open) - share(pushed, forward);
+  // An "a" parts the lips where no FAP holds them: with lips shut it carries the chin, and that a little.
+  const double shut = c[arkit::jaw_open] > 0.0 ? c[arkit::mouth_close] / c[arkit::jaw_open] : 0.0;
+  const double carried = 1.0 - (1.0 - generated::arkit_carried_when_shut) * shut;
+  const double more_open = carried * share(faps[3], open) - share(pushed, forward);
   const long blend = std::lround(std::abs(more_open) * SEMBLANTE_BLEND_MAX);
   if (blend == 0) return;
   frame.viseme1 = more_open > 0.0 ? arkit::viseme_a : arkit::viseme_u;

@@ -14,8 +14,8 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 5> units = {"IRISD", "ES", "ENS", "MNS", "MW"};
-constexpr std::array<const char*, 4> setting_names = {"eye_full_turn_degrees", "upper_lid_share", "tongue_parting",
-                                                      "lip_overlap"};
+constexpr std::array<const char*, 5> setting_names = {"eye_full_turn_degrees", "upper_lid_share", "tongue_parting",
+                                                      "lip_overlap", "carried_when_shut"};
 
 std::map<int, double> read_faps(const std::string& shape, const json& source) {
   std::map<int, double> faps;

@@ -22,6 +22,7 @@ struct ArkitShape {
   double cost;
 };
 
+inline constexpr double arkit_carried_when_shut = 0.25;
 inline constexpr double arkit_eye_full_turn_degrees = 35;
 inline constexpr double arkit_lip_overlap = 160;
 inline constexpr double arkit_tongue_parting = 0.2;

@@ -101,7 +101,10 @@ const forward = ofViseme(visemeU, maxBlend)[16]!;
 function carryByViseme(c: Float64Array, faps: Float64Array, values: FaceValues): void {
   const share = (part: number, full: number): number => (full > 0 ? clamp(part / full, 0, 1) : 0);
   const pushed = c[mouthPucker]! * amount(mouthPucker, 16) + c[mouthFunnel]! * amount(mouthFunnel, 16);
-  const moreOpen = share(faps[3]!, open) - share(pushed, forward);
+  // An "a" parts the lips where no FAP holds them: with lips shut it carries the chin, and that a little.
+  const shut = c[jawOpen]! > 0 ? c[mouthClose]! / c[jawOpen]! : 0;
+  const carried = 1 - (1 - arkitSettings.carried_when_shut) * shut;
+  const moreOpen = carried * share(faps[3]!, open) - share(pushed, forward);
   const blend = Math.round(Math.abs(moreOpen) * maxBlend);
   if (blend === 0) return;
   values.viseme = { select1: moreOpen > 0 ? visemeA : visemeU, select2: 0, blend };

@@ -9,6 +9,7 @@ export interface ArkitShape {
 }
 
 export const arkitSettings = {
+  carried_when_shut: 0.25,
   eye_full_turn_degrees: 35,
   lip_overlap: 160,
   tongue_parting: 0.2,
