@@ -96,6 +96,7 @@ function main(root: HTMLElement): void {
   const listen = (): void => scene.performer.value?.listen(live.subscriber.value?.client ?? null);
   live.subscriber.watch(listen);
   scene.performer.watch((performer) => {
+    animate.showFace(performer?.pose ?? null);
     performer?.follow(frame);
     listen();
   });

@@ -1,10 +1,10 @@
-import type { FaceFrame } from '@client/index.ts';
+import type { FaceFrame, Pose } from '@client/index.ts';
 import { expressions, visemes } from '@protocol/generated/mpeg4.ts';
 import { maxBlend } from '@protocol/face_frame.ts';
 import { clearFrame, expressionIntensity, isNeutral, setExpression, setVisemes } from '../face/frame.ts';
 import { h } from './dom.ts';
 import { expressionFace } from './expression_face.ts';
-import { FapSliders } from './fap_sliders.ts';
+import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from './icons.ts';
 import { capital } from './names.ts';
 import { Slider } from './slider.ts';
@@ -84,6 +84,11 @@ export class AnimatePanel {
       h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Face parameters')), this.faps.element),
     );
     this.refresh();
+  }
+
+  /** The face on the stage from now on, in any pose; null: none. */
+  showFace(pose: Pose | null): void {
+    if (pose) this.faps.hide(fapsWithoutEffect(pose));
   }
 
   /** Shows the frame as it is now, after someone else changed it. */

@@ -1,4 +1,4 @@
-import type { FaceFrame } from '@client/index.ts';
+import type { FaceFrame, Pose } from '@client/index.ts';
 import { fapGroups, faps, type Fap } from '@protocol/generated/mpeg4.ts';
 import { fapValue, setFap } from '../face/frame.ts';
 import { h, setText } from './dom.ts';
@@ -11,18 +11,34 @@ export interface FapSlidersOptions {
   onChange: () => void;
 }
 
+/** FAPs that this face cannot show, for want of an iris or a tongue: a slider that does nothing would be a lie. */
+export function fapsWithoutEffect(pose: Pose): ReadonlySet<number> {
+  const without = new Set<number>();
+  if (pose.irises[3] === 0) without.add(29);
+  if (pose.irises[9] === 0) without.add(30);
+  if (pose.tongue[9] === 0) without.add(47);
+  return without;
+}
+
 /** Low-level FAPs in the standard's groups, folded away until opened. */
 export class FapSliders {
   readonly element = h('div', { class: 'fap-groups' });
   private readonly sliders = new Map<number, Slider>();
   private readonly counts = new Map<number, HTMLElement>();
   private both = true;
+  private without: ReadonlySet<number> = new Set();
 
   constructor(private readonly options: FapSlidersOptions) {
     const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
     this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
     for (const group of fapGroups)
       if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
+  }
+
+  /** Hides the sliders of what the face cannot do. */
+  hide(without: ReadonlySet<number>): void {
+    this.without = without;
+    for (const [number, slider] of this.sliders) slider.element.hidden = without.has(number);
   }
 
   /** Shows the frame's values. */
@@ -74,6 +90,7 @@ export class FapSliders {
     details.addEventListener('toggle', () => {
       if (details.open && body.childElementCount === 0) {
         for (const fap of list) body.append(this.makeSlider(fap).element);
+        this.hide(this.without);
         this.refresh();
       }
     });
