@@ -191,7 +191,7 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     if (over_all) layers.erase(outermost);
   }
   // A disc of its own says how large it is.
-  if (layers.size() == 1 && layers[0].depth < 0.5 * layers[0].farthest_out && layers[0].farthest_out < 2.0 * radius) {
+  if (layers.size() == 1 && layers[0].depth < 0.5 * layers[0].farthest_out && layers[0].farthest_out < 1.4 * radius) {
     radius = layers[0].farthest_out;
   }
   std::size_t moving = 0;
