@@ -51,6 +51,28 @@ TEST(Convert, Faults_NameFileAndPlace) {
   EXPECT_EQ(outcome.exit_code, 2);
 }
 
+TEST(Convert, TakeOfLiveLink_ToFramesAndBack) {
+  const Workspace work;
+  const std::string take = work.write("take.csv",
+                                      "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,HeadYaw\r\n"
+                                      "00:32:09:58.000,61,1.0,0.5,0.25\r\n00:32:10:00.000,61,2.0,0,0\r\n");
+  const Outcome there = run_semblante({"convert", take, "--out", work.path("take.json")});
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_NE(there.err.find("1 coefficients outside 0 to 1"), std::string::npos) << there.err;
+  const std::string frames = read_text(work.path("take.json"));
+  EXPECT_NE(frames.find("\"3\":340"), std::string::npos) << frames;
+  EXPECT_NE(frames.find("\"49\":-25000"), std::string::npos) << frames;
+  EXPECT_NE(frames.find("\"time\":33"), std::string::npos) << frames;
+  ASSERT_EQ(run_semblante({"convert", work.path("take.json"), "--out", work.path("back.csv")}).exit_code, 0);
+  const std::string back = read_text(work.path("back.csv"));
+  EXPECT_TRUE(back.starts_with("Timecode,BlendShapeCount,EyeBlinkLeft,")) << back;
+  EXPECT_NE(back.find("\n00:00:00:00.000,61,1.0000000000,"), std::string::npos) << back;
+  const std::string broken = work.write("broken.csv", "Timecode,JawOpen\n00:00:00:00,open\n");
+  const Outcome refused = run_semblante({"convert", broken, "--out", work.path("x.json")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("broken.csv: line 2: column 2: 'open'"), std::string::npos) << refused.err;
+}
+
 TEST(Convert, Oddities_AreWarningsUnlessQuiet) {
   const Workspace work;
   const std::string fap = work.write("in.fap", "2.1 x 25 7\n" + mask({3}) + "0 inf\n");
