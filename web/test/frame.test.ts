@@ -5,9 +5,11 @@ import {
   expressionIntensity,
   fapValue,
   isNeutral,
+  mirrorFrame,
   setExpression,
   setFap,
   setVisemes,
+  shutEyes,
 } from '../src/face/frame.ts';
 
 describe('frame by hand', () => {
@@ -69,5 +71,31 @@ describe('frame by hand', () => {
     expect(isNeutral(frame)).toBe(false);
     clearFrame(frame);
     expect(isNeutral(frame)).toBe(true);
+  });
+
+  test('Mirror_Twice_IsAsBefore_AndOnceExchangesSides', () => {
+    const frame = neutralFrame();
+    setFap(frame, 12, 200, false); // one corner of the lips
+    setFap(frame, 49, 20_000, false); // the head turns
+    setFap(frame, 3, 400, false); // the jaw has no side
+    const before = frame.levels.slice();
+    mirrorFrame(frame);
+    expect([frame.levels[12], frame.levels[13]]).toEqual([0, before[12]]);
+    expect(frame.levels[49]).toBe(-before[49]!);
+    expect(frame.levels[3]).toBe(before[3]);
+    mirrorFrame(frame);
+    expect(frame.levels).toEqual(before);
+  });
+
+  test('ShutEyes_AndOpen_LeavesWhatWasMovedMeanwhile', () => {
+    const frame = neutralFrame();
+    setFap(frame, 19, 300, true);
+    const open = shutEyes(frame);
+    expect(fapValue(frame, 19) + fapValue(frame, 21)).toBeGreaterThan(1000);
+    setFap(frame, 20, 100, false);
+    open();
+    expect(fapValue(frame, 19)).toBeCloseTo(300, -1);
+    expect(fapValue(frame, 20)).toBeCloseTo(100, -1);
+    expect(frame.levels[21]).toBe(0);
   });
 });

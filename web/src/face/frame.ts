@@ -72,3 +72,31 @@ export function setFap(frame: FaceFrame, number: number, value: number, both: bo
   frame.levels[fap.mirror] = fap.unit === 'AU' ? level : level * fap.mirrorSign;
   return fap.mirror;
 }
+
+/** Exchanges left and right: what the face would be in a mirror. Visemes and expressions have no side. */
+export function mirrorFrame(frame: FaceFrame): void {
+  const before = frame.levels.slice();
+  for (const { number, mirror, mirrorSign } of faps)
+    if (mirror !== 0) frame.levels[mirror] = before[number]! * mirrorSign;
+}
+
+/** FAPs 19 to 22 of eyes that are shut, as performances shut them. FAP units: shares of 1024. */
+const shutLids: readonly (readonly [number, number])[] = [
+  [19, 940],
+  [20, 940],
+  [21, 84],
+  [22, 84],
+];
+
+/** Shuts the eyes; returns what opens them again as they were. A lid that was moved meanwhile stays where it is. */
+export function shutEyes(frame: FaceFrame): () => void {
+  const undo = shutLids.map(([number, value]) => {
+    const before = frame.levels[number]!;
+    const shut = quantize(value, standardQuantizers[number]!) ?? 0;
+    frame.levels[number] = shut;
+    return (): void => {
+      if (frame.levels[number] === shut) frame.levels[number] = before;
+    };
+  });
+  return () => undo.forEach((open) => open());
+}

@@ -1,7 +1,15 @@
 import type { FaceFrame, Pose } from '@client/index.ts';
 import { expressions, visemes } from '@protocol/generated/mpeg4.ts';
 import { maxBlend } from '@protocol/face_frame.ts';
-import { clearFrame, expressionIntensity, isNeutral, setExpression, setVisemes } from '../face/frame.ts';
+import {
+  clearFrame,
+  expressionIntensity,
+  isNeutral,
+  mirrorFrame,
+  setExpression,
+  setVisemes,
+  shutEyes,
+} from '../face/frame.ts';
 import { h } from './dom.ts';
 import { expressionFace } from './expression_face.ts';
 import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
@@ -16,6 +24,9 @@ export interface AnimatePanelOptions {
   onChange: () => void;
 }
 
+/** ms that a blink keeps the eyes shut; the face eases there and back. */
+const blinkTime = 160;
+
 /** Drives the face by hand: visemes, expressions and every low-level FAP. */
 export class AnimatePanel {
   readonly element: HTMLElement;
@@ -26,6 +37,7 @@ export class AnimatePanel {
   private readonly faps: FapSliders;
   private readonly resetAll: HTMLButtonElement;
   private viseme = 0;
+  private blinking = false;
 
   constructor(private readonly options: AnimatePanelOptions) {
     this.grid = new VisemeGrid({ onChoose: (viseme) => this.chooseViseme(viseme) });
@@ -55,13 +67,23 @@ export class AnimatePanel {
       icon('reset', 16),
       'Neutral face',
     );
+    const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
+      h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
     this.element = h(
       'div',
       { class: 'panel animate' },
       h(
+        'div',
+        { class: 'row wrap quick-acts', role: 'group', 'aria-label': 'Whole face' },
+        act('Blink', 'blink', 'Shut the eyes for a moment', () => this.blink()),
+        act('Mirror', 'mirror', 'Exchange left and right', () => this.mirror()),
+        h('span', { class: 'grow' }),
+        this.resetAll,
+      ),
+      h(
         'section',
         {},
-        h('header', { class: 'section-head' }, h('h2', {}, 'Visemes'), this.resetAll),
+        h('header', { class: 'section-head' }, h('h2', {}, 'Visemes')),
         this.grid.element,
         h(
           'div',
@@ -112,6 +134,23 @@ export class AnimatePanel {
     this.viseme = 0;
     this.strength.set(100);
     this.second.value = '0';
+    this.changed();
+  }
+
+  private blink(): void {
+    if (this.blinking) return;
+    this.blinking = true;
+    const open = shutEyes(this.options.frame);
+    this.changed();
+    setTimeout(() => {
+      this.blinking = false;
+      open();
+      this.changed();
+    }, blinkTime);
+  }
+
+  private mirror(): void {
+    mirrorFrame(this.options.frame);
     this.changed();
   }
 
