@@ -91,7 +91,7 @@ struct FapFileLimits {
 /// Of a frame's number after the first, whatever the rate: eleven hours at 25 a second.
 inline constexpr std::uint32_t max_fap_file_number = 1'000'000;
 
-/// Errors: malformed (no header, a mask or number that is none), truncated (a mask without values), empty (no frame),
+/// Errors: malformed (no header, no frame, a mask or number that is none), truncated (a mask without values),
 /// out_of_range, too_large. `where` is "line 12" or "line 12, word 3".
 Result<FapFileReading> read_fap_file(std::string_view text, const FapFileLimits& limits = {});
 

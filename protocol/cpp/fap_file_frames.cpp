@@ -27,21 +27,8 @@ void advance(FaceValues& state, const FapFileFrame& frame, AbsentFap absent) {
   }
 }
 
-std::uint8_t between(std::uint8_t a, std::uint8_t b, double t) {
+std::uint8_t step_between(std::uint8_t a, std::uint8_t b, double t) {
   return static_cast<std::uint8_t>(std::lround(a + t * (b - a)));
-}
-
-FaceValues between(const FaceValues& a, const FaceValues& b, double t) {
-  FaceValues state = a;
-  if (a.viseme.select1 == b.viseme.select1 && a.viseme.select2 == b.viseme.select2) {
-    state.viseme.blend = between(a.viseme.blend, b.viseme.blend, t);
-  }
-  if (a.expression.select1 == b.expression.select1 && a.expression.select2 == b.expression.select2) {
-    state.expression.intensity1 = between(a.expression.intensity1, b.expression.intensity1, t);
-    state.expression.intensity2 = between(a.expression.intensity2, b.expression.intensity2, t);
-  }
-  for (std::size_t fap = first_fap; fap <= last_fap; ++fap) state.fap[fap] = a.fap[fap] + t * (b.fap[fap] - a.fap[fap]);
-  return state;
 }
 
 /// What a file can say: whole if asked for, not too large, not too small.
@@ -77,6 +64,19 @@ std::bitset<69> used(std::span<const TimedValues> frames, bool whole) {
 }
 
 }  // namespace
+
+FaceValues between(const FaceValues& a, const FaceValues& b, double t) {
+  FaceValues state = a;
+  if (a.viseme.select1 == b.viseme.select1 && a.viseme.select2 == b.viseme.select2) {
+    state.viseme.blend = step_between(a.viseme.blend, b.viseme.blend, t);
+  }
+  if (a.expression.select1 == b.expression.select1 && a.expression.select2 == b.expression.select2) {
+    state.expression.intensity1 = step_between(a.expression.intensity1, b.expression.intensity1, t);
+    state.expression.intensity2 = step_between(a.expression.intensity2, b.expression.intensity2, t);
+  }
+  for (std::size_t fap = first_fap; fap <= last_fap; ++fap) state.fap[fap] = a.fap[fap] + t * (b.fap[fap] - a.fap[fap]);
+  return state;
+}
 
 Result<std::vector<TimedValues>> frames_of(const FapFile& file, const FapFileMeaning& meaning) {
   assert(!file.frames.empty());

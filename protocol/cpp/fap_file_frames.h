@@ -32,6 +32,10 @@ struct FapFileMeaning {
 /// have no effect. Errors: out_of_range beyond 24 hours.
 Result<std::vector<TimedValues>> frames_of(const FapFile& file, const FapFileMeaning& meaning = {});
 
+/// The face t of the way (0..1) from a to b: FAPs 3 to 68 linearly, FAPs 1 and 2 where both have the same selects; else
+/// they are a's.
+FaceValues between(const FaceValues& a, const FaceValues& b, double t);
+
 struct FapFileStyle {
   double rate = 0;           ///< frames a second, 0.001..1000; 0: told from the times, see rate_of
   bool whole_values = true;  ///< rounded, as most readers of .fap files want them

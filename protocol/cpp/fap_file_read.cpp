@@ -105,7 +105,7 @@ class Reader {
   Result<FapFileReading> read() {
     const double announced = read_header();
     while (const auto mask = lines_.next()) read_frame(*mask);
-    if (reading_.file.frames.empty()) fail(ErrorCode::empty, lines_.number(), "the file ends without a frame");
+    if (reading_.file.frames.empty()) fail(ErrorCode::malformed, lines_.number(), "the file ends without a frame");
     if (!fault_) order_frames();
     if (fault_) return *std::move(fault_);
     if (announced != static_cast<double>(lines_of_frames_.size())) {
@@ -145,7 +145,7 @@ class Reader {
   double read_header() {
     const auto line = lines_.next();
     if (!line) {
-      fail(ErrorCode::empty, std::max(1U, lines_.number()), "the file has no header");
+      fail(ErrorCode::malformed, std::max(1U, lines_.number()), "the file has no header");
       return 0.0;
     }
     header_line_ = line->number;

@@ -10,3 +10,5 @@ export { arkitNames } from './bridges/arkit_shapes.ts';
 export { fromArkit, type ArkitInput, type FromArkit } from './bridges/from_arkit.ts';
 export { toArkit } from './bridges/to_arkit.ts';
 export { fromOculus, oculusNames, toOculus, type FromOculus, type OculusInput } from './bridges/oculus.ts';
+export * from './fap_file.ts';
+export * from './fap_frames.ts';

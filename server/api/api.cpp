@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/performance_document.h"
 #include "server/api/common.h"
+#include "server/api/play_options.h"
 #include "server/api/routes.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
@@ -38,6 +39,7 @@ std::string allowed_methods(const Match& match) {
 bool takes(BodyKind kind, std::string_view media_type) {
   if (media_type.empty() || kind == BodyKind::none) return true;
   if (kind == BodyKind::json || kind == BodyKind::performance) return media_type == "application/json";
+  if (kind == BodyKind::fap) return media_type == "text/plain" || media_type == "application/octet-stream";
   if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
   if (kind == BodyKind::example) return media_type == "application/json" || media_type == "multipart/form-data";
   static constexpr auto uploads = std::to_array<std::string_view>(
@@ -48,6 +50,7 @@ bool takes(BodyKind kind, std::string_view media_type) {
 }
 
 std::string_view taken_types(BodyKind kind) {
+  if (kind == BodyKind::fap) return "text/plain or application/octet-stream";
   if (kind == BodyKind::upload) return "application/octet-stream, a type of the model's own, or multipart/form-data";
   if (kind == BodyKind::example) return "application/json or multipart/form-data";
   return "application/json";
@@ -104,6 +107,8 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
       return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
     case BodyKind::performance:
       return http::BodyPlan{max_performance_bytes, true, true};
+    case BodyKind::fap:
+      return http::BodyPlan{max_fap_body_bytes, true, true};
     case BodyKind::example:
       if (content_type != "multipart/form-data") return http::BodyPlan{limits.max_json_bytes, false, true};
       [[fallthrough]];

@@ -1,5 +1,3 @@
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -14,13 +12,6 @@
 
 namespace semblante::api {
 namespace {
-
-/// From the disk, so that requests that are still on their way take no memory.
-std::string text_of_body(const http::Request& request) {
-  if (!request.body_file) return request.body;
-  std::ifstream file(request.body_file->path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 [[noreturn]] void refuse_document(const Error& error) {
   if (error.code == ErrorCode::too_large) refuse("content-too-large", error.message, error.where);

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -33,6 +35,12 @@ double number(const http::Request& request, const std::string& name, double othe
 
 }  // namespace
 
+std::string text_of_body(const http::Request& request) {
+  if (!request.body_file) return request.body;
+  std::ifstream file(request.body_file->path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 streams::PlayOptions play_options(const http::Request& request) {
   streams::PlayOptions options;
   options.rate = number(request, "fps", options.rate, streams::least_play_rate, streams::most_play_rate);
@@ -43,7 +51,8 @@ streams::PlayOptions play_options(const http::Request& request) {
 }
 
 http::Response play_into(Context& context, const std::string& stream,
-                         std::shared_ptr<const streams::FrameSource> source, const streams::PlayOptions& options) {
+                         std::shared_ptr<const streams::FrameSource> source, const streams::PlayOptions& options,
+                         const std::optional<std::vector<std::string>>& warnings) {
   if (source->duration() > 0.0 && options.from >= source->duration())
     refuse("invalid-argument", "begins after the end", "?from");
   const auto playing = context.hub.play(stream, std::move(source), options);
@@ -51,7 +60,9 @@ http::Response play_into(Context& context, const std::string& stream,
     const bool gone = playing.error().code == ErrorCode::missing;
     refuse(gone ? "not-found" : "conflict", playing.error().message);
   }
-  auto response = json_response(202, represent(*playing));
+  auto body = represent(*playing);
+  if (warnings) body["warnings"] = *warnings;
+  auto response = json_response(202, body);
   response.headers["Location"] = "/v1/streams/" + stream + "/performances/" + playing->id;
   return response;
 }

@@ -132,6 +132,7 @@ Json represent(const streams::StreamInfo& stream) {
           {"subscribers", stream.subscribers},
           {"publishers", stream.publishers},
           {"source", stream.source},
+          {"clamped_values", stream.clamped_values},
           {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}};
 }
 

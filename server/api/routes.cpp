@@ -43,6 +43,7 @@ constexpr auto table = std::to_array<Route>({
     {"GET", "/v1/streams/{stream}", BodyKind::none, json, get_stream},
     {"DELETE", "/v1/streams/{stream}", BodyKind::none, "", delete_stream},
     {"POST", "/v1/streams/{stream}/frames", BodyKind::json, json, post_frames},
+    {"POST", "/v1/streams/{stream}/fap", BodyKind::fap, json, post_fap},
     {"POST", "/v1/streams/{stream}/performances", BodyKind::performance, json, post_performance},
     {"GET", "/v1/streams/{stream}/performances/{performance}", BodyKind::none, json, get_performance},
     {"DELETE", "/v1/streams/{stream}/performances/{performance}", BodyKind::none, "", stop_performance},

@@ -16,6 +16,7 @@ enum class BodyKind {
   json,         ///< application/json, may be left out
   merge,        ///< application/json or application/merge-patch+json
   performance,  ///< application/json of a performance's size
+  fap,          ///< text/plain or application/octet-stream: a .fap file
   upload,       ///< a model: raw or multipart, to disk
   example,      ///< application/json, or multipart with files, to disk
 };
@@ -80,6 +81,8 @@ http::Response create_stream(Context&, http::Request&);
 http::Response get_stream(Context&, http::Request&);
 http::Response delete_stream(Context&, http::Request&);
 http::Response post_frames(Context&, http::Request&);
+// fap_routes.cpp
+http::Response post_fap(Context&, http::Request&);
 // performance_routes.cpp
 http::Response post_performance(Context&, http::Request&);
 http::Response get_performance(Context&, http::Request&);

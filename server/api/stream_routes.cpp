@@ -99,7 +99,8 @@ http::Response post_frames(Context& context, http::Request& request) {
     if (error.code == ErrorCode::missing) refuse("not-found", error.message);
     refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
   }
-  return json_response(202, {{"accepted", receipt->accepted}, {"sequence", receipt->sequence}});
+  return json_response(
+      202, {{"accepted", receipt->accepted}, {"sequence", receipt->sequence}, {"clamped", receipt->clamped}});
 }
 
 }  // namespace semblante::api

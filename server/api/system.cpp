@@ -66,6 +66,7 @@ http::Response get_metrics(Context& context, http::Request&) {
   metric(text, "stream_messages_replaced_total", "counter", counts.messages_replaced);
   metric(text, "stream_closed_slow_total", "counter", counts.closed_slow);
   metric(text, "stream_refused_total", "counter", counts.refused);
+  metric(text, "stream_clamped_values_total", "counter", counts.clamped_values);
   http::Response response;
   response.headers["Content-Type"] = "text/plain; version=0.0.4; charset=utf-8";
   response.headers["Cache-Control"] = "no-store";

@@ -5,7 +5,9 @@
 #include "core/expressions/kernel_rig.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
+#include "server/app/deform_sequence.h"
 #include "server/app/face_options.h"
+#include "server/app/face_reading_options.h"
 #include "server/app/files.h"
 #include "server/app/head_input.h"
 #include "server/app/obj_writer.h"
@@ -16,15 +18,23 @@ namespace {
 struct DeformCommand {
   HeadOptions head;
   FaceOptions face;
+  DeformSequence sequence;
   std::string out;
 };
 
 void run(const DeformCommand& options) {
   const FaceOptions& face = options.face;
+  if (!options.sequence.frames.empty()) {
+    Head head = load_head(options.head);
+    write_deformed_sequence(options.sequence, head, options.out);
+    print_warnings(head.warnings, options.head.quiet);
+    return;
+  }
   if (face.faps.empty() && face.viseme.empty() && face.expression.empty() && face.displacements.empty() &&
       face.set.empty()) {
-    throw CommandFailure(CommandFailure::bad_input,
-                         "deform: give --faps, --viseme, --expression, --set (or several of them) or --displacements");
+    throw CommandFailure(
+        CommandFailure::bad_input,
+        "deform: give --faps, --viseme, --expression, --set (or several of them), --displacements or --frames");
   }
   Head head = load_head(options.head);
   const semblante_pose pose = make_pose(face, head, head.warnings);
@@ -42,7 +52,7 @@ void run(const DeformCommand& options) {
 void add_deform_command(CLI::App& app) {
   auto options = std::make_shared<DeformCommand>();
   CLI::App* const command =
-      app.add_subcommand("deform", "Write a head in one face as OBJ, file vertices in their order");
+      app.add_subcommand("deform", "Write a head in one face as OBJ, or in the faces of a file as a mesh each");
   add_head_options(*command, options->head);
   FaceOptions& face = options->face;
   CLI::Option* const faps = command->add_option("--faps", face.faps, "Low-level FAPs in FAP units: \"3=200,19=512\"")
@@ -59,15 +69,43 @@ void add_deform_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_INTENSITY");
-  command
-      ->add_option("--displacements", face.displacements,
-                   "JSON file {\"2.1\": [dx, dy, dz], ...}: feature points moved in the model file's axes and unit")
-      ->excludes(faps)
-      ->excludes(viseme)
-      ->excludes(expression)
-      ->excludes(set)
-      ->envname("SEMBLANTE_DISPLACEMENTS");
-  command->add_option("--out", options->out, "OBJ file to write; - is standard output")
+  CLI::Option* const displacements =
+      command
+          ->add_option("--displacements", face.displacements,
+                       "JSON file {\"2.1\": [dx, dy, dz], ...}: feature points moved in the model file's axes and unit")
+          ->excludes(faps)
+          ->excludes(viseme)
+          ->excludes(expression)
+          ->excludes(set)
+          ->envname("SEMBLANTE_DISPLACEMENTS");
+  DeformSequence& sequence = options->sequence;
+  CLI::Option* const frames = command
+                                  ->add_option("--frames", sequence.frames,
+                                               "File of faces in time (" + readable_face_formats() +
+                                                   "): a numbered mesh of each in the folder --out")
+                                  ->excludes(faps)
+                                  ->excludes(viseme)
+                                  ->excludes(expression)
+                                  ->excludes(set)
+                                  ->excludes(displacements)
+                                  ->envname("SEMBLANTE_FRAMES");
+  command->add_option("--frames-format", sequence.frames_format, "Of --frames, if its name does not tell")
+      ->needs(frames)
+      ->envname("SEMBLANTE_FRAMES_FORMAT");
+  add_face_reading_options(*command, sequence.reading);
+  command->add_option("--from", sequence.from, "First frame, by its number")->needs(frames)->envname("SEMBLANTE_FROM");
+  command->add_option("--to", sequence.to, "Last frame")->needs(frames)->envname("SEMBLANTE_TO");
+  command->add_option("--between", sequence.between, "Meshes between each frame and the next, feature points linearly")
+      ->needs(frames)
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_BETWEEN");
+  command->add_option("--mesh-format", sequence.format, "Of the meshes of --frames")
+      ->needs(frames)
+      ->check(CLI::IsMember({"obj", "ply"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_MESH_FORMAT");
+  command->add_option("--out", options->out, "OBJ file to write, - is standard output; with --frames a folder")
       ->required()
       ->envname("SEMBLANTE_OUT");
   command->callback([options] { run(*options); });

@@ -32,6 +32,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"missing-feature-points", 422, "Feature points are missing"},
     {"invalid-frame", 422, "A frame of the stream cannot be read"},
     {"invalid-performance", 422, "The performance cannot be played"},
+    {"invalid-fap-file", 422, "The .fap file cannot be read"},
     {"invalid-field", 422, "A field of the body is wrong"},
     {"idempotency-key-reused", 422, "The idempotency key was used for another request"},
     {"upgrade-required", 426, "The resource speaks WebSocket"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "protocol/cpp/fap_ranges.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "server/streams/stream_connection.h"
@@ -91,11 +92,15 @@ PublishReceipt Stream::take(std::uint64_t media_time, const std::vector<TimedFra
   batch.message.sequence = info_.sequence + 1;
   batch.message.media_time = media_time;
   batch.message.frames = frames;
+  std::size_t clamped = 0;
+  for (auto& frame : batch.message.frames) clamped += clamp_to_ranges(frame.state);
+  info_.clamped_values += clamped;
+  counts_.clamped_values += clamped;
   batch.state_before = state_;
   batch.binary = shared(encoder_.encode(batch.message));
   batch.when = Clock::now();
   info_.sequence += frames.size();
-  state_ = frames.back().state;
+  state_ = batch.message.frames.back().state;
   media_time_ = batch.message.media_time + frames.back().time;
   counts_.frames += frames.size();
   held_.push_back(std::move(batch));
@@ -107,7 +112,7 @@ PublishReceipt Stream::take(std::uint64_t media_time, const std::vector<TimedFra
     counts_.messages_replaced += connection->send(encoded(held_.back(), connection->binary()));
     ++counts_.messages_sent;
   }
-  return PublishReceipt{frames.size(), info_.sequence};
+  return PublishReceipt{frames.size(), info_.sequence, clamped};
 }
 
 Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over) {

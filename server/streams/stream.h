@@ -45,10 +45,11 @@ struct StreamInfo {
   std::uint64_t epoch = 0, sequence = 0;
   std::size_t subscribers = 0, publishers = 0;
   std::optional<PlayStatus> playing;  ///< filled in by the hub
+  std::uint64_t clamped_values = 0;   ///< that were beyond the range of their FAP
 };
 
 struct StreamCounts {
-  std::uint64_t frames = 0, messages_sent = 0, messages_replaced = 0, closed_slow = 0, refused = 0;
+  std::uint64_t frames = 0, messages_sent = 0, messages_replaced = 0, closed_slow = 0, refused = 0, clamped_values = 0;
 };
 
 /// Who feeds a stream. One connection publishes or one source plays at a time; a REST call comes between only while
@@ -58,6 +59,7 @@ enum class Source { connection, request };
 struct PublishReceipt {
   std::size_t accepted = 0;
   std::uint64_t sequence = 0;  ///< of the last frame
+  std::size_t clamped = 0;     ///< values that were beyond the range of their FAP
 };
 
 /// One live stream: the newest state, a short memory, and who listens. Shared by the hub and its connections; one
@@ -114,6 +116,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
     std::chrono::steady_clock::time_point when;
   };
 
+  /// What every source goes through: values beyond the range of their FAP are clamped, and counted.
   PublishReceipt take(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
   [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const;
   /// A played frame keeps its own time, but never falls behind the frame before it by a breath.

@@ -20,6 +20,7 @@ void add(StreamCounts& sum, const StreamCounts& counts) {
   sum.messages_replaced += counts.messages_replaced;
   sum.closed_slow += counts.closed_slow;
   sum.refused += counts.refused;
+  sum.clamped_values += counts.clamped_values;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Streams of a real server, by a WebSocket client that shares no code with it.
 
+#include <algorithm>
 #include <csignal>
 #include <thread>
 
@@ -236,6 +237,85 @@ TEST_F(Streams, BadPerformances_NameThePlace) {
                                              "/performances HTTP/1.1\r\nHost: localhost\r\n"
                                              "Content-Type: application/json\r\nContent-Length: 400000000\r\n\r\n");
   EXPECT_THAT(huge, HasSubstr(" 413 ")) << "ten million cues are refused by their size, before they are read";
+}
+
+std::string fap_mask(const std::vector<int>& faps) {
+  std::string text;
+  for (int fap = 1; fap <= 68; ++fap)
+    text.append(std::find(faps.begin(), faps.end(), fap) == faps.end() ? "0" : "1").append(fap < 68 ? " " : "\n");
+  return text;
+}
+
+TEST_F(Streams, FapFile_IsPlayedInRealTime) {
+  const auto stream = create("fap");
+  WebSocket subscriber(port(), stream, "semblante.v1.json");
+  subscriber.send_text(hello("subscribe"));
+  EXPECT_EQ(next(subscriber).value("type", ""), "header");
+  EXPECT_EQ(next(subscriber).value("type", ""), "keyframe");
+  // Ten frames at 20 a second; every second one leaves FAP 3 out; the last is beyond the range of FAP 4.
+  std::string file = "2.1 my talk 20 10\n";
+  for (int i = 0; i < 10; ++i) {
+    const bool open = i % 2 == 0;
+    file += fap_mask(open ? std::vector{3, 4} : std::vector{4}) + std::to_string(i) + (open ? " 400 " : " ") +
+            std::to_string(i == 9 ? 99999 : 20 * i) + "\n";
+  }
+  const auto reply = request(port(), "POST", stream + "/fap?absent=keep", file, {{"Content-Type", "text/plain"}});
+  ASSERT_EQ(reply.status, 202) << reply.body;
+  const auto playing = json::parse(reply.body);
+  EXPECT_EQ(playing["kind"], "fap");
+  EXPECT_EQ(playing["name"], "my_talk");
+  EXPECT_EQ(playing["fps"], 20.0);
+  EXPECT_EQ(playing["duration"], 500.0);
+  ASSERT_EQ(playing["warnings"].size(), 1U);
+  EXPECT_THAT(playing["warnings"][0].get<std::string>(), HasSubstr("line 1: blanks"));
+  EXPECT_EQ(request(port(), "GET", reply.headers.at("location")).status, 200);
+
+  std::vector<double> times;
+  double lip = -1.0;
+  while (lip < 1200.0) {
+    const auto message = next(subscriber);
+    ASSERT_EQ(message.value("type", ""), "frames") << message;
+    const auto& faps = message["frames"][0]["faps"];
+    EXPECT_EQ(faps.value("3", 0.0), 400.0) << "what a frame leaves out is kept";
+    lip = faps.value("4", 0.0);
+    times.push_back(message["media_time"].get<double>());
+    if (lip < 1200.0) {
+      EXPECT_NEAR(times.back() - times.front(), lip / 20 * 50, 2.0) << "frame k is at k / rate";
+    }
+  }
+  EXPECT_EQ(lip, 1200.0) << "600 levels of 2: the end of the range";
+  EXPECT_GE(times.size(), 3U);
+  EXPECT_GE(json::parse(request(port(), "GET", stream).body)["clamped_values"].get<int>(), 1);
+  EXPECT_THAT(request(port(), "GET", "/metrics").body, HasSubstr("semblante_stream_clamped_values_total"));
+}
+
+TEST_F(Streams, BadFapFiles_NameLineAndWord) {
+  const auto stream = create("badfap");
+  const auto refused = [&](const std::string& body, const std::string& query, int status, const std::string& where) {
+    const auto reply = request(port(), "POST", stream + "/fap" + query, body, {{"Content-Type", "text/plain"}});
+    EXPECT_EQ(reply.status, status) << reply.body;
+    EXPECT_EQ(json::parse(reply.body).value("pointer", ""), where) << reply.body;
+  };
+  const std::string good = "2.1 x 25 1\n" + fap_mask({3}) + "0 100\n";
+  refused("2.1 x 25 1\n" + fap_mask({3}) + "0 viel\n", "", 422, "line 3, word 2");
+  refused("", "", 422, "line 1");
+  refused("{}", "", 422, "line 1");
+  refused(good, "?absent=maybe", 400, "?absent");
+  refused(good, "?gaps=1", 400, "?gaps");
+  refused(good, "?fps=0", 400, "?fps");
+  refused(good, "?from=1000", 400, "?from");
+  EXPECT_EQ(request(port(), "POST", "/v1/streams/nowhere/fap", good, {{"Content-Type", "text/plain"}}).status, 404);
+  EXPECT_EQ(request(port(), "POST", stream + "/fap", good, {{"Content-Type", "image/png"}}).status, 415);
+}
+
+TEST_F(Streams, FramesByRequest_BeyondTheirRange_AreClampedAndCounted) {
+  const auto stream = create("clamped");
+  const auto reply = request(port(), "POST", stream + "/frames",
+                             R"({"frames":[{"faps":{"3":-4320,"4":1202}},{"faps":{"23":-153600,"24":-153728}}]})",
+                             {{"Content-Type", "application/json"}});
+  ASSERT_EQ(reply.status, 202) << reply.body;
+  EXPECT_EQ(json::parse(reply.body)["clamped"], 2);
+  EXPECT_EQ(json::parse(request(port(), "GET", stream).body)["clamped_values"], 2);
 }
 
 TEST_F(Streams, LateJoin_GetsTheNewestStateAtOnce) {

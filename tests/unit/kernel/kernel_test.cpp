@@ -1,6 +1,8 @@
 // The kernel against hand-computed cases and against the literal oracle.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -465,6 +467,33 @@ TEST(Kernel_Interpolate, MovesEveryVertexLinearly_WhenNothingTurns) {
   semblante_deform(&test.face, &b, pb.data());
   semblante_deform(&test.face, &mid, pm.data());
   for (std::size_t i = 0; i < pm.size(); ++i) ASSERT_NEAR(pm[i], 0.75F * pa[i] + 0.25F * pb[i], 2e-6F);
+}
+
+TEST(Kernel_Interpolate, LargeTurns_StayOnTheArc_AndNearEvenSpeed) {
+  // Even speed would be t of the angle. Normalized linear interpolation is at most so far off (degrees), worst a fifth
+  // of the way from either end: 2 atan2(t sin h, 1 - t + t cos h) - 2 h t with h half the step.
+  for (const auto& [step, bound] : {std::pair{10.0, 0.002}, {30.0, 0.04}, {60.0, 0.3}, {90.0, 0.95}}) {
+    TestRig rig;
+    semblante_frame frame{};
+    frame.fap[49] = static_cast<float>(step * std::numbers::pi / 180 * 1e5);
+    const semblante_pose a = rig.pose({});
+    const semblante_pose b = rig.pose(frame);
+    double before = 0;
+    double worst = 0;
+    for (int i = 1; i < 100; ++i) {
+      const float t = static_cast<float>(i) / 100;
+      semblante_pose pose;
+      semblante_interpolate(&a, &b, t, &pose);
+      EXPECT_NEAR(pose.head_rotation[0], 0, 1e-6);
+      EXPECT_NEAR(pose.head_rotation[2], 0, 1e-6);
+      const double angle = 2 * std::atan2(pose.head_rotation[1], pose.head_rotation[3]) * 180 / std::numbers::pi;
+      EXPECT_GT(angle, before);
+      worst = std::max(worst, std::abs(angle - t * step));
+      before = angle;
+    }
+    EXPECT_LT(worst, bound) << step;
+    EXPECT_GT(worst, bound / 4) << "the bound says something, " << step;
+  }
 }
 
 TEST(Kernel_Interpolate, TurnsTheShorterWay_AndMayWriteOverItsInput) {

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-/// FAP 3 has the level of the millisecond, FAP 4 that of the time played.
+/// FAP 3 has the level of the millisecond, FAP 5 that of the time played.
 class Ramp : public FrameSource {
  public:
   explicit Ramp(double duration) : duration_(duration) {}
@@ -24,7 +24,7 @@ class Ramp : public FrameSource {
   [[nodiscard]] FaceFrame frame_at(double ms, double played_ms) const override {
     FaceFrame frame;
     frame.level[3] = static_cast<std::int16_t>(ms);
-    frame.level[4] = static_cast<std::int16_t>(played_ms);
+    frame.level[5] = static_cast<std::int16_t>(played_ms);
     return frame;
   }
 
@@ -114,7 +114,7 @@ TEST_F(PlayerTest, Loop_BeginsAgainAndTheTimePlayedRunsOn) {
   const auto messages = take_frames();
   EXPECT_EQ(messages[0].frames[0].state.level[3], 900);
   EXPECT_EQ(messages[5].frames[0].state.level[3], 100);
-  EXPECT_EQ(messages[5].frames[0].state.level[4], 1100);
+  EXPECT_EQ(messages[5].frames[0].state.level[5], 1100);
   EXPECT_FALSE(playing.finished());
   EXPECT_DOUBLE_EQ(playing.status(at(1150.0)).position, 50.0);
 }

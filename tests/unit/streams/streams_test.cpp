@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "server/streams/fap_source.h"
 #include "server/streams/performance_source.h"
 #include "server/streams/stream_connection.h"
 #include "server/streams/stream_hub.h"
@@ -144,6 +145,56 @@ TEST_F(StreamTest, Ended_TakesNobody) {
   EXPECT_EQ(subscriber->close_reason().code, 1000);
   EXPECT_FALSE(stream_->admit(std::make_shared<StreamConnection>(stream_, true, true)));
   EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
+}
+
+TEST_F(StreamTest, ValuesBeyondTheirRange_AreClampedAndCounted_WhateverTheSource) {
+  const auto subscriber = connect(StreamRole::subscribe);
+  take_all(*subscriber);
+  // FAP 3 is unidirectional: 0..1080 by the table, -1080..1080 taken. FAP 4 is not: -600..600. FAP 26: -900..900.
+  TimedFrame frame = frame_with(-1080);
+  frame.state.level[4] = 601;
+  frame.state.level[26] = -32767;
+  const auto receipt = stream_->publish(Source::request, 0, {frame, frame_with(1081), frame_with(1080)});
+  ASSERT_TRUE(receipt);
+  EXPECT_EQ(receipt->clamped, 3U);
+  const auto publisher = connect(StreamRole::publish);
+  publisher->receive(encode_json(Frames{0, 0, {frame_with(-2000)}}), false);
+  publisher->disconnected();
+  const auto ticket = stream_->begin_playing(25, false);
+  ASSERT_TRUE(ticket);
+  EXPECT_TRUE(stream_->publish_playing(*ticket, Stream::Clock::now(), frame_with(3000)).ok());
+  EXPECT_EQ(stream_->info().clamped_values, 5U);
+  EXPECT_EQ(stream_->counts().clamped_values, 5U);
+
+  const auto messages = take_all(*subscriber);
+  ASSERT_EQ(messages.size(), 3U);
+  const auto& batch = std::get<Frames>(messages[0]).frames;
+  EXPECT_EQ(batch[0].state.level[3], -1080);
+  EXPECT_EQ(batch[0].state.level[4], 600);
+  EXPECT_EQ(batch[0].state.level[26], -900);
+  EXPECT_EQ(batch[1].state.level[3], 1080);
+  EXPECT_EQ(std::get<Frames>(messages[1]).frames[0].state.level[3], -1080);
+  EXPECT_EQ(std::get<Frames>(messages[2]).frames[0].state.level[3], 1080);
+}
+
+TEST(FapSource, GivesTheFramesOfTheFile_AndValuesBetweenThem) {
+  std::vector<TimedValues> frames(3);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    frames[i].time = i == 0 ? 0 : 33 + 34 * (i - 1);  // 30 a second, in whole milliseconds: 0, 33, 67
+    frames[i].state.fap[14] = 100 * (i + 1);
+  }
+  frames[1].state.viseme = {10, 0, 63};
+  const auto source = make_fap_source(frames, 30, "walk");
+  EXPECT_EQ(source->kind(), "fap");
+  EXPECT_EQ(source->name(), "walk");
+  EXPECT_NEAR(source->duration(), 100.33, 0.01);
+  for (int k = 0; k < 3; ++k) {
+    const double ms = k * 1000.0 / 30;
+    EXPECT_EQ(source->frame_at(ms, ms).level[14], 100 * (k + 1)) << k;
+    EXPECT_EQ(source->frame_at(ms, ms).viseme.select1, k == 1 ? 10 : 0);
+  }
+  EXPECT_EQ(source->frame_at(50, 50).level[14], 250);
+  EXPECT_EQ(source->frame_at(100, 100).level[14], 300);
 }
 
 TEST(Hub, Streams_OpenOnceAndEndOnce) {

@@ -1,0 +1,46 @@
+import { copyFrame, neutralFrame, type TimedFrame } from './face_frame.ts';
+import type { FapFile } from './fap_file.ts';
+import { limits } from './generated/messages.ts';
+import { ProtocolError } from './protocol_error.ts';
+import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
+
+export interface FapMeaning {
+  /** What a FAP is that a frame leaves out. Default: zero, as the players of such files have it. */
+  absent?: 'zero' | 'keep';
+  /** What the face does where frame numbers are left out. Default: hold, for writers leave out what repeats. */
+  gaps?: 'hold' | 'interpolate';
+  /** Of the stream the frames are for. */
+  steps?: QuantizerSteps;
+}
+
+/**
+ * The faces of a .fap file as frames of a stream, times in ms from its beginning. A gap that holds ends in a copy of the
+ * frame before it. Levels beyond what a message can say become its greatest. Throws ProtocolError beyond 24 hours.
+ */
+export function framesOfFap(file: FapFile, meaning: FapMeaning = {}): TimedFrame[] {
+  const steps = meaning.steps ?? standardQuantizers;
+  const timeOf = (number: number): number => Math.round((number * 1000) / file.rate);
+  if ((file.frames.at(-1)!.number * 1000) / file.rate > limits.max_frame_time) {
+    throw new ProtocolError('out_of_range', '', 'the file lasts longer than 24 hours');
+  }
+  const frames: TimedFrame[] = [];
+  let state = neutralFrame();
+  let before = 0;
+  for (const { number, present, viseme, expression, values } of file.frames) {
+    if (meaning.gaps !== 'interpolate' && number > before + 1) frames.push({ time: timeOf(number - 1), state });
+    state = meaning.absent === 'keep' ? copyFrame(state) : neutralFrame();
+    if (viseme) state.viseme = { select1: viseme.select1, select2: viseme.select2, blend: viseme.blend };
+    if (expression) {
+      const { select1, intensity1, select2, intensity2 } = expression;
+      state.expression = { select1, intensity1, select2, intensity2 };
+    }
+    for (const fap of present) {
+      if (fap < 3) continue;
+      const value = values[fap]!;
+      state.levels[fap] = quantize(value, steps[fap]!) ?? Math.sign(value) * limits.max_level;
+    }
+    frames.push({ time: timeOf(number), state });
+    before = number;
+  }
+  return frames;
+}

@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "protocol/cpp/fap_file_frames.h"
+#include "server/api/common.h"
+#include "server/api/play_options.h"
+#include "server/api/routes.h"
+#include "server/streams/fap_source.h"
+
+namespace semblante::api {
+namespace {
+
+/// One of two words of the query; false is the first, which is also meant when nothing is said.
+bool second_word(const http::Request& request, const std::string& name, const std::string& first,
+                 const std::string& second) {
+  const auto word = request.query_value(name);
+  if (!word || *word == first) return false;
+  if (*word == second) return true;
+  refuse("invalid-argument", "must be " + first + " or " + second, "?" + name);
+}
+
+}  // namespace
+
+http::Response post_fap(Context& context, http::Request& request) {
+  const auto& stream = request.params.at("stream");
+  if (!context.hub.info(stream)) refuse("not-found", "there is no stream " + stream);
+  auto options = play_options(request);
+  FapFileMeaning meaning;
+  if (second_word(request, "absent", "zero", "keep")) meaning.absent = AbsentFap::keep;
+  if (second_word(request, "gaps", "hold", "interpolate")) meaning.gap = FrameGap::interpolate;
+
+  FapFileLimits limits;
+  limits.bytes = max_fap_body_bytes;
+  const auto reading = read_fap_file(text_of_body(request), limits);
+  if (!reading) {
+    const auto& error = reading.error();
+    refuse(error.code == ErrorCode::too_large ? "content-too-large" : "invalid-fap-file", error.message, error.where);
+  }
+  const auto frames = frames_of(reading->file, meaning);
+  if (!frames) refuse("invalid-fap-file", frames.error().message, frames.error().where);
+  // The file's own rate, so that its frames are sent as they are, unless another is asked for.
+  if (!request.query_value("fps"))
+    options.rate = std::clamp(reading->file.rate, streams::least_play_rate, streams::most_play_rate);
+  std::vector<std::string> warnings;
+  for (const auto& warning : reading->warnings) warnings.push_back(to_sentence(warning));
+  auto source = streams::make_fap_source(*frames, reading->file.rate, reading->file.name);
+  return play_into(context, stream, std::move(source), options, warnings);
+}
+
+}  // namespace semblante::api
