@@ -106,4 +106,32 @@ describe('performance', () => {
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
+
+  test('FapFile_Dropped_PlaysOnThisFaceAlone', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const clip = page.locator('.clip');
+    // Jaw, pupils and tongue: from rest to far, in a minute, by a mask of 69 flags.
+    const mask = Array.from({ length: 69 }, (_, i) => ([3, 29, 30, 47].includes(i + 1) ? 1 : 0)).join(' ');
+    const frames = Array.from({ length: 60 }, (_, i) => `${mask}\n${i} ${i * 12} ${i * 5} ${i * 5} ${i * 1500}`);
+    await studio.drop(file('wide.fap', `2.1 wide 1 60\n${frames.join('\n')}\n`));
+    await clip.getByText('wide.fap').waitFor();
+    await clip.getByText('1 peculiarity of the file').waitFor();
+    await clip.getByRole('button', { name: 'Pause' }).click();
+    await clip.getByRole('slider', { name: 'Position' }).fill('0');
+    await page.waitForTimeout(1000);
+    const before = await studio.picture();
+    await clip.getByRole('slider', { name: 'Position' }).fill('58000');
+    await page.waitForTimeout(1000);
+    await clip.getByText('0:58.0 / 0:59.0').waitFor();
+    expect(await studio.difference(before, await studio.picture(), faceAlone)).toBeGreaterThan(0.5);
+    await clip.scrollIntoViewIfNeeded();
+    await studio.keep('clip-paused');
+
+    await studio.drop(file('torn.fap', `2.1 torn 25 1\n${mask}\n0 1 x 3 4\n`));
+    await clip.locator('.excerpt .marked').filter({ hasText: '0 1 x 3 4' }).waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
 });

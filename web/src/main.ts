@@ -1,9 +1,11 @@
 import './ui/styles/index.css';
 import { compileKernel, neutralFrame } from '@client/index.ts';
+import { ClipPlayer } from './face/clip.ts';
 import { dracoDecoder } from './face/draco.ts';
 import { loadFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import { AnimatePanel } from './ui/animate_panel.ts';
+import { ClipPanel } from './ui/clip_panel.ts';
 import { h } from './ui/dom.ts';
 import { FitModel } from './ui/fit_model.ts';
 import { FitPanel } from './ui/fit_panel.ts';
@@ -50,14 +52,19 @@ function main(root: HTMLElement): void {
     face: (model, level, signal) => loadFace(faceSources, model.id, level, signal),
   });
 
+  const clipPlayer = new ClipPlayer();
+  scene.clip = clipPlayer;
   const animate = new AnimatePanel({
     frame,
     onChange: () => {
+      clipPlayer.pause();
       live.driving.set(false);
       scene.performer.value?.follow(frame);
       live.touch();
     },
   });
+  const clip = new ClipPanel(clipPlayer, () => live.driving.set(false));
+  animate.element.append(clip.element);
   animate.element.append(new LevelsPanel(studio, fit, scene).element);
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
@@ -80,17 +87,25 @@ function main(root: HTMLElement): void {
   );
   root.replaceChildren(layout, toasts.element);
   acceptDrops(layout, (files) => {
-    const scripts = files.filter(({ name }) => /\.json$/i.test(name));
+    // A .fap file plays into a stream where one is among streams, and on this page alone elsewhere.
+    const kinds = studio.tab.value === 'live' ? /\.(json|fap)$/i : /\.json$/i;
+    const scripts = files.filter(({ name }) => kinds.test(name));
+    const clips = files.filter(({ name }) => /\.fap$/i.test(name));
     const script = scripts.at(-1);
+    const file = clips.at(-1);
     if (script) {
       studio.tab.set('live');
       void performance.takeFile(script);
+    } else if (file) {
+      studio.tab.set('animate');
+      void clip.takeFile(file);
     }
-    void studio.upload(files.filter((file) => !scripts.includes(file)));
+    void studio.upload(files.filter((one) => !scripts.includes(one) && !clips.includes(one)));
   });
 
   live.driving.watch((driving) => {
-    if (!driving) scene.performer.value?.follow(frame);
+    if (driving) clipPlayer.pause();
+    else scene.performer.value?.follow(frame);
   });
   live.driving.watch((driving) => (scene.live = driving));
   const listen = (): void => scene.performer.value?.listen(live.subscriber.value?.client ?? null);
@@ -128,7 +143,10 @@ function main(root: HTMLElement): void {
   });
 
   setInterval(() => livePanel.refreshFigures(scene.performer.value?.playhead ?? NaN), 500);
-  setInterval(() => performance.tick(), 200);
+  setInterval(() => {
+    performance.tick();
+    clip.tick();
+  }, 200);
   setInterval(() => {
     if (studio.tab.value === 'live' && document.visibilityState === 'visible') void live.refresh();
   }, 3000);

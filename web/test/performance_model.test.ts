@@ -33,6 +33,7 @@ class FakeServer {
   readonly asked: { stream: string; wish: PlayWish }[] = [];
   readonly stopped: string[] = [];
   refuse: Problem | null = null;
+  faps = 0;
   private made = 0;
 
   readonly listStreams = (): Promise<StreamInfo[]> => Promise.resolve(structuredClone(this.streams));
@@ -48,6 +49,10 @@ class FakeServer {
     const now = playing({ id: `p${this.made}`, loop: wish.loop, position: wish.from });
     this.streams = this.streams.map((one) => (one.id === id ? { ...one, playing: now } : one));
     return Promise.resolve(now);
+  };
+  readonly playFap = (id: string, file: Blob, wish: PlayWish): Promise<Playing> => {
+    this.faps += 1;
+    return this.playPerformance(id, file, wish);
   };
   readonly stopPlaying = (id: string, what: string): Promise<void> => {
     this.stopped.push(what);
@@ -80,7 +85,7 @@ async function setUp(streams: StreamInfo[]) {
   const live = new FakeLive(studio, neutralFrame());
   const model = new PerformanceModel(studio, live, () => clock.now);
   await live.refresh();
-  model.choose({ title: 'hello.json', text: '{"cues": [\n{"viseme": "q"}]}' });
+  model.choose({ kind: 'performance', title: 'hello.json', text: '{"cues": [\n{"viseme": "q"}]}' });
   return { server, live, model, clock };
 }
 
@@ -173,8 +178,17 @@ describe('performance model', () => {
     await model.play();
     expect(model.refusal.value?.holder).toBeNull();
     expect(model.refusal.value?.excerpt.find(({ marked }) => marked)?.number).toBe(2);
-    model.choose({ title: 'other.json', text: '{}' });
+    model.choose({ kind: 'performance', title: 'other.json', text: '{}' });
     expect(model.refusal.value).toBeNull();
+  });
+
+  test('Play_FapFile_GoesTheWayOfFapFiles', async () => {
+    const { server, model } = await setUp([stream('a')]);
+    model.target.set('a');
+    model.choose({ kind: 'fap', title: 'joy.fap', text: '2.1 joy 25 1' });
+    await model.play();
+    expect(server.faps).toBe(1);
+    expect(model.playing.value).not.toBeNull();
   });
 
   test('Stop_EndsWhatPlaysThere', async () => {

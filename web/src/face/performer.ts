@@ -7,17 +7,21 @@ const handDuration = 12 * handTimeConstant;
 // The player keeps poses 0 (shown), 1 and 2 in the kernel; these are ours.
 const handTarget = 3;
 const handShown = 4;
-export const poseCount = 5;
+const clipFrom = 5;
+const clipTo = 6;
+export const poseCount = 7;
 
 /**
- * What the face shows: a stream, played out by the SDK's player, or a frame set by hand, which it eases to. Nothing is
- * allocated per displayed frame.
+ * What the face shows: a stream, played out by the SDK's player, a frame set by hand, which it eases to, or a moment of a
+ * clip. Nothing is allocated per displayed frame.
  */
 export class Performer {
   private readonly player: Player;
   private stopListening: (() => void) | null = null;
   private shown = handShown;
   private settled = handDuration;
+  // The frames of a clip whose poses are in the kernel.
+  private clipFrames: [FaceFrame | null, FaceFrame | null] = [null, null];
 
   constructor(readonly kernel: Kernel) {
     this.player = new Player(kernel);
@@ -50,6 +54,17 @@ export class Performer {
     this.kernel.evaluate(frame, handTarget);
     this.shown = handShown;
     this.settled = 0;
+  }
+
+  /** Shows a moment between two frames of a clip, at once. The frames must not change meanwhile. */
+  showBetween(from: FaceFrame, to: FaceFrame, t: number): void {
+    if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom);
+    if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo);
+    this.clipFrames[0] = from;
+    this.clipFrames[1] = to;
+    this.kernel.interpolate(clipFrom, clipTo, t, handShown);
+    this.shown = handShown;
+    this.settled = handDuration;
   }
 
   /** Moves on by a displayed frame, along the stream when `live`. Returns whether the pose changed. */

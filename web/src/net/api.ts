@@ -149,6 +149,12 @@ export class Api {
     return (await requestJson<Playing>(url, { method: 'POST', body: document, contentType: 'application/json' })).value;
   }
 
+  /** Plays a .fap file into a stream, from now on. */
+  async playFap(stream: string, file: Blob, wish: PlayWish): Promise<Playing> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(wish)}`;
+    return (await requestJson<Playing>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
+  }
+
   /** Ends what plays; the face returns to neutral. */
   async stopPlaying(stream: string, id: string): Promise<void> {
     await requestJson(`${this.base}/v1/streams/${segment(stream)}/performances/${segment(id)}`, { method: 'DELETE' });

@@ -7,6 +7,7 @@ import type { Studio } from './studio.ts';
 
 /** Something to play, as it came from a file or an example. */
 export interface Script {
+  kind: 'performance' | 'fap';
   title: string;
   text: string;
 }
@@ -19,7 +20,7 @@ export interface Refusal {
   holder: string | null;
 }
 
-/** A performance document, the stream that it plays into, and how that goes. */
+/** A performance document or a .fap file, the stream that it plays into, and how that goes. */
 export class PerformanceModel {
   readonly script = new Signal<Script | null>(null);
   /** Id of a stream; empty: a new one. */
@@ -88,11 +89,11 @@ export class PerformanceModel {
       if (stream === null) return;
       // What was started here gives way to itself without being asked.
       const whole = { loop: this.loop, from: this.from, takeOver: this.mine, ...wish };
-      const playing = await this.studio.api.playPerformance(
-        stream,
-        new Blob([script.text], { type: 'application/json' }),
-        whole,
-      );
+      const { api } = this.studio;
+      const body = new Blob([script.text]);
+      const playing = await (script.kind === 'fap'
+        ? api.playFap(stream, body, whole)
+        : api.playPerformance(stream, body, whole));
       this.own = playing.id;
       this.take(playing);
     } catch (error) {

@@ -1,6 +1,7 @@
 import { adviceFor } from '../net/problem.ts';
 import { h, redraw, replace, setText } from './dom.ts';
 import { examples } from './examples.ts';
+import { excerptBox } from './excerpt_box.ts';
 import { chooseFile } from './file_button.ts';
 import { formatTime } from './format.ts';
 import { icon } from './icons.ts';
@@ -8,7 +9,7 @@ import type { LiveModel } from './live_model.ts';
 import { capital } from './names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
 
-/** Plays a performance document into a stream, onto the face on screen and that of everyone who watches. */
+/** Plays a performance document or a .fap file into a stream, onto the face on screen and that of everyone who watches. */
 export class PerformancePanel {
   readonly element: HTMLElement;
   private readonly script = h('div', { class: 'script' });
@@ -50,7 +51,7 @@ export class PerformancePanel {
       const chosen = examples[Number(example.value)];
       if (example.value === '' || !chosen) return;
       example.value = '';
-      void chosen.text().then((text) => this.model.choose({ title: chosen.title, text }));
+      void chosen.text().then((text) => this.model.choose({ kind: 'performance', title: chosen.title, text }));
     });
     this.target.addEventListener('change', () => this.model.target.set(this.target.value));
     this.from.addEventListener('change', () => {
@@ -74,9 +75,9 @@ export class PerformancePanel {
         'div',
         { class: 'script-source' },
         chooseFile({
-          label: 'Choose a document',
+          label: 'Choose a .json or .fap file',
           note: 'or drop it',
-          accept: '.json,application/json',
+          accept: '.json,.fap,application/json',
           take: (file) => void this.takeFile(file),
         }),
         example,
@@ -109,7 +110,8 @@ export class PerformancePanel {
   }
 
   async takeFile(file: File): Promise<void> {
-    this.model.choose({ title: file.name, text: await file.text() });
+    const kind = /\.fap$/i.test(file.name) ? 'fap' : 'performance';
+    this.model.choose({ kind, title: file.name, text: await file.text() });
   }
 
   /** Called a few times a second. */
@@ -208,15 +210,7 @@ export class PerformancePanel {
           { class: 'grow' },
           h('strong', {}, holder ?? capital(problem.detail ?? problem.title)),
           problem.pointer ? h('p', {}, 'At ', h('code', {}, problem.pointer)) : null,
-          excerpt.length > 0
-            ? h(
-                'pre',
-                { class: 'excerpt' },
-                excerpt.map(({ number, text, marked }) =>
-                  h('div', { class: marked ? 'marked' : '' }, h('span', { class: 'line-number' }, number), text),
-                ),
-              )
-            : null,
+          excerptBox(excerpt),
           advice ? h('p', {}, advice) : null,
           holder
             ? h(

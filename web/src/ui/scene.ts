@@ -1,4 +1,5 @@
 import { Vector3 } from 'three';
+import type { ClipPlayer } from '../face/clip.ts';
 import type { LoadedFace } from '../face/loaded_face.ts';
 import { Performer } from '../face/performer.ts';
 import type { Model } from '../net/types.ts';
@@ -56,6 +57,8 @@ export class SceneView {
     this.stage.onFrame((delta) => this.step(delta));
   }
 
+  /** A file that plays here, over what is done by hand. */
+  clip: ClipPlayer | null = null;
   /** Whether the face follows the stream, or what is done by hand. */
   live = false;
 
@@ -167,7 +170,9 @@ export class SceneView {
     const { face } = this;
     const performer = this.performer.value;
     if (!face || !performer || !face.object.visible) return false;
-    if (!performer.step(delta, this.live)) return false;
+    const moment = this.live ? null : (this.clip?.step(delta) ?? null);
+    if (moment) performer.showBetween(moment.from.state, moment.to.state, moment.t);
+    else if (!performer.step(delta, this.live)) return false;
     this.pose(face, performer);
     return true;
   }

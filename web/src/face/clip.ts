@@ -1,0 +1,121 @@
+import { framesOfFap, type FapMeaning } from '@protocol/fap_frames.ts';
+import type { FapFile } from '@protocol/fap_file.ts';
+import type { TimedFrame } from '@client/index.ts';
+
+/** Where the face is at one moment of a clip: `t` (0..1) of the way between two frames. */
+export interface ClipMoment {
+  from: TimedFrame;
+  to: TimedFrame;
+  t: number;
+}
+
+/** Frames in time that are at hand as a whole, from 0 to `duration` ms. */
+export class Clip {
+  readonly duration: number;
+  private readonly moment: ClipMoment;
+  private at = 0;
+
+  constructor(readonly frames: readonly TimedFrame[]) {
+    const first = frames[0];
+    if (!first) throw new RangeError('a clip has a frame at least');
+    this.duration = frames.at(-1)!.time;
+    this.moment = { from: first, to: first, t: 0 };
+  }
+
+  static ofFap(file: FapFile, meaning: FapMeaning): Clip {
+    return new Clip(framesOfFap(file, meaning));
+  }
+
+  /** The answer is the same object every time: nothing is allocated per displayed frame. */
+  momentAt(position: number): ClipMoment {
+    const { frames, moment } = this;
+    if (position < frames[this.at]!.time) this.at = this.search(position);
+    while (this.at + 1 < frames.length && frames[this.at + 1]!.time <= position) this.at += 1;
+    moment.from = frames[this.at]!;
+    moment.to = frames[Math.min(this.at + 1, frames.length - 1)]!;
+    const span = moment.to.time - moment.from.time;
+    moment.t = span > 0 ? Math.min(1, Math.max(0, (position - moment.from.time) / span)) : 0;
+    return moment;
+  }
+
+  /** The last frame at or before a position. */
+  private search(position: number): number {
+    let low = 0;
+    let high = this.frames.length - 1;
+    while (low < high) {
+      const middle = Math.ceil((low + high) / 2);
+      if (this.frames[middle]!.time <= position) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+}
+
+/** Plays a clip on a face, without any server. */
+export class ClipPlayer {
+  loop = false;
+  /** ms */
+  position = 0;
+  private current: Clip | null = null;
+  private on = false;
+  private changed = false;
+
+  /** `onEnd` is called when it stops by itself. */
+  constructor(private readonly onEnd: () => void = () => undefined) {}
+
+  get clip(): Clip | null {
+    return this.current;
+  }
+
+  get playing(): boolean {
+    return this.on;
+  }
+
+  /** Another clip, or the same one read otherwise: that keeps its place. */
+  load(clip: Clip | null, keepPlace = false): void {
+    this.current = clip;
+    if (!keepPlace || !clip) {
+      this.position = 0;
+      this.on = false;
+    }
+    this.changed = clip !== null;
+  }
+
+  play(): void {
+    if (!this.current) return;
+    if (this.position >= this.current.duration) this.position = 0;
+    this.on = true;
+    this.changed = true;
+  }
+
+  pause(): void {
+    this.on = false;
+    this.changed = false;
+  }
+
+  seek(position: number): void {
+    if (!this.current) return;
+    this.position = Math.min(this.current.duration, Math.max(0, position));
+    this.changed = true;
+  }
+
+  /** Moves on by a displayed frame. The moment to show, or null when there is nothing new. */
+  step(deltaSeconds: number): ClipMoment | null {
+    if (!this.current || (!this.on && !this.changed)) return null;
+    if (this.on && !this.changed) this.advance(this.current.duration, deltaSeconds * 1000);
+    this.changed = false;
+    return this.current.momentAt(this.position);
+  }
+
+  private advance(duration: number, elapsed: number): void {
+    this.position += elapsed;
+    if (this.position < duration) return;
+    if (this.loop && duration > 0) {
+      this.position %= duration;
+      return;
+    }
+    this.position = duration;
+    this.on = false;
+    this.onEnd();
+  }
+}
