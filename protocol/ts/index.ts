@@ -12,3 +12,4 @@ export { toArkit } from './bridges/to_arkit.ts';
 export { fromOculus, oculusNames, toOculus, type FromOculus, type OculusInput } from './bridges/oculus.ts';
 export * from './fap_file.ts';
 export * from './fap_frames.ts';
+export * from './performance_document.ts';

@@ -20,6 +20,10 @@ export class JsonCursor {
     return this.value === null;
   }
 
+  get isText(): boolean {
+    return typeof this.value === 'string';
+  }
+
   get isArray(): boolean {
     return Array.isArray(this.value);
   }

@@ -22,6 +22,7 @@ struct ConvertCommand {
 };
 
 void run(ConvertCommand& options) {
+  options.reading.rate = options.writing.rate;
   const FaceSequence sequence = read_faces(options.in, options.in_format, options.reading);
   const std::string text = write_faces(sequence, options.out, options.out_format, options.writing);
   write_file(options.out, [&text](std::ostream& out) { out << text; });
@@ -58,9 +59,16 @@ void add_convert_command(CLI::App& app) {
   add_face_reading_options(*command, options->reading);
   command
       ->add_option("--rate", options->writing.rate,
-                   "Frames a second of a format that has a rate; left out: that of FILE, or told from its times")
+                   "Frames a second of a format that has a rate, and of a performance that is read; left out: that of "
+                   "FILE, or told from its times, or 25")
       ->check(CLI::Range(0.001, 1000.0))
       ->envname("SEMBLANTE_RATE");
+  command
+      ->add_option("--tolerance", options->writing.tolerance,
+                   "How far a performance that is written may be from the frames at their times, in quantizer steps")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_TOLERANCE");
   command->add_flag("--quiet", options->quiet, "No warnings")->envname("SEMBLANTE_QUIET");
   command->callback([options] { run(*options); });
 }

@@ -17,6 +17,8 @@ constexpr std::array formats = {
     FaceFormat{"fap", ".fap", "the FAP file of MPEG-4's reference encoder", nullptr, read_fap_faces, write_fap_faces},
     FaceFormat{"arkit-csv", ".csv", "a take of Live Link Face: ARKit's 52 coefficients and the angles of the head",
                nullptr, read_live_link_faces, write_live_link_faces},
+    FaceFormat{"performance", ".json", "a performance: sampled --rate times a second when read, recorded when written",
+               is_performance, read_performance_faces, write_performance_faces},
     FaceFormat{"frames", ".json", "the frames of POST /v1/streams/{id}/frames, as many as you like", nullptr,
                read_frames_faces, write_frames_faces},
 };
@@ -84,7 +86,8 @@ FaceSequence read_faces(const std::string& path, const std::string& format, cons
 std::string write_faces(const FaceSequence& sequence, const std::string& path, const std::string& format,
                         const FaceWriting& writing) {
   const FaceFormat* const chosen =
-      format.empty() ? by_path(path, [](const FaceFormat& f) { return f.write != nullptr; }) : by_name(format);
+      format.empty() ? by_path(path, [](const FaceFormat& f) { return f.write != nullptr && f.recognizes == nullptr; })
+                     : by_name(format);
   if (chosen == nullptr || chosen->write == nullptr) {
     refuse(path, format.empty() ? "its format cannot be told from its name; say one of " + writable_face_formats()
                                 : "no format '" + format + "' can be written; it is one of " + writable_face_formats());

@@ -21,12 +21,14 @@ struct FaceSequence {
 /// What a reader is told beyond the file.
 struct FaceReading {
   FapFileMeaning fap_meaning;
+  double rate = 0;  ///< frames a second of what has no frames of its own; 0: 25
 };
 
 /// What a writer is told beyond the frames.
 struct FaceWriting {
   double rate = 0;  ///< frames a second; 0: the sequence's own, or told from its times
   std::string name = "semblante";
+  double tolerance = 0.5;  ///< of what is thinned out: in quantizer steps
 };
 
 /// A file format of faces in time. To add one: a file face_format_NAME.cpp with its two functions and a line in
@@ -35,7 +37,8 @@ struct FaceFormat {
   std::string_view name;       ///< "fap": for --in-format and --out-format
   std::string_view extension;  ///< ".fap": what a path without a stated format is taken for
   std::string_view meaning;    ///< for --help
-  /// Whether a text looks like it: told apart among formats of one extension. Null: the only one of its extension.
+  /// Whether a text looks like it: told apart among formats of one extension. Null: the only one of its extension, or
+  /// the one that a path to be written means.
   bool (*recognizes)(std::string_view text) = nullptr;
   /// Null: cannot be read. Errors name line or JSON pointer in `where`.
   Result<FaceSequence> (*read)(std::string_view text, const FaceReading& reading) = nullptr;
@@ -62,6 +65,9 @@ Result<FaceSequence> read_fap_faces(std::string_view text, const FaceReading& re
 Result<std::string> write_fap_faces(const FaceSequence& sequence, const FaceWriting& writing);
 Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_live_link_faces(const FaceSequence& sequence, const FaceWriting& writing);
+bool is_performance(std::string_view text);
+Result<FaceSequence> read_performance_faces(std::string_view text, const FaceReading& reading);
+Result<std::string> write_performance_faces(const FaceSequence& sequence, const FaceWriting& writing);
 Result<FaceSequence> read_frames_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_frames_faces(const FaceSequence& sequence, const FaceWriting& writing);
 

@@ -3,8 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/performance_document.h"
-#include "protocol/cpp/quantized_frame.h"
 #include "server/streams/demo_document.h"
 
 namespace semblante::streams {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -11,6 +12,8 @@
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/frame_output.h"
 #include "clients/native/tools/publish.h"
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/kernel_values.h"
 
 namespace semblante::tools {
 namespace {
@@ -22,6 +25,7 @@ struct Arguments {
   std::optional<std::uint32_t> max_vertices;
   std::string role = "subscribe";
   std::filesystem::path frames_file;
+  std::filesystem::path record;
   std::size_t frames = 25;
   double fps = 0;
   double timeout = 10;
@@ -102,6 +106,34 @@ Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face
   return output.finish();
 }
 
+/// What the stream sends, as the JSON that publishing takes: the first frame is at 0.
+Status record(client::StreamClient& stream, client::FramePlayer& player, const Arguments& arguments) {
+  std::vector<TimedValues> frames;
+  double begin = 0;
+  while (frames.size() < arguments.frames) {
+    const auto frame = player.next_received();
+    if (!frame) {
+      return frame.error();
+    }
+    if (!*frame) {
+      break;  // what there was until the stream ended is a recording too
+    }
+    begin = frames.empty() ? (*frame)->media_time : begin;
+    const double since = std::max(0.0, (*frame)->media_time - begin);
+    const std::uint32_t before = frames.empty() ? 0 : frames.back().time;
+    frames.push_back({std::max(before, static_cast<std::uint32_t>(std::lround(since))), to_values((*frame)->frame)});
+  }
+  stream.close();
+  if (frames.empty()) {
+    return Error{ErrorCode::empty, arguments.stream, "the stream ended before its first frame"};
+  }
+  if (auto written = write_file(arguments.record, encode_json_values(frames)); !written) {
+    return written;
+  }
+  std::cout << frames.size() << " frames of " << arguments.stream << " in " << arguments.record.string() << '\n';
+  return Unit{};
+}
+
 Status subscribe(const client::Url& url, const Arguments& arguments) {
   client::HttpLimits limits;
   limits.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
@@ -113,6 +145,9 @@ Status subscribe(const client::Url& url, const Arguments& arguments) {
   client::FramePlayer player(*stream, limits.timeout);
   if (auto header = player.wait_for_header(); !header) {
     return header;
+  }
+  if (!arguments.record.empty()) {
+    return record(*stream, player, arguments);
   }
   const std::string model = arguments.model.empty() ? player.header()->model : arguments.model;
   if (model.empty()) {
@@ -172,6 +207,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   app.add_option("-o,--out", arguments.output.folder, "folder for frame-00000.* and frames.csv");
+  app.add_option("--record", arguments.record, "in place of --out: JSON {\"frames\": [...]} of what the stream sends");
   app.add_option("-f,--format", arguments.output.formats, "obj, ply, png, table; repeatable")->capture_default_str();
   app.add_option("--shot", arguments.output.shot, "VIEW or VIEW:SUBJECT of the png")->capture_default_str();
   app.add_option("--size", arguments.output.size, "of the png, pixels")->capture_default_str();
@@ -187,7 +223,7 @@ int main(int argc, char** argv) {
     if (arguments.role == "publish" && arguments.frames_file.empty()) {
       throw CLI::RequiredError("--frames-file");
     }
-    if (arguments.role == "subscribe" && arguments.output.folder.empty()) {
+    if (arguments.role == "subscribe" && arguments.output.folder.empty() && arguments.record.empty()) {
       throw CLI::RequiredError("--out");
     }
   });

@@ -37,6 +37,37 @@ TEST(Convert, AbsentFaps_AreZeroOrKept) {
             "{\"frames\": [\n{\"time\":0,\"faps\":{\"3\":10}},\n{\"time\":40,\"faps\":{\"3\":10}}\n]}\n");
 }
 
+TEST(Convert, Performance_ToFramesAndBack_SaysTheSame) {
+  const Workspace work;
+  const std::string performance = work.write("in.json", R"({"format":"semblante.performance","version":1,"duration":200,
+    "cues":[{"time":0,"fap":"open_jaw","keys":[[0,0],[100,400],[200,0]],"easing":"linear"},
+            {"time":50,"duration":100,"expression":"joy","value":1,"attack":0,"release":0}]})");
+  ASSERT_EQ(run_semblante({"convert", performance, "--out", work.path("frames.json"), "--rate", "20"}).exit_code, 0);
+  const std::string frames =
+      "{\"frames\": [\n{\"time\":0},\n"
+      "{\"time\":50,\"expression\":{\"select1\":1,\"intensity1\":63,\"select2\":0,\"intensity2\":0},\"faps\":{\"3\":"
+      "200}},\n"
+      "{\"time\":100,\"expression\":{\"select1\":1,\"intensity1\":63,\"select2\":0,\"intensity2\":0},\"faps\":{\"3\":"
+      "400}},\n"
+      "{\"time\":150,\"faps\":{\"3\":200}},\n{\"time\":200}\n]}\n";
+  EXPECT_EQ(read_text(work.path("frames.json")), frames);
+  ASSERT_EQ(run_semblante({"convert", work.path("frames.json"), "--out", work.path("back.json"), "--out-format",
+                           "performance", "--tolerance", "0"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_semblante({"convert", work.path("back.json"), "--out", work.path("again.json"), "--rate", "20",
+                           "--out-format", "frames"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read_text(work.path("again.json")).substr(0, frames.size() - 4), frames.substr(0, frames.size() - 4))
+      << "and a frame more: the recording's last one lasts as long as the others";
+  const Outcome outcome = run_semblante(
+      {"convert", work.write("bad.json", R"({"format":"semblante.performance","version":1,"cues":[{"time":0}]})"),
+       "--out", work.path("out.fap")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("/cues/0"), std::string::npos) << outcome.err;
+}
+
 TEST(Convert, Faults_NameFileAndPlace) {
   const Workspace work;
   const std::string fap = work.write("in.fap", "2.1 x 25 1\n" + mask({3}) + "0 zehn\n");

@@ -1,0 +1,81 @@
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { describe, expect, it } from 'vitest';
+import { Performance } from '../../../../clients/js/performance.ts';
+import { ProtocolError, readPerformance } from '../../../../protocol/ts/index.ts';
+
+const protocol = new URL('../../../../protocol/', import.meta.url);
+const read = (name: string): string => readFileSync(new URL(name, protocol), 'utf8');
+const { Ajv2020 } = createRequire(new URL('../../../../web/package.json', import.meta.url))('ajv/dist/2020.js') as {
+  Ajv2020: new (options: object) => { compile(schema: object): (document: unknown) => boolean };
+};
+
+interface Documents {
+  good: unknown[];
+  refused: { where: string; schema: 'refuses' | 'cannot tell'; document: unknown }[];
+}
+interface GoldenFrame {
+  time: number;
+  viseme?: object;
+  expression?: object;
+  faps?: Record<string, number>;
+}
+
+const documents = JSON.parse(read('vectors/performance/documents.json')) as Documents;
+
+describe('readPerformance', () => {
+  it('Good_IsTaken', () => {
+    for (const document of documents.good) expect(() => readPerformance(JSON.stringify(document))).not.toThrow();
+  });
+
+  it('Bad_IsRefusedAtThePlace', () => {
+    for (const { where, document } of documents.refused) {
+      if (where === '/cues/64') continue; // how many act at once is the server's to count
+      try {
+        readPerformance(JSON.stringify(document));
+        expect.fail(`taken: ${JSON.stringify(document)}`);
+      } catch (error) {
+        expect(error, JSON.stringify(document)).toBeInstanceOf(ProtocolError);
+        if (where !== '') expect((error as ProtocolError).where, JSON.stringify(document)).toBe(where);
+      }
+    }
+  });
+
+  it('Schema_AgreesWithTheReader', () => {
+    const valid = new Ajv2020({ strict: false }).compile(JSON.parse(read('schema/performance.schema.json')) as object);
+    for (const document of documents.good) expect(valid(document), JSON.stringify(document)).toBe(true);
+    for (const { schema, document } of documents.refused) {
+      expect(valid(document), JSON.stringify(document)).toBe(schema === 'cannot tell');
+    }
+    for (const name of ['examples/performances/hello.json', 'examples/performances/minute.json']) {
+      expect(valid(JSON.parse(read(name))), name).toBe(true);
+    }
+  }, 60_000); // compiling a schema takes its time on a busy machine
+});
+
+describe('Performance', () => {
+  it.each([
+    ['vectors/performance/corners.json', 'vectors/performance/corners.frames.json'],
+    ['examples/performances/hello.json', 'vectors/performance/hello.frames.json'],
+  ])('%s_GivesTheGoldenFrames', (document, golden) => {
+    const performance = new Performance(readPerformance(read(document)));
+    const { frames } = JSON.parse(read(golden)) as { frames: GoldenFrame[] };
+    const none = { viseme: { select1: 0, select2: 0, blend: 0 } };
+    const neutral = { expression: { select1: 0, intensity1: 0, select2: 0, intensity2: 0 } };
+    for (const frame of frames) {
+      const face = performance.at(frame.time);
+      expect(face.viseme, `at ${frame.time}`).toEqual(frame.viseme ?? none.viseme);
+      expect(face.expression, `at ${frame.time}`).toEqual(frame.expression ?? neutral.expression);
+      const wrong = face.faps.findIndex((value, n) => Math.abs(value - (frame.faps?.[n] ?? 0)) > 0.01);
+      expect(wrong, `the FAP that is wrong at ${frame.time}`).toBe(-1);
+    }
+  });
+
+  it('FrameAt_IsWhatAStreamCarries', () => {
+    const performance = new Performance(readPerformance(read('examples/performances/hello.json')));
+    const frame = performance.frameAt(700);
+    const face = performance.at(700);
+    expect(frame.levels[48]).toBe(Math.round(face.faps[48]! / 170));
+    expect(frame.viseme).toEqual(face.viseme);
+  });
+});
