@@ -25,6 +25,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/kernel/semblante_ease.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/kernel/semblante_normals.h"
 #include "core/kernel/semblante_prepared_face.h"

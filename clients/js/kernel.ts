@@ -19,6 +19,7 @@ interface KernelExports {
   semblante_alloc(bytes: number): number;
   semblante_evaluate(rig: number, frame: number, pose: number): void;
   semblante_interpolate(a: number, b: number, t: number, out: number): void;
+  semblante_ease(before: number, from: number, to: number, after: number, spans: number, t: number, out: number): void;
   semblante_prepared_size(face: number): number;
   semblante_prepare(face: number, memory: number): number;
   semblante_deform_changed(face: number, before: number, now: number, positions: number): number;
@@ -63,8 +64,10 @@ export class Kernel {
   private readonly exports: KernelExports;
   private readonly frameNumbers: Uint8Array;
   private readonly frameFaps: Float32Array;
+  private readonly spans: Float32Array;
   private readonly at: {
     frame: number;
+    spans: number;
     rig: number;
     /** the prepared face; 0 when there are no vertices */
     face: number;
@@ -99,6 +102,7 @@ export class Kernel {
       return offset;
     };
     const frame = place(frameBytes);
+    const spans = place(12);
     const rigAt = place(rigBytes);
     const faceAt = place(faceBytes);
     const visemes = place(rig.visemes.length * featurePointCount * 12);
@@ -143,6 +147,7 @@ export class Kernel {
 
     this.at = {
       frame: base + frame,
+      spans: base + spans,
       rig: base + rigAt,
       face: prepared,
       positions: base + positions,
@@ -151,6 +156,7 @@ export class Kernel {
     };
     this.frameNumbers = new Uint8Array(memory, base + frame, 7);
     this.frameFaps = floats(frame + 8, fapCount + 1);
+    this.spans = floats(spans, 3);
     this.positions = floats(positions, vertices * 3);
     this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
     for (const pose of [...this.at.poses, this.at.shown]) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
@@ -174,6 +180,23 @@ export class Kernel {
   /** The pose t of the way from a to b, 0..1. `out` may be a or b. */
   interpolate(a: number, b: number, t: number, out: number): void {
     this.exports.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
+  }
+
+  /**
+   * The same without corners: on a curve through four poses that lie `spans` apart (0: none there), see semblante_ease.h.
+   */
+  ease(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void {
+    const [before, from, to, after] = poses;
+    this.spans.set(spans);
+    this.exports.semblante_ease(
+      this.poseAt(before),
+      this.poseAt(from),
+      this.poseAt(to),
+      this.poseAt(after),
+      this.at.spans,
+      t,
+      this.poseAt(out),
+    );
   }
 
   /** Eq. 7, then eyes and tongue, then head, into `positions`. */

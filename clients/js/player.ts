@@ -7,6 +7,8 @@ import type { StreamClient } from './stream_client.ts';
 export interface PoseMaker {
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps): void;
   interpolate(a: number, b: number, t: number, out: number): void;
+  /** Needed for the interpolation `eased`; poses before, from, to, after with the spans between them. */
+  ease?(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void;
 }
 
 export interface PlayerOptions {
@@ -14,15 +16,30 @@ export interface PlayerOptions {
   now?: () => number;
   /** How far behind the newest frame to play, ms; default two send intervals, at least 60. */
   delay?: number;
+  /**
+   * `linear` (default): each pair of frames by a straight way, as the paper does. `eased`: the same frames at the same
+   * times on a curve without corners that never leaves the range of a pair; wants one frame more ahead and
+   * `easedPoseCount` poses.
+   */
+  interpolation?: 'linear' | 'eased';
+  /**
+   * Media time to show now, ms: where the sound is. NaN while there is none: then the display's clock counts. See
+   * `updateTo`.
+   */
+  clock?: () => number;
 }
 
-/** The player writes the pose to show into this number; it uses 1 and 2 for itself. */
+/** The player writes the pose to show into this number; it uses 1 and 2, when eased 1 to 4, for itself. */
 export const shownPose = 0;
 const fromPose = 1;
 const toPose = 2;
+const beforePose = 3;
+const afterPose = 4;
+const easedPoses = [beforePose, fromPose, toPose, afterPose] as const;
+export const easedPoseCount = 5;
 
 const maxSpeedChange = 0.05;
-/** Further than this from where it should be, the playhead jumps (ms). */
+/** Further than this from where it should be, the playhead jumps (ms); less far behind, it waits. */
 const snapThreshold = 500;
 /** Seconds in which a small error is played away. */
 const correctionTime = 1;
@@ -33,8 +50,8 @@ const maxHeldFrames = 2048;
 
 /**
  * Plays the frames of a stream at the display's rate: about two send intervals behind the newest, the feature points
- * interpolated linearly, so that every vertex is interpolated as the paper does. Adapts its speed by at most 5 %, jumps
- * beyond half a second, never goes back.
+ * interpolated linearly, so that every vertex is interpolated as the paper does, or eased. Adapts its speed by at most
+ * 5 %, jumps beyond half a second, never goes back. Given a clock, it shows exactly what that says.
  */
 export class Player {
   /** Media time that is shown, ms; NaN before the first frame. */
@@ -43,6 +60,8 @@ export class Player {
   private readonly poses: PoseMaker;
   private readonly now: () => number;
   private readonly fixedDelay: number | undefined;
+  private readonly eased: boolean;
+  private readonly clock: (() => number) | undefined;
   private steps: QuantizerSteps = standardQuantizers;
   private epoch = -1;
 
@@ -62,10 +81,20 @@ export class Player {
   private toTime = NaN;
   private shownT = NaN;
 
+  // Eased: the frame before the one in `fromPose`, and what the curve of the present pair was decided to be.
+  private beforeTime = NaN;
+  private beforeState: FaceFrame | undefined;
+  private readonly spans = [0, 0, 0];
+  /** Time of the frame at which the last curve came to rest, since none followed it yet. */
+  private restedAt = NaN;
+
   constructor(poses: PoseMaker, options: PlayerOptions = {}) {
     this.poses = poses;
     this.now = options.now ?? (() => performance.now());
     this.fixedDelay = options.delay;
+    this.eased = options.interpolation === 'eased';
+    this.clock = options.clock;
+    if (this.eased && !poses.ease) throw new TypeError('these poses cannot be eased');
   }
 
   /** Plays what a client receives. Returns the function that stops listening. */
@@ -112,11 +141,15 @@ export class Player {
     this.lastBatchEnd = NaN;
     this.bestOffset = -Infinity;
     this.fromTime = this.toTime = this.shownT = NaN;
+    this.beforeTime = this.restedAt = NaN;
+    this.beforeState = undefined;
   }
 
   /** ms behind the newest frame */
   get delay(): number {
-    return this.fixedDelay ?? Math.max(leastDelay, 2 * (this.announcedInterval || this.measuredInterval));
+    // A curve has to know where it goes after the pair it is in.
+    const intervals = this.eased ? 3 : 2;
+    return this.fixedDelay ?? Math.max(leastDelay, intervals * (this.announcedInterval || this.measuredInterval));
   }
 
   /**
@@ -124,11 +157,29 @@ export class Player {
    * a page may skip drawing when it did not.
    */
   update(deltaSeconds: number): boolean {
+    const mediaTime = this.clock?.() ?? NaN;
+    if (Number.isFinite(mediaTime)) return this.updateTo(mediaTime);
     if (this.times.length === 0) return false;
     this.advance(deltaSeconds * 1000);
+    return this.showPlayhead();
+  }
+
+  /**
+   * The same by another's clock, such as the sound's: shows the face of that media time (ms), as far as frames go. A clock
+   * that steps back by up to half a second is waited for; one that goes back further is followed, to the oldest frame
+   * that is held.
+   */
+  updateTo(mediaTime: number): boolean {
+    if (this.times.length === 0 || !Number.isFinite(mediaTime)) return false;
+    const back = this.playhead - mediaTime;
+    if (!(back > 0 && back <= snapThreshold)) this.playhead = Math.min(mediaTime, this.times.at(-1)!);
+    return this.showPlayhead();
+  }
+
+  private showPlayhead(): boolean {
     while (this.times.length > 1 && this.times[1]! <= this.playhead) {
-      this.times.shift();
-      this.states.shift();
+      this.beforeTime = this.times.shift()!;
+      this.beforeState = this.states.shift()!;
     }
     return this.show();
   }
@@ -172,6 +223,7 @@ export class Player {
   private show(): boolean {
     const from = this.times[0]!;
     const to = this.times.length > 1 ? this.times[1]! : from;
+    const another = this.fromTime !== from || this.toTime !== to;
     if (this.fromTime !== from) {
       this.poses.evaluate(this.states[0]!, fromPose, this.steps);
       this.fromTime = from;
@@ -185,9 +237,29 @@ export class Player {
     // After a silence the face rests and then moves as fast as between two messages, not slowly through the silence.
     const span = Math.min(to - from, Math.max(this.delay, 100));
     const t = span > 0 ? Math.max(0, Math.min(1, (this.playhead - (to - span)) / span)) : 0;
+    if (this.eased && another) this.chooseCurve(span);
     if (t === this.shownT) return false;
-    this.poses.interpolate(fromPose, toPose, t, shownPose);
+    if (this.eased && span > 0) this.poses.ease!(easedPoses, this.spans, t, shownPose);
+    else this.poses.interpolate(fromPose, toPose, t, shownPose);
     this.shownT = t;
     return true;
+  }
+
+  /**
+   * Where the curve comes from and goes to, decided once a pair and kept: a frame that arrives in the middle must not
+   * bend what is shown already. Where none follows yet the curve comes to rest, and the next one begins at rest.
+   */
+  private chooseCurve(span: number): void {
+    const from = this.times[0]!;
+    const before = this.restedAt === from || !this.beforeState ? 0 : from - this.beforeTime;
+    const after = this.times.length > 2 ? this.times[2]! - this.times[1]! : 0;
+    // After a silence the pair's own span is shortened: its neighbours are no part of that motion.
+    const whole = this.times.length > 1 && span === this.times[1]! - from;
+    this.spans[0] = whole ? before : 0;
+    this.spans[1] = span;
+    this.spans[2] = after;
+    if (this.spans[0] > 0) this.poses.evaluate(this.beforeState!, beforePose, this.steps);
+    if (after > 0) this.poses.evaluate(this.states[2]!, afterPose, this.steps);
+    this.restedAt = after > 0 || this.times.length < 2 ? NaN : this.times[1]!;
   }
 }

@@ -57,6 +57,7 @@ TEST(SdkExports, Header_DeclaresExactlyTheList) {
   std::string headers = read(SEMBLANTE_SOURCE_DIR "/clients/capi/semblante.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_prepared_face.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_normals.h");
+  headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_ease.h");
   const std::string kernel = read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_kernel.h");
   headers += std::regex_replace(kernel, std::regex(R"(#ifdef __wasm__[^#]*#endif)"), "");
   const std::string code = std::regex_replace(headers, std::regex(R"(/\*(.|\n)*?\*/)"), "");

@@ -100,6 +100,21 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
     }
   });
 
+  it('Ease_FromRestToRest_IsTheSmoothStepOfTheWay', async () => {
+    const kernel = await Kernel.create(module, faceOf(vectors), { poseCount: 5 });
+    const [frame, steps] = frameOf(vectors.cases[3]!.frame);
+    kernel.evaluate(frame, 2, steps);
+    const to = kernel.poses[2]!.featurePoints;
+    const moved = to.findIndex((x) => x !== 0);
+    kernel.ease([3, 1, 2, 4], [0, 40, 0], 0.25, 0);
+    expect(kernel.poses[0]!.featurePoints[moved]).toBeCloseTo(to[moved]! * 0.25 * 0.25 * 2.5, 6);
+    // With the same slope on both sides it goes on straight: pose 3 as far behind as 2 is ahead, 4 twice as far.
+    kernel.poses[3]!.featurePoints.forEach((_, i, all) => (all[i] = -to[i]!));
+    kernel.poses[4]!.featurePoints.forEach((_, i, all) => (all[i] = 2 * to[i]!));
+    kernel.ease([3, 1, 2, 4], [40, 40, 40], 0.25, 0);
+    expect(kernel.poses[0]!.featurePoints[moved]).toBeCloseTo(to[moved]! * 0.25, 6);
+  });
+
   it('Create_PosesAreNeutralAndPositionsAtRest', async () => {
     const kernel = await Kernel.create(module, faceOf(vectors));
     expect(kernel.positions).toEqual(Float32Array.from(vectors.face.rest.flat()));

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { Player, shownPose, type PoseMaker } from '../../../../clients/js/player.ts';
+import { Player, shownPose, type PlayerOptions, type PoseMaker } from '../../../../clients/js/player.ts';
 import { neutralFrame, type FaceFrame, type Frames, type Header, type Keyframe } from '../../../../protocol/ts/index.ts';
 
 /** Poses of one number, the level of FAP 3, so that what is shown can be read. */
 class NumberPoses implements PoseMaker {
-  values = [0, 0, 0];
+  values = [0, 0, 0, 0, 0];
   evaluations = 0;
   evaluate(frame: FaceFrame, pose: number): void {
     this.values[pose] = frame.levels[3]!;
@@ -12,6 +12,16 @@ class NumberPoses implements PoseMaker {
   }
   interpolate(a: number, b: number, t: number, out: number): void {
     this.values[out] = this.values[a]! * (1 - t) + this.values[b]! * t;
+  }
+  /** Not the kernel's curve, but one that has its slopes: enough to see which frames and spans are given. */
+  ease(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void {
+    const [before, from, to, after] = poses.map((pose) => this.values[pose]!) as [number, number, number, number];
+    const middle = (to - from) / spans[1]!;
+    const first = spans[0]! > 0 ? ((from - before) / spans[0]! + middle) / 2 : 0;
+    const last = spans[2]! > 0 ? ((after - to) / spans[2]! + middle) / 2 : 0;
+    const s = t * t * (3 - 2 * t);
+    this.values[out] =
+      from * (1 - s) + to * s + spans[1]! * (t * (1 - t) * (1 - t) * first + t * t * (t - 1) * last);
   }
   get shown(): number {
     return this.values[shownPose]!;
@@ -60,10 +70,10 @@ interface Playing {
   step(ms: number): boolean;
 }
 
-function playing(): Playing {
+function playing(options: PlayerOptions = {}): Playing {
   const clock = { now: 5000 };
   const poses = new NumberPoses();
-  const player = new Player(poses, { now: () => clock.now });
+  const player = new Player(poses, { now: () => clock.now, ...options });
   player.begin(header(1));
   const step = (ms: number): boolean => {
     clock.now += ms;
@@ -177,5 +187,73 @@ describe('Player', () => {
     expect((player as unknown as { times: number[] }).times.length).toBeLessThanOrEqual(2048);
     for (let i = 0; i < 100; ++i) step(16);
     expect(poses.shown).toBe(levelAt(120_000));
+  });
+
+  it('Update_Eased_HasNoCornersAndPassesTheFrames', () => {
+    const corners = (interpolation: 'linear' | 'eased'): number => {
+      const { player, step, poses } = playing({ interpolation, delay: 200 });
+      // Levels that turn about at every other frame.
+      const level = (media: number): number => Math.round(2000 * Math.sin(media / 90));
+      player.pushKeyframe(keyframe(0, 0));
+      const shown: number[] = [];
+      for (let media = 40; media <= 4000; media += 40) {
+        player.pushFrames({ ...batch(media), frames: [{ time: 0, state: state(level(media)) }] });
+        for (let part = 0; part < 20; ++part) {
+          step(2);
+          shown.push(poses.shown);
+        }
+      }
+      let worst = 0;
+      for (let i = 202; i < shown.length; ++i) {
+        worst = Math.max(worst, Math.abs(shown[i]! - 2 * shown[i - 1]! + shown[i - 2]!));
+      }
+      return worst;
+    };
+    expect(corners('eased')).toBeLessThan(corners('linear') / 3);
+  });
+
+  it('Update_Eased_AFrameThatArrivesLate_BendsNothingThatIsShown', () => {
+    const { player, step, poses } = playing({ interpolation: 'eased', delay: 40 });
+    player.pushKeyframe(keyframe(0, 0));
+    player.pushFrames({ ...batch(40), frames: [{ time: 0, state: state(1000) }] });
+    for (let i = 0; i < 30; ++i) step(2);
+    const before = poses.shown;
+    player.pushFrames({ ...batch(80), frames: [{ time: 0, state: state(4000) }] });
+    step(0.01);
+    expect(Math.abs(poses.shown - before)).toBeLessThan(5);
+  });
+
+  it('Update_WithAClock_ShowsExactlyWhatItSays', () => {
+    let sound = NaN;
+    const { player, step, poses } = playing({ clock: () => sound });
+    player.pushKeyframe(keyframe(0));
+    step(16); // no sound yet: by the display's clock
+    for (let media = 40; media <= 4000; media += 40) player.pushFrames(batch(media));
+    for (const time of [1000, 1007.5, 1033, 1700]) {
+      sound = time;
+      step(16);
+      expect(player.playhead).toBe(time);
+      expect(poses.shown * 4).toBeCloseTo(time, 3);
+    }
+    sound = 1500; // the clock of a sound card corrects itself
+    step(16);
+    expect(player.playhead).toBe(1700);
+    sound = 1710;
+    step(16);
+    expect(player.playhead).toBe(1710);
+    sound = 9000;
+    step(16);
+    expect(player.playhead).toBe(4000); // not past the newest frame
+    expect(player.updateTo(NaN)).toBe(false);
+  });
+
+  it('UpdateTo_FarBack_FollowsToTheOldestFrameHeld', () => {
+    const { player, poses } = playing();
+    player.pushKeyframe(keyframe(0));
+    for (let media = 40; media <= 4000; media += 40) player.pushFrames(batch(media));
+    player.updateTo(2000);
+    player.updateTo(400);
+    expect(player.playhead).toBe(400);
+    expect(poses.shown).toBe(levelAt(2000)); // what was before is gone
   });
 });
