@@ -298,7 +298,7 @@ TEST_F(Streams, BadFapFiles_NameLineAndWord) {
   };
   const std::string good = "2.1 x 25 1\n" + fap_mask({3}) + "0 100\n";
   refused("2.1 x 25 1\n" + fap_mask({3}) + "0 viel\n", "", 422, "line 3, word 2");
-  refused("", "", 422, "line 1");
+  refused("\n", "", 422, "line 1");
   refused("{}", "", 422, "line 1");
   refused(good, "?absent=maybe", 400, "?absent");
   refused(good, "?gaps=1", 400, "?gaps");
