@@ -10,6 +10,7 @@ const fapCount = 68;
 const frameBytes = 8 + (fapCount + 1) * 4;
 const rigBytes = 160;
 const faceBytes = 24;
+const trianglesBytes = 16;
 const irisFloats = 6;
 const tongueFloats = 11;
 const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats;
@@ -22,7 +23,19 @@ interface KernelExports {
   semblante_ease(before: number, from: number, to: number, after: number, spans: number, t: number, out: number): void;
   semblante_prepared_size(face: number): number;
   semblante_prepare(face: number, memory: number): number;
+  semblante_join_scratch(vertices: number): number;
+  semblante_join_seams(vertices: number, positions: number, normals: number, scratch: number, joined: number): void;
+  semblante_normals(triangles: number, positions: number, normals: number): void;
   semblante_deform_changed(face: number, before: number, now: number, positions: number): number;
+}
+
+export interface KernelOptions {
+  /** Poses held at once. Default: 3. */
+  poseCount?: number;
+  /** Default: true. */
+  withVertices?: boolean;
+  /** Default: false. */
+  withNormals?: boolean;
 }
 
 /** A frame on one model: where the feature points went and how single parts moved. Views of the kernel's memory. */
@@ -59,12 +72,16 @@ export async function compileKernel(source: BufferSource | Response | Promise<Re
 export class Kernel {
   /** #V by 3: what `deform` wrote. Only for reading: `deform` writes no more than what changed since. */
   readonly positions: Float32Array;
+  /** #V by 3, unit length: the normals of `positions`. Empty unless asked for. */
+  readonly normals: Float32Array;
   readonly poses: readonly Pose[];
 
   private readonly exports: KernelExports;
   private readonly frameNumbers: Uint8Array;
   private readonly frameFaps: Float32Array;
   private readonly spans: Float32Array;
+  /** all of the kernel's memory */
+  private readonly bytes: Uint8Array;
   private readonly at: {
     frame: number;
     spans: number;
@@ -72,6 +89,9 @@ export class Kernel {
     /** the prepared face; 0 when there are no vertices */
     face: number;
     positions: number;
+    /** semblante_triangles; 0 when no normals are asked for */
+    triangles: number;
+    normals: number;
     poses: number[];
     /** the pose that `positions` is in */
     shown: number;
@@ -79,22 +99,25 @@ export class Kernel {
 
   /**
    * `withVertices: false` leaves the influence table out (the GPU moves the vertices): `deform` must not be called and
-   * `positions` is empty. Throws FaceError `memory` when there is none.
+   * `positions` is empty. `withNormals: true` makes `deform` compute `normals` too, from the triangles (which takes
+   * about as long as the vertices do). Throws FaceError `memory` when there is none.
    */
   static async create(
     module: WebAssembly.Module,
     face: Face,
-    options: { poseCount?: number; withVertices?: boolean } = {},
+    options: KernelOptions = {},
   ): Promise<Kernel> {
     const instance = await WebAssembly.instantiate(module, {});
     return new Kernel(instance.exports as unknown as KernelExports, face, options);
   }
 
-  private constructor(exports: KernelExports, face: Face, options: { poseCount?: number; withVertices?: boolean }) {
+  private constructor(exports: KernelExports, face: Face, options: KernelOptions) {
     this.exports = exports;
     const { influence, mesh, rig } = face;
     const vertices = (options.withVertices ?? true) ? influence.vertexCount : 0;
     const entries = vertices === 0 ? 0 : influence.rowPoints.length;
+    const turned = options.withNormals ? vertices : 0; // vertices that get a normal
+    const corners = turned > 0 ? mesh.triangles.length : 0;
     let size = 0;
     const place = (bytes: number): number => {
       const offset = size;
@@ -115,9 +138,12 @@ export class Kernel {
     const rowPoints = place(entries);
     const rowWeights = place(entries * 4);
     const rigid = place(vertices);
+    const trianglesAt = place(trianglesBytes);
+    const cornersAt = place(corners * 4);
+    const joined = place(turned * 4);
+    const normals = place(turned * 12);
 
-    const base = exports.semblante_alloc(size);
-    if (base === 0) throw new FaceError('memory', `no ${size} bytes of memory for the kernel`);
+    const base = alloc(exports, size);
     let memory = exports.memory.buffer;
     new Uint8Array(memory, base, size).fill(0);
     const floats = (offset: number, count: number): Float32Array => new Float32Array(memory, base + offset, count);
@@ -142,7 +168,19 @@ export class Kernel {
         base + rigid,
       ]);
     }
+    if (turned > 0) {
+      // Without normals of its own, a mesh is smooth wherever vertices share a place.
+      if (mesh.normals) floats(normals, turned * 3).set(mesh.normals);
+      new Uint32Array(memory, base + cornersAt, corners).set(mesh.triangles);
+      const numbers = [turned, corners / 3, base + cornersAt, base + joined];
+      new Uint32Array(memory, base + trianglesAt, 4).set(numbers);
+    }
     const prepared = vertices > 0 ? prepare(exports, base + faceAt) : 0;
+    if (turned > 0) {
+      const scratch = alloc(exports, exports.semblante_join_scratch(turned) * 4);
+      exports.semblante_join_seams(turned, base + rest, base + normals, scratch, base + joined);
+      exports.semblante_normals(base + trianglesAt, base + positions, base + normals);
+    }
     memory = exports.memory.buffer; // after the last growth: views from here on stay valid
 
     this.at = {
@@ -151,13 +189,17 @@ export class Kernel {
       rig: base + rigAt,
       face: prepared,
       positions: base + positions,
+      triangles: turned > 0 ? base + trianglesAt : 0,
+      normals: base + normals,
       poses: poses.map((offset) => base + offset),
       shown: base + shown,
     };
     this.frameNumbers = new Uint8Array(memory, base + frame, 7);
     this.frameFaps = floats(frame + 8, fapCount + 1);
     this.spans = floats(spans, 3);
+    this.bytes = new Uint8Array(memory);
     this.positions = floats(positions, vertices * 3);
+    this.normals = floats(normals, turned * 3);
     this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
     for (const pose of [...this.at.poses, this.at.shown]) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
   }
@@ -199,12 +241,13 @@ export class Kernel {
     );
   }
 
-  /** Eq. 7, then eyes and tongue, then head, into `positions`. */
+  /** Eq. 7, then eyes and tongue, then head, into `positions`; their normals into `normals`, where asked for. */
   deform(pose: number): void {
     if (this.positions.length === 0) throw new RangeError('this kernel was made without vertices');
-    const { face, positions, shown } = this.at;
-    this.exports.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
-    new Uint8Array(this.exports.memory.buffer).copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
+    const { face, positions, triangles, normals, shown } = this.at;
+    const moved = this.exports.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
+    if (moved > 0 && triangles > 0) this.exports.semblante_normals(triangles, positions, normals);
+    this.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
   }
 
   private poseAt(pose: number): number {
@@ -218,9 +261,13 @@ export class Kernel {
 function prepare(exports: KernelExports, face: number): number {
   const bytes = exports.semblante_prepared_size(face);
   if (bytes === 0) throw new FaceError('malformed', 'weights: the feature points of a vertex do not rise');
-  const at = exports.semblante_alloc(bytes);
+  return exports.semblante_prepare(face, alloc(exports, bytes));
+}
+
+function alloc(exports: KernelExports, bytes: number): number {
+  const at = exports.semblante_alloc(bytes) >>> 0;
   if (at === 0) throw new FaceError('memory', `no ${bytes} bytes of memory for the kernel`);
-  return exports.semblante_prepare(face, at);
+  return at;
 }
 
 /** #sets by 84 by 3 */

@@ -2,6 +2,11 @@
 #include "core/kernel/export.h"
 #include "core/kernel/semblante_normals.h"
 
+#if defined(__wasm__)
+/* JavaScript lays this struct out by hand (offsets in README.md): it may not move. */
+_Static_assert(sizeof(semblante_triangles) == 16, "triangles");
+#endif
+
 static uint32_t table_size(uint32_t vertex_count) {
   uint32_t size = 16;
   while (size / 2 < vertex_count) {

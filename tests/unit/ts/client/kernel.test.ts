@@ -22,7 +22,7 @@ interface Vectors {
     visemes: Sparse[];
     expressions: Sparse[];
   };
-  face: { rest: Vec3[]; rows: [number, number][][]; rigid: number[] };
+  face: { rest: Vec3[]; normals?: Vec3[]; triangles?: Vec3[]; rows: [number, number][][]; rigid: number[] };
   cases: {
     name: string;
     frame: Pick<FaceFrame, 'viseme' | 'expression'> & { faps: Record<string, number> };
@@ -31,9 +31,16 @@ interface Vectors {
   }[];
   interpolations: { from: number; to: number; t: number; positions: number[] }[];
 }
-const vectors = JSON.parse(
-  readFileSync(new URL('../../../../protocol/vectors/kernel/small-face.json', import.meta.url), 'utf8'),
-) as Vectors;
+/** Has no displacements, but normals. */
+interface Golden extends Vectors {
+  tolerance: { position: number; normal_degrees: number };
+  cases: (Vectors['cases'][number] & { vertex_normals: number[] })[];
+  interpolations: (Vectors['interpolations'][number] & { vertex_normals: number[] })[];
+}
+const read = (name: string): unknown =>
+  JSON.parse(readFileSync(new URL(`../../../../protocol/vectors/kernel/${name}`, import.meta.url), 'utf8'));
+const vectors = read('small-face.json') as Vectors;
+const golden = read('golden-frames.json') as Golden;
 
 function faceOf({ rig, face }: Vectors): Face {
   const named = (set: Sparse) => ({
@@ -53,7 +60,11 @@ function faceOf({ rig, face }: Vectors): Face {
       visemes: rig.visemes.map(named),
       expressions: rig.expressions.map(named),
     } as unknown as RigDocument,
-    mesh: { positions: Float32Array.from(face.rest.flat()) } as Face['mesh'],
+    mesh: {
+      positions: Float32Array.from(face.rest.flat()),
+      normals: face.normals ? Float32Array.from(face.normals.flat()) : null,
+      triangles: Uint32Array.from((face.triangles ?? []).flat()),
+    } as Face['mesh'],
     influence: {
       vertexCount: face.rest.length,
       rowOffsets: Uint32Array.from(offsets),
@@ -73,6 +84,16 @@ function frameOf(given: Vectors['cases'][number]['frame']): [FaceFrame, Quantize
     steps[Number(fap)] = value;
   }
   return [frame, steps];
+}
+
+const distance = (a: ArrayLike<number>, b: ArrayLike<number>, v: number): number =>
+  Math.hypot(a[v * 3]! - b[v * 3]!, a[v * 3 + 1]! - b[v * 3 + 1]!, a[v * 3 + 2]! - b[v * 3 + 2]!);
+
+/** The largest angle between unit vectors, degrees. */
+function worstAngle(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  let worst = 0;
+  for (let v = 0; v < b.length / 3; ++v) worst = Math.max(worst, distance(a, b, v));
+  return (2 * Math.asin(Math.min(1, worst / 2)) * 180) / Math.PI;
 }
 
 describe.skipIf(!existsSync(modulePath))('Kernel', () => {
@@ -113,6 +134,53 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
     kernel.poses[4]!.featurePoints.forEach((_, i, all) => (all[i] = 2 * to[i]!));
     kernel.ease([3, 1, 2, 4], [40, 40, 40], 0.25, 0);
     expect(kernel.poses[0]!.featurePoints[moved]).toBeCloseTo(to[moved]! * 0.25, 6);
+  });
+
+  it('Deform_WithNormals_GivesTheGoldenNormals', async () => {
+    const out = golden.cases.length;
+    const kernel = await Kernel.create(module, faceOf(golden), { poseCount: out + 1, withNormals: true });
+    const neutral = golden.cases.find(({ name }) => name === 'neutral')!;
+    expect(worstAngle(kernel.normals, neutral.vertex_normals)).toBeLessThan(golden.tolerance.normal_degrees);
+    const check = (name: string, pose: number, positions: number[], normals: number[]): void => {
+      kernel.deform(pose);
+      expect(Math.max(...positions.map((x, i) => Math.abs(x - kernel.positions[i]!))), name).toBeLessThan(
+        golden.tolerance.position,
+      );
+      expect(kernel.normals.length).toBe(normals.length);
+      expect(worstAngle(kernel.normals, normals), name).toBeLessThan(golden.tolerance.normal_degrees);
+    };
+    golden.cases.forEach((each, pose) => {
+      const [frame, steps] = frameOf(each.frame);
+      kernel.evaluate(frame, pose, steps);
+      check(each.name, pose, each.positions, each.vertex_normals);
+    });
+    for (const { from, to, t, positions, vertex_normals } of golden.interpolations) {
+      kernel.interpolate(from, to, t, out);
+      check(`${from} to ${to}`, out, positions, vertex_normals);
+    }
+    // What was shown before leaves nothing behind.
+    check('neutral again', golden.cases.indexOf(neutral), neutral.positions, neutral.vertex_normals);
+  });
+
+  it('Create_WithNormalsOfAMeshWithoutAny_JoinsWhatSharesAPlace', async () => {
+    const face = faceOf(golden);
+    face.mesh.normals = null;
+    const kernel = await Kernel.create(module, face, { withNormals: true });
+    const { rest } = golden.face;
+    let joined = 0;
+    rest.forEach((place, v) => {
+      const first = rest.findIndex((other) => other.every((x, i) => x === place[i]));
+      if (first === v) return;
+      joined += 1;
+      expect(kernel.normals.subarray(v * 3, v * 3 + 3)).toEqual(kernel.normals.subarray(first * 3, first * 3 + 3));
+    });
+    expect(joined).toBeGreaterThan(0);
+  });
+
+  it('Create_WithoutNormals_HasNone', async () => {
+    expect((await Kernel.create(module, faceOf(golden))).normals.length).toBe(0);
+    const poses = await Kernel.create(module, faceOf(golden), { withVertices: false, withNormals: true });
+    expect(poses.normals.length).toBe(0);
   });
 
   it('Create_PosesAreNeutralAndPositionsAtRest', async () => {
