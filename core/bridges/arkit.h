@@ -24,7 +24,7 @@ std::optional<std::size_t> find_arkit(std::string_view name);
 std::size_t arkit_mirror(std::size_t index);
 
 struct FrameFromArkit {
-  semblante_frame frame;    ///< FAPs 3..68 in FAP units, every one within its range; no viseme, no expression
+  semblante_frame frame;  ///< FAPs 3..68 in FAP units, every one within its range, and FAP 1 where jaw or lips need it
   std::size_t clamped = 0;  ///< coefficients that were outside 0..1 and were taken as 0 or 1
 };
 

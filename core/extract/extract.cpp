@@ -27,9 +27,12 @@ Status check_shapes(std::span<const glm::vec3> neutral, std::span<const glm::vec
                  "the expression has " + std::to_string(expression.size()) + " vertices, the neutral head " +
                      std::to_string(neutral.size()) + ": both must be the same mesh, vertices in the same order"};
   }
+  // A morph target can take finite vertices beyond what a float holds, the neutral shape's too.
+  const auto is_finite = [](const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
   for (std::size_t v = 0; v < expression.size(); ++v) {
-    const glm::vec3& p = expression[v];
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    if (is_finite(neutral[v]) && is_finite(expression[v])) continue;
     return Error{ErrorCode::not_finite, "vertex " + std::to_string(v), "a coordinate is not a finite number"};
   }
   return Unit{};

@@ -30,7 +30,7 @@ std::optional<std::size_t> find_rotation(std::string_view name) {
   return std::nullopt;
 }
 
-void read_arkit(const JsonCursor& at, semblante_frame& frame) {
+void read_arkit(const JsonCursor& at, semblante_frame& frame, std::size_t& clamped) {
   ArkitCoefficients coefficients{};
   HeadTurn turn;
   const auto set = [&](std::size_t index, const JsonCursor& value) {
@@ -60,11 +60,12 @@ void read_arkit(const JsonCursor& at, semblante_frame& frame) {
   if (at.failed()) return;
   if (const auto made = frame_from_arkit(coefficients)) {
     frame = made->frame;
+    clamped += made->clamped;
     turn_head(frame, turn);
   }
 }
 
-void read_oculus(const JsonCursor& at, semblante_frame& frame) {
+void read_oculus(const JsonCursor& at, semblante_frame& frame, std::size_t& clamped) {
   OculusWeights weights{};
   if (at.is_array()) {
     const auto elements = at.elements(oculus_count, oculus_count);
@@ -83,12 +84,13 @@ void read_oculus(const JsonCursor& at, semblante_frame& frame) {
     frame.viseme1 = made->frame.viseme1;
     frame.viseme2 = made->frame.viseme2;
     frame.viseme_blend = made->frame.viseme_blend;
+    clamped += made->clamped;
   }
 }
 
 }  // namespace
 
-std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame) {
+std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame, std::size_t& clamped) {
   const auto arkit = frame.optional_member("arkit");
   const auto oculus = frame.optional_member("oculus");
   if (!arkit && !oculus) return std::nullopt;
@@ -96,8 +98,8 @@ std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame) {
     oculus->fail(ErrorCode::invalid_argument, "says what `viseme` says: give one of them");
   }
   semblante_frame result{};
-  if (arkit) read_arkit(*arkit, result);
-  if (oculus) read_oculus(*oculus, result);
+  if (arkit) read_arkit(*arkit, result, clamped);
+  if (oculus) read_oculus(*oculus, result, clamped);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 // For .cpp files only, as json_cursor.h.
 
+#include <cstddef>
 #include <optional>
 
 #include "core/kernel/semblante_kernel.h"
@@ -10,7 +11,8 @@
 namespace semblante {
 
 /// What the members `arkit` and `oculus` of a frame make of a face; empty where it has neither. FAP 1 of `oculus` goes
-/// before that of `arkit`. Anything wrong is reported at its place.
-std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame);
+/// before that of `arkit`. Anything wrong is reported at its place. Coefficients and weights outside 0..1 are taken as
+/// the nearer end; how many those were is added to `clamped`.
+std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame, std::size_t& clamped);
 
 }  // namespace semblante

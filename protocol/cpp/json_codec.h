@@ -19,8 +19,10 @@ std::string encode_json(const Message& message, const QuantizerSteps& steps = st
 Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps = standard_quantizers());
 
 /// The body of POST /v1/streams/{id}/frames: {"frames": [{"time", "viseme", "expression", "faps"}, ...]}, at least one.
+/// `clamped` gets how many of ARKit's coefficients and Oculus's weights were outside 0..1.
 Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text,
-                                                   const QuantizerSteps& steps = standard_quantizers());
+                                                   const QuantizerSteps& steps = standard_quantizers(),
+                                                   std::size_t* clamped = nullptr);
 
 struct JsonValuesLimits {
   std::size_t bytes = std::size_t{64} << 20U;

@@ -111,11 +111,7 @@ class JsonCursor {
     return value;
   }
 
- private:
-  static const nlohmann::json& null() {
-    static const nlohmann::json value;
-    return value;
-  }
+  /// A name as a segment of a pointer.
   static std::string escaped(std::string_view name) {
     std::string result;
     for (const char c : name) {
@@ -128,6 +124,12 @@ class JsonCursor {
       }
     }
     return result;
+  }
+
+ private:
+  static const nlohmann::json& null() {
+    static const nlohmann::json value;
+    return value;
   }
   static std::string text_of(double value) { return nlohmann::json(value).dump(); }
   [[nodiscard]] std::string kind() const { return node_->type_name(); }

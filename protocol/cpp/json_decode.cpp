@@ -28,11 +28,12 @@ std::size_t low_level_fap(std::string_view name) {
   return number >= first_low_level_fap && number <= last_low_level_fap ? number : 0;
 }
 
-/// A FaceFrame or FaceValues; `set(state, fap, units, at)` puts a low-level FAP into it.
+/// A FaceFrame or FaceValues; `set(state, fap, units, at)` puts a low-level FAP into it. `clamped`: as
+/// read_json_bridges.
 template <class State, class Set>
-State read_state_of(const JsonCursor& at, const Set& set) {
+State read_state_of(const JsonCursor& at, const Set& set, std::size_t& clamped) {
   State state;
-  if (const auto bridged = read_json_bridges(at)) {
+  if (const auto bridged = read_json_bridges(at, clamped)) {
     state.viseme = {bridged->viseme1, bridged->viseme2, bridged->viseme_blend};
     for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
       set(state, fap, static_cast<double>(bridged->fap[fap]), at);
@@ -64,19 +65,22 @@ State read_state_of(const JsonCursor& at, const Set& set) {
   return state;
 }
 
-FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps) {
-  return read_state_of<FaceFrame>(at, [&](FaceFrame& state, std::size_t fap, double units, const JsonCursor& value) {
+FaceFrame read_frame(const JsonCursor& at, const QuantizerSteps& steps, std::size_t& clamped) {
+  const auto set = [&](FaceFrame& state, std::size_t fap, double units, const JsonCursor& value) {
     const auto level = quantize(units, steps[fap]);
     if (!level) value.fail(level.error().code, level.error().message);
     state.level[fap] = level ? *level : std::int16_t{0};
-  });
+  };
+  return read_state_of<FaceFrame>(at, set, clamped);
 }
 
 FaceValues read_values(const JsonCursor& at) {
-  return read_state_of<FaceValues>(at, [](FaceValues& state, std::size_t fap, double units, const JsonCursor& value) {
+  const auto set = [](FaceValues& state, std::size_t fap, double units, const JsonCursor& value) {
     if (std::abs(units) > max_fap_value) value.fail(ErrorCode::out_of_range, "is beyond 1e9 FAP units");
     state.fap[fap] = units;
-  });
+  };
+  std::size_t clamped = 0;  // a file is nobody's to be told
+  return read_state_of<FaceValues>(at, set, clamped);
 }
 
 /// `read(element)` reads the state of each frame.
@@ -96,9 +100,9 @@ std::vector<Timed> read_timed(const JsonCursor& at, std::size_t most, const Read
   return frames;
 }
 
-std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps) {
+std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps, std::size_t& clamped) {
   return read_timed<TimedFrame>(at, max_frames_per_message,
-                                [&](const JsonCursor& element) { return read_frame(element, steps); });
+                                [&](const JsonCursor& element) { return read_frame(element, steps, clamped); });
 }
 
 class FieldReader {
@@ -142,8 +146,10 @@ class FieldReader {
     FieldReader reader(*at, steps_);
     visit_fields(value.emplace(), reader);
   }
-  void state(const char* name, FaceFrame& state) { state = read_frame(at_.member(name), steps_); }
-  void frames(const char* name, std::vector<TimedFrame>& frames) { frames = read_frames(at_.member(name), steps_); }
+  void state(const char* name, FaceFrame& state) { state = read_frame(at_.member(name), steps_, clamped_); }
+  void frames(const char* name, std::vector<TimedFrame>& frames) {
+    frames = read_frames(at_.member(name), steps_, clamped_);
+  }
 
  private:
   [[nodiscard]] std::optional<JsonCursor> find(const char* name, Presence presence) const {
@@ -152,6 +158,7 @@ class FieldReader {
 
   const JsonCursor& at_;
   const QuantizerSteps& steps_;
+  std::size_t clamped_ = 0;  ///< a message on a socket has no answer that would say so
 };
 
 template <class... M>
@@ -181,12 +188,15 @@ Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) 
   return message;
 }
 
-Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const QuantizerSteps& steps) {
+Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const QuantizerSteps& steps,
+                                                   std::size_t* clamped) {
   const auto tree = parse_json_object(text, max_json_message_bytes);
   if (!tree) return tree.error();
   JsonCursor::Report report;
-  auto frames = read_frames(JsonCursor(*tree, "", report).member("frames"), steps);
+  std::size_t bridged = 0;
+  auto frames = read_frames(JsonCursor(*tree, "", report).member("frames"), steps, bridged);
   if (report) return *report;
+  if (clamped != nullptr) *clamped = bridged;
   return frames;
 }
 

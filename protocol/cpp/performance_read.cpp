@@ -217,10 +217,13 @@ class DocumentReader : public nlohmann::json_sax<json> {
     if (open_.empty()) {
       member_ = name;
       if (!members_seen_.insert(name).second) return fail(ErrorCode::malformed, pointer(), "is there twice");
+      if (members_seen_.size() > most_members)
+        return fail(ErrorCode::too_large, "", "has more members than it can have");
       return true;
     }
     key_ = name;
-    if (open_.back()->contains(name)) return fail(ErrorCode::malformed, pointer() + "/" + name, "is there twice");
+    if (open_.back()->contains(name))
+      return fail(ErrorCode::malformed, pointer() + "/" + JsonCursor::escaped(name), "is there twice");
     return true;
   }
   bool start_object(std::size_t /*size*/) override { return start(json::object()); }
@@ -248,7 +251,7 @@ class DocumentReader : public nlohmann::json_sax<json> {
   [[nodiscard]] bool in_cues() const { return in_cues_; }
   [[nodiscard]] std::string pointer() const {
     if (depth_ == 0 || member_.empty()) return "";
-    std::string text = "/" + member_;
+    std::string text = "/" + JsonCursor::escaped(member_);
     if (in_cues_) text += "/" + std::to_string(script_.cues.size());
     return text;
   }
@@ -264,8 +267,13 @@ class DocumentReader : public nlohmann::json_sax<json> {
       in_cues_ = true;
       return true;
     }
+    if (!open_.empty() && !count()) return false;
     open_.push_back(open_.empty() ? (unit_ = std::move(value), &unit_) : put(std::move(value)));
     return true;
+  }
+  /// One more value of the unit; lists and objects are values too, since an empty one takes memory as well.
+  bool count() {
+    return ++values_ <= most_values || fail(ErrorCode::too_large, pointer(), "has more values than anything here");
   }
   json* put(json value) {
     json& parent = *open_.back();
@@ -275,7 +283,7 @@ class DocumentReader : public nlohmann::json_sax<json> {
   bool take(json value) {
     if (depth_ == 0) return fail(ErrorCode::malformed, "", "must be an object, not " + std::string(value.type_name()));
     if (!open_.empty()) {
-      if (++values_ > most_values) return fail(ErrorCode::too_large, pointer(), "has more values than anything here");
+      if (!count()) return false;
       put(std::move(value));
       return true;
     }
@@ -336,7 +344,8 @@ class DocumentReader : public nlohmann::json_sax<json> {
     if (report) fault_ = std::move(report);
   }
 
-  static constexpr std::size_t most_values = 3 * max_performance_keys;
+  static constexpr std::size_t most_values = 4 * max_performance_keys;  ///< a key is a list of two numbers
+  static constexpr std::size_t most_members = 64;
 
   PerformanceScript script_;
   json members_ = json::object();       ///< all but the cues

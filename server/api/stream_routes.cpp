@@ -87,7 +87,8 @@ http::Response delete_stream(Context& context, http::Request& request) {
 
 http::Response post_frames(Context& context, http::Request& request) {
   const auto info = info_of(context, request);
-  auto frames = decode_json_frames(request.body);
+  std::size_t clamped_coefficients = 0;
+  auto frames = decode_json_frames(request.body, standard_quantizers(), &clamped_coefficients);
   if (!frames) {
     const auto& error = frames.error();
     refuse(error.code == ErrorCode::malformed && error.where.empty() ? "malformed-request" : "invalid-frame",
@@ -99,8 +100,9 @@ http::Response post_frames(Context& context, http::Request& request) {
     if (error.code == ErrorCode::missing) refuse("not-found", error.message);
     refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
   }
-  return json_response(
-      202, {{"accepted", receipt->accepted}, {"sequence", receipt->sequence}, {"clamped", receipt->clamped}});
+  return json_response(202, {{"accepted", receipt->accepted},
+                             {"sequence", receipt->sequence},
+                             {"clamped", receipt->clamped + clamped_coefficients}});
 }
 
 }  // namespace semblante::api

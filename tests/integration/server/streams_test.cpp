@@ -318,6 +318,32 @@ TEST_F(Streams, FramesByRequest_BeyondTheirRange_AreClampedAndCounted) {
   EXPECT_EQ(json::parse(request(port(), "GET", stream).body)["clamped_values"], 2);
 }
 
+TEST_F(Streams, FramesInArkitsTerms_ArriveAsFaps) {
+  const auto stream = create("arkit");
+  WebSocket subscriber(port(), stream, "semblante.v1.json");
+  subscriber.send_text(hello("subscribe"));
+  EXPECT_EQ(next(subscriber).value("type", ""), "header");
+  EXPECT_EQ(next(subscriber).value("type", ""), "keyframe");
+  const auto reply = request(port(), "POST", stream + "/frames",
+                             R"({"frames":[{"arkit":{"jawOpen":1.5,"eyeBlinkLeft":1},"faps":{"4":1202}},)"
+                             R"({"oculus":{"aa":1}}]})",
+                             as_json);
+  ASSERT_EQ(reply.status, 202) << reply.body;
+  EXPECT_EQ(json::parse(reply.body)["clamped"], 2) << "a coefficient and a FAP";
+  const auto message = next(subscriber);
+  ASSERT_EQ(message["frames"].size(), 2U) << message;
+  const auto& faps = message["frames"][0]["faps"];
+  EXPECT_GT(faps.value("3", 0.0), 200.0) << "the jaw is open";
+  EXPECT_GT(faps.value("19", 0.0), 500.0) << "the left upper lid is down";
+  EXPECT_EQ(faps.value("20", 0.0), 0.0) << "the right one is not";
+  EXPECT_EQ(faps.value("4", 0.0), 1200.0) << "what `faps` says goes before what the coefficients say";
+  EXPECT_FALSE(message["frames"][0].contains("arkit"));
+  EXPECT_EQ(message["frames"][1]["viseme"]["select1"], 10);
+  const auto wrong = request(port(), "POST", stream + "/frames", R"({"frames":[{"arkit":{"jawopen":1}}]})", as_json);
+  EXPECT_EQ(wrong.status, 422);
+  EXPECT_EQ(json::parse(wrong.body).value("pointer", ""), "/frames/0/arkit/jawopen");
+}
+
 TEST_F(Streams, LateJoin_GetsTheNewestStateAtOnce) {
   const auto stream = create("late");
   post(stream, 100);

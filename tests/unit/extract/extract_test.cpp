@@ -120,6 +120,13 @@ TEST_F(PointHead, RefusesWhatCannotBeAnExampleOfThisHead) {
   EXPECT_EQ(not_finite.error().where, "vertex 3");
 
   expression = neutral;
+  neutral[5].z = std::numeric_limits<float>::infinity();
+  const auto not_finite_at_rest = extract({.align = true});
+  ASSERT_FALSE(not_finite_at_rest);
+  EXPECT_EQ(not_finite_at_rest.error().where, "vertex 5");
+  neutral[5].z = expression[5].z;
+
+  expression = neutral;
   for (auto& p : expression) p *= 1000.0F;
   const auto other_unit = extract();
   ASSERT_FALSE(other_unit);

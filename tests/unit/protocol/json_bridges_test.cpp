@@ -61,6 +61,14 @@ TEST(JsonArkit, OutOfRange_IsTakenAsTheEndOfIt) {
   EXPECT_EQ(state_of(R"({"arkit":{"jawOpen":1e300}})"), state_of(R"({"arkit":{"jawOpen":1}})"));
 }
 
+TEST(JsonBridges, WhatIsClamped_IsCounted) {
+  std::size_t clamped = 7;
+  ASSERT_TRUE(decode_json_frames(R"({"frames":[{"arkit":{"jawOpen":7,"mouthFunnel":-3,"browInnerUp":1}},)"
+                                 R"({"oculus":{"aa":1.5}},{"faps":{"3":9}}]})",
+                                 standard_quantizers(), &clamped));
+  EXPECT_EQ(clamped, 3U);
+}
+
 TEST(JsonOculus, NamesAndArray_AreFap1) {
   FaceFrame expected;
   expected.viseme = {10, 1, 47};
