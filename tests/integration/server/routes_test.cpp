@@ -102,6 +102,9 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   struct Body {
     std::string text, type;
   };
+  std::string short_fap = "2.1 short 25 1\n";
+  for (int n = 0; n < 68; ++n) short_fap += n == 2 ? "1 " : "0 ";
+  short_fap += "\n0 200\n";
   const std::map<std::string, Body> bodies = {
       {"post /v1/models", {grid_obj(5), "model/obj"}},
       {"patch /v1/models/{model}", {R"({"name":"Renamed"})", "application/json"}},
@@ -110,6 +113,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"put /v1/expressions/{expression}", {by_hand, "application/json"}},
       {"post /v1/streams", {R"({"name":"walk"})", "application/json"}},
       {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
+      {"post /v1/streams/{stream}/fap", {short_fap, "text/plain"}},
       {"post /v1/streams/{stream}/performances",
        {R"({"format":"semblante.performance","version":1,"idle":{"seed":7}})", "application/json"}}};
   // Creating before reading, deleting last, and what is within a thing before the thing.
@@ -133,6 +137,9 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       const Fields fields = body.type.empty() ? Fields{} : Fields{{"Content-Type", body.type}};
       const auto reply = request(port(), upper, fill(good), body.text, fields);
       SCOPED_TRACE(upper + " " + fill(good));
+      // What plays publishes, and there is one publisher at a time.
+      if (method + path == "post/v1/streams/{stream}/fap")
+        request(port(), "DELETE", "/v1/streams/walk/performances/" + json_of(reply)["id"].get<std::string>());
       if (method + path == "post/v1/streams/{stream}/performances") good["{performance}"] = json_of(reply)["id"];
       expect_documented(document, method, path, reply);
       // A finished job cannot be cancelled any more; all else succeeds.
