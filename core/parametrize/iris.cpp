@@ -26,7 +26,8 @@ Polar seen_along(const glm::dvec3& axis, const glm::dvec3& pivot, const glm::dve
 /// The middle of the flat regular polygon with the corner `marked` at the front of an eye; nothing where there is none.
 std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface& surface, SurfaceVertexId marked,
                                               const glm::dvec3& axis) {
-  constexpr double flat = 0.9945;  // cosine of six degrees: files round to three decimals
+  constexpr double flat = 0.9945;            // cosine of six degrees: files round to three decimals
+  constexpr std::size_t most_corners = 256;  // of a face, and facets at the marked one: what has more is no polygon
   struct Facet {
     std::array<SurfaceVertexId, 3> corners;
     glm::dvec3 normal;
@@ -61,6 +62,7 @@ std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface&
         for (const SurfaceVertexId v : facet.corners) {
           if (!known(v)) corners.push_back(v);
         }
+        if (corners.size() > most_corners) return std::nullopt;
         grown = true;
       }
     }
@@ -77,6 +79,8 @@ std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface&
     }
     return middle;
   };
+  const auto around = std::count_if(front.begin(), front.end(), [&](const Facet& facet) { return has(facet, marked); });
+  if (static_cast<std::size_t>(around) > most_corners) return std::nullopt;
   for (const Facet& facet : front) {
     if (!has(facet, marked)) continue;
     if (const auto middle = face_of(facet)) return middle;
@@ -117,7 +121,8 @@ std::vector<Layer> layers_of(const Surface& surface, std::span<const Part> parts
   return layers;
 }
 
-/// Least squares of along = a + b r^2. One ring of vertices says nothing of the bend: then that of a ball.
+/// Least squares of along = a + b r^2. One ring of vertices says nothing of the bend: then that of a ball. No iris is
+/// deeper than it is wide, as a pivot close to the plane of a flat eye would have it.
 double bend_of(const Surface& surface, const std::vector<SurfaceVertexId>& vertices, const glm::dvec3& axis,
                const glm::dvec3& pivot, double iris_radius) {
   double n = 0.0;
@@ -136,8 +141,8 @@ double bend_of(const Surface& surface, const std::vector<SurfaceVertexId>& verti
   }
   const double spread = xx / n - (x / n) * (x / n);
   const double scale = iris_radius * iris_radius;
-  if (spread < 1e-4 * scale * scale) return -0.5 * n / y;
-  return (xy / n - (x / n) * (y / n)) / spread;
+  const double bend = spread < 1e-4 * scale * scale ? -0.5 * n / y : (xy / n - (x / n) * (y / n)) / spread;
+  return std::clamp(bend, -1.0 / iris_radius, 1.0 / iris_radius);
 }
 
 }  // namespace

@@ -117,6 +117,38 @@ TEST(Iris, OfAnEyeWithoutAVertexAtThePupil_IsAboutTheMiddleOfTheFlatFaceThere) {
   EXPECT_LT(found.iris->shape.bend, 0.0F) << "one ring: bent as a ball is";
 }
 
+TEST(Iris, OfAFlatEyeWithItsPivotInThePlane_IsNoDeeperThanWide) {
+  Model eye = cap(10.0F, {2.0F, 4.0F}, false);
+  for (glm::vec3& position : eye.positions) position.z = 1e-4F;
+  const Found found = find(eye, {{testing::fp("3.5"), std::nullopt, glm::vec3(0.0F, 0.0F, 1e-4F)}});
+  ASSERT_TRUE(found.iris.has_value()) << found.why_not;
+  EXPECT_LT(found.iris->shape.bend, 0.0F);
+  EXPECT_LE(std::abs(found.iris->shape.bend) * found.iris->shape.iris_radius, 1.001F);
+}
+
+/// A dense flat sheet in the place of an eye: its many coplanar triangles are no polygon with a corner at the pupil,
+/// and joining them all to one would take longer than anybody waits.
+TEST(Iris, OfADenseFlatSheet_IsAboutTheMarkedPoint) {
+  constexpr std::uint32_t side = 401;
+  constexpr float step = 8.0F / (side - 1);
+  std::vector<glm::vec3> positions;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      positions.emplace_back(static_cast<float>(x) * step - 4.0F, static_cast<float>(y) * step - 4.0F, 10.0F);
+      if (x + 1 == side || y + 1 == side) continue;
+      const std::uint32_t at = y * side + x;
+      triangles.push_back({at, at + 1, at + side});
+      triangles.push_back({at + 1, at + side + 1, at + side});
+    }
+  }
+  const Model sheet = testing::make_model(positions, triangles);
+  const std::uint32_t marked = (side / 2) * side + side / 2 + 3;
+  const Found found = find(sheet, pupil_at(sheet, marked));
+  ASSERT_TRUE(found.iris.has_value()) << found.why_not;
+  EXPECT_LT(glm::distance(found.iris->shape.axis, glm::normalize(positions[marked])), 1e-6F);
+}
+
 TEST(Iris, IsNone_AndSaysWhy) {
   const Model coarse = cap(10.0F, {4.0F, 6.0F}, true);
   EXPECT_NE(find(coarse, pupil_at(coarse, 0)).why_not.find("no vertices between"), std::string::npos);
