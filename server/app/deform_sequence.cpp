@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/expressions/kernel_rig.h"
+#include "protocol/cpp/kernel_values.h"
 #include "server/app/command_failure.h"
 #include "server/app/files.h"
 #include "server/app/obj_writer.h"
@@ -18,21 +19,6 @@ namespace {
 constexpr std::uint64_t max_meshes = 100'000;
 
 [[noreturn]] void refuse(const std::string& reason) { throw CommandFailure(CommandFailure::bad_input, reason); }
-
-semblante_frame to_kernel(const FaceValues& values) {
-  semblante_frame frame{};
-  frame.viseme1 = values.viseme.select1;
-  frame.viseme2 = values.viseme.select2;
-  frame.viseme_blend = values.viseme.blend;
-  frame.expression1 = values.expression.select1;
-  frame.intensity1 = values.expression.intensity1;
-  frame.expression2 = values.expression.select2;
-  frame.intensity2 = values.expression.intensity2;
-  for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
-    frame.fap[fap] = static_cast<float>(values.fap[fap]);
-  }
-  return frame;
-}
 
 /// The frames of a sequence by number: each entry's own, rising.
 std::vector<std::uint32_t> numbers_of(const FaceSequence& sequence) {
@@ -70,7 +56,7 @@ class PoseTrack {
 
  private:
   [[nodiscard]] semblante_pose evaluate(std::size_t i) const {
-    const semblante_frame frame = to_kernel(sequence_.frames[i].state);
+    const semblante_frame frame = to_kernel_frame(sequence_.frames[i].state);
     semblante_pose pose{};
     semblante_evaluate(&rig_, &frame, &pose);
     return pose;

@@ -1,35 +1,11 @@
 #include <cmath>
 
 #include "core/bridges/live_link_csv.h"
+#include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/messages.h"
 #include "server/app/face_formats.h"
 
 namespace semblante {
-namespace {
-
-FaceValues values_of(const semblante_frame& frame) {
-  FaceValues values;
-  values.viseme = {frame.viseme1, frame.viseme2, frame.viseme_blend};
-  values.expression = {frame.expression1, frame.intensity1, frame.expression2, frame.intensity2};
-  for (std::size_t n = first_low_level_fap; n < values.fap.size(); ++n) values.fap[n] = frame.fap[n];
-  return values;
-}
-
-semblante_frame frame_of(const FaceValues& values) {
-  semblante_frame frame{};
-  frame.viseme1 = values.viseme.select1;
-  frame.viseme2 = values.viseme.select2;
-  frame.viseme_blend = values.viseme.blend;
-  frame.expression1 = values.expression.select1;
-  frame.intensity1 = values.expression.intensity1;
-  frame.expression2 = values.expression.select2;
-  frame.intensity2 = values.expression.intensity2;
-  for (std::size_t n = first_low_level_fap; n < values.fap.size(); ++n)
-    frame.fap[n] = static_cast<float>(values.fap[n]);
-  return frame;
-}
-
-}  // namespace
 
 Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReading& /*reading*/) {
   const auto take = read_live_link_csv(text);
@@ -45,7 +21,7 @@ Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReadi
     if (milliseconds > static_cast<double>(max_frame_time)) {
       return Error{ErrorCode::too_large, "", "longer than " + std::to_string(max_frame_time / 1000) + " s"};
     }
-    sequence.frames.push_back({static_cast<std::uint32_t>(milliseconds), values_of(made->frame)});
+    sequence.frames.push_back({static_cast<std::uint32_t>(milliseconds), to_values(made->frame)});
   }
   if (clamped > 0) {
     sequence.warnings.push_back(std::to_string(clamped) + " coefficients outside 0 to 1 were taken as 0 or 1");
@@ -56,7 +32,7 @@ Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReadi
 Result<std::string> write_live_link_faces(const FaceSequence& sequence, const FaceWriting& /*writing*/) {
   std::vector<LiveLinkRow> rows;
   for (const TimedValues& timed : sequence.frames) {
-    const semblante_frame frame = frame_of(timed.state);
+    const semblante_frame frame = to_kernel_frame(timed.state);
     rows.push_back({timed.time / 1000.0, arkit_from_frame(frame), head_turn_of(frame), left_eye_turn_of(frame),
                     right_eye_turn_of(frame)});
   }
