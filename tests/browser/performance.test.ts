@@ -37,8 +37,8 @@ describe('performance', () => {
     // A smile that lasts, so that there is time to look.
     const cues = [{ time: 0, duration: 590_000, expression: 'joy', value: 1 }];
     const smile = { format: 'semblante.performance', version: 1, name: 'A long smile', duration: 600_000, cues };
+    await page.locator('#tab-live').click();
     await studio.drop(file('smile.json', JSON.stringify(smile)));
-    await page.locator('#tab-live[aria-selected="true"]').waitFor();
     await page.locator('.performance').getByText('smile.json').waitFor();
     await page.locator('.performance').getByRole('button', { name: 'Play', exact: true }).click();
     await page.locator('.performance .transport').getByText('A long smile').waitFor();
@@ -61,6 +61,7 @@ describe('performance', () => {
     const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
     const { page } = studio;
     await studio.waitForStage('ready');
+    await page.locator('#tab-live').click();
     await studio.drop(file('wrong.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"')));
     await page.locator('.performance').getByRole('button', { name: 'Play', exact: true }).click();
     await page.locator('.performance .excerpt .marked').filter({ hasText: '"xyz"' }).waitFor();
@@ -131,6 +132,54 @@ describe('performance', () => {
 
     await studio.drop(file('torn.fap', `2.1 torn 25 1\n${mask}\n0 1 x 3 4\n`));
     await clip.locator('.excerpt .marked').filter({ hasText: '0 1 x 3 4' }).waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Performance_DroppedOnAnimate_PlaysOnThisFaceAlone', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const clip = page.locator('.clip');
+    const chip = page.locator('.driver');
+    const posted: string[] = [];
+    page.on('request', (request) => {
+      if (request.method() !== 'GET') posted.push(request.url());
+    });
+    const cues = [{ time: 0, fap: 'open_jaw', keys: [[0, 0], [50_000, 1000]] }];
+    const yawn = { format: 'semblante.performance', version: 1, duration: 60_000, cues };
+    await studio.drop(file('yawn.json', JSON.stringify(yawn)));
+    await chip.getByText('Playing yawn.json').waitFor();
+    await clip.getByText('1 cue', { exact: true }).waitFor();
+    await clip.getByRole('button', { name: 'Pause' }).click();
+    await chip.getByText('yawn.json, paused').waitFor();
+    await clip.getByRole('slider', { name: 'Position' }).fill('0');
+    await page.waitForTimeout(1000);
+    const before = await studio.picture();
+    await clip.getByRole('slider', { name: 'Position' }).fill('49000');
+    await clip.getByText('0:49.0 / 1:00.0').waitFor();
+    await page.waitForTimeout(1000);
+    expect(await studio.difference(before, await studio.picture(), faceAlone)).toBeGreaterThan(0.5);
+    await clip.scrollIntoViewIfNeeded();
+    await studio.keep('clip-performance-paused');
+
+    // By hand again, with idle life under it: the face moves though nobody moves a slider.
+    await page.getByRole('switch', { name: 'Idle life' }).check();
+    await chip.getByText('By hand').waitFor();
+    await page.waitForTimeout(1500);
+    const idle = await studio.picture();
+    await page.waitForTimeout(2500);
+    expect(await studio.difference(idle, await studio.picture(), faceAlone)).toBeGreaterThan(0.02);
+    await page.getByRole('switch', { name: 'Idle life' }).uncheck();
+    await page.waitForTimeout(1500);
+    const still = await studio.picture();
+    await page.waitForTimeout(1000);
+    expect(await studio.difference(still, await studio.picture(), faceAlone)).toBe(0);
+
+    await studio.drop(file('wrong.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"')));
+    await clip.locator('.excerpt .marked').filter({ hasText: '"xyz"' }).waitFor();
+    await clip.getByText('/cues/3/viseme').waitFor();
+    expect(posted).toEqual([]);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

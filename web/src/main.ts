@@ -2,6 +2,7 @@ import './ui/styles/index.css';
 import { compileKernel, neutralFrame } from '@client/index.ts';
 import { ClipPlayer } from './face/clip.ts';
 import { dracoDecoder } from './face/draco.ts';
+import { IdleLife } from './face/idle_life.ts';
 import { loadFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import { AnimatePanel } from './ui/animate_panel.ts';
@@ -11,6 +12,7 @@ import { FitModel } from './ui/fit_model.ts';
 import { FitPanel } from './ui/fit_panel.ts';
 import { pointOutFindings } from './ui/fit_highlight.ts';
 import { makeDriverChip } from './ui/driver_chip.ts';
+import { dropPlace, type DropPlace } from './ui/drop_place.ts';
 import { makeLayout } from './ui/layout.ts';
 import { exposeInspection } from './ui/inspect.ts';
 import { LevelsPanel } from './ui/levels_panel.ts';
@@ -29,6 +31,8 @@ import { themeButton } from './ui/theme.ts';
 import { Toasts } from './ui/toast.ts';
 
 const demo = { id: 'demo', title: 'Demo' };
+/** A calm person; the same every time, as everything here. */
+const idleSettings = { seed: 1, blinksPerMinute: 15, head: 0.3, eyes: 0.5 };
 
 /** Puts the page together; the only place that knows everyone. */
 function main(root: HTMLElement): void {
@@ -54,23 +58,31 @@ function main(root: HTMLElement): void {
 
   const clipPlayer = new ClipPlayer();
   scene.clip = clipPlayer;
+  const clip = new ClipPanel(clipPlayer, () => live.driving.set(false));
+  const takeByHand = (): void => {
+    clip.release();
+    live.driving.set(false);
+    scene.performer.value?.follow(frame);
+  };
   const animate = new AnimatePanel({
     frame,
     onChange: () => {
-      clipPlayer.pause();
-      live.driving.set(false);
-      scene.performer.value?.follow(frame);
+      takeByHand();
       live.touch();
     },
+    onIdle: (on) => {
+      scene.idle = on ? new IdleLife(frame, idleSettings) : null;
+      // Who switches it on wants to see it; switched off, it leaves the face to whoever moves it.
+      if (on || (!live.driving.value && !clipPlayer.shown)) takeByHand();
+    },
   });
-  const clip = new ClipPanel(clipPlayer, () => live.driving.set(false));
   animate.element.append(clip.element);
   animate.element.append(new LevelsPanel(studio, fit, scene).element);
   const thumbnails = new Map<string, string>();
   const shelf = new Shelf(studio, thumbnails);
   const parametrizer = new Parametrizer(studio, points);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
-  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, demo));
+  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, clip.shown, demo));
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
   const livePanel = new LivePanel(studio, live, performance.element);
   const layout = makeLayout(
@@ -87,12 +99,9 @@ function main(root: HTMLElement): void {
   );
   root.replaceChildren(layout, toasts.element);
   acceptDrops(layout, (files) => {
-    // A .fap file plays into a stream where one is among streams, and on this page alone elsewhere.
-    const kinds = studio.tab.value === 'live' ? /\.(json|fap)$/i : /\.json$/i;
-    const scripts = files.filter(({ name }) => kinds.test(name));
-    const clips = files.filter(({ name }) => /\.fap$/i.test(name));
-    const script = scripts.at(-1);
-    const file = clips.at(-1);
+    const going = (place: DropPlace): File[] => files.filter(({ name }) => dropPlace(name, studio.tab.value) === place);
+    const [script, file] = [going('stream').at(-1), going('page').at(-1)];
+    const heads = going('heads');
     if (script) {
       studio.tab.set('live');
       void performance.takeFile(script);
@@ -100,11 +109,11 @@ function main(root: HTMLElement): void {
       studio.tab.set('animate');
       void clip.takeFile(file);
     }
-    void studio.upload(files.filter((one) => !scripts.includes(one) && !clips.includes(one)));
+    void studio.upload(heads);
   });
 
   live.driving.watch((driving) => {
-    if (driving) clipPlayer.pause();
+    if (driving) clip.release();
     else scene.performer.value?.follow(frame);
   });
   live.driving.watch((driving) => (scene.live = driving));
@@ -113,6 +122,7 @@ function main(root: HTMLElement): void {
   scene.performer.watch((performer) => {
     animate.showFace(performer?.pose ?? null);
     performer?.follow(frame);
+    clip.showAgain();
     listen();
   });
 

@@ -2,11 +2,11 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { neutralFrame, type TimedFrame } from '@client/index.ts';
 import { parseFap } from '@protocol/fap_file.ts';
-import { Clip, ClipPlayer } from '../src/face/clip.ts';
+import { ClipPlayer, FrameClip } from '../src/face/clip.ts';
 
 const at = (time: number): TimedFrame => ({ time, state: neutralFrame() });
-const clip = (): Clip => new Clip([at(0), at(40), at(80), at(1000)]);
-const times = (one: Clip, position: number): [number, number, number] => {
+const clip = (): FrameClip => new FrameClip([at(0), at(40), at(80), at(1000)]);
+const times = (one: FrameClip, position: number): [number, number, number] => {
   const { from, to, t } = one.momentAt(position);
   return [from.time, to.time, t];
 };
@@ -22,15 +22,15 @@ describe('clip', () => {
     expect(times(one, 41)[0]).toBe(40);
   });
 
-  test('Moment_OfOneFrame_IsThatFrame', () => expect(times(new Clip([at(0)]), 500)).toEqual([0, 0, 0]));
+  test('Moment_OfOneFrame_IsThatFrame', () => expect(times(new FrameClip([at(0)]), 500)).toEqual([0, 0, 0]));
 
-  test('Clip_WithoutFrames_Throws', () => expect(() => new Clip([])).toThrow(RangeError));
+  test('Clip_WithoutFrames_Throws', () => expect(() => new FrameClip([])).toThrow(RangeError));
 
   test('FapFile_WhatAFrameLeavesOut_IsZeroOrStays', () => {
     const text = readFileSync(new URL('../../protocol/vectors/fap/mask_changes.fap', import.meta.url), 'utf8');
     const { file } = parseFap(text);
     const levels = (absent: 'zero' | 'keep'): number[] =>
-      Clip.ofFap(file, { absent }).frames.map(({ state }) => state.levels.filter((level) => level !== 0).length);
+      FrameClip.ofFap(file, { absent }).frames.map(({ state }) => state.levels.filter((level) => level !== 0).length);
     const [zero, keep] = [levels('zero'), levels('keep')];
     expect(keep).not.toEqual(zero);
     keep.forEach((count, i) => expect(count).toBeGreaterThanOrEqual(zero[i]!));
@@ -92,5 +92,20 @@ describe('clip player', () => {
     player.play();
     player.pause();
     expect(player.step(0.1)).toBeNull();
+  });
+
+  test('Shown_FromPlayUntilAnotherTakesTheFace', () => {
+    const player = new ClipPlayer();
+    player.load(clip());
+    expect([player.shown, player.step(0.016)]).toEqual([false, null]);
+    player.play();
+    player.pause();
+    expect(player.shown).toBe(true);
+    player.release();
+    expect(player.shown).toBe(false);
+    player.load(clip(), true); // read otherwise while another moves the face
+    expect([player.shown, player.step(0.016)]).toEqual([false, null]);
+    player.seek(40);
+    expect(player.step(0.016)?.from.time).toBe(40);
   });
 });

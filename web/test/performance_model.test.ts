@@ -33,7 +33,7 @@ class FakeServer {
   readonly asked: { stream: string; wish: PlayWish }[] = [];
   readonly stopped: string[] = [];
   refuse: Problem | null = null;
-  faps = 0;
+  readonly faps: string[] = [];
   private made = 0;
 
   readonly listStreams = (): Promise<StreamInfo[]> => Promise.resolve(structuredClone(this.streams));
@@ -50,9 +50,9 @@ class FakeServer {
     this.streams = this.streams.map((one) => (one.id === id ? { ...one, playing: now } : one));
     return Promise.resolve(now);
   };
-  readonly playFap = (id: string, file: Blob, wish: PlayWish): Promise<Playing> => {
-    this.faps += 1;
-    return this.playPerformance(id, file, wish);
+  readonly playFap = async (id: string, file: Blob, wish: PlayWish, absent: 'zero' | 'keep'): Promise<Playing> => {
+    this.faps.push(absent);
+    return { ...(await this.playPerformance(id, file, wish)), warnings: ['line 2: 69 flags'] };
   };
   readonly stopPlaying = (id: string, what: string): Promise<void> => {
     this.stopped.push(what);
@@ -186,9 +186,13 @@ describe('performance model', () => {
     const { server, model } = await setUp([stream('a')]);
     model.target.set('a');
     model.choose({ kind: 'fap', title: 'joy.fap', text: '2.1 joy 25 1' });
+    model.absent.set('keep');
     await model.play();
-    expect(server.faps).toBe(1);
+    expect(server.faps).toEqual(['keep']);
     expect(model.playing.value).not.toBeNull();
+    expect(model.warnings.value).toEqual(['line 2: 69 flags']);
+    model.choose({ kind: 'performance', title: 'other.json', text: '{}' });
+    expect(model.warnings.value).toEqual([]);
   });
 
   test('Stop_EndsWhatPlaysThere', async () => {

@@ -1,6 +1,7 @@
 import { framesOfFap, type FapMeaning } from '@protocol/fap_frames.ts';
 import type { FapFile } from '@protocol/fap_file.ts';
 import type { TimedFrame } from '@client/index.ts';
+import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 
 /** Where the face is at one moment of a clip: `t` (0..1) of the way between two frames. */
 export interface ClipMoment {
@@ -9,9 +10,20 @@ export interface ClipMoment {
   t: number;
 }
 
-/** Frames in time that are at hand as a whole, from 0 to `duration` ms. */
-export class Clip {
+/** A face in time that is at hand as a whole. */
+export interface Clip {
+  /** ms; Infinity: it has no end. */
   readonly duration: number;
+  /** FAP units per level of its frames. */
+  readonly steps: QuantizerSteps;
+  /** `lap`: how many times it was played to its end before. The answer is the same object every time. */
+  momentAt(position: number, lap?: number): ClipMoment;
+}
+
+/** A clip of frames that are there, from 0 to `duration` ms. */
+export class FrameClip implements Clip {
+  readonly duration: number;
+  readonly steps = standardQuantizers;
   private readonly moment: ClipMoment;
   private at = 0;
 
@@ -22,11 +34,11 @@ export class Clip {
     this.moment = { from: first, to: first, t: 0 };
   }
 
-  static ofFap(file: FapFile, meaning: FapMeaning): Clip {
-    return new Clip(framesOfFap(file, meaning));
+  static ofFap(file: FapFile, meaning: FapMeaning): FrameClip {
+    return new FrameClip(framesOfFap(file, meaning));
   }
 
-  /** The answer is the same object every time: nothing is allocated per displayed frame. */
+  /** Nothing is allocated per displayed frame. */
   momentAt(position: number): ClipMoment {
     const { frames, moment } = this;
     if (position < frames[this.at]!.time) this.at = this.search(position);
@@ -57,7 +69,9 @@ export class ClipPlayer {
   /** ms */
   position = 0;
   private current: Clip | null = null;
+  private lap = 0;
   private on = false;
+  private onFace = false;
   private changed = false;
 
   /** `onEnd` is called when it stops by itself. */
@@ -71,20 +85,28 @@ export class ClipPlayer {
     return this.on;
   }
 
+  /** The face shows the clip, moving or paused: from play or seek until `release`. */
+  get shown(): boolean {
+    return this.onFace;
+  }
+
   /** Another clip, or the same one read otherwise: that keeps its place. */
   load(clip: Clip | null, keepPlace = false): void {
     this.current = clip;
     if (!keepPlace || !clip) {
       this.position = 0;
+      this.lap = 0;
       this.on = false;
+      this.onFace = false;
     }
-    this.changed = clip !== null;
+    this.changed = this.onFace;
   }
 
   play(): void {
     if (!this.current) return;
     if (this.position >= this.current.duration) this.position = 0;
     this.on = true;
+    this.onFace = true;
     this.changed = true;
   }
 
@@ -93,9 +115,16 @@ export class ClipPlayer {
     this.changed = false;
   }
 
+  /** Somebody else moves the face from now on. */
+  release(): void {
+    this.pause();
+    this.onFace = false;
+  }
+
   seek(position: number): void {
     if (!this.current) return;
     this.position = Math.min(this.current.duration, Math.max(0, position));
+    this.onFace = true;
     this.changed = true;
   }
 
@@ -104,13 +133,14 @@ export class ClipPlayer {
     if (!this.current || (!this.on && !this.changed)) return null;
     if (this.on && !this.changed) this.advance(this.current.duration, deltaSeconds * 1000);
     this.changed = false;
-    return this.current.momentAt(this.position);
+    return this.current.momentAt(this.position, this.lap);
   }
 
   private advance(duration: number, elapsed: number): void {
     this.position += elapsed;
     if (this.position < duration) return;
     if (this.loop && duration > 0) {
+      this.lap += Math.floor(this.position / duration);
       this.position %= duration;
       return;
     }

@@ -81,7 +81,7 @@ export function mirrorFrame(frame: FaceFrame): void {
 }
 
 /** FAPs 19 to 22 of eyes that are shut, as performances shut them. FAP units: shares of 1024. */
-const shutLids: readonly (readonly [number, number])[] = [
+export const shutLids: readonly (readonly [number, number])[] = [
   [19, 940],
   [20, 940],
   [21, 84],

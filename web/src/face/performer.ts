@@ -1,3 +1,4 @@
+import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 import { Player, shownPose, type FaceFrame, type Kernel, type Pose, type StreamClient } from '@client/index.ts';
 
 /** Seconds in which a pose set by hand closes 63 % of the way: quick, without a jump. */
@@ -20,6 +21,7 @@ export class Performer {
   private stopListening: (() => void) | null = null;
   private shown = handShown;
   private settled = handDuration;
+  private enlivened = false;
   // The frames of a clip whose poses are in the kernel.
   private clipFrames: [FaceFrame | null, FaceFrame | null] = [null, null];
 
@@ -56,10 +58,19 @@ export class Performer {
     this.settled = 0;
   }
 
+  /**
+   * The frame set by hand, with what idle life makes of it now. Once the face has eased to that frame it follows at once:
+   * easing would round off a blink before the eye is shut.
+   */
+  enliven(frame: FaceFrame, steps: QuantizerSteps): void {
+    this.kernel.evaluate(frame, handTarget, steps);
+    this.enlivened = true;
+  }
+
   /** Shows a moment between two frames of a clip, at once. The frames must not change meanwhile. */
-  showBetween(from: FaceFrame, to: FaceFrame, t: number): void {
-    if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom);
-    if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo);
+  showBetween(from: FaceFrame, to: FaceFrame, t: number, steps: QuantizerSteps = standardQuantizers): void {
+    if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom, steps);
+    if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo, steps);
     this.clipFrames[0] = from;
     this.clipFrames[1] = to;
     this.kernel.interpolate(clipFrom, clipTo, t, handShown);
@@ -73,7 +84,8 @@ export class Performer {
       this.shown = shownPose;
       return true;
     }
-    if (this.shown !== handShown || this.settled >= handDuration) return false;
+    if (this.shown !== handShown || (this.settled >= handDuration && !this.enlivened)) return false;
+    this.enlivened = false;
     this.settled += deltaSeconds;
     const share = this.settled >= handDuration ? 1 : 1 - Math.exp(-deltaSeconds / handTimeConstant);
     this.kernel.interpolate(handShown, handTarget, share, handShown);

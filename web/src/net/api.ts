@@ -150,8 +150,8 @@ export class Api {
   }
 
   /** Plays a .fap file into a stream, from now on. */
-  async playFap(stream: string, file: Blob, wish: PlayWish): Promise<Playing> {
-    const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(wish)}`;
+  async playFap(stream: string, file: Blob, wish: PlayWish, absent: 'zero' | 'keep'): Promise<Playing> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(wish)}&absent=${absent}`;
     return (await requestJson<Playing>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
   }
 

@@ -206,6 +206,8 @@ export interface Playing {
   position: number;
   fps: number;
   loop: boolean;
+  /** Of a .fap file, in the answer that it plays. */
+  warnings?: string[];
 }
 
 export interface PlayWish {

@@ -22,6 +22,8 @@ export interface AnimatePanelOptions {
   frame: FaceFrame;
   /** The frame was changed by hand. */
   onChange: () => void;
+  /** Idle life was switched on or off. */
+  onIdle: (on: boolean) => void;
 }
 
 /** ms that a blink keeps the eyes shut; the face eases there and back. */
@@ -80,6 +82,7 @@ export class AnimatePanel {
         h('span', { class: 'grow' }),
         this.resetAll,
       ),
+      this.makeIdle(),
       h(
         'section',
         {},
@@ -135,6 +138,22 @@ export class AnimatePanel {
     this.strength.set(100);
     this.second.value = '0';
     this.changed();
+  }
+
+  private makeIdle(): HTMLElement {
+    const box = h('input', { type: 'checkbox', role: 'switch', id: 'idle-life' });
+    box.addEventListener('change', () => this.options.onIdle(box.checked));
+    return h(
+      'label',
+      { class: 'switch-row', for: 'idle-life' },
+      h(
+        'span',
+        { class: 'grow' },
+        h('strong', {}, 'Idle life'),
+        h('small', { class: 'muted' }, 'Blinks and glances under what you set, on this page.'),
+      ),
+      box,
+    );
   }
 
   private blink(): void {

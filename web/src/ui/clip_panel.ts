@@ -1,23 +1,29 @@
-import { parseFap, type FapFileReading } from '@protocol/fap_file.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
-import { Clip, type ClipPlayer } from '../face/clip.ts';
-import { excerptBox } from './excerpt_box.ts';
+import type { ClipPlayer } from '../face/clip.ts';
+import { clipOf, readClipFile, type ClipFile } from '../face/clip_file.ts';
+import { absentChoice, type Absent } from './absent_choice.ts';
 import { excerptAt } from './document_place.ts';
 import { h, redraw, replace, setText } from './dom.ts';
+import { exampleSelect } from './example_select.ts';
+import { excerptBox } from './excerpt_box.ts';
 import { fapWarningText } from './fap_words.ts';
+import { fapWarnings } from './fap_warnings.ts';
 import { chooseFile } from './file_button.ts';
 import { formatCount, formatTime } from './format.ts';
 import { icon } from './icons.ts';
 import { capital } from './names.ts';
+import { Signal } from './signal.ts';
 
-/** Plays a .fap file on the face on screen; no server takes part. */
+/** Plays a performance document or a .fap file on the face on screen; no server takes part. */
 export class ClipPanel {
   readonly element: HTMLElement;
+  /** What the face shows of a file, in words; null while another moves it. */
+  readonly shown = new Signal<string | null>(null);
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
   private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': 'Position' });
-  private file: { name: string; reading: FapFileReading } | null = null;
-  private absent: 'zero' | 'keep' = 'zero';
+  private file: { name: string; content: ClipFile } | null = null;
+  private absent: Absent = 'zero';
   private held = false;
   private shownPlaying = false;
 
@@ -36,37 +42,59 @@ export class ClipPanel {
     this.element = h(
       'section',
       { class: 'clip' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, '.fap')),
-      chooseFile({
-        label: 'Choose a .fap file',
-        note: 'or drop it',
-        accept: '.fap',
-        take: (file) => void this.takeFile(file),
-      }),
+      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, 'on this page alone')),
+      h(
+        'div',
+        { class: 'script-source' },
+        chooseFile({
+          label: 'Choose a .json or .fap file',
+          note: 'or drop it',
+          accept: '.json,.fap,application/json',
+          take: (file) => void this.takeFile(file),
+        }),
+        exampleSelect((name, text) => this.take(name, text)),
+      ),
       this.body,
     );
   }
 
   async takeFile(file: File): Promise<void> {
-    const text = await file.text();
+    this.take(file.name, await file.text());
+    this.element.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Somebody else moves the face. */
+  release(): void {
+    if (!this.player.shown) return;
+    this.player.release();
+    this.draw();
+  }
+
+  /** Shows again where it stands, on another head. */
+  showAgain(): void {
+    if (this.player.shown) this.player.seek(this.player.position);
+  }
+
+  /** Called a few times a second. */
+  tick(): void {
+    this.tell();
+    if (!this.file) return;
+    if (this.player.playing !== this.shownPlaying) this.draw();
+    this.showClock();
+  }
+
+  private take(name: string, text: string): void {
     try {
-      this.file = { name: file.name, reading: parseFap(text) };
+      this.file = { name, content: readClipFile(name, text) };
       this.read(false);
       this.play();
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.file = null;
       this.player.load(null);
-      this.refuse(file.name, error, text);
+      this.tell();
+      this.refuse(name, error, text);
     }
-    this.element.scrollIntoView({ block: 'nearest' });
-  }
-
-  /** Called a few times a second. */
-  tick(): void {
-    if (!this.file) return;
-    if (this.player.playing !== this.shownPlaying) this.draw();
-    this.showClock();
   }
 
   private play(): void {
@@ -76,19 +104,29 @@ export class ClipPanel {
   }
 
   private read(keepPlace: boolean): void {
-    if (this.file) this.player.load(Clip.ofFap(this.file.reading.file, { absent: this.absent }), keepPlace);
+    if (this.file) this.player.load(clipOf(this.file.content, this.absent), keepPlace);
   }
 
   private showClock(): void {
     const { position, clip } = this.player;
     const duration = clip?.duration ?? 0;
-    setText(this.clock, `${formatTime(position)} / ${formatTime(duration)}`);
+    const endless = duration === Infinity;
+    setText(this.clock, `${formatTime(position)} / ${endless ? '∞' : formatTime(duration)}`);
+    this.seek.hidden = endless;
+    if (endless) return;
     this.seek.max = String(Math.max(1, Math.ceil(duration)));
     if (!this.held) this.seek.value = String(Math.round(position));
     this.seek.style.setProperty('--to', `${duration > 0 ? (position / duration) * 100 : 0}%`);
   }
 
+  private tell(): void {
+    const { file, player } = this;
+    const words = player.playing ? `Playing ${file?.name ?? ''}` : `${file?.name ?? ''}, paused`;
+    this.shown.set(file && player.shown ? words : null);
+  }
+
   private draw(): void {
+    this.tell();
     redraw(this.body, () => this.drawBody());
   }
 
@@ -96,8 +134,6 @@ export class ClipPanel {
     const { player, file } = this;
     if (!file) return replace(this.body);
     this.shownPlaying = player.playing;
-    const { warnings } = file.reading;
-    const { rate, frames } = file.reading.file;
     const loop = h('input', { type: 'checkbox', 'data-focus': 'loop', checked: player.loop });
     loop.addEventListener('change', () => (player.loop = loop.checked));
     replace(
@@ -118,52 +154,25 @@ export class ClipPanel {
           icon(player.playing ? 'pause' : 'play', 15),
           player.playing ? 'Pause' : 'Play',
         ),
-        h('label', { class: 'check' }, loop, 'Loop'),
+        player.clip?.duration === Infinity ? null : h('label', { class: 'check' }, loop, 'Loop'),
         h('span', { class: 'grow' }),
-        h('span', { class: 'muted small' }, `${formatCount(frames.length)} frames, ${rate} a second`),
+        h('span', { class: 'muted small' }, sizeOf(file.content)),
       ),
-      h(
-        'div',
-        { class: 'row' },
-        h('span', { class: 'muted grow', title: 'What a FAP is in a frame that leaves it out' }, 'Left out'),
-        h('div', { class: 'segments', role: 'group', 'aria-label': 'FAPs that a frame leaves out' }, [
-          this.absentButton('zero', 'Are zero'),
-          this.absentButton('keep', 'Stay'),
-        ]),
-      ),
-      warnings.length > 0
-        ? h(
-            'details',
-            { class: 'notice clip-warnings' },
-            h('summary', {}, `${warnings.length} ${warnings.length === 1 ? 'peculiarity' : 'peculiarities'} of the file`),
-            h(
-              'ul',
-              {},
-              warnings.map((warning) => h('li', {}, `${fapWarningText(warning)}.`)),
-            ),
-          )
-        : null,
+      ...this.drawFap(file.content),
     );
     this.showClock();
   }
 
-  private absentButton(value: 'zero' | 'keep', title: string): HTMLElement {
-    return h(
-      'button',
-      {
-        type: 'button',
-        'data-focus': value,
-        'aria-pressed': String(this.absent === value),
-        on: {
-          click: () => {
-            this.absent = value;
-            this.read(true);
-            this.draw();
-          },
-        },
-      },
-      title,
-    );
+  private drawFap(content: ClipFile): (HTMLElement | null)[] {
+    if (content.kind !== 'fap') return [];
+    return [
+      absentChoice(this.absent, (absent) => {
+        this.absent = absent;
+        this.read(true);
+        this.draw();
+      }),
+      fapWarnings(content.reading.warnings.map((warning) => `${fapWarningText(warning)}.`)),
+    ];
   }
 
   private toggle(): void {
@@ -183,10 +192,27 @@ export class ClipPanel {
           'div',
           { class: 'grow' },
           h('strong', {}, `${name}: ${error.message}`),
-          error.where ? h('p', {}, capital(error.where)) : null,
+          placeOf(error.where),
           excerptBox(excerptAt(text, error.where)),
         ),
       ),
     );
   }
+}
+
+function sizeOf(content: ClipFile): string {
+  if (content.kind === 'fap') {
+    const { rate, frames } = content.reading.file;
+    return `${formatCount(frames.length)} frames, ${rate} a second`;
+  }
+  const { cues, idle } = content.script;
+  const count = `${formatCount(cues.length)} ${cues.length === 1 ? 'cue' : 'cues'}`;
+  if (!idle) return count;
+  return cues.length > 0 ? `${count}, idle life` : 'Idle life';
+}
+
+/** A JSON pointer as it is, "line 3, word 2" in words. */
+function placeOf(where: string): HTMLElement | null {
+  if (where === '') return null;
+  return where.startsWith('/') ? h('p', {}, 'At ', h('code', {}, where)) : h('p', {}, capital(where));
 }

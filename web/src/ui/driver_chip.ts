@@ -10,6 +10,8 @@ export function makeDriverChip(
   live: LiveModel,
   scene: SceneView,
   tab: Signal<Tab>,
+  /** What a file that plays on this page shows, in words. */
+  clip: Signal<string | null>,
   defaultStream: { id: string; title: string },
 ): HTMLElement {
   const chip = h('div', { class: 'driver', role: 'status' });
@@ -48,8 +50,8 @@ export function makeDriverChip(
     };
     replace(
       chip,
-      h('span', { class: 'lamp lamp-hand' }),
-      h('span', { class: 'driver-text' }, 'By hand'),
+      h('span', { class: `lamp ${clip.value === null ? 'lamp-hand' : 'lamp-open'}` }),
+      h('span', { class: 'driver-text' }, clip.value ?? 'By hand'),
       h(
         'button',
         { type: 'button', class: 'quiet small', on: { click: resume } },
@@ -63,5 +65,6 @@ export function makeDriverChip(
   live.following.watch(draw);
   scene.performer.watch(draw);
   tab.watch(draw);
+  clip.watch(draw);
   return chip;
 }

@@ -29,6 +29,10 @@ export class PerformanceModel {
   readonly playing = new Signal<Playing | null>(null);
   readonly refusal = new Signal<Refusal | null>(null);
   readonly busy = new Signal(false);
+  /** What a FAP is that a frame of a .fap file leaves out. */
+  readonly absent = new Signal<'zero' | 'keep'>('zero');
+  /** What the server found peculiar in the .fap file it plays. */
+  readonly warnings = new Signal<readonly string[]>([]);
   loop = false;
   /** ms */
   from = 0;
@@ -76,6 +80,7 @@ export class PerformanceModel {
   choose(script: Script): void {
     this.own = null;
     this.refusal.set(null);
+    this.warnings.set([]);
     this.script.set(script);
   }
 
@@ -92,9 +97,10 @@ export class PerformanceModel {
       const { api } = this.studio;
       const body = new Blob([script.text]);
       const playing = await (script.kind === 'fap'
-        ? api.playFap(stream, body, whole)
+        ? api.playFap(stream, body, whole, this.absent.value)
         : api.playPerformance(stream, body, whole));
       this.own = playing.id;
+      this.warnings.set(playing.warnings ?? []);
       this.take(playing);
     } catch (error) {
       const problem = problemOf(error);

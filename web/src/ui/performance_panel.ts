@@ -1,7 +1,10 @@
+import { kindOfClip } from '../face/clip_file.ts';
 import { adviceFor } from '../net/problem.ts';
+import { absentChoice } from './absent_choice.ts';
 import { h, redraw, replace, setText } from './dom.ts';
-import { examples } from './examples.ts';
+import { exampleSelect } from './example_select.ts';
 import { excerptBox } from './excerpt_box.ts';
+import { fapWarnings } from './fap_warnings.ts';
 import { chooseFile } from './file_button.ts';
 import { formatTime } from './format.ts';
 import { icon } from './icons.ts';
@@ -41,18 +44,7 @@ export class PerformancePanel {
     private readonly model: PerformanceModel,
     live: LiveModel,
   ) {
-    const example = h(
-      'select',
-      { 'aria-label': 'Example' },
-      h('option', { value: '' }, 'An example…'),
-      ...examples.map(({ title }, i) => h('option', { value: i }, title)),
-    );
-    example.addEventListener('change', () => {
-      const chosen = examples[Number(example.value)];
-      if (example.value === '' || !chosen) return;
-      example.value = '';
-      void chosen.text().then((text) => this.model.choose({ kind: 'performance', title: chosen.title, text }));
-    });
+    const example = exampleSelect((title, text) => this.model.choose({ kind: 'performance', title, text }));
     this.target.addEventListener('change', () => this.model.target.set(this.target.value));
     this.from.addEventListener('change', () => {
       this.model.from = Math.max(0, Math.round((Number(this.from.value) || 0) * 1000));
@@ -94,7 +86,8 @@ export class PerformancePanel {
       this.trouble,
     );
     const draw = (): void => redraw(this.transport, () => this.drawTransport());
-    model.script.watch(() => this.drawScript());
+    for (const signal of [model.script, model.absent, model.warnings])
+      signal.watch(() => redraw(this.script, () => this.drawScript()));
     model.script.watch(draw);
     model.busy.watch(draw);
     model.refusal.watch((refusal) => this.drawTrouble(refusal));
@@ -110,8 +103,7 @@ export class PerformancePanel {
   }
 
   async takeFile(file: File): Promise<void> {
-    const kind = /\.fap$/i.test(file.name) ? 'fap' : 'performance';
-    this.model.choose({ kind, title: file.name, text: await file.text() });
+    this.model.choose({ kind: kindOfClip(file.name), title: file.name, text: await file.text() });
   }
 
   /** Called a few times a second. */
@@ -131,12 +123,15 @@ export class PerformancePanel {
   }
 
   private drawScript(): void {
-    const script = this.model.script.value;
+    const { model } = this;
+    const script = model.script.value;
     replace(
       this.script,
       script
         ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
         : h('p', { class: 'muted small' }, 'Visemes, expressions, looks and blinks in time. Everyone watching sees it.'),
+      script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
+      fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
     );
   }
 

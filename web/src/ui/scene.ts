@@ -1,5 +1,6 @@
 import { Vector3 } from 'three';
 import type { ClipPlayer } from '../face/clip.ts';
+import type { IdleLife } from '../face/idle_life.ts';
 import type { LoadedFace } from '../face/loaded_face.ts';
 import { Performer } from '../face/performer.ts';
 import type { Model } from '../net/types.ts';
@@ -59,6 +60,8 @@ export class SceneView {
 
   /** A file that plays here, over what is done by hand. */
   clip: ClipPlayer | null = null;
+  /** Under what is done by hand; null: none. */
+  idle: IdleLife | null = null;
   /** Whether the face follows the stream, or what is done by hand. */
   live = false;
 
@@ -170,8 +173,10 @@ export class SceneView {
     const { face } = this;
     const performer = this.performer.value;
     if (!face || !performer || !face.object.visible) return false;
-    const moment = this.live ? null : (this.clip?.step(delta) ?? null);
-    if (moment) performer.showBetween(moment.from.state, moment.to.state, moment.t);
+    const { clip, idle, live } = this;
+    const moment = live ? null : (clip?.step(delta) ?? null);
+    if (idle && !live && !clip?.shown) performer.enliven(idle.step(delta), idle.steps);
+    if (moment) performer.showBetween(moment.from.state, moment.to.state, moment.t, clip?.clip?.steps);
     else if (!performer.step(delta, this.live)) return false;
     this.pose(face, performer);
     return true;

@@ -1,0 +1,44 @@
+import { Performance, type PerformanceScript, type TimedFrame } from '@client/index.ts';
+import type { Clip, ClipMoment } from './clip.ts';
+import { fineSteps } from './fine_steps.ts';
+
+/** ms between the frames that a performance is asked for; the face goes straight from one to the next. */
+const interval = 20;
+
+/** A performance document as a clip: each frame is made when its time comes. */
+export class PerformanceClip implements Clip {
+  readonly duration: number;
+  readonly steps = fineSteps;
+  private readonly performance: Performance;
+  private readonly moment: ClipMoment;
+  private lap = 0;
+
+  constructor(script: PerformanceScript) {
+    this.performance = new Performance(script);
+    this.duration = this.performance.duration > 0 ? this.performance.duration : Infinity;
+    const first = this.frameAt(0);
+    this.moment = { from: first, to: first, t: 0 };
+  }
+
+  momentAt(position: number, lap = 0): ClipMoment {
+    const { moment } = this;
+    const at = Math.min(Math.max(position, 0), this.duration);
+    const begin = Math.floor(at / interval) * interval;
+    const end = Math.min(begin + interval, this.duration);
+    if (lap !== this.lap) {
+      this.lap = lap;
+      moment.from = moment.to = this.frameAt(begin);
+    } else if (moment.from.time !== begin) {
+      moment.from = moment.to.time === begin ? moment.to : this.frameAt(begin);
+    }
+    if (moment.to.time !== end) moment.to = end > begin ? this.frameAt(end) : moment.from;
+    moment.t = end > begin ? (at - begin) / (end - begin) : 0;
+    return moment;
+  }
+
+  /** Idle life runs on where the cues begin again. */
+  private frameAt(time: number): TimedFrame {
+    const idle = this.lap > 0 ? time + this.lap * this.duration : time;
+    return { time, state: this.performance.frameAt(time, idle, this.steps) };
+  }
+}

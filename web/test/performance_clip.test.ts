@@ -1,0 +1,85 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, test } from 'vitest';
+import { Performance, readPerformance } from '@client/index.ts';
+import { ProtocolError } from '@protocol/protocol_error.ts';
+import { ClipPlayer } from '../src/face/clip.ts';
+import { clipOf, readClipFile } from '../src/face/clip_file.ts';
+import { fineSteps } from '../src/face/fine_steps.ts';
+import { PerformanceClip } from '../src/face/performance_clip.ts';
+
+const hello = readFileSync(new URL('../../protocol/examples/performances/hello.json', import.meta.url), 'utf8');
+const idleText = '{"format": "semblante.performance", "version": 1, "idle": {"seed": 3, "head": 1}}';
+const levelsAt = (clip: PerformanceClip, position: number, lap = 0): [number[], number[], number] => {
+  const { from, to, t } = clip.momentAt(position, lap);
+  return [[...from.state.levels], [...to.state.levels], t];
+};
+
+describe('performance clip', () => {
+  test('Moment_AnywhereInAnyOrder_IsThePerformanceThere', () => {
+    const script = readPerformance(hello);
+    const clip = new PerformanceClip(script);
+    const performance = new Performance(script);
+    expect(clip.duration).toBe(performance.duration);
+    for (const position of [0, 7, 20, 33, 1234.5, 1250, 300, clip.duration]) {
+      const { from, to, t } = clip.momentAt(position);
+      expect(from.time + t * (to.time - from.time)).toBeCloseTo(position, 9);
+      for (const { time, state } of [from, to]) expect(state).toEqual(performance.frameAt(time, time, fineSteps));
+    }
+    const { from, to } = clip.momentAt(1240);
+    const next = clip.momentAt(1260);
+    expect([next.from.time, next.to.time]).toEqual([1260, 1280]);
+    expect(from).not.toBe(to);
+  });
+
+  test('Moment_FrameByFrame_MakesEachFrameOnce', () => {
+    const clip = new PerformanceClip(readPerformance(hello));
+    const first = clip.momentAt(1000).to;
+    expect(clip.momentAt(1005).to).toBe(first);
+    expect(clip.momentAt(1021).from).toBe(first);
+  });
+
+  test('IdleAlone_HasNoEnd_AndGoesOn', () => {
+    const file = readClipFile('idle.json', idleText);
+    const clip = clipOf(file, 'zero');
+    expect(clip.duration).toBe(Infinity);
+    const player = new ClipPlayer();
+    player.loop = true;
+    player.load(clip);
+    player.play();
+    player.step(0);
+    const rest = [...player.step(1)!.from.state.levels];
+    expect([...player.step(3600)!.from.state.levels]).not.toEqual(rest);
+    expect([player.position, player.playing]).toEqual([3_601_000, true]);
+  });
+
+  test('Loop_IdleLife_RunsOnWhereTheCuesBeginAgain', () => {
+    const text = idleText.replace('}}', '}, "duration": 1000, "cues": [{"time": 0, "duration": 900, "viseme": "o"}]}');
+    const clip = new PerformanceClip(readPerformance(text));
+    const end = levelsAt(clip, 1000)[0];
+    const again = levelsAt(clip, 0, 1)[0];
+    expect(again).toEqual(end);
+    expect(levelsAt(clip, 500, 1)[0]).not.toEqual(levelsAt(clip, 500, 0)[0]);
+    const player = new ClipPlayer();
+    player.loop = true;
+    player.load(clip);
+    player.play();
+    player.step(0);
+    const { from } = player.step(3.5)!;
+    expect([from.time, [...from.state.levels]]).toEqual([500, levelsAt(clip, 500, 3)[0]]);
+  });
+
+  test('File_WithAFault_NamesItsPointerOrItsLine', () => {
+    const where = (name: string, text: string): string => {
+      try {
+        readClipFile(name, text);
+      } catch (error) {
+        if (error instanceof ProtocolError) return error.where;
+        throw error;
+      }
+      return 'nowhere';
+    };
+    expect(where('a.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"'))).toBe('/cues/3/viseme');
+    expect(where('a.FAP', hello)).toMatch(/^line 1/);
+    expect(where('a.json', hello)).toBe('nowhere');
+  });
+});
