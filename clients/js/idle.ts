@@ -74,7 +74,9 @@ function newestEvent(seed: number, of: number, mean: number, ms: number): Event 
 
 function closureAt(idle: IdleLife, ms: number): number {
   if (idle.blinksPerMinute <= 0) return 0;
-  const blink = newestEvent(idle.seed, channel.blinkGaps, 60_000 / idle.blinksPerMinute, ms);
+  const mean = 60_000 / idle.blinksPerMinute;
+  if (!Number.isFinite(mean * eventsPerBlock)) return 0; // never, in numbers as small as a document may have
+  const blink = newestEvent(idle.seed, channel.blinkGaps, mean, ms);
   if (blink.block === 0 && blink.index === 0) return 0;
   if (blink.since < blinkClosing) return smoothStep(blink.since / blinkClosing);
   return smoothStep(1 - (blink.since - blinkClosing) / blinkOpening);

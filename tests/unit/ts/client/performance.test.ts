@@ -78,4 +78,10 @@ describe('Performance', () => {
     expect(frame.levels[48]).toBe(Math.round(face.faps[48]! / 170));
     expect(frame.viseme).toEqual(face.viseme);
   });
+
+  it('At_WithABlinkInMoreTimeThanANumberHolds_KeepsTheEyesOpen', () => {
+    const idle = { blinks_per_minute: 1e-310, head: 0, eyes: 0 };
+    const script = readPerformance(JSON.stringify({ format: 'semblante.performance', version: 1, idle }));
+    expect(Array.from(new Performance(script).at(1000).faps)).toEqual(new Array<number>(69).fill(0));
+  });
 });
