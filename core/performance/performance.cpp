@@ -134,6 +134,17 @@ Performance::Gaze Performance::gaze_at(double ms) const {
   return gaze;
 }
 
+std::size_t Performance::bytes() const {
+  std::size_t sum = sizeof(*this) + keys_.capacity() * sizeof(CueKey) +
+                    viseme_shapes_.capacity() * sizeof(VisemeTarget) + look_ways_.capacity() * sizeof(Look) +
+                    head_turns_.capacity() * sizeof(HeadTarget);
+  for (const auto& track : faps_) sum += track.bytes();
+  for (const auto& track : expressions_) sum += track.bytes();
+  for (const auto& track : blinks_) sum += track.bytes();
+  for (const auto* track : {&visemes_, &looks_, &heads_}) sum += track->bytes();
+  return sum;
+}
+
 semblante_frame Performance::frame_at(double ms, double idle_ms) const {
   semblante_frame frame{};
   set_viseme(ms, frame);

@@ -35,6 +35,8 @@ class Performance {
   [[nodiscard]] bool endless() const { return duration_ <= 0.0; }
   [[nodiscard]] std::size_t cue_count() const { return cue_count_; }
   [[nodiscard]] const std::optional<IdleLife>& idle() const { return idle_; }
+  /// The memory of its cues and keys.
+  [[nodiscard]] std::size_t bytes() const;
 
   /// The face `ms` after the beginning; `idle_ms` is the time of idle life, which runs on when the cues are looped.
   /// Both not negative. From the duration on no cue is active.

@@ -53,6 +53,10 @@ class Track {
 
   [[nodiscard]] bool empty() const { return spans_.empty(); }
   [[nodiscard]] std::span<const Span> spans() const { return spans_; }
+  [[nodiscard]] std::size_t bytes() const {
+    return spans_.capacity() * sizeof(Span) + carried_.capacity() * sizeof(std::uint32_t) +
+           block_offsets_.capacity() * sizeof(std::size_t);
+  }
   /// The cue (number in the script) at which more than max_overlapping_cues are active; nullopt when that never is.
   [[nodiscard]] std::optional<std::uint32_t> too_many() const { return too_many_; }
 

@@ -57,8 +57,9 @@ http::Response play_into(Context& context, const std::string& stream,
     refuse("invalid-argument", "begins after the end", "?from");
   const auto playing = context.hub.play(stream, std::move(source), options);
   if (!playing) {
-    const bool gone = playing.error().code == ErrorCode::missing;
-    refuse(gone ? "not-found" : "conflict", playing.error().message);
+    const auto& [code, where, message] = playing.error();
+    if (code == ErrorCode::too_large) refuse("limit-exceeded", message);
+    refuse(code == ErrorCode::missing ? "not-found" : "conflict", message);
   }
   auto body = represent(*playing);
   if (warnings) body["warnings"] = *warnings;

@@ -20,7 +20,8 @@ std::string text_of_body(const http::Request& request);
 streams::PlayOptions play_options(const http::Request& request);
 
 /// Plays a source into a stream: 202 with where it can be seen and stopped. Refuses with 409 when somebody else
-/// publishes or plays, with 400 when it is to begin after its end. `warnings`: of what was posted, if it can have any.
+/// publishes or plays, with 400 when it is to begin after its end, with 507 when it does not fit beside what plays.
+/// `warnings`: of what was posted, if it can have any.
 http::Response play_into(Context& context, const std::string& stream,
                          std::shared_ptr<const streams::FrameSource> source, const streams::PlayOptions& options,
                          const std::optional<std::vector<std::string>>& warnings = std::nullopt);

@@ -30,7 +30,8 @@ http::Response new_set_response(const store::SetRecord& set, int status);
 /// Refuses by pointer: a slot that is none (or at rest), a set that is not there, or one of the other kind.
 std::vector<store::WornSet> worn_from_json(Context& context, const Json& changes);
 
-/// The parametrization that makes a model's package again with the options it was made with; none without a package.
+/// The parametrization that makes a model's package again with the options it was made with, or those it is being made
+/// with; none where there is no package and none to come.
 std::optional<store::JobRecord> make_package_again(Context& context, const store::ModelRecord& model);
 
 }  // namespace semblante::api

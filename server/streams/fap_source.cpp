@@ -32,6 +32,8 @@ class FapSource : public FrameSource {
     return to_frame(between(to_values(from.state), to_values(after->state), t));
   }
 
+  [[nodiscard]] std::size_t bytes() const override { return frames_.capacity() * sizeof(TimedFrame); }
+
  private:
   const std::string name_;
   const double duration_;

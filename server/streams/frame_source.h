@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,8 @@ class FrameSource {
   /// The face `ms` after the beginning, 0..duration. `played_ms`: the same without falling back where it is looped, for
   /// what should not repeat with it.
   [[nodiscard]] virtual FaceFrame frame_at(double ms, double played_ms) const = 0;
+  /// About how much memory it holds.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
 }  // namespace semblante::streams

@@ -20,6 +20,8 @@ class PerformanceSource : public FrameSource {
     return quantized(performance_.frame_at(ms, played_ms));
   }
 
+  [[nodiscard]] std::size_t bytes() const override { return performance_.bytes(); }
+
  private:
   const Performance performance_;
 };

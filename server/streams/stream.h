@@ -27,6 +27,7 @@ struct StreamLimits {
   std::chrono::milliseconds hello_time{10'000};
   std::uint32_t frames_per_second = 500;  ///< of one publisher, on average
   std::uint32_t frames_burst = 2000;
+  std::size_t playing_bytes = std::size_t{512} << 20U;  ///< of all that plays, in all streams together
 };
 
 /// What is being played into a stream. Times in ms.

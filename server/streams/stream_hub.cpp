@@ -159,13 +159,18 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   const std::lock_guard lock(mutex_);
   const auto found = streams_.find(id);
   if (stopping_ || found == streams_.end()) return Error{ErrorCode::missing, "", "there is no such stream"};
+  std::size_t bytes = source->bytes();
+  for (const auto& [stream, playing] : playing_) bytes += stream == id ? 0 : playing->bytes;
+  if (bytes > limits_.playing_bytes)
+    return Error{ErrorCode::too_large, "", "what plays in all streams takes as much memory as it may"};
   auto ticket = found->second->begin_playing(options.rate, options.take_over);
   if (!ticket) return std::move(ticket).error();
   const auto now = Player::Clock::now();
   // As epochs, ids never repeat over restarts: nobody stops another's performance by an old address.
   last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
+  const std::size_t own_bytes = source->bytes();
   auto playing = std::make_shared<Playing>(
-      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, now));
+      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, now), own_bytes);
   PlayStatus status = playing->player.status(now);
   playing_[std::string(id)] = std::move(playing);
   more_to_play_ = true;

@@ -37,7 +37,8 @@ class StreamHub {
   virtual Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) = 0;
   /// Plays a source into a stream, from now on. Frames of it stand in for a publisher's: while it plays, connections
   /// and requests are refused. What plays is live state: a restart of the server ends it. Errors: missing (no such
-  /// stream); mismatch (somebody publishes or plays, and options.take_over is not set).
+  /// stream); mismatch (somebody publishes or plays, and options.take_over is not set); too_large (with all that plays
+  /// it would take too much memory).
   virtual Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
                                   const PlayOptions& options) = 0;
   /// Ends it; the face returns to neutral. False when it does not play there (any more).
@@ -71,9 +72,10 @@ class InProcessHub : public StreamHub {
  private:
   /// Its mutex is taken before the stream's, never after.
   struct Playing {
-    explicit Playing(Player made) : player(std::move(made)) {}
+    explicit Playing(Player made, std::size_t source_bytes = 0) : player(std::move(made)), bytes(source_bytes) {}
     std::mutex mutex;
     Player player;
+    const std::size_t bytes;  ///< of its source; none of what all streams share
   };
 
   [[nodiscard]] std::shared_ptr<Stream> find(std::string_view id) const;

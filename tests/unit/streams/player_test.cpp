@@ -27,6 +27,7 @@ class Ramp : public FrameSource {
     frame.level[5] = static_cast<std::int16_t>(played_ms);
     return frame;
   }
+  [[nodiscard]] std::size_t bytes() const override { return 1000; }
 
  private:
   double duration_;
@@ -176,6 +177,38 @@ TEST(HubPlaying, PlaysToTheEndByItself) {
   EXPECT_GE(hub.info("a")->sequence, 2U) << "at least its beginning and its end, on however slow a machine";
   EXPECT_FALSE(hub.stop("a", playing->id));
   EXPECT_TRUE(hub.publish("a", {TimedFrame{}}));
+}
+
+TEST(HubPlaying, WhatPlaysTogether_FitsIntoTheMemoryItMayTake) {
+  StreamLimits limits;
+  limits.playing_bytes = 2500;
+  InProcessHub hub(limits);
+  StreamInfo info;
+  info.source = "none";
+  for (const char* id : {"a", "b", "c"}) {
+    info.id = id;
+    ASSERT_TRUE(hub.open(info));
+  }
+  const auto source = std::make_shared<Ramp>(0.0);
+  ASSERT_TRUE(hub.play("a", source, {}));
+  const auto second = hub.play("b", source, {});
+  ASSERT_TRUE(second);
+  const auto third = hub.play("c", source, {});
+  ASSERT_FALSE(third);
+  EXPECT_EQ(third.error().code, ErrorCode::too_large);
+  EXPECT_FALSE(hub.info("c")->playing);
+  PlayOptions over;
+  over.take_over = true;
+  const auto instead = hub.play("b", source, over);
+  ASSERT_TRUE(instead) << "what it takes the place of does not count";
+  EXPECT_TRUE(hub.stop("b", instead->id));
+  // The hub's thread lets go of it in its own time.
+  bool plays = false;
+  for (int round = 0; round < 500 && !plays; ++round) {
+    plays = hub.play("c", source, {}).ok();
+    if (!plays) std::this_thread::sleep_for(milliseconds(10));
+  }
+  EXPECT_TRUE(plays);
 }
 
 TEST(HubPlaying, StoppedAndClosedStreamsPlayNoMore) {
