@@ -293,6 +293,14 @@ const semblante_face* semblante_head_face(const semblante_head* head) {
   return head == nullptr ? nullptr : &head->face;
 }
 
+semblante_result semblante_head_set_viseme_share(semblante_head* head, float viseme_share) {
+  if (head == nullptr || !(viseme_share >= 0.0F && viseme_share <= 1.0F)) {
+    return SEMBLANTE_INVALID_ARGUMENT;
+  }
+  head->rig.viseme_share = viseme_share;
+  return SEMBLANTE_OK;
+}
+
 semblante_result semblante_head_set_frame(semblante_head* head, const semblante_frame* frame) {
   if (head == nullptr || frame == nullptr || !is_finite(*frame)) {
     return SEMBLANTE_INVALID_ARGUMENT;

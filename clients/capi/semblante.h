@@ -72,7 +72,8 @@ typedef struct semblante_package {
 } semblante_package;
 
 typedef struct semblante_head_options {
-  float viseme_share; /* share of the viseme where an expression acts too (Eq. 5); 0: what rig.json says */
+  float viseme_share; /* share of the viseme where an expression acts too (Eq. 5); 0: what rig.json says; a share of
+                         0 is set by semblante_head_set_viseme_share */
   uint32_t reserved[7];
 } semblante_head_options;
 
@@ -97,6 +98,11 @@ uint32_t semblante_head_vertex_count(const semblante_head* head);
 const semblante_rig* semblante_head_rig(const semblante_head* head);
 /* Rest positions and influence table; valid until the head is destroyed. Null for null. */
 const semblante_face* semblante_head_face(const semblante_head* head);
+
+/* The share of the viseme where an expression acts too (Eq. 5), 0..1, both ends allowed, as the header of a stream may
+ * name it: for frames set from now on; the pose in use stays. semblante_head_rig shows the one in use, at first that of
+ * rig.json or of the options. INVALID_ARGUMENT, and no change, for what is outside or not a number. */
+semblante_result semblante_head_set_viseme_share(semblante_head* head, float viseme_share);
 
 /* Frame -> pose of this head (Eq. 5, 6), kept in the head. FAPs that are not finite are refused. */
 semblante_result semblante_head_set_frame(semblante_head* head, const semblante_frame* frame);

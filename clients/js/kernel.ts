@@ -9,6 +9,7 @@ const featurePointCount = 84;
 const fapCount = 68;
 const frameBytes = 8 + (fapCount + 1) * 4;
 const rigBytes = 160;
+const visemeShareAt = 64;
 const faceBytes = 24;
 const trianglesBytes = 16;
 const irisFloats = 6;
@@ -82,6 +83,8 @@ export class Kernel {
   private readonly spans: Float32Array;
   /** all of the kernel's memory */
   private readonly bytes: Uint8Array;
+  private readonly share: Float32Array;
+  private readonly shareOfRig: number;
   private readonly at: {
     frame: number;
     spans: number;
@@ -198,10 +201,21 @@ export class Kernel {
     this.frameFaps = floats(frame + 8, fapCount + 1);
     this.spans = floats(spans, 3);
     this.bytes = new Uint8Array(memory);
+    this.share = floats(rigAt + visemeShareAt, 1);
+    this.shareOfRig = rig.viseme_share;
     this.positions = floats(positions, vertices * 3);
     this.normals = floats(normals, turned * 3);
     this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
     for (const pose of [...this.at.poses, this.at.shown]) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
+  }
+
+  /**
+   * The share of the viseme where an expression moves the same feature point (Eq. 5), 0..1, of what is evaluated from now
+   * on; null: the rig's own. Throws RangeError.
+   */
+  setVisemeShare(share: number | null): void {
+    if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share is 0 to 1');
+    this.share[0] = share ?? this.shareOfRig;
   }
 
   /** Eq. 5 and 6. `steps`: FAP units per level, of the stream the frame came from. */

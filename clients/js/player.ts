@@ -6,6 +6,8 @@ import type { StreamClient } from './stream_client.ts';
 /** What the player needs of the kernel: poses by number. */
 export interface PoseMaker {
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps): void;
+  /** Of Eq. 5, for what is evaluated from now on, as a stream's header names it; null: the model's own. */
+  setVisemeShare?(share: number | null): void;
   interpolate(a: number, b: number, t: number, out: number): void;
   /** Needed for the interpolation `eased`; poses before, from, to, after with the spans between them. */
   ease?(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void;
@@ -64,6 +66,7 @@ export class Player {
   private readonly clock: (() => number) | undefined;
   private steps: QuantizerSteps = standardQuantizers;
   private epoch = -1;
+  private visemeShare: number | null = null;
 
   // Frames not yet over; the first is the last one at or before the playhead.
   private times: number[] = [];
@@ -105,7 +108,10 @@ export class Player {
       client.on('keyframe', (keyframe) => this.pushKeyframe(keyframe)),
       client.on('frames', (frames) => this.pushFrames(frames)),
     ];
-    return () => stops.forEach((stop) => stop());
+    return () => {
+      stops.forEach((stop) => stop());
+      this.takeVisemeShare(null); // the stream's, not the face's
+    };
   }
 
   /** A header came: another epoch is another time line. */
@@ -115,6 +121,14 @@ export class Player {
     if (this.announcedInterval === 0 && header.fps_hint > 0) this.announcedInterval = 1000 / header.fps_hint;
     if (header.epoch !== this.epoch) this.clear();
     this.epoch = header.epoch;
+    this.takeVisemeShare(header.viseme_share);
+  }
+
+  private takeVisemeShare(share: number | null): void {
+    if (share === this.visemeShare) return;
+    this.visemeShare = share;
+    this.poses.setVisemeShare?.(share);
+    this.fromTime = this.toTime = this.shownT = NaN; // what was evaluated had another
   }
 
   pushKeyframe(keyframe: Keyframe): void {

@@ -15,6 +15,7 @@ std::string cpp_type(const Json& field) {
   if (type == "reals") return "std::vector<double>";
   if (type == "enum") return text(field, "enum");
   if (type == "optional") return "std::optional<" + text(field, "struct") + ">";
+  if (type == "optional_real") return "std::optional<double>";
   if (type == "state") return "FaceFrame";
   if (type == "frames") return "std::vector<TimedFrame>";
   throw std::runtime_error("unknown type of field: " + type);
@@ -54,6 +55,10 @@ std::string visit(const Json& field) {
   if (type == "enum")
     return "v.enumeration(" + head + ", " + snake_case(text(field, "enum")) + "_names, " + presence + ");";
   if (type == "optional") return "v.optional(" + head + ");";
+  if (type == "optional_real") {
+    return "v.optional_real(" + head + ", " + bound(field, "min", "-max_real") + ", " +
+           bound(field, "max", "max_real") + ");";
+  }
   return "v." + type + "(" + head + ");";  // state, frames
 }
 

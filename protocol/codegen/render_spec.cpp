@@ -9,14 +9,15 @@
 namespace semblante::codegen {
 namespace {
 
+std::string bounds(const Json& field) {
+  return field.contains("min") ? ", " + field.at("min").dump() + " to " + field.at("max").dump() : std::string();
+}
+
 std::string wire_form(const Json& field) {
   const std::string type = text(field, "type");
   if (type == "uint") return "varint, at most " + field.at("max").dump();
-  if (type == "real") {
-    std::string out = "f64";
-    if (field.contains("min")) out += ", " + field.at("min").dump() + " to " + field.at("max").dump();
-    return out;
-  }
+  if (type == "real") return "f64" + bounds(field);
+  if (type == "optional_real") return "appended: nothing, or u8, 0 or 1; if 1, an f64" + bounds(field);
   if (type == "bool") return "u8, 0 or 1";
   if (type == "text") return "text of at most " + field.at("max").dump() + " bytes";
   if (type == "reals") {

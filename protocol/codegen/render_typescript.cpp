@@ -14,6 +14,7 @@ std::string ts_type(const Json& field) {
   if (type == "reals") return "number[]";
   if (type == "enum") return text(field, "enum");
   if (type == "optional") return text(field, "struct") + " | null";
+  if (type == "optional_real") return "number | null";
   if (type == "state") return "FaceFrame";
   if (type == "frames") return "TimedFrame[]";
   throw std::runtime_error("unknown type of field: " + type);
@@ -25,7 +26,7 @@ std::string fallback(const Json& field, const Json& schema) {
   if (type == "bool") return "false";
   if (type == "text") return "''";
   if (type == "reals") return "[]";
-  if (type == "optional") return "null";
+  if (type == "optional" || type == "optional_real") return "null";
   if (type == "enum") {
     for (const Json& node : schema.at("enums")) {
       if (node.at("name") == field.at("enum")) return "'" + text(node.at("values").at(0), "name") + "'";
@@ -38,7 +39,7 @@ std::string descriptor(const Json& field, const Json& schema) {
   const std::string type = text(field, "type");
   std::string out = "{ name: '" + text(field, "name") + "', type: '" + type + "'";
   if (type == "uint" || type == "text") out += ", max: " + field.at("max").dump();
-  if (type == "real" || type == "reals") {
+  if (type == "real" || type == "reals" || type == "optional_real") {
     out += ", min: " + (field.contains("min") ? field.at("min").dump() : "-Number.MAX_VALUE");
     out += ", max: " + (field.contains("max") ? field.at("max").dump() : "Number.MAX_VALUE");
   }
@@ -108,6 +109,7 @@ export type Field =
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
+  | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
 

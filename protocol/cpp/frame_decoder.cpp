@@ -72,6 +72,11 @@ class FieldReader {
     visit_fields(value.emplace(), *this);
     prefix_ = outer;
   }
+  void optional_real(const char* name, std::optional<double>& value, double min, double max) {
+    // Appended: a message of an earlier writer ends before it.
+    if (error_ || in_.remaining() == 0 || !flag(name)) return;
+    real(name, value.emplace(), min, max, Presence::required);
+  }
   void state(const char* name, FaceFrame& state) {
     if (error_) return;
     state = FaceFrame{};

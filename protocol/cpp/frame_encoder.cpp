@@ -45,6 +45,17 @@ class Writer {
     to_.push_back(value.has_value() ? 1 : 0);
     if (value.has_value()) visit_fields(*value, *this);
   }
+  /// Appended fields that are absent are left out while none follows, as earlier writers left them out.
+  void optional_real(const char* name, const std::optional<double>& value, double min, double max) {
+    if (!value.has_value()) {
+      ++left_out_;
+      return;
+    }
+    to_.insert(to_.end(), left_out_, 0);
+    left_out_ = 0;
+    to_.push_back(1);
+    real(name, *value, min, max, Presence::required);
+  }
   void state(const char*, const FaceFrame& state) {
     assert(is_valid(state));
     append_state(to_, FaceFrame{}, state);
@@ -66,6 +77,7 @@ class Writer {
  private:
   std::vector<std::uint8_t>& to_;
   const FaceFrame& last_;
+  std::size_t left_out_ = 0;  ///< appended fields since the last that was written
 };
 
 }  // namespace

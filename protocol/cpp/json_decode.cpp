@@ -146,6 +146,10 @@ class FieldReader {
     FieldReader reader(*at, steps_);
     visit_fields(value.emplace(), reader);
   }
+  void optional_real(const char* name, std::optional<double>& value, double min, double max) {
+    const auto at = at_.optional_member(name);
+    if (at && !at->is_null()) value = at->number(min, max);
+  }
   void state(const char* name, FaceFrame& state) { state = read_frame(at_.member(name), steps_, clamped_); }
   void frames(const char* name, std::vector<TimedFrame>& frames) {
     frames = read_frames(at_.member(name), steps_, clamped_);

@@ -74,6 +74,9 @@ class Writer {
     visit_fields(*value, writer);
     to_[name] = std::move(inner);
   }
+  void optional_real(const char* name, const std::optional<double>& value, double min, double max) {
+    if (value.has_value()) real(name, *value, min, max, Presence::required);
+  }
   void state(const char* name, const FaceFrame& state) { write_state(to_[name] = Json::object(), state, steps_); }
   void frames(const char* name, const std::vector<TimedFrame>& frames) {
     Json list = Json::array();

@@ -31,7 +31,17 @@ export class FrameEncoder {
     }
     const to = new ByteWriter();
     to.u8(description.type);
-    for (const field of description.fields) this.write(to, field, (message as unknown as Values)[field.name]);
+    // Appended fields that are absent are left out while none follows, as earlier writers left them out.
+    let leftOut = 0;
+    for (const field of description.fields) {
+      const value = (message as unknown as Values)[field.name];
+      if (field.type === 'optional_real' && value === null) {
+        leftOut += 1;
+        continue;
+      }
+      for (; leftOut > 0; --leftOut) to.u8(0);
+      this.write(to, field, value);
+    }
     if (message.type === 'keyframe') {
       this.last = copyFrame(message.state);
       this.lastSequence = message.sequence;
@@ -82,6 +92,10 @@ export class FrameEncoder {
         to.u8(value === null ? 0 : 1);
         if (value !== null) for (const inner of field.fields) this.write(to, inner, (value as Values)[inner.name]);
         return;
+      case 'optional_real':
+        check((value as number) >= field.min && (value as number) <= field.max, field.name);
+        to.u8(1);
+        return to.f64(value as number);
       case 'state':
         return writeState(to, neutralFrame(), value as FaceFrame);
       case 'frames':
@@ -197,6 +211,9 @@ export class FrameDecoder {
         for (const inner of field.fields) values[inner.name] = this.read(from, inner, where);
         return values;
       }
+      case 'optional_real':
+        // Appended: a message of an earlier writer ends before it.
+        return from.remaining > 0 && readFlag(from, where) ? readReal(from, field, where) : null;
       case 'state': {
         const state = neutralFrame();
         readState(from, state, where);

@@ -39,7 +39,7 @@ export function encodeJson(message: Message, steps: QuantizerSteps = standardQua
   const values: Values = { type: message.type };
   for (const field of description.fields) {
     const value = (message as unknown as Values)[field.name];
-    if (field.type === 'optional' && value === null) continue;
+    if ((field.type === 'optional' || field.type === 'optional_real') && value === null) continue;
     if (field.type === 'state') {
       values[field.name] = frameToJson(value as FaceFrame, steps);
     } else if (field.type === 'frames') {
@@ -97,6 +97,8 @@ function readField(from: JsonCursor, field: Field, steps: QuantizerSteps): unkno
       for (const inner of field.fields) values[inner.name] = readField(at, inner, steps);
       return values;
     }
+    case 'optional_real':
+      return at.isNull ? null : at.number(field.min, field.max);
   }
 }
 

@@ -133,6 +133,7 @@ Json represent(const streams::StreamInfo& stream) {
           {"publishers", stream.publishers},
           {"source", stream.source},
           {"clamped_values", stream.clamped_values},
+          {"viseme_share", stream.viseme_share ? Json(*stream.viseme_share) : Json(nullptr)},
           {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}};
 }
 

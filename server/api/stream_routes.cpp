@@ -21,6 +21,12 @@ std::string checked_slug(const Json& value) {
   return slug;
 }
 
+double checked_share(const Json& value) {
+  const double share = value.is_number() ? value.get<double>() : -1.0;
+  if (!(share >= 0.0 && share <= 1.0)) refuse("invalid-field", "must be a number from 0 to 1", "/viseme_share");
+  return share;
+}
+
 streams::StreamInfo info_of(Context& context, const http::Request& request) {
   const auto& id = request.params.at("stream");
   auto info = context.hub.info(id);
@@ -44,7 +50,7 @@ http::Response list_streams(Context& context, http::Request&) {
 
 http::Response create_stream(Context& context, http::Request& request) {
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "title", "model"});
+  refuse_unknown_members(body, {"name", "title", "model", "viseme_share"});
   streams::StreamInfo info;
   info.id = body.contains("name") ? checked_slug(body["name"]) : store::random_id();
   info.title = body.contains("title") ? checked_text(body["title"], max_title_bytes, "/title") : info.id;
@@ -52,6 +58,8 @@ http::Response create_stream(Context& context, http::Request& request) {
     info.model = checked_text(body["model"], max_slug_bytes, "/model");
     if (!context.store.model(info.model)) refuse("invalid-field", "there is no model " + info.model, "/model");
   }
+  if (body.contains("viseme_share") && !body["viseme_share"].is_null())
+    info.viseme_share = checked_share(body["viseme_share"]);
   info.created = store::timestamp_now();
   info.source = "none";
 
@@ -65,7 +73,7 @@ http::Response create_stream(Context& context, http::Request& request) {
   if (check.record) check.record->resource = info.id;
   // Durable before it is there for others, so that a stream somebody saw is never forgotten.
   if (context.hub.info(info.id) ||
-      !context.store.create_stream({info.id, info.title, info.model, info.created}, check.record))
+      !context.store.create_stream({info.id, info.title, info.model, info.created, info.viseme_share}, check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
   return created(context.hub.info(info.id).value_or(info));

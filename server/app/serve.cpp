@@ -66,6 +66,7 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
     info.title = record.title;
     info.model = record.model;
     info.created = record.created;
+    info.viseme_share = record.viseme_share;
     info.source = "none";
     if (!hub.open(info)) log::warning("the stream " + record.id + " is hidden by one of the server's own");
   }

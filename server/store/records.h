@@ -186,6 +186,7 @@ struct JobRecord {
 
 struct StreamRecord {
   std::string id, title, model, created;
+  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1
 
   bool operator==(const StreamRecord&) const = default;
 };

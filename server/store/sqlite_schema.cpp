@@ -77,6 +77,7 @@ constexpr std::array migrations = {
     "ALTER TABLE packages ADD COLUMN levels TEXT NOT NULL DEFAULT '[]';"
     "ALTER TABLE jobs ADD COLUMN lods TEXT NOT NULL DEFAULT ''",
     with_displacement_sets,
+    "ALTER TABLE streams ADD COLUMN viseme_share REAL",
 };
 constexpr int schema_version = migrations.size();
 

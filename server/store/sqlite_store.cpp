@@ -362,8 +362,8 @@ class SqliteStore : public Store {
   bool create_stream(const StreamRecord& stream, const std::optional<IdempotencyRecord>& key) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
-    Statement(db_, "INSERT OR IGNORE INTO streams VALUES(NULL,?,?,?,?)")
-        .bind(stream.id, stream.title, stream.model, stream.created)
+    Statement(db_, "INSERT OR IGNORE INTO streams(id, title, model, created, viseme_share) VALUES(?,?,?,?,?)")
+        .bind(stream.id, stream.title, stream.model, stream.created, stream.viseme_share)
         .run();
     if (db_.changes() == 0) return false;
     insert_key(key);
@@ -374,9 +374,12 @@ class SqliteStore : public Store {
   std::vector<StreamRecord> streams() override {
     const std::lock_guard lock(mutex_);
     std::vector<StreamRecord> list;
-    Statement statement(db_, "SELECT id, title, model, created FROM streams ORDER BY number");
-    while (statement.step())
-      list.push_back({statement.text(0), statement.text(1), statement.text(2), statement.text(3)});
+    Statement statement(db_, "SELECT id, title, model, created, viseme_share FROM streams ORDER BY number");
+    while (statement.step()) {
+      StreamRecord stream{statement.text(0), statement.text(1), statement.text(2), statement.text(3), std::nullopt};
+      if (!statement.is_null(4)) stream.viseme_share = statement.real(4);
+      list.push_back(std::move(stream));
+    }
     return list;
   }
 

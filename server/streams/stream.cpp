@@ -193,6 +193,7 @@ Header Stream::make_header(bool recovered) const {
   const auto& steps = standard_quantizers();
   header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
   header.recovered = recovered;
+  header.viseme_share = info_.viseme_share;
   return header;
 }
 

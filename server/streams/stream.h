@@ -45,8 +45,9 @@ struct StreamInfo {
   std::string source;  ///< "demo" or "none": what feeds it when nobody publishes
   std::uint64_t epoch = 0, sequence = 0;
   std::size_t subscribers = 0, publishers = 0;
-  std::optional<PlayStatus> playing;  ///< filled in by the hub
-  std::uint64_t clamped_values = 0;   ///< that were beyond the range of their FAP
+  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; without it clients take that of their model
+  std::optional<PlayStatus> playing;   ///< filled in by the hub
+  std::uint64_t clamped_values = 0;    ///< that were beyond the range of their FAP
 };
 
 struct StreamCounts {

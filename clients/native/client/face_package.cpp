@@ -172,6 +172,12 @@ FeaturePointSet Face::feature_points() const {
   return points;
 }
 
+void Face::play_by(const Header& header) const {
+  // Cannot fail: both readers keep it within 0 and 1.
+  static_cast<void>(semblante_head_set_viseme_share(
+      head_.get(), static_cast<float>(header.viseme_share.value_or(rig_.viseme_share))));
+}
+
 std::vector<glm::vec3> Face::positions() const {
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   std::vector<glm::vec3> positions(model_.positions.size());

@@ -13,6 +13,7 @@
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
+#include "protocol/cpp/messages.h"
 #include "protocol/cpp/rig_document.h"
 
 namespace semblante::client {
@@ -40,6 +41,9 @@ class Face {
   /// For close-ups; vertices are those of the model.
   [[nodiscard]] FeaturePointSet feature_points() const;
   [[nodiscard]] semblante_head* head() const { return head_.get(); }
+
+  /// Frames from now on get the viseme share that the header names (Eq. 5), or rig.json's where it names none.
+  void play_by(const Header& header) const;
 
   /// The vertices in the head's present pose, #V.
   [[nodiscard]] std::vector<glm::vec3> positions() const;

@@ -157,6 +157,7 @@ Status subscribe(const client::Url& url, const Arguments& arguments) {
   if (!face) {
     return std::move(face).error();
   }
+  face->play_by(*player.header());
   const auto& formats = arguments.output.formats;
   if (std::find(formats.begin(), formats.end(), "png") != formats.end()) {
     for (const std::string& warning : client::fetch_images(http, *face)) {

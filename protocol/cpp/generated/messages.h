@@ -109,6 +109,7 @@ struct Header {
   std::uint32_t batch_interval = 0;  ///< ms; between messages the server means to send; 0: unknown
   std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
   bool recovered = false;  ///< everything after the resume point follows: nothing was lost
+  std::optional<double> viseme_share;  ///< of Eq. 5, in place of rig.json's; absent: rig.json's
   friend bool operator==(const Header&, const Header&) = default;
 };
 
@@ -236,6 +237,7 @@ void visit_fields(M& m, V& v) {
   v.uint("batch_interval", m.batch_interval, 60000U, Presence::defaulted);
   v.reals("quantizers", m.quantizers, 66, 1e-06, 1000000.0, Presence::defaulted);
   v.boolean("recovered", m.recovered, Presence::defaulted);
+  v.optional_real("viseme_share", m.viseme_share, 0, 1);
 }
 
 template <class M, class V>

@@ -68,6 +68,8 @@ export interface Header {
   quantizers: number[];
   /** everything after the resume point follows: nothing was lost */
   recovered: boolean;
+  /** of Eq. 5, in place of rig.json's; absent: rig.json's */
+  viseme_share: number | null;
 }
 
 /** The whole state at one moment: a reader can start here. */
@@ -147,6 +149,7 @@ export type Field =
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
+  | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
 
@@ -192,6 +195,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'batch_interval', type: 'uint', max: 60000, required: false, fallback: 0 },
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
       { name: 'recovered', type: 'bool', required: false, fallback: false },
+      { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, required: false, fallback: null },
     ],
   },
   {

@@ -13,6 +13,7 @@
 #include "clients/native/client/frame_player.h"
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/posed_head.h"
+#include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/client/sample_server.h"
 
@@ -124,6 +125,70 @@ TEST(NativeClient, FollowingAFedStream_WritesWhatTheKernelGives) {
     expect_same_motion(rest, posed, head->model.positions, head->pose(frames[i]));
     EXPECT_EQ(read_obj(json_out / name), posed) << "the subprotocols carry the same frame";
   }
+}
+
+/// The displacement of an FP in a set; zero where the set does not move it.
+glm::vec3 displacement_of(const RigDocument::DisplacementSet& set, FeaturePointId point) {
+  for (const RigDocument::Displacement& each : set.displacements) {
+    if (each.id == point) {
+      return each.by;
+    }
+  }
+  return glm::vec3(0);
+}
+
+TEST(NativeClient, StreamsOfUnlikeShares_SplitVisemeAndExpressionByTheirOwn) {
+  const SampleServer server;
+  const std::array<float, 2> shares = {0.0F, 1.0F};
+  std::array<std::filesystem::path, 2> out;
+  std::vector<std::unique_ptr<ChildProcess>> clients;
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    const std::string name = "share-" + std::to_string(s);
+    server.create_stream(name, shares[s]);
+    out[s] = server.folder() / name;
+    clients.push_back(std::make_unique<ChildProcess>(follow(server, name, out[s], 2)));
+    server.wait_for_subscribers(name, 1);
+    server.post_frames(name, R"([{"viseme":{"select1":10,"select2":0,"blend":63},
+                                  "expression":{"select1":1,"intensity1":63,"select2":0,"intensity2":0}}])");
+  }
+  for (const auto& process : clients) {
+    ASSERT_EQ(process->wait(patience), 0);
+  }
+  const auto package = client::fetch_package(server.http(), "sample");
+  ASSERT_TRUE(package) << package.error().message;
+  const auto rig = read_rig(package->rig_json);
+  const auto table =
+      decode_weights({reinterpret_cast<const std::uint8_t*>(package->weights.data()), package->weights.size()});
+  ASSERT_TRUE(rig && table);
+
+  const float size = glm::length(rig->bounds_max - rig->bounds_min);
+  std::array<std::vector<glm::vec3>, 2> posed;
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    const auto rest = read_obj(out[s] / "frame-00000.obj");
+    posed[s] = read_obj(out[s] / "frame-00001.obj");
+    ASSERT_EQ(rest.size(), table->vertex_count);
+    ASSERT_EQ(posed[s].size(), rest.size());
+    std::size_t compared = 0;
+    for (const auto& marked : rig->feature_points) {
+      if (!marked.vertex || displacement_of(rig->visemes[10], marked.id) == glm::vec3(0) ||
+          displacement_of(rig->expressions[1], marked.id) == glm::vec3(0)) {
+        continue;
+      }
+      const std::size_t v = *marked.vertex;
+      glm::vec3 expected = rest[v];
+      for (std::size_t i = 0; i < table->rows.points_of(v).size(); ++i) {
+        const glm::vec3 spoken = displacement_of(rig->visemes[10], table->rows.points_of(v)[i]);
+        const glm::vec3 felt = displacement_of(rig->expressions[1], table->rows.points_of(v)[i]);
+        const bool both = spoken != glm::vec3(0) && felt != glm::vec3(0);
+        const glm::vec3 blended = both ? shares[s] * spoken + (1 - shares[s]) * felt : spoken + felt;  // Eq. 5
+        expected += table->rows.weights_of(v)[i] * blended;
+      }
+      EXPECT_LT(glm::length(posed[s][v] - expected), 1e-5F * size) << to_string(marked.id);
+      ++compared;
+    }
+    EXPECT_GT(compared, 3U) << "points of the mouth that both move";
+  }
+  EXPECT_NE(posed[0], posed[1]);
 }
 
 TEST(NativeClient, FollowingTheDemo_DrawsAFaceThatMoves) {

@@ -56,8 +56,12 @@ SampleServer::~SampleServer() {
 
 std::string SampleServer::url() const { return "http://" + http_->url().host + ":" + http_->url().port; }
 
-void SampleServer::create_stream(const std::string& name) const {
-  const auto made = http_->post("/v1/streams", R"({"name":")" + name + R"(","model":"sample"})", "application/json");
+void SampleServer::create_stream(const std::string& name, std::optional<double> viseme_share) const {
+  nlohmann::json body = {{"name", name}, {"model", "sample"}};
+  if (viseme_share) {
+    body["viseme_share"] = *viseme_share;
+  }
+  const auto made = http_->post("/v1/streams", body.dump(), "application/json");
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_EQ(made->status, 201) << made->body;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "clients/native/client/http_client.h"
 #include "tests/integration/client/child_process.h"
@@ -24,7 +25,7 @@ class SampleServer {
   [[nodiscard]] std::filesystem::path model_file() const { return folder_ / "sample-head.glb"; }
   [[nodiscard]] std::filesystem::path points_file() const { return folder_ / "sample-head.fps.json"; }
   /// Makes a stream that suggests the sample head.
-  void create_stream(const std::string& name) const;
+  void create_stream(const std::string& name, std::optional<double> viseme_share = {}) const;
   /// Posts {"frames": `frames`}.
   void post_frames(const std::string& stream, const std::string& frames) const;
   /// Waits until a stream has that many subscribers.

@@ -111,7 +111,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
       {"post /v1/expressions", {by_hand, "application/json"}},
       {"put /v1/expressions/{expression}", {by_hand, "application/json"}},
-      {"post /v1/streams", {R"({"name":"walk"})", "application/json"}},
+      {"post /v1/streams", {R"({"name":"walk","viseme_share":1})", "application/json"}},
       {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
       {"post /v1/streams/{stream}/fap", {short_fap, "text/plain"}},
       {"post /v1/streams/{stream}/performances",
@@ -492,6 +492,10 @@ TEST_F(Routes, BadFrames_NameTheField) {
                  "/name");
   expect_problem(request(port(), "POST", "/v1/streams", R"({"model":"nobody"})", json_type), 422, "invalid-field",
                  "/model");
+  for (const std::string share : {"-0.01", "1.01", "\"half\"", "true", "[0.5]"}) {
+    expect_problem(request(port(), "POST", "/v1/streams", R"({"viseme_share":)" + share + "}", json_type), 422,
+                   "invalid-field", "/viseme_share");
+  }
   expect_problem(request(port(), "DELETE", "/v1/streams/demo"), 409, "conflict");
 }
 

@@ -199,6 +199,32 @@ TEST(Head, VisemeShareOption_ReplacesTheRigs) {
   EXPECT_FLOAT_EQ(semblante_head_rig(head.get())->viseme_share, 0.5F);
 }
 
+TEST(Head, SetVisemeShare_AtAPointThatBothMove_SplitsByIt) {
+  SmallPackage small;
+  const FeaturePointId chin = *parse_feature_point("2.1");
+  small.rig.visemes[10].displacements.push_back({chin, glm::vec3(0, -1, 0)});
+  small.rig.expressions[1].displacements.push_back({chin, glm::vec3(0.5F, 0, 0)});
+  small.seal();
+  const OwnedHead head = make(small);
+  semblante_frame frame{};
+  frame.viseme1 = 10;
+  frame.viseme_blend = SEMBLANTE_BLEND_MAX;
+  frame.expression1 = 1;
+  frame.intensity1 = SEMBLANTE_BLEND_MAX;
+  for (const float share : {0.0F, 0.25F, 1.0F}) {
+    ASSERT_EQ(semblante_head_set_viseme_share(head.get(), share), SEMBLANTE_OK);
+    ASSERT_EQ(semblante_head_set_frame(head.get(), &frame), SEMBLANTE_OK);
+    const auto positions = positions_of(head.get());
+    EXPECT_NEAR(positions[0], (1 - share) * 0.5F, quantization) << share;
+    EXPECT_NEAR(positions[1], -share, quantization) << share;
+  }
+  for (const float share : {-0.01F, 1.01F, std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_EQ(semblante_head_set_viseme_share(head.get(), share), SEMBLANTE_INVALID_ARGUMENT);
+  }
+  EXPECT_EQ(semblante_head_rig(head.get())->viseme_share, 1.0F) << "what is refused changes nothing";
+  EXPECT_EQ(semblante_head_set_viseme_share(nullptr, 0.5F), SEMBLANTE_INVALID_ARGUMENT);
+}
+
 TEST(Sdk, UsedFromC_DeformsTheHead) {
   const SmallPackage small;
   const semblante_package package = small.view();

@@ -49,6 +49,25 @@ TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
   }
 }
 
+TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
+  const json vectors = json::parse(read("appended_fields.json"));
+  ASSERT_EQ(vectors.at("messages").size(), 4U);
+  for (const json& vector : vectors.at("messages")) {
+    const std::string name = vector.at("name");
+    const Bytes bytes = from_hex(vector.at("binary"));
+    const auto from_text = decode_json(vector.at("json").dump());
+    ASSERT_TRUE(from_text.ok()) << name << ": " << from_text.error().message;
+    const auto from_bytes = FrameDecoder().decode(bytes);
+    ASSERT_TRUE(from_bytes.ok()) << name << ": " << from_bytes.error().message;
+    EXPECT_EQ(*from_bytes, *from_text) << name;
+    EXPECT_EQ(FrameEncoder().encode(*from_text), bytes) << name;
+    EXPECT_EQ(json::parse(encode_json(*from_text)), vector.at("json")) << name;
+  }
+  const auto absent = FrameDecoder().decode(from_hex(vectors.at("reads_as_absent")));
+  ASSERT_TRUE(absent.ok());
+  EXPECT_EQ(std::get<Header>(*absent).viseme_share, std::nullopt);
+}
+
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
   const json vectors = json::parse(read("refused.json"));
   ASSERT_FALSE(vectors.at("refused").empty());

@@ -191,6 +191,32 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
     expect(Array.from(kernel.poses[2]!.headPivot)).toEqual(Array.from(Float32Array.from(vectors.rig.head_pivot)));
   });
 
+  it('SetVisemeShare_AtAPointThatBothMove_SplitsByIt', async () => {
+    const viseme: Vec3 = [0.5, -1, 0.25];
+    const expression: Vec3 = [0, 2, -0.5];
+    const rig = {
+      ...vectors.rig,
+      visemes: vectors.rig.visemes.map((set, i) => (i === 10 ? { '0': viseme } : set)),
+      expressions: vectors.rig.expressions.map((set, i) => (i === 1 ? { '0': expression } : set)),
+    };
+    const kernel = await Kernel.create(module, faceOf({ ...vectors, rig }));
+    const frame = neutralFrame();
+    frame.viseme = { select1: 10, select2: 0, blend: 63 };
+    frame.expression = { select1: 1, intensity1: 63, select2: 0, intensity2: 0 };
+    const moved = (share: number | null): number[] => {
+      kernel.setVisemeShare(share);
+      kernel.evaluate(frame, 0);
+      return Array.from(kernel.poses[0]!.featurePoints.subarray(0, 3));
+    };
+    expect(moved(0)).toEqual(expression);
+    expect(moved(1)).toEqual(viseme);
+    expect(moved(0.25)).toEqual([0.125, 1.25, -0.3125]);
+    const own = moved(null);
+    own.forEach((x, i) => expect(x).toBeCloseTo(0.85 * viseme[i]! + 0.15 * expression[i]!, 6));
+    for (const share of [-0.01, 1.01, NaN]) expect(() => kernel.setVisemeShare(share)).toThrow(RangeError);
+    expect(moved(null)).toEqual(own);
+  });
+
   it('Create_WithoutVertices_GivesPosesAlone', async () => {
     const kernel = await Kernel.create(module, faceOf(vectors), { withVertices: false });
     const [frame, steps] = frameOf(vectors.cases[3]!.frame);

@@ -6,6 +6,10 @@ import { neutralFrame, type FaceFrame, type Frames, type Header, type Keyframe }
 class NumberPoses implements PoseMaker {
   values = [0, 0, 0, 0, 0];
   evaluations = 0;
+  share: number | null = null;
+  setVisemeShare(share: number | null): void {
+    this.share = share;
+  }
   evaluate(frame: FaceFrame, pose: number): void {
     this.values[pose] = frame.levels[3]!;
     this.evaluations += 1;
@@ -61,6 +65,7 @@ const header = (epoch: number): Header => ({
   batch_interval: 40,
   quantizers: [],
   recovered: false,
+  viseme_share: null,
 });
 
 interface Playing {
@@ -88,6 +93,19 @@ describe('Player', () => {
     expect(step(16)).toBe(false);
     expect(poses.evaluations).toBe(0);
     expect(player.playhead).toBeNaN();
+  });
+
+  it('Begin_HeaderWithAShare_EvaluatesAgainByIt', () => {
+    const { player, step, poses } = playing();
+    player.pushKeyframe(keyframe(0));
+    step(16);
+    const before = poses.evaluations;
+    player.begin({ ...header(1), viseme_share: 0 });
+    expect(poses.share).toBe(0);
+    step(16);
+    expect(poses.evaluations).toBeGreaterThan(before);
+    player.begin(header(1));
+    expect(poses.share).toBeNull();
   });
 
   it('Update_SteadyStream_PlaysTwoIntervalsBehindAndInterpolates', () => {

@@ -17,6 +17,7 @@ const header: Header = {
   batch_interval: 40,
   quantizers: [],
   recovered: false,
+  viseme_share: null,
 };
 const state = (level: number): FaceFrame => {
   const frame = neutralFrame();

@@ -23,6 +23,7 @@ interface Vector {
   json: Record<string, unknown>;
 }
 const vectors = (vectorJson('messages.json') as { messages: Vector[] }).messages;
+const appended = vectorJson('appended_fields.json') as { messages: Vector[]; reads_as_absent: string };
 interface Refused {
   name: string;
   binary?: string;
@@ -106,8 +107,9 @@ describe('FrameDecoder', () => {
   it('Decode_BytesOfALaterVersion_AreSkipped', () => {
     const decoder = new FrameDecoder();
     const plain = new FrameDecoder();
-    for (const { binary } of vectors) {
-      expect(decoder.decode(fromHex(binary + '010203'))).toEqual(plain.decode(fromHex(binary)));
+    for (const { binary, json } of vectors) {
+      const unknown = json['type'] === 'header' ? '00010203' : '010203'; // after the header's own appended field
+      expect(decoder.decode(fromHex(binary + unknown))).toEqual(plain.decode(fromHex(binary)));
     }
   });
 
@@ -126,6 +128,27 @@ describe('golden messages', () => {
     expect(decoder.decode(fromHex(binary))).toEqual(fromText);
     expect(toHex(encoder.encode(fromText))).toBe(binary);
     expect(JSON.parse(encodeJson(fromText))).toEqual(json);
+  });
+});
+
+describe('golden messages with appended fields', () => {
+  it.each(appended.messages)('$name', ({ binary, json }) => {
+    const fromText = decodeJson(JSON.stringify(json));
+    expect(fromText).toMatchObject({ viseme_share: json['viseme_share'] ?? null });
+    expect(new FrameDecoder().decode(fromHex(binary))).toEqual(fromText);
+    expect(toHex(new FrameEncoder().encode(fromText))).toBe(binary);
+    expect(JSON.parse(encodeJson(fromText))).toEqual(json);
+  });
+
+  it('Decode_FlagOfNothing_IsAbsent', () => {
+    expect(new FrameDecoder().decode(fromHex(appended.reads_as_absent))).toMatchObject({ viseme_share: null });
+  });
+
+  it('Encode_ShareOutOfRange_Throws', () => {
+    const header = decodeJson(JSON.stringify(appended.messages[1]!.json)) as Header;
+    for (const share of [-0.1, 1.1, NaN]) {
+      expect(() => new FrameEncoder().encode({ ...header, viseme_share: share })).toThrow(RangeError);
+    }
   });
 });
 
