@@ -36,8 +36,7 @@ class Ramp : public FrameSource {
 class PlayerTest : public ::testing::Test {
  protected:
   PlayerTest()
-      : stream_(
-            std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, std::nullopt}, StreamLimits{})) {
+      : stream_(std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, StreamLimits{})) {
     subscriber_ = connect(StreamRole::subscribe);
     take_frames();
   }

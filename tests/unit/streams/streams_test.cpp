@@ -27,7 +27,7 @@ class StreamTest : public ::testing::Test {
   explicit StreamTest() {
     limits_.pending_messages = 4;
     limits_.stalled = milliseconds(0);
-    stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, std::nullopt}, limits_);
+    stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   }
   std::shared_ptr<StreamConnection> connect() {
     auto connection = std::make_shared<StreamConnection>(stream_, false, false);
@@ -129,7 +129,7 @@ TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
 TEST_F(StreamTest, Rate_IsLimited) {
   limits_.frames_burst = 3;
   limits_.frames_per_second = 0;
-  stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, std::nullopt}, limits_);
+  stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   const auto publisher = connect(StreamRole::publish);
   take_all(*publisher);
   publisher->receive(encode_json(Frames{1, 0, {frame_with(1), frame_with(2)}}), false);
