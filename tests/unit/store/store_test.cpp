@@ -379,7 +379,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   EXPECT_EQ(sqlite3_exec(database,
                          "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                          "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
-                         "PRAGMA user_version=2",
+                         "ALTER TABLE streams DROP COLUMN viseme_share; PRAGMA user_version=2",
                          nullptr, nullptr, nullptr),
             SQLITE_OK);
   sqlite3_close(database);
