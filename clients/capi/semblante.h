@@ -133,7 +133,8 @@ semblante_result semblante_frame_from_arkit(const float coefficients[52], sembla
                                             semblante_error* error);
 /* What ARKit would say of the face of a frame, each in 0..1. FAPs that are not finite are refused. */
 semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float coefficients[52]);
-/* The 15 visemes of Oculus Lipsync, in its order, which is that of FAP 1: sets FAP 1 of the frame and clears the rest. */
+/* The 15 visemes of Oculus Lipsync, in its order, which is that of FAP 1: sets FAP 1 of the frame and clears the rest.
+ */
 semblante_result semblante_frame_from_oculus(const float weights[15], semblante_frame* frame, semblante_error* error);
 /* The weights of a mouth, at least 0, of sum 1. FAPs that are not finite are refused. */
 semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]);
