@@ -7,6 +7,7 @@
 #include "protocol/cpp/fap_ranges.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "server/streams/batch_listener.h"
 #include "server/streams/stream_connection.h"
 
 namespace semblante::streams {
@@ -54,6 +55,11 @@ StreamInfo Stream::info() const {
 StreamCounts Stream::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
+}
+
+void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
+  const std::lock_guard lock(mutex_);
+  listener_ = std::move(listener);
 }
 
 std::uint64_t Stream::place_played(Clock::time_point when) const {
@@ -107,6 +113,7 @@ PublishReceipt Stream::take(std::uint64_t media_time, const std::vector<TimedFra
   while (held_.size() > limits_.held_batches || Clock::now() - held_.front().when > limits_.held_time)
     held_.pop_front();
 
+  if (listener_) listener_->taken(info_.id, info_.epoch, held_.back().message);
   for (const auto& connection : connections_) {
     if (!connection->subscribed()) continue;
     counts_.messages_replaced += connection->send(encoded(held_.back(), connection->binary()));
@@ -244,6 +251,7 @@ void Stream::catch_up(StreamConnection& connection) {
 
 void Stream::end(EndReason reason) {
   const std::lock_guard lock(mutex_);
+  if (listener_ && !ended_) listener_->ended(info_.id);
   ended_ = true;
   const std::uint16_t code = reason == EndReason::shutdown ? 1001 : 1000;
   const char* words = reason == EndReason::shutdown ? "the server stops" : "the stream has ended";

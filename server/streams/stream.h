@@ -15,6 +15,7 @@
 
 namespace semblante::streams {
 
+class BatchListener;
 class StreamConnection;
 using SharedBytes = std::shared_ptr<const std::string>;
 
@@ -48,6 +49,7 @@ struct StreamInfo {
   std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; without it clients take that of their model
   std::optional<PlayStatus> playing;   ///< filled in by the hub
   std::uint64_t clamped_values = 0;    ///< that were beyond the range of their FAP
+  std::uint32_t batch_interval = 0;    ///< ms for which frames are gathered into one message; 0: each is sent at once
 };
 
 struct StreamCounts {
@@ -76,6 +78,9 @@ class Stream : public std::enable_shared_from_this<Stream> {
   [[nodiscard]] const StreamLimits& limits() const { return limits_; }
   [[nodiscard]] StreamInfo info() const;
   [[nodiscard]] StreamCounts counts() const;
+
+  /// Who hears every batch from now on; null: nobody. One at a time.
+  void set_listener(std::shared_ptr<BatchListener> listener);
 
   /// Takes frames in and sends them on. Errors: conflict (somebody else publishes) as `mismatch`; empty list as
   /// `empty`.
@@ -138,6 +143,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   FrameEncoder encoder_;
   std::deque<Batch> held_;
   std::vector<std::shared_ptr<StreamConnection>> connections_;
+  std::shared_ptr<BatchListener> listener_;
   StreamConnection* publisher_ = nullptr;
   std::uint64_t player_ = 0;  ///< ticket of what plays; 0: nothing
   std::uint64_t last_ticket_ = 0;

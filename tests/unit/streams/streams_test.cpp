@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "server/streams/batch_listener.h"
 #include "server/streams/fap_source.h"
 #include "server/streams/performance_source.h"
 #include "server/streams/stream_connection.h"
@@ -75,6 +76,40 @@ TEST_F(StreamTest, Behind_NewestStateReplacesWhatWaits) {
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(std::get<Frames>(after[0]).sequence, 11U) << "and from there on without a gap";
   EXPECT_GT(stream_->counts().messages_replaced, 0U);
+}
+
+/// What a recorder would see.
+struct Heard : BatchListener {
+  void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) override {
+    EXPECT_EQ(stream, "s");
+    EXPECT_EQ(epoch, 7U);
+    batches.push_back(batch);
+  }
+  void ended(std::string_view stream) override {
+    EXPECT_EQ(stream, "s");
+    ++ends;
+  }
+  std::vector<Frames> batches;
+  int ends = 0;
+};
+
+TEST_F(StreamTest, Listener_HearsEveryBatchAndTheEnd) {
+  const auto heard = std::make_shared<Heard>();
+  publish(1);
+  stream_->set_listener(heard);
+  publish(2);
+  publish(3);
+  stream_->set_listener(nullptr);
+  publish(4);
+  stream_->set_listener(heard);
+  publish(5000);
+  stream_->end(EndReason::deleted);
+  ASSERT_EQ(heard->batches.size(), 3U);
+  EXPECT_EQ(heard->batches[0].sequence, 2U);
+  EXPECT_EQ(heard->batches[1].sequence, 3U);
+  EXPECT_EQ(heard->batches[1].frames.at(0).state.level[3], 3);
+  EXPECT_EQ(heard->batches[2].frames.at(0).state.level[3], 1080) << "as subscribers get it: clamped";
+  EXPECT_EQ(heard->ends, 1);
 }
 
 TEST_F(StreamTest, Stalled_IsClosedAsSlow) {

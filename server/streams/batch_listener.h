@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/cpp/messages.h"
+
+namespace semblante::streams {
+
+/// Hears every batch of a stream as subscribers get it: what records.
+class BatchListener {
+ public:
+  virtual ~BatchListener() = default;
+  /// Called with the stream's mutex held, after the batch is encoded and before it is sent: must only queue. `epoch`
+  /// is the stream's life, `batch` has its sequence number and media time.
+  virtual void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) = 0;
+  /// The stream has ended: no batch of this life follows. As above.
+  virtual void ended(std::string_view stream) = 0;
+};
+
+}  // namespace semblante::streams
