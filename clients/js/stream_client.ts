@@ -111,7 +111,14 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.encoder = null;
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
-      this.send({ type: 'hello', version: protocolVersion, role: this.options.role, resume: this.resume });
+      this.send({
+        type: 'hello',
+        version: protocolVersion,
+        role: this.options.role,
+        resume: this.resume,
+        coding: 'plain',
+        take_over: false,
+      });
     };
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
       if (socket === this.socket) this.receive(event.data);

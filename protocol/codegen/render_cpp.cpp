@@ -37,7 +37,9 @@ std::string bound(const Json& field, const char* key, const char* otherwise) {
 std::string visit(const Json& field) {
   const std::string type = text(field, "type");
   const std::string name = text(field, "name");
-  const std::string presence = required(field) ? "Presence::required" : "Presence::defaulted";
+  const std::string presence = required(field)   ? "Presence::required"
+                               : appended(field) ? "Presence::appended"
+                                                 : "Presence::defaulted";
   const std::string head = "\"" + name + "\", m." + name;
   if (type == "uint") {
     return "v.uint(" + head + ", " + std::to_string(field.at("max").get<std::uint64_t>()) + "U, " + presence + ");";
@@ -116,8 +118,9 @@ std::string render_cpp(const Json& schema) {
 
 namespace semblante {
 
-/// Whether a field may be left out: a JSON member absent, a binary message that ends before it.
-enum class Presence : std::uint8_t { required, defaulted };
+/// Whether a field may be left out: a JSON member absent; one that was appended also of the binary form, whose message
+/// may end before it.
+enum class Presence : std::uint8_t { required, defaulted, appended };
 
 /// Texts of an enumeration by value. An open one reads values it does not know as its first.
 struct EnumNames {

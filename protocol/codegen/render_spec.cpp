@@ -14,6 +14,11 @@ std::string bounds(const Json& field) {
 }
 
 std::string wire_form(const Json& field) {
+  if (appended(field)) {
+    Json plain = field;
+    plain.erase("appended");
+    return "appended: nothing, or " + wire_form(plain);
+  }
   const std::string type = text(field, "type");
   if (type == "uint") return "varint, at most " + field.at("max").dump();
   if (type == "real") return "f64" + bounds(field);

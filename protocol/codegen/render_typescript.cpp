@@ -46,6 +46,7 @@ std::string descriptor(const Json& field, const Json& schema) {
   if (type == "reals") out += ", length: " + field.at("lengths").at(1).dump();
   if (type == "enum") out += ", values: " + snake_case(text(field, "enum")) + "_values";
   if (type == "optional") out += ", fields: " + snake_case(text(field, "struct")) + "_fields";
+  if (appended(field)) out += ", appended: true";
   if (type != "state" && type != "frames") {
     out +=
         std::string(", required: ") + (required(field) ? "true" : "false") + ", fallback: " + fallback(field, schema);
@@ -104,14 +105,19 @@ export interface EnumValues {
 export type Field =
   | { name: string; type: 'uint'; max: number; required: boolean; fallback: number }
   | { name: string; type: 'real'; min: number; max: number; required: boolean; fallback: number }
-  | { name: string; type: 'bool'; required: boolean; fallback: boolean }
+  | { name: string; type: 'bool'; appended?: true; required: boolean; fallback: boolean }
   | { name: string; type: 'text'; max: number; required: boolean; fallback: string }
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
-  | { name: string; type: 'enum'; values: EnumValues; required: boolean; fallback: string }
+  | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
   | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
+
+/** A field that was not there at first: where a message has its default, it is left out or the message ends before it. */
+export function isAppended(field: Field): field is Field & { fallback: unknown } {
+  return field.type === 'optional_real' || ((field.type === 'bool' || field.type === 'enum') && field.appended === true);
+}
 
 /** A message: the first byte of its binary form, `type` of its JSON form, its fields. */
 export interface MessageDescription {

@@ -12,6 +12,8 @@ using Json = nlohmann::ordered_json;
 
 inline std::string text(const Json& node, const char* key) { return node.value(key, std::string()); }
 inline bool required(const Json& field) { return field.value("required", false); }
+/// Of an enumeration or a bool: it was not there at first (an `optional_real` is appended by its nature).
+inline bool appended(const Json& field) { return field.value("appended", false); }
 /// "ResumePoint" -> "resume_point".
 std::string snake_case(const std::string& name);
 /// A field's documentation with its unit in front: "ms, since 1970".

@@ -34,7 +34,9 @@ class FieldReader {
     if (!std::isfinite(value)) return fail(ErrorCode::not_finite, name, "must be finite");
     if (value < min || value > max) return fail(ErrorCode::out_of_range, name, "outside its range");
   }
-  void boolean(const char* name, bool& value, Presence) { value = flag(name); }
+  void boolean(const char* name, bool& value, Presence presence) {
+    if (!ends_before(presence)) value = flag(name);
+  }
   void text(const char* name, std::string& value, std::size_t max, Presence) {
     if (error_) return;
     const std::uint64_t size = in_.varint();
@@ -57,8 +59,8 @@ class FieldReader {
     for (double& value : values) real(name, value, min, max, presence);
   }
   template <class E>
-  void enumeration(const char* name, E& value, const EnumNames& names, Presence) {
-    if (error_) return;
+  void enumeration(const char* name, E& value, const EnumNames& names, Presence presence) {
+    if (error_ || ends_before(presence)) return;
     const std::uint8_t read = in_.u8();
     if (ended(name)) return;
     if (read >= names.names.size() && !names.open) return fail(ErrorCode::out_of_range, name, "not a known value");
@@ -73,8 +75,7 @@ class FieldReader {
     prefix_ = outer;
   }
   void optional_real(const char* name, std::optional<double>& value, double min, double max) {
-    // Appended: a message of an earlier writer ends before it.
-    if (error_ || in_.remaining() == 0 || !flag(name)) return;
+    if (error_ || ends_before(Presence::appended) || !flag(name)) return;
     real(name, value.emplace(), min, max, Presence::required);
   }
   void state(const char* name, FaceFrame& state) {
@@ -111,6 +112,10 @@ class FieldReader {
   }
 
  private:
+  /// A message of an earlier writer ends before an appended field.
+  [[nodiscard]] bool ends_before(Presence presence) const {
+    return presence == Presence::appended && in_.remaining() == 0;
+  }
   [[nodiscard]] std::string pointer(const char* name) const { return prefix_ + "/" + name; }
   void fail(ErrorCode code, const char* name, std::string message) {
     if (!error_) error_ = Error{code, pointer(name), std::move(message)};

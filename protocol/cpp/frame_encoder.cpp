@@ -22,7 +22,10 @@ class Writer {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     for (unsigned i = 0; i < 8; ++i) to_.push_back(static_cast<std::uint8_t>(bits >> (8U * i)));
   }
-  void boolean(const char*, bool value, Presence) { to_.push_back(value ? 1 : 0); }
+  void boolean(const char*, bool value, Presence presence) {
+    if (presence == Presence::appended && left_out(!value)) return;
+    to_.push_back(value ? 1 : 0);
+  }
   void text(const char*, const std::string& value, [[maybe_unused]] std::size_t max, Presence) {
     assert(value.size() <= max);
     assert(is_utf8({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()}));
@@ -36,8 +39,9 @@ class Writer {
     for (const double value : values) real(name, value, min, max, presence);
   }
   template <class E>
-  void enumeration(const char*, E value, [[maybe_unused]] const EnumNames& names, Presence) {
+  void enumeration(const char*, E value, [[maybe_unused]] const EnumNames& names, Presence presence) {
     assert(static_cast<std::size_t>(value) < names.names.size());
+    if (presence == Presence::appended && left_out(value == E{})) return;
     to_.push_back(static_cast<std::uint8_t>(value));
   }
   template <class T>
@@ -45,14 +49,8 @@ class Writer {
     to_.push_back(value.has_value() ? 1 : 0);
     if (value.has_value()) visit_fields(*value, *this);
   }
-  /// Appended fields that are absent are left out while none follows, as earlier writers left them out.
   void optional_real(const char* name, const std::optional<double>& value, double min, double max) {
-    if (!value.has_value()) {
-      ++left_out_;
-      return;
-    }
-    to_.insert(to_.end(), left_out_, 0);
-    left_out_ = 0;
+    if (left_out(!value.has_value())) return;
     to_.push_back(1);
     real(name, *value, min, max, Presence::required);
   }
@@ -75,6 +73,15 @@ class Writer {
   }
 
  private:
+  /// Appended fields that have their default are left out while none follows that has not, as earlier writers left
+  /// them out. The default of each is a byte of zero.
+  bool left_out(bool is_default) {
+    if (is_default) return ++left_out_, true;
+    to_.insert(to_.end(), left_out_, 0);
+    left_out_ = 0;
+    return false;
+  }
+
   std::vector<std::uint8_t>& to_;
   const FaceFrame& last_;
   std::size_t left_out_ = 0;  ///< appended fields since the last that was written

@@ -51,7 +51,9 @@ class Writer {
     assert(value >= min && value <= max);
     to_[name] = number(value);
   }
-  void boolean(const char* name, bool value, Presence) { to_[name] = value; }
+  void boolean(const char* name, bool value, Presence presence) {
+    if (presence != Presence::appended || value) to_[name] = value;
+  }
   void text(const char* name, const std::string& value, [[maybe_unused]] std::size_t max, Presence) {
     assert(value.size() <= max);
     to_[name] = value;
@@ -63,7 +65,8 @@ class Writer {
     for (const double value : values) to_[name].push_back(number(value));
   }
   template <class E>
-  void enumeration(const char* name, E value, const EnumNames& names, Presence) {
+  void enumeration(const char* name, E value, const EnumNames& names, Presence presence) {
+    if (presence == Presence::appended && value == E{}) return;
     to_[name] = names.names[static_cast<std::size_t>(value)];
   }
   template <class T>

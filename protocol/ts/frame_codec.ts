@@ -1,6 +1,6 @@
 import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from './byte_io.ts';
 import { copyFrame, neutralFrame, type FaceFrame, type TimedFrame } from './face_frame.ts';
-import { limits, messages, type Field, type Message } from './generated/messages.ts';
+import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
 import { ProtocolError } from './protocol_error.ts';
 import { readState, writeState } from './state_codec.ts';
 
@@ -31,11 +31,12 @@ export class FrameEncoder {
     }
     const to = new ByteWriter();
     to.u8(description.type);
-    // Appended fields that are absent are left out while none follows, as earlier writers left them out.
+    // Appended fields that have their default are left out while none follows that has not, as earlier writers left
+    // them out. The default of each is a byte of zero.
     let leftOut = 0;
     for (const field of description.fields) {
       const value = (message as unknown as Values)[field.name];
-      if (field.type === 'optional_real' && value === null) {
+      if (isAppended(field) && value === field.fallback) {
         leftOut += 1;
         continue;
       }
@@ -172,6 +173,7 @@ export class FrameDecoder {
   }
 
   private readValue(from: ByteReader, field: Field, where: string): unknown {
+    if (isAppended(field) && from.remaining === 0) return field.fallback; // of an earlier writer
     switch (field.type) {
       case 'uint': {
         const value = from.varint();
@@ -212,8 +214,7 @@ export class FrameDecoder {
         return values;
       }
       case 'optional_real':
-        // Appended: a message of an earlier writer ends before it.
-        return from.remaining > 0 && readFlag(from, where) ? readReal(from, field, where) : null;
+        return readFlag(from, where) ? readReal(from, field, where) : null;
       case 'state': {
         const state = neutralFrame();
         readState(from, state, where);

@@ -10,7 +10,7 @@ import {
 } from './face_frame.ts';
 import { frameOf } from './bridges/face_values.ts';
 import { readJsonBridges } from './bridges/json_bridges.ts';
-import { limits, messages, type Field, type Message } from './generated/messages.ts';
+import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
 import { parseJsonObject, type JsonCursor } from './json_cursor.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
 
@@ -39,7 +39,8 @@ export function encodeJson(message: Message, steps: QuantizerSteps = standardQua
   const values: Values = { type: message.type };
   for (const field of description.fields) {
     const value = (message as unknown as Values)[field.name];
-    if ((field.type === 'optional' || field.type === 'optional_real') && value === null) continue;
+    if (field.type === 'optional' && value === null) continue;
+    if (isAppended(field) && value === field.fallback) continue;
     if (field.type === 'state') {
       values[field.name] = frameToJson(value as FaceFrame, steps);
     } else if (field.type === 'frames') {

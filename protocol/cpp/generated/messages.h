@@ -18,8 +18,9 @@
 
 namespace semblante {
 
-/// Whether a field may be left out: a JSON member absent, a binary message that ends before it.
-enum class Presence : std::uint8_t { required, defaulted };
+/// Whether a field may be left out: a JSON member absent; one that was appended also of the binary form, whose message
+/// may end before it.
+enum class Presence : std::uint8_t { required, defaulted, appended };
 
 /// Texts of an enumeration by value. An open one reads values it does not know as its first.
 struct EnumNames {
@@ -46,6 +47,14 @@ enum class StreamRole : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> stream_role_value_names = {"subscribe", "publish"};
 inline constexpr EnumNames stream_role_names{stream_role_value_names, false};
+
+/// The form of keyframes and frames on a binary connection.
+enum class StreamCoding : std::uint8_t {
+  plain,  ///< differences as varints: `keyframe` and `frames`
+  packed,  ///< predicted and entropy coded: see "Packed form"
+};
+inline constexpr std::array<std::string_view, 2> stream_coding_value_names = {"plain", "packed"};
+inline constexpr EnumNames stream_coding_names{stream_coding_value_names, true};
 
 /// Why a stream or a connection ends.
 enum class EndReason : std::uint8_t {
@@ -92,6 +101,8 @@ struct Hello {
   std::uint32_t version = 1;  ///< highest protocol version the client knows
   StreamRole role{};
   std::optional<ResumePoint> resume;  ///< given after a lost connection
+  StreamCoding coding{};  ///< the best form the client reads; on a JSON connection of no meaning
+  bool take_over = false;  ///< of a publisher: to replace the one there is
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
@@ -110,6 +121,7 @@ struct Header {
   std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
   bool recovered = false;  ///< everything after the resume point follows: nothing was lost
   std::optional<double> viseme_share;  ///< of Eq. 5, in place of rig.json's; absent: rig.json's
+  StreamCoding coding{};  ///< the form in which the server sends on this connection
   friend bool operator==(const Header&, const Header&) = default;
 };
 
@@ -220,6 +232,8 @@ void visit_fields(M& m, V& v) {
   v.uint("version", m.version, 65535U, Presence::required);
   v.enumeration("role", m.role, stream_role_names, Presence::defaulted);
   v.optional("resume", m.resume);
+  v.enumeration("coding", m.coding, stream_coding_names, Presence::appended);
+  v.boolean("take_over", m.take_over, Presence::appended);
 }
 
 template <class M, class V>
@@ -238,6 +252,7 @@ void visit_fields(M& m, V& v) {
   v.reals("quantizers", m.quantizers, 66, 1e-06, 1000000.0, Presence::defaulted);
   v.boolean("recovered", m.recovered, Presence::defaulted);
   v.optional_real("viseme_share", m.viseme_share, 0, 1);
+  v.enumeration("coding", m.coding, stream_coding_names, Presence::appended);
 }
 
 template <class M, class V>

@@ -17,6 +17,9 @@ export const limits = {
 /** What a client wants of the stream. */
 export type StreamRole = 'subscribe' | 'publish';
 
+/** The form of keyframes and frames on a binary connection. */
+export type StreamCoding = 'plain' | 'packed';
+
 /** Why a stream or a connection ends. */
 export type EndReason = 'other' | 'finished' | 'deleted' | 'shutdown' | 'replaced' | 'slow';
 
@@ -39,6 +42,10 @@ export interface Hello {
   role: StreamRole;
   /** given after a lost connection */
   resume: ResumePoint | null;
+  /** the best form the client reads; on a JSON connection of no meaning */
+  coding: StreamCoding;
+  /** of a publisher: to replace the one there is */
+  take_over: boolean;
 }
 
 /** The first message of a server: what the stream is and how to read it. */
@@ -70,6 +77,8 @@ export interface Header {
   recovered: boolean;
   /** of Eq. 5, in place of rig.json's; absent: rig.json's */
   viseme_share: number | null;
+  /** the form in which the server sends on this connection */
+  coding: StreamCoding;
 }
 
 /** The whole state at one moment: a reader can start here. */
@@ -144,14 +153,19 @@ export interface EnumValues {
 export type Field =
   | { name: string; type: 'uint'; max: number; required: boolean; fallback: number }
   | { name: string; type: 'real'; min: number; max: number; required: boolean; fallback: number }
-  | { name: string; type: 'bool'; required: boolean; fallback: boolean }
+  | { name: string; type: 'bool'; appended?: true; required: boolean; fallback: boolean }
   | { name: string; type: 'text'; max: number; required: boolean; fallback: string }
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
-  | { name: string; type: 'enum'; values: EnumValues; required: boolean; fallback: string }
+  | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
   | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
+
+/** A field that was not there at first: where a message has its default, it is left out or the message ends before it. */
+export function isAppended(field: Field): field is Field & { fallback: unknown } {
+  return field.type === 'optional_real' || ((field.type === 'bool' || field.type === 'enum') && field.appended === true);
+}
 
 /** A message: the first byte of its binary form, `type` of its JSON form, its fields. */
 export interface MessageDescription {
@@ -161,6 +175,7 @@ export interface MessageDescription {
 }
 
 const stream_role_values: EnumValues = { names: ['subscribe', 'publish'], open: false };
+const stream_coding_values: EnumValues = { names: ['plain', 'packed'], open: true };
 const end_reason_values: EnumValues = { names: ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'], open: true };
 const stream_error_code_values: EnumValues = { names: ['other', 'malformed', 'truncated', 'out_of_range', 'not_finite', 'too_large', 'unsupported', 'mismatch', 'missing', 'invalid_argument', 'not_found', 'conflict', 'throttled', 'unauthorized', 'internal'], open: true };
 
@@ -177,6 +192,8 @@ export const messages: readonly MessageDescription[] = [
       { name: 'version', type: 'uint', max: 65535, required: true, fallback: 1 },
       { name: 'role', type: 'enum', values: stream_role_values, required: false, fallback: 'subscribe' },
       { name: 'resume', type: 'optional', fields: resume_point_fields, required: false, fallback: null },
+      { name: 'coding', type: 'enum', values: stream_coding_values, appended: true, required: false, fallback: 'plain' },
+      { name: 'take_over', type: 'bool', appended: true, required: false, fallback: false },
     ],
   },
   {
@@ -196,6 +213,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
       { name: 'recovered', type: 'bool', required: false, fallback: false },
       { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, required: false, fallback: null },
+      { name: 'coding', type: 'enum', values: stream_coding_values, appended: true, required: false, fallback: 'plain' },
     ],
   },
   {

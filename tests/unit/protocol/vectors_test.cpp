@@ -1,6 +1,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -51,7 +52,8 @@ TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
 
 TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
   const json vectors = json::parse(read("appended_fields.json"));
-  ASSERT_EQ(vectors.at("messages").size(), 4U);
+  ASSERT_EQ(vectors.at("messages").size(), 11U);
+  std::map<std::string, Message> by_name;
   for (const json& vector : vectors.at("messages")) {
     const std::string name = vector.at("name");
     const Bytes bytes = from_hex(vector.at("binary"));
@@ -62,6 +64,12 @@ TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
     EXPECT_EQ(*from_bytes, *from_text) << name;
     EXPECT_EQ(FrameEncoder().encode(*from_text), bytes) << name;
     EXPECT_EQ(json::parse(encode_json(*from_text)), vector.at("json")) << name;
+    by_name.emplace(name, *from_text);
+  }
+  for (const json& vector : vectors.at("reads_as_default")) {
+    const auto other_form = FrameDecoder().decode(from_hex(vector.at("binary")));
+    ASSERT_TRUE(other_form.ok()) << vector;
+    EXPECT_EQ(*other_form, by_name.at(vector.at("as"))) << vector;
   }
   const auto absent = FrameDecoder().decode(from_hex(vectors.at("reads_as_absent")));
   ASSERT_TRUE(absent.ok());

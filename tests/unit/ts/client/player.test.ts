@@ -66,6 +66,7 @@ const header = (epoch: number): Header => ({
   quantizers: [],
   recovered: false,
   viseme_share: null,
+  coding: 'plain',
 });
 
 interface Playing {

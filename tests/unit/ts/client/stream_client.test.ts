@@ -18,6 +18,7 @@ const header: Header = {
   quantizers: [],
   recovered: false,
   viseme_share: null,
+  coding: 'plain',
 };
 const state = (level: number): FaceFrame => {
   const frame = neutralFrame();
@@ -58,7 +59,9 @@ describe.each(['binary', 'json'] as const)('StreamClient %s', (subprotocol) => {
     stream.connect();
     FakeSocket.last.accept();
     expect(FakeSocket.last.protocols).toEqual([subprotocol === 'json' ? 'semblante.v1.json' : 'semblante.v1']);
-    expect(FakeSocket.last.sent).toEqual([{ type: 'hello', version: 1, role: 'subscribe', resume: null }]);
+    expect(FakeSocket.last.sent).toEqual([
+      { type: 'hello', version: 1, role: 'subscribe', resume: null, coding: 'plain', take_over: false },
+    ]);
     FakeSocket.last.give(header);
     expect(stream.state).toBe('open');
     expect(events.map(([name]) => name)).toEqual(['state', 'header', 'state']);

@@ -23,7 +23,11 @@ interface Vector {
   json: Record<string, unknown>;
 }
 const vectors = (vectorJson('messages.json') as { messages: Vector[] }).messages;
-const appended = vectorJson('appended_fields.json') as { messages: Vector[]; reads_as_absent: string };
+const appended = vectorJson('appended_fields.json') as {
+  messages: Vector[];
+  reads_as_absent: string;
+  reads_as_default: { as: string; binary: string }[];
+};
 interface Refused {
   name: string;
   binary?: string;
@@ -108,7 +112,8 @@ describe('FrameDecoder', () => {
     const decoder = new FrameDecoder();
     const plain = new FrameDecoder();
     for (const { binary, json } of vectors) {
-      const unknown = json['type'] === 'header' ? '00010203' : '010203'; // after the header's own appended field
+      const appends = json['type'] === 'header' || json['type'] === 'hello'; // two fields of their own
+      const unknown = appends ? '0000010203' : '010203';
       expect(decoder.decode(fromHex(binary + unknown))).toEqual(plain.decode(fromHex(binary)));
     }
   });
@@ -134,10 +139,17 @@ describe('golden messages', () => {
 describe('golden messages with appended fields', () => {
   it.each(appended.messages)('$name', ({ binary, json }) => {
     const fromText = decodeJson(JSON.stringify(json));
-    expect(fromText).toMatchObject({ viseme_share: json['viseme_share'] ?? null });
+    expect(fromText).toMatchObject({ coding: json['coding'] ?? 'plain' });
+    if (fromText.type === 'header') expect(fromText.viseme_share).toBe(json['viseme_share'] ?? null);
+    if (fromText.type === 'hello') expect(fromText.take_over).toBe(json['take_over'] ?? false);
     expect(new FrameDecoder().decode(fromHex(binary))).toEqual(fromText);
     expect(toHex(new FrameEncoder().encode(fromText))).toBe(binary);
     expect(JSON.parse(encodeJson(fromText))).toEqual(json);
+  });
+
+  it.each(appended.reads_as_default)('Decode_DefaultWritten_IsDefault: $binary', ({ as, binary }) => {
+    const meant = appended.messages.find((each) => each.name === as)!;
+    expect(new FrameDecoder().decode(fromHex(binary))).toEqual(decodeJson(JSON.stringify(meant.json)));
   });
 
   it('Decode_FlagOfNothing_IsAbsent', () => {
