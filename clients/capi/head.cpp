@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "clients/capi/semblante.h"
-#include "core/expressions/kernel_parts.h"
 #include "protocol/cpp/rig_document.h"
+#include "protocol/cpp/rig_kernel.h"
 #include "protocol/cpp/weights_format.h"
 
 namespace {
@@ -22,8 +22,7 @@ struct FreeAligned {
 /// Owned by the caller through the opaque handle. `rig` and `face` point into the vectors beside them.
 struct semblante_head {
   std::vector<float> rest;
-  std::vector<float> visemes;
-  std::vector<float> expressions;
+  semblante::KernelRig kernel;
   semblante::InfluenceTable table;
   std::vector<std::uint8_t> points;
   semblante_rig rig{};
@@ -88,35 +87,10 @@ bool is_finite(const semblante_pose& pose) {
   return all_finite(values);
 }
 
-template <std::size_t N>
-std::vector<float> dense(const std::array<RigDocument::DisplacementSet, N>& sets) {
-  constexpr std::size_t row = std::size_t{SEMBLANTE_FP_COUNT} * 3;
-  std::vector<float> values(N * row);
-  for (std::size_t s = 0; s < N; ++s) {
-    for (const RigDocument::Displacement& displacement : sets[s].displacements) {
-      float* to = &values[s * row + std::size_t{displacement.id.value()} * 3];
-      to[0] = displacement.by.x;
-      to[1] = displacement.by.y;
-      to[2] = displacement.by.z;
-    }
-  }
-  return values;
-}
-
 void fill_rig(semblante_head& head, const RigDocument& document, const semblante_head_options* options) {
-  head.visemes = dense(document.visemes);
-  head.expressions = dense(document.expressions);
-  head.rig.viseme = head.visemes.data();
-  head.rig.expression = head.expressions.data();
-  for (std::size_t unit = 0; unit < SEMBLANTE_FAPU_COUNT; ++unit) {
-    head.rig.fapu[unit] = static_cast<float>(document.fapu.value[unit].value_or(0.0));
-  }
-  semblante::copy_vector(document.eye_pivots[0], head.rig.eye_pivot[0]);
-  semblante::copy_vector(document.eye_pivots[1], head.rig.eye_pivot[1]);
-  semblante::copy_vector(document.head_pivot, head.rig.head_pivot);
-  semblante::set_moving_parts(document.irises, document.tongue, head.rig);
-  const bool own_share = options != nullptr && options->viseme_share > 0.0F;
-  head.rig.viseme_share = own_share ? options->viseme_share : static_cast<float>(document.viseme_share);
+  head.kernel = semblante::to_kernel_rig(document);
+  head.rig = head.kernel.view();
+  if (options != nullptr && options->viseme_share > 0.0F) head.rig.viseme_share = options->viseme_share;
 }
 
 void fill_face(semblante_head& head) {

@@ -34,6 +34,8 @@ NumberType number_type(DracoAttribute::Type type) {
   switch (type) {
     case DracoAttribute::Type::uint8:
       return {draco::DT_UINT8, 1};
+    case DracoAttribute::Type::uint16:
+      return {draco::DT_UINT16, 2};
     case DracoAttribute::Type::uint32:
       return {draco::DT_UINT32, 4};
     case DracoAttribute::Type::float32:
@@ -60,6 +62,22 @@ void add_attribute(draco::Mesh& mesh, const DracoAttribute& attribute) {
     values.SetPointMapEntry(draco::PointIndex(static_cast<std::uint32_t>(p)),
                             draco::AttributeValueIndex(attribute.value_of_point[p]));
   }
+}
+
+/// The values of `attribute` (may be null: it did not come back) by point.
+template <class T>
+Status read_values(const draco::Mesh& mesh, const draco::PointAttribute* attribute, std::int8_t components,
+                   const char* name, std::vector<T>& out) {
+  if (attribute == nullptr)
+    return Error{ErrorCode::missing, "mesh.drc", "the " + std::string(name) + " did not come back"};
+  out.resize(std::size_t{mesh.num_points()} * static_cast<std::size_t>(components));
+  for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
+    if (!attribute->ConvertValue<T>(attribute->mapped_index(draco::PointIndex(p)), components,
+                                    &out[std::size_t{p} * static_cast<std::size_t>(components)])) {
+      return Error{ErrorCode::malformed, "mesh.drc", "the " + std::string(name) + " are of another type"};
+    }
+  }
+  return Unit{};
 }
 
 }  // namespace
@@ -94,7 +112,7 @@ Result<std::vector<std::uint8_t>> encode_draco(std::size_t point_count, std::spa
   return std::vector<std::uint8_t>(begin, begin + buffer.size());
 }
 
-Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, std::optional<std::uint32_t> file_vertex_id) {
+Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, const DecodedAttributes& wanted) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
@@ -102,27 +120,28 @@ Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, std::optio
   if (!decoded.ok()) return Error{ErrorCode::malformed, "mesh.drc", decoded.status().error_msg_string()};
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
 
-  const draco::PointAttribute* const positions = mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  if (positions == nullptr) return Error{ErrorCode::missing, "mesh.drc", "the positions did not come back"};
   DecodedMesh out;
   out.point_count = mesh->num_points();
-  out.positions.resize(out.point_count * 3);
-  for (std::uint32_t p = 0; p < mesh->num_points(); ++p) {
-    positions->ConvertValue<float>(positions->mapped_index(draco::PointIndex(p)), 3,
-                                   &out.positions[std::size_t{p} * 3]);
-  }
-  if (file_vertex_id) {
-    const draco::PointAttribute* const numbers = mesh->GetAttributeByUniqueId(*file_vertex_id);
-    if (numbers == nullptr) return Error{ErrorCode::missing, "mesh.drc", "the vertex numbers did not come back"};
-    out.file_vertex.resize(out.point_count);
-    for (std::uint32_t p = 0; p < mesh->num_points(); ++p) {
-      numbers->ConvertValue<std::uint32_t>(numbers->mapped_index(draco::PointIndex(p)), 1, &out.file_vertex[p]);
-    }
+  const auto* const positions = mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  if (const Status read = read_values(*mesh, positions, 3, "positions", out.positions); !read) return read.error();
+  const auto read_wanted = [&](const std::optional<std::uint32_t>& id, std::int8_t components, const char* name,
+                               auto& to) -> Status {
+    if (!id) return Unit{};
+    return read_values(*mesh, mesh->GetAttributeByUniqueId(*id), components, name, to);
+  };
+  for (const Status& read : {read_wanted(wanted.normal, 3, "normals", out.normals),
+                             read_wanted(wanted.uv, 2, "texture coordinates", out.uvs),
+                             read_wanted(wanted.material, 1, "materials", out.materials),
+                             read_wanted(wanted.file_vertex, 1, "vertex numbers", out.file_vertex)}) {
+    if (!read) return read.error();
   }
   out.triangles.reserve(mesh->num_faces());
   for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
     const draco::Mesh::Face& face = mesh->face(draco::FaceIndex(f));
     out.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
+    for (const std::uint32_t corner : out.triangles.back()) {
+      if (corner >= out.point_count) return Error{ErrorCode::malformed, "mesh.drc", "a corner is no vertex"};
+    }
   }
   return out;
 }

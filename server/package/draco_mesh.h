@@ -17,7 +17,7 @@ namespace semblante {
 /// what tells Draco that a UV seam is not a hole.
 struct DracoAttribute {
   enum class Kind : std::uint8_t { position, normal, uv, generic };
-  enum class Type : std::uint8_t { float32, uint8, uint32 };
+  enum class Type : std::uint8_t { float32, uint8, uint16, uint32 };
 
   Kind kind = Kind::generic;
   Type type = Type::float32;
@@ -31,16 +31,26 @@ struct DracoAttribute {
 Result<std::vector<std::uint8_t>> encode_draco(std::size_t point_count, std::span<const Triangle> triangles,
                                                std::span<const DracoAttribute> attributes, int speed = 5);
 
-/// A decoded mesh, for the decode-back check: what a client will see.
-struct DecodedMesh {
-  std::size_t point_count = 0;
-  std::vector<Triangle> triangles;
-  std::vector<float> positions;            ///< #points by 3
-  std::vector<std::uint32_t> file_vertex;  ///< #points, or empty when no attribute was asked for
+/// The attributes to read beside POSITION, by Draco unique id.
+struct DecodedAttributes {
+  std::optional<std::uint32_t> normal = std::nullopt;
+  std::optional<std::uint32_t> uv = std::nullopt;
+  std::optional<std::uint32_t> material = std::nullopt;
+  std::optional<std::uint32_t> file_vertex = std::nullopt;
 };
 
-/// Decodes `bytes` and reads POSITION and, if asked, the uint32 attribute with the unique id `file_vertex_id`.
-Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes,
-                                 std::optional<std::uint32_t> file_vertex_id = std::nullopt);
+/// A decoded mesh: what a client will see. What was not asked for is empty.
+struct DecodedMesh {
+  std::size_t point_count = 0;
+  std::vector<Triangle> triangles;         ///< corners are below point_count
+  std::vector<float> positions;            ///< #points by 3
+  std::vector<float> normals;              ///< #points by 3
+  std::vector<float> uvs;                  ///< #points by 2
+  std::vector<std::uint8_t> materials;     ///< #points
+  std::vector<std::uint32_t> file_vertex;  ///< #points
+};
+
+/// Decodes `bytes` and reads POSITION and what is asked for.
+Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, const DecodedAttributes& wanted = {});
 
 }  // namespace semblante

@@ -100,11 +100,12 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
   const auto shipped = decode_draco(*bytes);
   if (!shipped) return shipped.error();
 
-  const auto numbers_id = static_cast<std::uint32_t>(attributes.size());
+  DecodedAttributes numbers_alone;
+  numbers_alone.file_vertex = static_cast<std::uint32_t>(attributes.size());
   attributes.push_back({Kind::generic, Type::uint32, 1, std::as_bytes(std::span(numbers)), value_of_point, 0});
   const auto trial = encode_draco(mesh.positions.size(), mesh.triangles, attributes, encoding_speed);
   if (!trial) return trial.error();
-  auto decoded = decode_draco(*trial, numbers_id);
+  auto decoded = decode_draco(*trial, numbers_alone);
   if (!decoded) return decoded.error();
   if (shipped->triangles != decoded->triangles || shipped->positions != decoded->positions) {
     return Error{ErrorCode::internal, "mesh.drc", "the vertex numbers changed the order of the mesh"};
