@@ -17,7 +17,9 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t most_measured = 64;  // frames; a measured one costs as much as many that are written
+// How much is spent on measuring what a clip is off by: vertices times frames, but so many frames in any case.
+constexpr std::size_t measured_vertices = 10'000'000;
+constexpr std::size_t least_measured = 64;
 
 /// The kernel on a package.
 class KernelFace {
@@ -108,7 +110,8 @@ class ClipMaker {
   }
 
   Status take(std::span<const TimedValues> frames) {
-    const std::size_t stride = (frames.size() + most_measured - 1) / most_measured;
+    const std::size_t measured = std::max(least_measured, measured_vertices / face_.mesh.positions.size());
+    const std::size_t stride = (frames.size() + measured - 1) / measured;
     std::size_t taken = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (i + 1 < frames.size() && frames[i + 1].time == frames[i].time) continue;
@@ -121,8 +124,11 @@ class ClipMaker {
         return Error{ErrorCode::too_large, "/frames/" + std::to_string(i),
                      "a clip has at most " + std::to_string(max_clip_keys) + " keys; up to here it has more"};
       }
-      if (i % stride == 0 || i + 1 == frames.size()) measure(pose);
-      ++taken;
+      if (const float moved = movement(pose); moved >= farthest_moved_) {
+        farthest_moved_ = moved;
+        farthest_ = pose;
+      }
+      if (++taken % stride == 0 || i + 1 == frames.size()) measure_farthest();
     }
     frames_ = taken;
     return Unit{};
@@ -173,6 +179,19 @@ class ClipMaker {
     return count;
   }
 
+  /// A number that is greater the more of the face moves.
+  [[nodiscard]] static float movement(const semblante_pose& pose) {
+    float sum = pose.pupil_growth[0] * pose.pupil_growth[0] + pose.pupil_growth[1] * pose.pupil_growth[1];
+    for (const float d : pose.fp) sum += d * d;
+    return sum;
+  }
+
+  /// Of each run of frames the one that moves most: where a skin is farthest off.
+  void measure_farthest() {
+    measure(farthest_);
+    farthest_moved_ = -1.0F;
+  }
+
   void measure(const semblante_pose& pose) {
     const std::vector<glm::vec3>& rest = face_.mesh.positions;
     exact_.resize(rest.size());
@@ -216,6 +235,8 @@ class ClipMaker {
   ClipFigures figures_;
   std::size_t frames_ = 0;
   bool tongue_rolled_ = false;
+  float farthest_moved_ = -1.0F;
+  semblante_pose farthest_{};  ///< of the frames since the last that was measured
   std::vector<glm::vec3> exact_, skinned_;
 };
 

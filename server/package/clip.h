@@ -30,7 +30,7 @@ struct ClipFigures {
   std::size_t keys = 0;             ///< that the channels hold
   std::size_t keys_unthinned = 0;   ///< what they would hold with one a frame
   double quantum = 0.0;             ///< of positions in mesh.drc, model units: keys are left out within half of it
-  std::size_t measured_frames = 0;  ///< spread evenly over the clip
+  std::size_t measured_frames = 0;  ///< all, or of each run of as many the one that moves most
   /// Greatest distance of a vertex from where the kernel puts it, FAP 47 left aside, model units: with all influences
   /// written, and as readers see it that take four.
   double error = 0.0;
