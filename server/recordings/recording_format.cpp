@@ -1,0 +1,180 @@
+#include "server/recordings/recording_format.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include <zlib.h>
+
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/frame_codec.h"
+
+namespace semblante::recordings {
+namespace {
+
+using byte_io::get_u32;
+using byte_io::put_u32;
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::size_t at_length = 4, at_crc = 8, at_kind = 12, at_frames = 16, at_lost = 20, at_sequence = 24,
+                      at_begin = 32, at_end = 40;
+constexpr std::uint64_t max_number = 9'007'199'254'740'991U;  ///< as sequences and times of messages
+
+void put_u64(std::uint8_t* to, std::uint64_t value) {
+  put_u32(to, static_cast<std::uint32_t>(value));
+  put_u32(to + 4, static_cast<std::uint32_t>(value >> 32U));
+}
+std::uint64_t get_u64(const std::uint8_t* from) {
+  return get_u32(from) | static_cast<std::uint64_t>(get_u32(from + 4)) << 32U;
+}
+
+void append_message(std::vector<std::uint8_t>& to, FrameEncoder& encoder, const Message& message) {
+  const auto bytes = encoder.encode(message);
+  byte_io::append_varint(to, bytes.size());
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+std::uint32_t checksum(Bytes chunk) {
+  return static_cast<std::uint32_t>(crc32_z(0, chunk.data() + at_kind, chunk.size() - at_kind));
+}
+
+/// Fills in the head before messages that are there already.
+void finish(std::vector<std::uint8_t>& chunk, const ChunkHead& head) {
+  std::copy(chunk_magic.begin(), chunk_magic.end(), chunk.begin());
+  put_u32(&chunk[at_length], static_cast<std::uint32_t>(chunk.size() - chunk_head_bytes));
+  chunk[at_kind] = static_cast<std::uint8_t>(head.kind);
+  put_u32(&chunk[at_frames], head.frames);
+  put_u32(&chunk[at_lost], head.lost);
+  put_u64(&chunk[at_sequence], head.sequence);
+  put_u64(&chunk[at_begin], head.begin);
+  put_u64(&chunk[at_end], head.end);
+  put_u32(&chunk[at_crc], checksum(chunk));
+  assert(chunk.size() - chunk_head_bytes <= max_chunk_bytes);
+}
+
+Error malformed(std::string message) { return {ErrorCode::malformed, "", std::move(message)}; }
+
+/// The head of a whole chunk, its length and checksum being right.
+Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
+  auto head = read_chunk_head(bytes);
+  if (!head) return head;
+  if (bytes.size() - chunk_head_bytes < head->bytes) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
+  if (checksum(bytes.first(chunk_head_bytes + head->bytes)) != head->crc)
+    return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
+  if (head->kind != kind) return malformed("a chunk of another kind is expected");
+  return head;
+}
+
+/// Reads messages that have their length before them.
+class Messages {
+ public:
+  explicit Messages(Bytes bytes) : reader_(bytes) {}
+  [[nodiscard]] bool empty() const { return reader_.remaining() == 0; }
+  Result<Message> next() {
+    const auto length = reader_.varint();
+    const auto bytes = reader_.take(static_cast<std::size_t>(std::min<std::uint64_t>(length, max_chunk_bytes + 1U)));
+    if (reader_.failed()) return Error{ErrorCode::truncated, "", "the chunk ends within a message"};
+    return decoder_.decode(bytes);
+  }
+
+ private:
+  byte_io::Reader reader_;
+  FrameDecoder decoder_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_beginning(const Header& header) {
+  std::vector<std::uint8_t> chunk(chunk_head_bytes);
+  FrameEncoder encoder;
+  append_message(chunk, encoder, Message(header));
+  finish(chunk, {.kind = ChunkKind::header,
+                 .frames = 0,
+                 .sequence = header.sequence,
+                 .begin = header.media_time,
+                 .end = header.media_time});
+  chunk.insert(chunk.begin(), file_magic.begin(), file_magic.end());
+  return chunk;
+}
+
+std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, std::uint32_t lost) {
+  assert(!frames.empty() && frames.size() <= max_chunk_frames);
+  const auto& first = frames.front();
+  std::vector<std::uint8_t> chunk(chunk_head_bytes);
+  FrameEncoder encoder;
+  append_message(chunk, encoder, Message(Keyframe{first.sequence, first.media_time, first.state}));
+  if (frames.size() > 1) {
+    Frames rest;
+    rest.sequence = first.sequence + 1;
+    rest.media_time = first.media_time;
+    for (const auto& frame : frames.subspan(1)) {
+      assert(frame.sequence == first.sequence + rest.frames.size() + 1 && "no gap within a chunk");
+      rest.frames.push_back({static_cast<std::uint32_t>(frame.media_time - first.media_time), frame.state});
+    }
+    append_message(chunk, encoder, Message(std::move(rest)));
+  }
+  finish(chunk, {.frames = static_cast<std::uint32_t>(frames.size()),
+                 .lost = lost,
+                 .sequence = first.sequence,
+                 .begin = first.media_time,
+                 .end = frames.back().media_time});
+  return chunk;
+}
+
+Result<ChunkHead> read_chunk_head(Bytes bytes) {
+  if (bytes.size() < chunk_head_bytes) return Error{ErrorCode::truncated, "", "the head of a chunk is cut off"};
+  if (!std::equal(chunk_magic.begin(), chunk_magic.end(), bytes.begin())) return malformed("no chunk begins here");
+  ChunkHead head;
+  head.bytes = get_u32(&bytes[at_length]);
+  head.crc = get_u32(&bytes[at_crc]);
+  head.kind = static_cast<ChunkKind>(bytes[at_kind]);
+  head.frames = get_u32(&bytes[at_frames]);
+  head.lost = get_u32(&bytes[at_lost]);
+  head.sequence = get_u64(&bytes[at_sequence]);
+  head.begin = get_u64(&bytes[at_begin]);
+  head.end = get_u64(&bytes[at_end]);
+  if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk says it is too long"};
+  if (head.kind != ChunkKind::frames) return head;
+  const bool in_range = head.frames >= 1 && head.frames <= max_chunk_frames && head.sequence <= max_number &&
+                        head.end <= max_number && head.begin <= head.end;
+  if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk says what cannot be"};
+  return head;
+}
+
+Result<Header> read_header_chunk(Bytes bytes) {
+  const auto head = checked_head(bytes, ChunkKind::header);
+  if (!head) return head.error();
+  Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
+  auto message = messages.next();
+  if (!message) return message.error();
+  if (auto* header = std::get_if<Header>(&*message)) return std::move(*header);
+  return malformed("the first chunk holds no header");
+}
+
+Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
+  const auto head = checked_head(bytes, ChunkKind::frames);
+  if (!head) return head.error();
+  Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
+  auto first = messages.next();
+  if (!first) return first.error();
+  const auto* key = std::get_if<Keyframe>(&*first);
+  if (key == nullptr) return malformed("a chunk must begin with a keyframe");
+  std::vector<RecordingFrame> frames = {{key->sequence, key->media_time, key->state}};
+  while (!messages.empty() && frames.size() < head->frames) {
+    auto message = messages.next();
+    if (!message) return message.error();
+    const auto* batch = std::get_if<Frames>(&*message);
+    if (batch == nullptr) return malformed("after the keyframe of a chunk there must be frames");
+    std::uint64_t sequence = batch->sequence;
+    for (const auto& frame : batch->frames) frames.push_back({sequence++, batch->media_time + frame.time, frame.state});
+  }
+  const bool as_said = frames.size() == head->frames && frames.front().sequence == head->sequence &&
+                       frames.front().media_time == head->begin && frames.back().media_time == head->end;
+  const bool in_order =
+      std::is_sorted(frames.begin(), frames.end(),
+                     [](const RecordingFrame& a, const RecordingFrame& b) { return a.media_time < b.media_time; });
+  if (!as_said || !in_order) return malformed("the frames of a chunk are not what its head says");
+  return frames;
+}
+
+}  // namespace semblante::recordings

@@ -1,0 +1,169 @@
+#include "server/recordings/recording_reader.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace semblante::recordings {
+namespace {
+
+constexpr double alone_ms = 40.0;
+
+Error at_byte(std::uint64_t offset, Error error) {
+  error.where = "byte " + std::to_string(offset);
+  return error;
+}
+
+}  // namespace
+
+Result<RecordingReader> RecordingReader::open(std::shared_ptr<const ByteSource> bytes, Check check) {
+  RecordingReader reader;
+  reader.bytes_ = std::move(bytes);
+  std::array<std::uint8_t, file_magic.size()> magic{};
+  if (!reader.bytes_->read(0, magic)) return Error{ErrorCode::truncated, "byte 0", "too short for a recording"};
+  if (!std::equal(magic.begin(), magic.end() - 1, file_magic.begin()))
+    return Error{ErrorCode::malformed, "byte 0", "not a recording of Semblante"};
+  if (magic.back() != file_magic.back())
+    return Error{ErrorCode::unsupported, "byte 7", "a recording of version " + std::to_string(magic.back())};
+  const auto first = reader.chunk_at(file_magic.size());
+  if (!first) return Error{ErrorCode::truncated, "byte 8", "the chunk with the stream's header is not whole"};
+  std::vector<std::uint8_t> chunk(chunk_head_bytes + first->head.bytes);
+  if (!reader.bytes_->read(first->offset, chunk)) return Error{ErrorCode::io, "byte 8", "cannot be read"};
+  auto header = read_header_chunk(chunk);
+  if (!header) return at_byte(first->offset, header.error());
+  reader.header_ = std::move(*header);
+  reader.begin_ = reader.end_ = reader.header_.media_time;
+  reader.first_chunk_ = reader.whole_bytes_ = first->offset + chunk.size();
+  if (const auto torn = reader.walk(check)) reader.torn_reason_ = torn->message;
+  return reader;
+}
+
+std::optional<Error> RecordingReader::walk(Check check) {
+  while (whole_bytes_ < bytes_->size()) {
+    std::array<std::uint8_t, chunk_head_bytes> start{};
+    if (!bytes_->read(whole_bytes_, start)) return Error{ErrorCode::truncated, "", "the head of a chunk is cut off"};
+    const auto head = read_chunk_head(start);
+    if (!head) return head.error();
+    const Chunk chunk{whole_bytes_, *head};
+    const std::uint64_t end = whole_bytes_ + chunk_head_bytes + head->bytes;
+    if (end > bytes_->size()) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
+    if (head->kind == ChunkKind::frames) {
+      const bool follows = frames_ == 0 || (head->begin >= end_ && head->sequence > last_sequence_);
+      if (!follows) return Error{ErrorCode::malformed, "", "a chunk does not follow the one before it"};
+      if (head->end - (frames_ == 0 ? head->begin : begin_) > max_recording_ms)
+        return Error{ErrorCode::out_of_range, "", "longer than a day"};
+      if (check == Check::everything) {
+        if (const auto frames = read(chunk); !frames) return frames.error();
+      }
+      add(chunk);
+    }
+    whole_bytes_ = end;
+  }
+  return std::nullopt;
+}
+
+void RecordingReader::add(const Chunk& chunk) {
+  if (frames_ == 0) begin_ = chunk.head.begin;
+  end_ = chunk.head.end;
+  frames_ += chunk.head.frames;
+  lost_ += chunk.head.lost;
+  last_sequence_ = chunk.head.sequence + chunk.head.frames - 1;
+  if (chunks_++ % stride_ != 0) return;
+  index_.push_back({chunk.offset, chunk.head.begin});
+  if (index_.size() < max_index) return;
+  for (std::size_t i = 0; 2 * i < index_.size(); ++i) index_[i] = index_[2 * i];
+  index_.resize((index_.size() + 1) / 2);
+  stride_ *= 2;
+}
+
+double RecordingReader::mean_interval() const {
+  return frames_ < 2 || end_ == begin_ ? alone_ms
+                                       : static_cast<double>(end_ - begin_) / static_cast<double>(frames_ - 1);
+}
+
+std::optional<RecordingReader::Chunk> RecordingReader::chunk_at(std::uint64_t offset) const {
+  std::array<std::uint8_t, chunk_head_bytes> start{};
+  if (!bytes_->read(offset, start)) return std::nullopt;
+  const auto head = read_chunk_head(start);
+  if (!head || head->bytes > bytes_->size() - offset - chunk_head_bytes) return std::nullopt;
+  return Chunk{offset, *head};
+}
+
+std::optional<RecordingReader::Chunk> RecordingReader::chunk_after(const Chunk& chunk) const {
+  std::uint64_t offset = chunk.offset + chunk_head_bytes + chunk.head.bytes;
+  while (offset < whole_bytes_) {
+    const auto next = chunk_at(offset);
+    if (!next || next->head.kind == ChunkKind::frames) return next;
+    offset += chunk_head_bytes + next->head.bytes;
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<RecordingFrame>> RecordingReader::read(const Chunk& chunk) const {
+  std::vector<std::uint8_t> bytes(chunk_head_bytes + chunk.head.bytes);
+  if (!bytes_->read(chunk.offset, bytes)) return at_byte(chunk.offset, {ErrorCode::io, "", "cannot be read"});
+  auto frames = read_frames_chunk(bytes);
+  if (!frames) return at_byte(chunk.offset, frames.error());
+  return frames;
+}
+
+std::uint64_t RecordingReader::offset_before(std::uint64_t media_time) const {
+  const auto after =
+      std::lower_bound(index_.begin(), index_.end(), media_time,
+                       [](const Entry& entry, std::uint64_t time) { return entry.begin < time; });
+  return after == index_.begin() ? index_.front().offset : (after - 1)->offset;
+}
+
+Result<std::optional<RecordingFrame>> RecordingReader::at(std::uint32_t ms) const {
+  if (frames_ == 0) return std::optional<RecordingFrame>();
+  const std::uint64_t time = begin_ + ms;
+  auto chunk = chunk_at(offset_before(time));
+  while (chunk) {
+    const auto next = chunk_after(*chunk);
+    if (!next || next->head.begin > time) break;
+    chunk = next;
+  }
+  if (!chunk) return Error{ErrorCode::io, "", "the recording cannot be read any more"};
+  const auto frames = read(*chunk);
+  if (!frames) return frames.error();
+  const auto after = std::upper_bound(frames->begin(), frames->end(), time,
+                                      [](std::uint64_t t, const RecordingFrame& f) { return t < f.media_time; });
+  assert(after != frames->begin() && "the chunk begins at or before the time");
+  return std::optional<RecordingFrame>(*(after - 1));
+}
+
+RecordingCursor::RecordingCursor(std::shared_ptr<const RecordingReader> reader, std::uint32_t ms)
+    : reader_(std::move(reader)) {
+  if (reader_->frames() == 0) return;
+  const std::uint64_t time = reader_->begin() + ms;
+  auto chunk = reader_->chunk_at(reader_->offset_before(time));
+  while (chunk && chunk->head.end < time) chunk = reader_->chunk_after(*chunk);
+  load(chunk);
+  while (frame() != nullptr && frame()->media_time < time) ++next_;
+}
+
+void RecordingCursor::load(std::optional<RecordingReader::Chunk> chunk) {
+  chunk_ = chunk;
+  next_ = 0;
+  frames_.clear();
+  if (!chunk_) return;
+  auto frames = reader_->read(*chunk_);
+  if (frames)
+    frames_ = std::move(*frames);
+  else
+    error_ = std::move(frames).error();
+}
+
+const RecordingFrame* RecordingCursor::frame() const { return next_ < frames_.size() ? &frames_[next_] : nullptr; }
+
+std::uint32_t RecordingCursor::time() const {
+  assert(frame() != nullptr);
+  return static_cast<std::uint32_t>(frame()->media_time - reader_->begin());
+}
+
+void RecordingCursor::advance() {
+  if (frame() == nullptr) return;
+  if (++next_ == frames_.size()) load(reader_->chunk_after(*chunk_));
+}
+
+}  // namespace semblante::recordings

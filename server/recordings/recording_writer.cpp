@@ -1,0 +1,136 @@
+#include "server/recordings/recording_writer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <limits>
+#include <string>
+#include <unistd.h>
+#include <utility>
+
+#include "server/recordings/recording_reader.h"
+
+namespace semblante::recordings {
+namespace {
+
+Error io_error(const std::string& what) { return {ErrorCode::io, "", what + ": " + std::strerror(errno)}; }
+
+Status write_at(int descriptor, std::uint64_t offset, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const auto wrote = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote <= 0) return io_error("a recording cannot be written");
+    offset += static_cast<std::uint64_t>(wrote);
+    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
+  }
+  return Unit{};
+}
+
+Status sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  return synced ? Status(Unit{}) : Status(io_error(folder.string()));
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(int descriptor, std::uint64_t bytes) : descriptor_(descriptor) {
+  durable_.bytes = bytes;
+}
+
+RecordingWriter::~RecordingWriter() { ::close(descriptor_); }
+
+Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::filesystem::path& path,
+                                                                 const Header& header) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) return io_error(path.string());
+  const auto beginning = encode_beginning(header);
+  std::unique_ptr<RecordingWriter> writer(new RecordingWriter(descriptor, beginning.size()));
+  auto status = write_at(descriptor, 0, beginning);
+  if (status && ::fsync(descriptor) != 0) status = io_error(path.string());
+  if (status) status = sync_folder(path.parent_path());
+  if (!status) {
+    ::unlink(path.c_str());
+    return status.error();
+  }
+  return Result<std::unique_ptr<RecordingWriter>>(std::move(writer));
+}
+
+Status RecordingWriter::add(const Frames& batch) {
+  std::uint64_t sequence = batch.sequence;
+  for (const auto& frame : batch.frames) {
+    const bool is_first = last_sequence_ == 0;
+    if (!is_first && sequence <= last_sequence_) {
+      assert(false && "the numbers of a stream rise within an epoch");
+      ++sequence;
+      continue;
+    }
+    const std::uint64_t missing = is_first ? 0 : sequence - last_sequence_ - 1;
+    if (missing != 0 || waiting_.size() == max_chunk_frames) {
+      if (auto status = flush(); !status) return status;
+      lost_before_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(missing, UINT32_MAX));
+    }
+    const std::uint64_t time = std::max(last_time_, batch.media_time + frame.time);
+    if (is_first) first_time_ = time;
+    if (time - first_time_ > max_recording_ms)
+      return Error{ErrorCode::out_of_range, "", "a recording lasts a day at most"};
+    waiting_.push_back({sequence, time, frame.state});
+    last_sequence_ = sequence++;
+    last_time_ = time;
+  }
+  return Unit{};
+}
+
+Status RecordingWriter::flush() {
+  if (broken_) return Error{ErrorCode::io, "", "the recording cannot be written any more"};
+  if (waiting_.empty()) return Unit{};
+  const auto chunk = encode_chunk(waiting_, lost_before_);
+  auto status = write_at(descriptor_, durable_.bytes, chunk);
+  if (status && ::fdatasync(descriptor_) != 0) status = io_error("a recording cannot be made durable");
+  if (!status) {
+    // Whether it reached the disk nobody knows after a failed sync: what was durable before is what stays.
+    broken_ = true;
+    if (::ftruncate(descriptor_, static_cast<off_t>(durable_.bytes)) == 0) ::fdatasync(descriptor_);
+    return status;
+  }
+  durable_.bytes += chunk.size();
+  durable_.frames += waiting_.size();
+  durable_.lost += lost_before_;
+  durable_.media_time = first_time_;
+  durable_.duration = static_cast<std::uint32_t>(waiting_.back().media_time - first_time_);
+  durable_.sequence = waiting_.back().sequence;
+  waiting_.clear();
+  lost_before_ = 0;
+  return Unit{};
+}
+
+Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
+  auto bytes = open_bytes(path);
+  if (!bytes) return bytes.error();
+  const auto reader = RecordingReader::open(*bytes, Check::everything);
+  if (!reader) return reader.error();
+  if (reader->torn_bytes() > chunk_head_bytes + max_chunk_bytes)
+    return Error{ErrorCode::mismatch, "byte " + std::to_string(reader->whole_bytes()),
+                 reader->torn_reason() + ", and more follows"};
+  if (reader->torn_bytes() > 0) {
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    const bool cut = descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(reader->whole_bytes())) == 0 &&
+                     ::fsync(descriptor) == 0;
+    Error error = io_error(path.string());
+    if (descriptor >= 0) ::close(descriptor);
+    if (!cut) return error;
+  }
+  RecordingProgress progress;
+  progress.frames = reader->frames();
+  progress.lost = reader->lost();
+  progress.bytes = reader->whole_bytes();
+  progress.media_time = reader->begin();
+  progress.duration = reader->duration();
+  if (const auto last = reader->at(reader->duration()); last && *last) progress.sequence = (*last)->sequence;
+  return progress;
+}
+
+}  // namespace semblante::recordings

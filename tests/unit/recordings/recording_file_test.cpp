@@ -1,0 +1,295 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/recordings/recording_reader.h"
+#include "server/recordings/recording_writer.h"
+#include "tests/unit/recordings/recorded_frames.h"
+
+namespace semblante::recordings {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<RecordingFrame> all_frames(const RecordingReader& reader, std::uint32_t from = 0) {
+  std::vector<RecordingFrame> frames;
+  RecordingCursor cursor(std::make_shared<const RecordingReader>(reader), from);
+  for (; cursor.frame() != nullptr; cursor.advance()) frames.push_back(*cursor.frame());
+  EXPECT_FALSE(cursor.error()) << cursor.error()->message;
+  return frames;
+}
+
+std::string hex(std::span<const std::uint8_t> bytes) {
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  for (const auto byte : bytes) text.append({digits[byte >> 4U], digits[byte & 15U]});
+  return text;
+}
+
+Result<RecordingReader> open_memory(std::vector<std::uint8_t> bytes, Check check = Check::everything) {
+  return RecordingReader::open(bytes_in_memory(std::move(bytes)), check);
+}
+
+/// A recording in memory with `each` frames in a chunk.
+std::vector<std::uint8_t> in_chunks(const std::vector<RecordingFrame>& frames, std::size_t each) {
+  auto bytes = encode_beginning(stream_header());
+  for (std::size_t i = 0; i < frames.size(); i += each) {
+    const auto chunk = encode_chunk(std::span(frames).subspan(i, std::min(each, frames.size() - i)), 0);
+    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+  }
+  return bytes;
+}
+
+TEST(RecordingFile, WrittenInBatches_GivesTheSameFrames) {
+  const Folder folder;
+  const auto frames = random_frames(5000, 1);
+  auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
+  ASSERT_TRUE(writer) << writer.error().message;
+  std::size_t batches = 0;
+  for (const auto& batch : in_batches(frames, 2)) {
+    ASSERT_TRUE((*writer)->add(batch));
+    if (++batches % 30 == 0) {
+      ASSERT_TRUE((*writer)->flush());
+    }
+  }
+  ASSERT_TRUE((*writer)->flush());
+  EXPECT_EQ((*writer)->durable().frames, 5000U);
+  EXPECT_EQ((*writer)->durable().sequence, 5041U);
+  EXPECT_EQ((*writer)->durable().bytes, std::filesystem::file_size(folder.file("a.srec")));
+
+  auto bytes = open_bytes(folder.file("a.srec"));
+  ASSERT_TRUE(bytes);
+  const auto reader = RecordingReader::open(*bytes, Check::everything);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->header(), stream_header());
+  EXPECT_EQ(reader->frames(), frames.size());
+  EXPECT_EQ(reader->lost(), 0U);
+  EXPECT_EQ(reader->begin(), frames.front().media_time);
+  EXPECT_EQ(reader->duration(), frames.back().media_time - frames.front().media_time);
+  EXPECT_EQ(reader->torn_bytes(), 0U);
+  EXPECT_EQ(all_frames(*reader), frames);
+}
+
+TEST(RecordingFile, FramesThatNeverCame_AreAMarkedGap) {
+  const Folder folder;
+  const auto frames = random_frames(30, 3);
+  auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
+  ASSERT_TRUE(writer);
+  std::vector<RecordingFrame> kept;
+  for (const auto& frame : frames) {
+    if (frame.sequence >= 50 && frame.sequence < 57) continue;
+    kept.push_back(frame);
+    ASSERT_TRUE((*writer)->add({frame.sequence, frame.media_time, {{0, frame.state}}}));
+  }
+  ASSERT_TRUE((*writer)->flush());
+  EXPECT_EQ((*writer)->durable().lost, 7U);
+  const auto reader = open_memory(bytes_of(folder.file("a.srec")));
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(reader->lost(), 7U);
+  EXPECT_EQ(all_frames(*reader), kept);
+}
+
+TEST(RecordingFile, TimeThatFalls_StaysWithTheFrameBefore) {
+  const Folder folder;
+  auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE((*writer)->add({1, 100, {{0, {}}, {50, {}}}}));
+  ASSERT_TRUE((*writer)->add({3, 120, {{0, {}}, {40, {}}}}));
+  ASSERT_TRUE((*writer)->flush());
+  const auto reader = open_memory(bytes_of(folder.file("a.srec")));
+  ASSERT_TRUE(reader);
+  std::vector<std::uint64_t> times;
+  for (const auto& frame : all_frames(*reader)) times.push_back(frame.media_time);
+  EXPECT_EQ(times, (std::vector<std::uint64_t>{100, 150, 150, 160}));
+}
+
+TEST(RecordingFile, LongerThanADay_IsRefused) {
+  const Folder folder;
+  auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE((*writer)->add({1, 100, {{0, {}}}}));
+  EXPECT_EQ((*writer)->add({2, 101 + max_recording_ms, {{0, {}}}}).error().code, ErrorCode::out_of_range);
+  ASSERT_TRUE((*writer)->flush());
+  EXPECT_EQ((*writer)->durable().frames, 1U);
+}
+
+TEST(RecordingFile, FileThatIsThere_IsNotOverwritten) {
+  const Folder folder;
+  ASSERT_TRUE(RecordingWriter::create(folder.file("a.srec"), stream_header()));
+  EXPECT_EQ(RecordingWriter::create(folder.file("a.srec"), stream_header()).error().code, ErrorCode::io);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("a.srec")));
+}
+
+TEST(RecordingFile, Seek_FindsWhatALinearSearchFinds) {
+  const auto frames = random_frames(3000, 4);
+  const std::uint64_t begin = frames.front().media_time;
+  for (const std::size_t each : {1, 7, 1024}) {
+    const auto reader = open_memory(in_chunks(frames, each), Check::heads);
+    ASSERT_TRUE(reader);
+    const auto shared = std::make_shared<const RecordingReader>(*reader);
+    for (std::uint32_t ms = 0; ms < reader->duration() + 200; ms += each == 1 ? 997 : 211) {
+      const RecordingFrame* expected = &frames.front();
+      for (const auto& frame : frames)
+        if (frame.media_time <= begin + ms) expected = &frame;
+      const auto found = reader->at(ms);
+      ASSERT_TRUE(found && *found);
+      EXPECT_EQ(**found, *expected) << ms;
+      const auto first = std::find_if(frames.begin(), frames.end(),
+                                      [&](const RecordingFrame& frame) { return frame.media_time >= begin + ms; });
+      const RecordingCursor cursor(shared, ms);
+      ASSERT_EQ(cursor.frame() != nullptr, first != frames.end()) << ms;
+      if (cursor.frame() != nullptr) {
+        EXPECT_EQ(*cursor.frame(), *first) << ms;
+      }
+    }
+  }
+}
+
+TEST(RecordingFile, MoreChunksThanTheIndexHolds_AreAllFound) {
+  const auto frames = random_frames(3 * RecordingReader::max_index + 5, 5);
+  const auto reader = open_memory(in_chunks(frames, 1), Check::heads);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(reader->frames(), frames.size());
+  for (std::size_t i = 0; i < frames.size(); i += 501) {
+    const auto ms = static_cast<std::uint32_t>(frames[i].media_time - frames.front().media_time);
+    const auto found = reader->at(ms);
+    ASSERT_TRUE(found && *found);
+    EXPECT_EQ((*found)->media_time, frames[i].media_time);
+  }
+  EXPECT_EQ(all_frames(*reader), frames);
+}
+
+TEST(RecordingFile, WithoutFrames_IsEmpty) {
+  const auto reader = open_memory(encode_beginning(stream_header()));
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(reader->frames(), 0U);
+  EXPECT_EQ(reader->duration(), 0U);
+  const auto found = reader->at(0);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(*found);
+  EXPECT_TRUE(all_frames(*reader).empty());
+}
+
+TEST(RecordingFile, EveryPrefix_IsReadUpToTheLastWholeChunk) {
+  const auto frames = random_frames(40, 6);
+  const auto bytes = in_chunks(frames, 8);
+  const auto beginning = encode_beginning(stream_header()).size();
+  std::size_t best = 0;
+  for (std::size_t length = 0; length <= bytes.size(); ++length) {
+    const auto reader = open_memory({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)});
+    ASSERT_EQ(static_cast<bool>(reader), length >= beginning) << length;
+    if (!reader) {
+      EXPECT_FALSE(reader.error().message.empty());
+      continue;
+    }
+    EXPECT_LE(reader->whole_bytes(), length);
+    EXPECT_EQ(reader->torn_bytes() == 0, reader->torn_reason().empty());
+    EXPECT_EQ(reader->frames() % 8, 0U);
+    EXPECT_GE(reader->frames(), best);
+    best = reader->frames();
+    const auto got = all_frames(*reader);
+    EXPECT_TRUE(std::equal(got.begin(), got.end(), frames.begin()));
+  }
+  EXPECT_EQ(best, frames.size());
+}
+
+TEST(RecordingFile, EveryFlippedByte_IsNoticed) {
+  const auto frames = random_frames(40, 7);
+  const auto bytes = in_chunks(frames, 8);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    for (const std::uint8_t flip : {0x01, 0x80, 0xFF}) {
+      auto damaged = bytes;
+      damaged[i] ^= flip;
+      const auto whole = open_memory(damaged);
+      if (whole) {
+        EXPECT_LT(whole->frames(), frames.size()) << i;
+        const auto got = all_frames(*whole);
+        EXPECT_TRUE(std::equal(got.begin(), got.end(), frames.begin())) << i;
+      }
+      // By the heads alone damage is found when its chunk is read, and nothing wrong comes before.
+      const auto quick = open_memory(damaged, Check::heads);
+      if (!quick) continue;
+      RecordingCursor cursor(std::make_shared<const RecordingReader>(*quick), 0);
+      std::size_t right = 0;
+      for (; cursor.frame() != nullptr; cursor.advance()) {
+        ASSERT_LT(right, frames.size());
+        EXPECT_EQ(*cursor.frame(), frames[right++]) << i;
+      }
+      EXPECT_TRUE(cursor.error() || quick->torn_bytes() > 0) << i;
+    }
+  }
+}
+
+TEST(RecordingFile, TornTail_IsCutOff_AndWritingWentOnBeforeIt) {
+  const Folder folder;
+  const auto frames = random_frames(40, 8);
+  const auto bytes = in_chunks(frames, 8);
+  for (const std::size_t lost : {1, 30, 47, 48, 200}) {
+    const auto path = folder.file("torn.srec");
+    std::ofstream(path, std::ios::binary | std::ios::trunc)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size() - lost));
+    const auto progress = repair_recording(path);
+    ASSERT_TRUE(progress) << progress.error().message;
+    EXPECT_EQ(progress->frames, 32U);
+    EXPECT_EQ(progress->sequence, 73U);
+    EXPECT_EQ(progress->bytes, std::filesystem::file_size(path));
+    const auto reader = open_memory(bytes_of(path));
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->torn_bytes(), 0U);
+    EXPECT_EQ(repair_recording(path).value(), *progress) << "a second time changes nothing";
+  }
+}
+
+TEST(RecordingFile, DamageInTheMiddle_IsNotCutOff) {
+  const Folder folder;
+  auto bytes = in_chunks(random_frames(20'000, 9), 200);
+  ASSERT_GT(bytes.size(), 2U * max_chunk_bytes);
+  bytes[2000] ^= 1U;
+  const auto path = folder.file("damaged.srec");
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const auto repaired = repair_recording(path);
+  ASSERT_FALSE(repaired);
+  EXPECT_EQ(repaired.error().code, ErrorCode::mismatch);
+  EXPECT_EQ(bytes_of(path), bytes);
+}
+
+TEST(RecordingFile, OtherFiles_AreRefusedByName) {
+  EXPECT_THAT(open_memory({'2', '.', '1', ' ', 'a', ' ', '2', '5', ' '}).error().message, HasSubstr("not a recording"));
+  auto later = encode_beginning(stream_header());
+  later[7] = 2;
+  EXPECT_EQ(open_memory(later).error().code, ErrorCode::unsupported);
+}
+
+TEST(RecordingFile, ChunkOfAKindOfLater_IsSkipped) {
+  const auto frames = random_frames(16, 10);
+  auto bytes = in_chunks({frames.begin(), frames.begin() + 8}, 8);
+  std::vector<std::uint8_t> later(chunk_head_bytes + 3);
+  std::copy(chunk_magic.begin(), chunk_magic.end(), later.begin());
+  later[4] = 3;
+  later[12] = 9;
+  bytes.insert(bytes.end(), later.begin(), later.end());
+  const auto rest = encode_chunk(std::span(frames).subspan(8), 0);
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  const auto reader = open_memory(bytes);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(all_frames(*reader), frames);
+}
+
+/// What the file says of itself, byte by byte, for whoever reads it without this program.
+TEST(RecordingFile, Golden) {
+  FaceFrame smile;
+  smile.viseme = {1, 2, 30};
+  smile.level[12] = 5;
+  FaceFrame more = smile;
+  more.level[12] = 7;
+  const auto chunk = encode_chunk(std::vector<RecordingFrame>{{42, 5000, smile}, {43, 5040, more}}, 3);
+  EXPECT_EQ(hex(chunk), "GOLDEN");
+  const auto read = read_frames_chunk(chunk);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->back(), (RecordingFrame{43, 5040, more}));
+}
+
+}  // namespace
+}  // namespace semblante::recordings
