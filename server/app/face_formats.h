@@ -68,6 +68,7 @@ Result<std::string> write_live_link_faces(const FaceSequence& sequence, const Fa
 bool is_performance(std::string_view text);
 Result<FaceSequence> read_performance_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_performance_faces(const FaceSequence& sequence, const FaceWriting& writing);
+Result<FaceSequence> read_recording_faces(std::string_view text, const FaceReading& reading);
 Result<FaceSequence> read_frames_faces(std::string_view text, const FaceReading& reading);
 Result<std::string> write_frames_faces(const FaceSequence& sequence, const FaceWriting& writing);
 

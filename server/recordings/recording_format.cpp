@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
-
 #include <zlib.h>
 
 #include "protocol/cpp/byte_io.h"
@@ -59,7 +58,7 @@ Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
   auto head = read_chunk_head(bytes);
   if (!head) return head;
   if (bytes.size() - chunk_head_bytes < head->bytes) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
-  if (checksum(bytes.first(chunk_head_bytes + head->bytes)) != head->crc)
+  if (!has_right_checksum(bytes.first(chunk_head_bytes + head->bytes)))
     return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
   if (head->kind != kind) return malformed("a chunk of another kind is expected");
   return head;
@@ -139,6 +138,11 @@ Result<ChunkHead> read_chunk_head(Bytes bytes) {
                         head.end <= max_number && head.begin <= head.end;
   if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk says what cannot be"};
   return head;
+}
+
+bool has_right_checksum(Bytes chunk) {
+  assert(chunk.size() >= chunk_head_bytes);
+  return checksum(chunk) == get_u32(&chunk[at_crc]);
 }
 
 Result<Header> read_header_chunk(Bytes bytes) {

@@ -54,6 +54,9 @@ std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, s
 /// The first chunk_head_bytes of a chunk. Errors: truncated, malformed (no chunk begins here), out_of_range.
 Result<ChunkHead> read_chunk_head(std::span<const std::uint8_t> bytes);
 
+/// Of a whole chunk (head and messages).
+bool has_right_checksum(std::span<const std::uint8_t> chunk);
+
 /// What a whole chunk (head and messages) holds. Errors: truncated, mismatch (the checksum is another), malformed.
 Result<Header> read_header_chunk(std::span<const std::uint8_t> bytes);
 Result<std::vector<RecordingFrame>> read_frames_chunk(std::span<const std::uint8_t> bytes);

@@ -14,6 +14,19 @@ Error at_byte(std::uint64_t offset, Error error) {
   return error;
 }
 
+Result<std::vector<std::uint8_t>> read_chunk(const ByteSource& from, std::uint64_t offset, const ChunkHead& head) {
+  std::vector<std::uint8_t> bytes(chunk_head_bytes + head.bytes);
+  if (!from.read(offset, bytes)) return at_byte(offset, {ErrorCode::io, "", "cannot be read"});
+  return bytes;
+}
+
+Status check_chunk(const ByteSource& from, std::uint64_t offset, const ChunkHead& head) {
+  const auto bytes = read_chunk(from, offset, head);
+  if (!bytes) return bytes.error();
+  if (!has_right_checksum(*bytes)) return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
+  return Unit{};
+}
+
 }  // namespace
 
 Result<RecordingReader> RecordingReader::open(std::shared_ptr<const ByteSource> bytes, Check check) {
@@ -27,13 +40,13 @@ Result<RecordingReader> RecordingReader::open(std::shared_ptr<const ByteSource> 
     return Error{ErrorCode::unsupported, "byte 7", "a recording of version " + std::to_string(magic.back())};
   const auto first = reader.chunk_at(file_magic.size());
   if (!first) return Error{ErrorCode::truncated, "byte 8", "the chunk with the stream's header is not whole"};
-  std::vector<std::uint8_t> chunk(chunk_head_bytes + first->head.bytes);
-  if (!reader.bytes_->read(first->offset, chunk)) return Error{ErrorCode::io, "byte 8", "cannot be read"};
-  auto header = read_header_chunk(chunk);
+  const auto chunk = read_chunk(*reader.bytes_, first->offset, first->head);
+  if (!chunk) return chunk.error();
+  auto header = read_header_chunk(*chunk);
   if (!header) return at_byte(first->offset, header.error());
   reader.header_ = std::move(*header);
   reader.begin_ = reader.end_ = reader.header_.media_time;
-  reader.first_chunk_ = reader.whole_bytes_ = first->offset + chunk.size();
+  reader.first_chunk_ = reader.whole_bytes_ = first->offset + chunk->size();
   if (const auto torn = reader.walk(check)) reader.torn_reason_ = torn->message;
   return reader;
 }
@@ -48,7 +61,7 @@ std::optional<Error> RecordingReader::walk(Check check) {
     const std::uint64_t end = whole_bytes_ + chunk_head_bytes + head->bytes;
     if (end > bytes_->size()) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
     if (head->kind == ChunkKind::frames) {
-      const bool follows = frames_ == 0 || (head->begin >= end_ && head->sequence > last_sequence_);
+      const bool follows = frames_ == 0 || (head->begin >= end_ && head->sequence == last_sequence_ + 1 + head->lost);
       if (!follows) return Error{ErrorCode::malformed, "", "a chunk does not follow the one before it"};
       if (head->end - (frames_ == 0 ? head->begin : begin_) > max_recording_ms)
         return Error{ErrorCode::out_of_range, "", "longer than a day"};
@@ -56,6 +69,8 @@ std::optional<Error> RecordingReader::walk(Check check) {
         if (const auto frames = read(chunk); !frames) return frames.error();
       }
       add(chunk);
+    } else if (const auto intact = check_chunk(*bytes_, chunk.offset, *head); !intact) {
+      return intact.error();  // frames whose kind was damaged must not be skipped
     }
     whole_bytes_ = end;
   }
@@ -100,17 +115,16 @@ std::optional<RecordingReader::Chunk> RecordingReader::chunk_after(const Chunk& 
 }
 
 Result<std::vector<RecordingFrame>> RecordingReader::read(const Chunk& chunk) const {
-  std::vector<std::uint8_t> bytes(chunk_head_bytes + chunk.head.bytes);
-  if (!bytes_->read(chunk.offset, bytes)) return at_byte(chunk.offset, {ErrorCode::io, "", "cannot be read"});
-  auto frames = read_frames_chunk(bytes);
+  const auto bytes = read_chunk(*bytes_, chunk.offset, chunk.head);
+  if (!bytes) return bytes.error();
+  auto frames = read_frames_chunk(*bytes);
   if (!frames) return at_byte(chunk.offset, frames.error());
   return frames;
 }
 
 std::uint64_t RecordingReader::offset_before(std::uint64_t media_time) const {
-  const auto after =
-      std::lower_bound(index_.begin(), index_.end(), media_time,
-                       [](const Entry& entry, std::uint64_t time) { return entry.begin < time; });
+  const auto after = std::lower_bound(index_.begin(), index_.end(), media_time,
+                                      [](const Entry& entry, std::uint64_t time) { return entry.begin < time; });
   return after == index_.begin() ? index_.front().offset : (after - 1)->offset;
 }
 

@@ -48,7 +48,7 @@ class RecordingWriter {
   const int descriptor_;
   RecordingProgress durable_;
   std::vector<RecordingFrame> waiting_;
-  std::uint32_t lost_before_ = 0;   ///< the frames that wait
+  std::uint32_t lost_before_ = 0;    ///< the frames that wait
   std::uint64_t last_sequence_ = 0;  ///< that came
   std::uint64_t last_time_ = 0, first_time_ = 0;
   bool broken_ = false;

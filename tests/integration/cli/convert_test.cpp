@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/recordings/recording_writer.h"
 #include "tests/integration/cli/program.h"
 
 namespace semblante::test {
@@ -102,6 +103,29 @@ TEST(Convert, TakeOfLiveLink_ToFramesAndBack) {
   const Outcome refused = run_semblante({"convert", broken, "--out", work.path("x.json")});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("broken.csv: line 2: column 2: 'open'"), std::string::npos) << refused.err;
+}
+
+TEST(Convert, Recording_IsReadAsFrames_WithoutItsTornEnd) {
+  using namespace semblante::recordings;
+  const Workspace work;
+  auto writer = RecordingWriter::create(work.path("talk.srec"), Header{});
+  ASSERT_TRUE(writer);
+  FaceFrame jaw;
+  jaw.level[3] = 2;
+  ASSERT_TRUE((*writer)->add({5, 1000, {{0, {}}, {70, jaw}}}));
+  ASSERT_TRUE((*writer)->flush());
+  const std::string whole = read_text(work.path("talk.srec"));
+  work.write("torn.srec", whole + "CHNK and no more");
+  const Outcome clean = run_semblante({"convert", work.path("talk.srec"), "--out", work.path("talk.json")});
+  EXPECT_EQ(clean.exit_code, 0) << clean.err;
+  EXPECT_EQ(clean.err, "");
+  EXPECT_EQ(read_text(work.path("talk.json")), "{\"frames\": [\n{\"time\":0},\n{\"time\":70,\"faps\":{\"3\":8}}\n]}\n");
+  const Outcome torn = run_semblante({"convert", work.path("torn.srec"), "--out", work.path("torn.json")});
+  EXPECT_EQ(torn.exit_code, 0);
+  EXPECT_NE(torn.err.find("byte " + std::to_string(whole.size())), std::string::npos) << torn.err;
+  EXPECT_EQ(read_text(work.path("torn.json")), read_text(work.path("talk.json")));
+  EXPECT_EQ(run_semblante({"convert", work.path("talk.srec"), "--out", work.path("talk.fap")}).exit_code, 0);
+  EXPECT_EQ(run_semblante({"convert", work.path("talk.json"), "--out", work.path("other.srec")}).exit_code, 2);
 }
 
 TEST(Convert, Oddities_AreWarningsUnlessQuiet) {

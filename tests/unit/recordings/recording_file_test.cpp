@@ -1,8 +1,10 @@
 #include <fstream>
+#include <zlib.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "protocol/cpp/byte_io.h"
 #include "server/recordings/recording_reader.h"
 #include "server/recordings/recording_writer.h"
 #include "tests/unit/recordings/recorded_frames.h"
@@ -243,7 +245,7 @@ TEST(RecordingFile, TornTail_IsCutOff_AndWritingWentOnBeforeIt) {
 
 TEST(RecordingFile, DamageInTheMiddle_IsNotCutOff) {
   const Folder folder;
-  auto bytes = in_chunks(random_frames(20'000, 9), 200);
+  auto bytes = in_chunks(random_frames(30'000, 9), 200);
   ASSERT_GT(bytes.size(), 2U * max_chunk_bytes);
   bytes[2000] ^= 1U;
   const auto path = folder.file("damaged.srec");
@@ -269,6 +271,7 @@ TEST(RecordingFile, ChunkOfAKindOfLater_IsSkipped) {
   std::copy(chunk_magic.begin(), chunk_magic.end(), later.begin());
   later[4] = 3;
   later[12] = 9;
+  byte_io::put_u32(&later[8], static_cast<std::uint32_t>(crc32_z(0, &later[12], later.size() - 12)));
   bytes.insert(bytes.end(), later.begin(), later.end());
   const auto rest = encode_chunk(std::span(frames).subspan(8), 0);
   bytes.insert(bytes.end(), rest.begin(), rest.end());
@@ -285,7 +288,20 @@ TEST(RecordingFile, Golden) {
   FaceFrame more = smile;
   more.level[12] = 7;
   const auto chunk = encode_chunk(std::vector<RecordingFrame>{{42, 5000, smile}, {43, 5040, more}}, 3);
-  EXPECT_EQ(hex(chunk), "GOLDEN");
+  EXPECT_EQ(hex(chunk),
+            "43484e4b"          // CHNK
+            "17000000"          // 23 bytes of messages
+            "b591f4ed"          // CRC-32 from here on to the end
+            "02000000"          // frames
+            "02000000"          // two
+            "03000000"          // three were lost before
+            "2a00000000000000"  // number 42
+            "8813000000000000"  // from 5000 ms
+            "b013000000000000"  // to 5040 ms
+            "0b"                // a keyframe of 11 bytes
+            "032a88270501021e80040a"
+            "0a"  // frames of 10 bytes
+            "042b8827012804800404");
   const auto read = read_frames_chunk(chunk);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->back(), (RecordingFrame{43, 5040, more}));

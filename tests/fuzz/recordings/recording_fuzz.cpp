@@ -1,0 +1,50 @@
+#include <cstdlib>
+#include <zlib.h>
+
+#include "protocol/cpp/byte_io.h"
+#include "server/recordings/recording_reader.h"
+
+using namespace semblante;
+using namespace semblante::recordings;
+
+namespace {
+
+/// Makes checksums right, chunk by chunk, so that what is behind them is seen too.
+void mend(std::vector<std::uint8_t>& bytes) {
+  std::size_t at = file_magic.size();
+  while (at + chunk_head_bytes <= bytes.size()) {
+    const std::size_t length = byte_io::get_u32(&bytes[at + 4]);
+    if (length > bytes.size() - at - chunk_head_bytes) return;
+    byte_io::put_u32(&bytes[at + 8],
+                     static_cast<std::uint32_t>(crc32_z(0, &bytes[at + 12], chunk_head_bytes - 12 + length)));
+    at += chunk_head_bytes + length;
+  }
+}
+
+void walk(std::vector<std::uint8_t> bytes, Check check) {
+  const auto reader = RecordingReader::open(bytes_in_memory(std::move(bytes)), check);
+  if (!reader) return;
+  const auto shared = std::make_shared<const RecordingReader>(*reader);
+  std::uint64_t frames = 0;
+  std::uint32_t time = 0;
+  RecordingCursor cursor(shared, 0);
+  for (; cursor.frame() != nullptr; cursor.advance(), ++frames) {
+    if (cursor.time() < time) std::abort();
+    time = cursor.time();
+  }
+  if (check == Check::everything && (cursor.error() || frames != reader->frames() || time != reader->duration()))
+    std::abort();
+  const auto middle = reader->at(reader->duration() / 2);
+  if (check == Check::everything && (!middle || middle->has_value() != (frames > 0))) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::uint8_t> bytes(data, data + size);
+  walk(bytes, Check::heads);
+  mend(bytes);
+  walk(bytes, Check::everything);
+  walk(std::move(bytes), Check::heads);
+  return 0;
+}
