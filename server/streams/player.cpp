@@ -24,7 +24,9 @@ Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t tic
       begin_(begin),
       end_(options.loop || source_->duration() <= 0.0 ? std::numeric_limits<double>::infinity()
                                                       : std::max(0.0, source_->duration() - options.from)),
-      next_(begin) {}
+      next_(begin),
+      frames_(source_->frames_from(options.from)),
+      rounds_ms_(-options.from) {}
 
 Player::Clock::time_point Player::time_of(double played_ms) const {
   return begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double, std::milli>(played_ms));
@@ -32,6 +34,20 @@ Player::Clock::time_point Player::time_of(double played_ms) const {
 
 void Player::play(Clock::time_point now) {
   if (finished_ || now < next_) return;
+  if (frames_)
+    play_frames(now);
+  else
+    play_at_rate(now);
+  if (finished_) next_ = Clock::time_point::max();
+}
+
+bool Player::publish(double played_ms, const FaceFrame& face) {
+  const TimedFrame frame{0, face};
+  return ticket_ == 0 ? stream_->fill(time_of(played_ms), frame).ok()
+                      : stream_->publish_playing(ticket_, time_of(played_ms), frame).ok();
+}
+
+void Player::play_at_rate(Clock::time_point now) {
   const double since = ms_between(begin_, now);
   frame_ = std::max(frame_, static_cast<std::uint64_t>(std::floor(since / frame_ms())));
   double played = static_cast<double>(frame_) * frame_ms();
@@ -39,13 +55,38 @@ void Player::play(Clock::time_point now) {
   if (last) played = end_;
   double at = options_.from + played;
   if (options_.loop && source_->duration() > 0.0) at = std::fmod(at, source_->duration());
-  const TimedFrame frame{0, source_->frame_at(at, options_.from + played)};
-  const bool taken = ticket_ == 0 ? stream_->fill(time_of(played), frame).ok()
-                                  : stream_->publish_playing(ticket_, time_of(played), frame).ok();
+  const bool taken = publish(played, source_->frame_at(at, options_.from + played));
   ++frame_;
   finished_ = last || !taken;
   if (last) stream_->end_playing(ticket_, false);
-  next_ = finished_ ? Clock::time_point::max() : time_of(std::min(end_, static_cast<double>(frame_) * frame_ms()));
+  next_ = time_of(std::min(end_, static_cast<double>(frame_) * frame_ms()));
+}
+
+void Player::play_frames(Clock::time_point now) {
+  for (std::size_t sent = 0; sent < most_at_once; ++sent) {
+    auto time = frames_->time();
+    if (!time && options_.loop) {
+      rounds_ms_ += source_->duration();
+      frames_ = source_->frames_from(0.0);
+      time = frames_->time();
+    }
+    if (!time) {
+      finished_ = true;
+      stream_->end_playing(ticket_, false);
+      return;
+    }
+    // Who begins between two frames begins with the face that holds there.
+    const bool leads_in = frame_ == 0 && *time > options_.from && options_.from > 0.0;
+    const double played = leads_in ? 0.0 : rounds_ms_ + *time;
+    next_ = time_of(played);
+    if (next_ > now) return;
+    if (!publish(played, leads_in ? source_->frame_at(options_.from, options_.from) : frames_->frame())) {
+      finished_ = true;
+      return;
+    }
+    ++frame_;
+    if (!leads_in) frames_->advance();
+  }
 }
 
 void Player::stop() {

@@ -115,12 +115,12 @@ TEST(Convert, Recording_IsReadAsFrames_WithoutItsTornEnd) {
   ASSERT_TRUE((*writer)->add({5, 1000, {{0, {}}, {70, jaw}}}));
   ASSERT_TRUE((*writer)->flush());
   const std::string whole = read_text(work.path("talk.srec"));
-  work.write("torn.srec", whole + "CHNK and no more");
+  const std::string cut = work.write("torn.srec", whole + "CHNK and no more");
   const Outcome clean = run_semblante({"convert", work.path("talk.srec"), "--out", work.path("talk.json")});
   EXPECT_EQ(clean.exit_code, 0) << clean.err;
   EXPECT_EQ(clean.err, "");
   EXPECT_EQ(read_text(work.path("talk.json")), "{\"frames\": [\n{\"time\":0},\n{\"time\":70,\"faps\":{\"3\":8}}\n]}\n");
-  const Outcome torn = run_semblante({"convert", work.path("torn.srec"), "--out", work.path("torn.json")});
+  const Outcome torn = run_semblante({"convert", cut, "--out", work.path("torn.json")});
   EXPECT_EQ(torn.exit_code, 0);
   EXPECT_NE(torn.err.find("byte " + std::to_string(whole.size())), std::string::npos) << torn.err;
   EXPECT_EQ(read_text(work.path("torn.json")), read_text(work.path("talk.json")));

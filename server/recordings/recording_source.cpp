@@ -1,0 +1,79 @@
+#include "server/recordings/recording_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "protocol/cpp/face_values.h"
+
+namespace semblante::recordings {
+namespace {
+
+using SharedReader = std::shared_ptr<const RecordingReader>;
+
+/// From the levels of a recording to those of a stream; nothing where their steps are the same.
+struct Requantizer {
+  QuantizerSteps from, to;
+  [[nodiscard]] FaceFrame operator()(const FaceFrame& frame) const {
+    return from == to ? frame : to_frame(to_values(frame, from), to);
+  }
+};
+
+class Cursor : public streams::FrameCursor {
+ public:
+  Cursor(SharedReader reader, std::uint32_t ms, const Requantizer& requantize)
+      : cursor_(std::move(reader), ms), requantize_(requantize) {}
+  [[nodiscard]] std::optional<double> time() const override {
+    return cursor_.frame() != nullptr ? std::optional<double>(cursor_.time()) : std::nullopt;
+  }
+  [[nodiscard]] FaceFrame frame() const override { return requantize_(cursor_.frame()->state); }
+  void advance() override { cursor_.advance(); }
+
+ private:
+  RecordingCursor cursor_;
+  const Requantizer& requantize_;
+};
+
+class RecordingSource : public streams::FrameSource {
+ public:
+  RecordingSource(SharedReader reader, std::string name, const Requantizer& requantize)
+      : reader_(std::move(reader)), name_(std::move(name)), requantize_(requantize) {}
+  [[nodiscard]] std::string_view kind() const override { return "recording"; }
+  [[nodiscard]] std::string name() const override { return name_; }
+  /// To the end of the last frame, which lasts as long as the others do in the mean.
+  [[nodiscard]] double duration() const override {
+    return reader_->duration() + std::max(1.0, std::round(reader_->mean_interval()));
+  }
+  [[nodiscard]] FaceFrame frame_at(double ms, double /*played_ms*/) const override {
+    const auto frame = reader_->at(static_cast<std::uint32_t>(std::max(ms, 0.0)));
+    return frame && *frame ? requantize_((*frame)->state) : FaceFrame{};
+  }
+  [[nodiscard]] std::unique_ptr<streams::FrameCursor> frames_from(double ms) const override {
+    return std::make_unique<Cursor>(reader_, static_cast<std::uint32_t>(std::ceil(std::max(ms, 0.0))), requantize_);
+  }
+  [[nodiscard]] std::size_t bytes() const override {
+    return reader_->whole_bytes() + max_chunk_frames * sizeof(RecordingFrame);
+  }
+
+ private:
+  const SharedReader reader_;
+  const std::string name_;
+  const Requantizer requantize_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(const ByteSource& bytes, std::string name,
+                                                                          const QuantizerSteps& steps) {
+  std::vector<std::uint8_t> copy(bytes.size());
+  if (!bytes.read(0, copy)) return Error{ErrorCode::io, "", "the recording cannot be read"};
+  auto reader = RecordingReader::open(bytes_in_memory(std::move(copy)), Check::everything);
+  if (!reader) return reader.error();
+  if (reader->frames() == 0) return Error{ErrorCode::empty, "", "the recording has no frame"};
+  const Requantizer requantize{quantizers_of(reader->header()), steps};
+  return std::shared_ptr<const streams::FrameSource>(std::make_shared<RecordingSource>(
+      std::make_shared<const RecordingReader>(std::move(*reader)), std::move(name), requantize));
+}
+
+}  // namespace semblante::recordings
