@@ -4,6 +4,8 @@ export type { DracoModule, FaceMesh } from './draco_mesh.ts';
 export * from './kernel.ts';
 export * from './stream_client.ts';
 export * from './player.ts';
+export { ClockEstimate } from './clock_estimate.ts';
+export type { PlayoutStats } from './playout.ts';
 export * from './performance.ts';
 export { readPerformance, type PerformanceScript } from '../../protocol/ts/performance_document.ts';
 export { neutralFrame, type FaceFrame, type TimedFrame } from '../../protocol/ts/face_frame.ts';

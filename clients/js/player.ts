@@ -1,6 +1,8 @@
-import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
+import type { FaceFrame, TimedFrame } from '../../protocol/ts/face_frame.ts';
 import type { Frames, Header, Keyframe } from '../../protocol/ts/messages.ts';
 import { quantizersOf, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import { ClockEstimate } from './clock_estimate.ts';
+import { Playout, type PlayoutStats } from './playout.ts';
 import type { StreamClient } from './stream_client.ts';
 
 /** What the player needs of the kernel: poses by number. */
@@ -14,9 +16,12 @@ export interface PoseMaker {
 }
 
 export interface PlayerOptions {
-  /** ms; default performance.now() */
+  /** ms; default performance.now(). The same as that of the client that is followed. */
   now?: () => number;
-  /** How far behind the newest frame to play, ms; default two send intervals, at least 60. */
+  /**
+   * How far behind the stream's clock to play, ms; left out, as little as the network allows. Players with the same delay
+   * show the same moment, wherever they are.
+   */
   delay?: number;
   /**
    * `linear` (default): each pair of frames by a straight way, as the paper does. `eased`: the same frames at the same
@@ -40,44 +45,33 @@ const afterPose = 4;
 const easedPoses = [beforePose, fromPose, toPose, afterPose] as const;
 export const easedPoseCount = 5;
 
-const maxSpeedChange = 0.05;
-/** Further than this from where it should be, the playhead jumps (ms); less far behind, it waits. */
-const snapThreshold = 500;
-/** Seconds in which a small error is played away. */
-const correctionTime = 1;
-/** Sooner or later arrivals are compared within this time (ms): drifting clocks and changed routes are forgotten. */
-const arrivalWindow = 10_000;
-const leastDelay = 60;
+/** A display's step that is so far (ms) from what the clock says is not believed: the page was held up, or hidden. */
+const strangeStep = 50;
+/** Who shows nothing for longer than this (ms) may have slept: the stream's clock is asked for anew. */
+const longPause = 5000;
 const maxHeldFrames = 2048;
 
 /**
- * Plays the frames of a stream at the display's rate: about two send intervals behind the newest, the feature points
- * interpolated linearly, so that every vertex is interpolated as the paper does, or eased. Adapts its speed by at most
- * 5 %, jumps beyond half a second, never goes back. Given a clock, it shows exactly what that says.
+ * Plays the frames of a stream at the display's rate: a little behind the stream's clock (`Playout` says how much), the
+ * feature points interpolated linearly, so that every vertex is interpolated as the paper does, or eased. Adapts its
+ * speed by at most 5 %, jumps beyond half a second, never goes back. Given a clock, it shows exactly what that says.
  */
 export class Player {
-  /** Media time that is shown, ms; NaN before the first frame. */
-  playhead = NaN;
-
   private readonly poses: PoseMaker;
   private readonly now: () => number;
-  private readonly fixedDelay: number | undefined;
   private readonly eased: boolean;
   private readonly clock: (() => number) | undefined;
+  private readonly playout: Playout;
+  private client: StreamClient | null = null;
   private steps: QuantizerSteps = standardQuantizers;
-  private epoch = -1;
   private visemeShare: number | null = null;
+  private lastUpdate = NaN;
 
   // Frames not yet over; the first is the last one at or before the playhead.
   private times: number[] = [];
   private states: FaceFrame[] = [];
-  private announcedInterval = 0;
-  private measuredInterval = 0;
-  private lastBatchEnd = NaN;
-
-  // Media time minus local time of the arrival that came earliest for its media time: the least delayed one.
-  private bestOffset = -Infinity;
-  private bestAge = 0;
+  /** When the motion towards each of them begins. */
+  private begins: number[] = [];
 
   // Which frames are in the poses `fromPose` and `toPose`, by media time.
   private fromTime = NaN;
@@ -94,14 +88,31 @@ export class Player {
   constructor(poses: PoseMaker, options: PlayerOptions = {}) {
     this.poses = poses;
     this.now = options.now ?? (() => performance.now());
-    this.fixedDelay = options.delay;
     this.eased = options.interpolation === 'eased';
     this.clock = options.clock;
+    this.playout = new Playout({ ...(options.delay === undefined ? {} : { delay: options.delay }), eased: this.eased });
     if (this.eased && !poses.ease) throw new TypeError('these poses cannot be eased');
   }
 
-  /** Plays what a client receives. Returns the function that stops listening. */
+  /** Media time that is shown, ms; NaN before the first frame. */
+  get playhead(): number {
+    return this.playout.playhead;
+  }
+
+  /** ms behind the stream's clock; NaN before the first frame */
+  get delay(): number {
+    return this.playout.delay;
+  }
+
+  /** How it goes; `clock` has what is known of the stream's clock. */
+  get stats(): Readonly<PlayoutStats> & { readonly clock: ClockEstimate } {
+    return { ...this.playout.stats, clock: this.playout.clock };
+  }
+
+  /** Plays what a client receives, by the clock that it measures. Returns the function that stops listening. */
   follow(client: StreamClient): () => void {
+    this.client = client;
+    this.playout.clock = client.streamClock;
     if (client.header) this.begin(client.header);
     const stops = [
       client.on('header', (header) => this.begin(header)),
@@ -110,6 +121,8 @@ export class Player {
     ];
     return () => {
       stops.forEach((stop) => stop());
+      this.client = null;
+      this.playout.clock = new ClockEstimate();
       this.takeVisemeShare(null); // the stream's, not the face's
     };
   }
@@ -117,10 +130,7 @@ export class Player {
   /** A header came: another epoch is another time line. */
   begin(header: Header): void {
     this.steps = quantizersOf(header);
-    this.announcedInterval = header.batch_interval > 0 ? header.batch_interval : 0;
-    if (this.announcedInterval === 0 && header.fps_hint > 0) this.announcedInterval = 1000 / header.fps_hint;
-    if (header.epoch !== this.epoch) this.clear();
-    this.epoch = header.epoch;
+    if (this.playout.begin(header)) this.clear();
     this.takeVisemeShare(header.viseme_share);
   }
 
@@ -132,38 +142,22 @@ export class Player {
   }
 
   pushKeyframe(keyframe: Keyframe): void {
-    this.push(keyframe.media_time, keyframe.state);
-    this.arrived(keyframe.media_time);
+    this.push([{ time: 0, state: keyframe.state }], keyframe.media_time);
   }
 
   pushFrames(frames: Frames): void {
-    for (const { time, state } of frames.frames) this.push(frames.media_time + time, state);
-    const end = frames.media_time + frames.frames[frames.frames.length - 1]!.time;
-    const interval = end - this.lastBatchEnd;
-    if (interval > 0 && interval < 1000) {
-      this.measuredInterval = this.measuredInterval === 0 ? interval : this.measuredInterval * 0.9 + interval * 0.1;
-    }
-    this.lastBatchEnd = end;
-    this.arrived(end);
+    this.push(frames.frames, frames.media_time);
   }
 
   /** Forgets the frames, not the pose that is shown. */
   clear(): void {
     this.times = [];
     this.states = [];
-    this.playhead = NaN;
-    this.lastBatchEnd = NaN;
-    this.bestOffset = -Infinity;
+    this.begins = [];
+    this.playout.clear();
     this.fromTime = this.toTime = this.shownT = NaN;
     this.beforeTime = this.restedAt = NaN;
     this.beforeState = undefined;
-  }
-
-  /** ms behind the newest frame */
-  get delay(): number {
-    // A curve has to know where it goes after the pair it is in.
-    const intervals = this.eased ? 3 : 2;
-    return this.fixedDelay ?? Math.max(leastDelay, intervals * (this.announcedInterval || this.measuredInterval));
   }
 
   /**
@@ -171,10 +165,16 @@ export class Player {
    * a page may skip drawing when it did not.
    */
   update(deltaSeconds: number): boolean {
+    const now = this.now();
+    const passed = now - this.lastUpdate;
+    this.lastUpdate = now;
+    if (passed > longPause) this.client?.measureClock();
     const mediaTime = this.clock?.() ?? NaN;
     if (Number.isFinite(mediaTime)) return this.updateTo(mediaTime);
     if (this.times.length === 0) return false;
-    this.advance(deltaSeconds * 1000);
+    // The display's own step is more even than the moments at which it calls.
+    const step = deltaSeconds * 1000;
+    this.playout.advance(now, Math.abs(step - passed) > strangeStep ? passed : step);
     return this.showPlayhead();
   }
 
@@ -185,8 +185,7 @@ export class Player {
    */
   updateTo(mediaTime: number): boolean {
     if (this.times.length === 0 || !Number.isFinite(mediaTime)) return false;
-    const back = this.playhead - mediaTime;
-    if (!(back > 0 && back <= snapThreshold)) this.playhead = Math.min(mediaTime, this.times.at(-1)!);
+    this.playout.moveTo(mediaTime);
     return this.showPlayhead();
   }
 
@@ -194,44 +193,28 @@ export class Player {
     while (this.times.length > 1 && this.times[1]! <= this.playhead) {
       this.beforeTime = this.times.shift()!;
       this.beforeState = this.states.shift()!;
+      this.begins.shift();
     }
     return this.show();
   }
 
-  private push(time: number, state: FaceFrame): void {
-    const last = this.times.at(-1);
-    if (last !== undefined && time <= last) return; // known already: sent again after a lost connection
-    this.times.push(time);
-    this.states.push(state);
+  private push(frames: readonly TimedFrame[], mediaTime: number): void {
+    const known = this.times.at(-1) ?? -Infinity;
+    const before = this.times.length;
+    for (const { time, state } of frames) {
+      if (mediaTime + time <= (this.times.at(-1) ?? known)) continue; // sent again after a lost connection
+      this.begins.push(this.times.at(-1) ?? mediaTime + time);
+      this.times.push(mediaTime + time);
+      this.states.push(state);
+    }
+    const count = this.times.length;
+    if (count === before) return;
+    const first = this.times[before]!;
+    this.begins[before] = this.playout.arrived(first, this.times[Math.max(before, count - 2)]!, this.times[count - 1]!, this.now());
     // A hidden page gets no display frames: only the newest frames matter when it is seen again.
-    if (this.times.length > maxHeldFrames) {
-      this.times.splice(0, maxHeldFrames / 2);
-      this.states.splice(0, maxHeldFrames / 2);
+    if (count > maxHeldFrames) {
+      for (const list of [this.times, this.begins, this.states]) list.splice(0, maxHeldFrames / 2);
     }
-  }
-
-  private arrived(mediaTime: number): void {
-    const now = this.now();
-    const offset = mediaTime - now;
-    if (offset >= this.bestOffset || now - this.bestAge > arrivalWindow) {
-      this.bestOffset = offset;
-      this.bestAge = now;
-    }
-    if (Number.isNaN(this.playhead)) this.playhead = mediaTime - this.delay;
-  }
-
-  private advance(elapsed: number): void {
-    const wanted = this.now() + this.bestOffset - this.delay;
-    const error = wanted - this.playhead - elapsed;
-    let next: number;
-    if (Math.abs(error) > snapThreshold) {
-      next = wanted;
-    } else {
-      const change = Math.max(-maxSpeedChange, Math.min(maxSpeedChange, error / (correctionTime * 1000)));
-      next = this.playhead + elapsed * (1 + change);
-    }
-    // Not past the newest frame, and never back.
-    this.playhead = Math.max(this.playhead, Math.min(next, this.times.at(-1)!));
   }
 
   private show(): boolean {
@@ -248,8 +231,8 @@ export class Player {
       this.toTime = to;
       this.shownT = NaN;
     }
-    // After a silence the face rests and then moves as fast as between two messages, not slowly through the silence.
-    const span = Math.min(to - from, Math.max(this.delay, 100));
+    // After a rest the face moves as fast as between two messages, not slowly through all of the rest.
+    const span = this.times.length > 1 ? to - this.begins[1]! : 0;
     const t = span > 0 ? Math.max(0, Math.min(1, (this.playhead - (to - span)) / span)) : 0;
     if (this.eased && another) this.chooseCurve(span);
     if (t === this.shownT) return false;

@@ -17,6 +17,7 @@ import {
 } from '../../protocol/ts/messages.ts';
 import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
 import { quantizersOf, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import { ClockEstimate, pingPause } from './clock_estimate.ts';
 import { Emitter } from './emitter.ts';
 
 export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
@@ -53,7 +54,7 @@ export interface StreamOptions {
   now?: () => number;
   /** First and longest pause before connecting again, ms. Default 250 and 10000; each try doubles it. */
   backoff?: { first: number; longest: number };
-  /** ms between pings, 0: none. Default 5000. */
+  /** ms between pings at the most, 0: none. Default 5000. They come quicker after connecting, and where answers jitter. */
   pingInterval?: number;
 }
 
@@ -75,6 +76,8 @@ export class StreamClient extends Emitter<StreamEvents> {
   header: Header | null = null;
   /** FAP units per level in the frames of this stream. */
   steps: QuantizerSteps = standardQuantizers;
+  /** What is known of the stream's clock, against `now()`. */
+  readonly streamClock = new ClockEstimate();
 
   private readonly options: Required<StreamOptions>;
   private socket: WebSocket | null = null;
@@ -83,8 +86,11 @@ export class StreamClient extends Emitter<StreamEvents> {
   private resume: ResumePoint | null = null;
   private attempts = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
-  private pingTimer: ReturnType<typeof setInterval> | undefined;
+  private pingTimer: ReturnType<typeof setTimeout> | undefined;
   private pingId = 0;
+  /** Since the header, or since the clock was to be measured anew. */
+  private pings = 0;
+  private helloTime = NaN;
 
   constructor(url: string, options: StreamOptions = {}) {
     super();
@@ -111,6 +117,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.encoder = null;
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
+      this.helloTime = this.options.now();
       this.send({
         type: 'hello',
         version: protocolVersion,
@@ -134,7 +141,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     const socket = this.socket;
     this.socket = null;
     clearTimeout(this.retryTimer);
-    clearInterval(this.pingTimer);
+    clearTimeout(this.pingTimer);
     socket?.close(1000);
     this.become('closed');
   }
@@ -163,6 +170,21 @@ export class StreamClient extends Emitter<StreamEvents> {
     if (this.state !== 'open') return;
     this.pingId = (this.pingId + 1) >>> 0;
     this.send({ type: 'ping', id: this.pingId, client_time: this.options.now() });
+  }
+
+  /** Asks for the clocks a few times at once: after a pause in which this machine may have slept. */
+  measureClock(): void {
+    if (this.state !== 'open' || this.options.pingInterval <= 0) return;
+    this.pings = 0;
+    this.pingOn();
+  }
+
+  private pingOn(): void {
+    clearTimeout(this.pingTimer);
+    this.ping();
+    this.pings += 1;
+    const pause = pingPause(this.pings, this.streamClock.uncertainty, this.options.pingInterval);
+    this.pingTimer = setTimeout(() => this.pingOn(), Math.min(pause, this.options.pingInterval));
   }
 
   private become(state: ConnectionState): void {
@@ -198,15 +220,15 @@ export class StreamClient extends Emitter<StreamEvents> {
   private handle(message: Message): void {
     switch (message.type) {
       case 'header':
+        if (this.header && this.header.epoch !== message.epoch) this.streamClock.clear();
+        this.streamClock.answered(this.helloTime, this.options.now(), message.media_time);
         this.header = message;
         this.steps = quantizersOf(message);
         if (this.resume?.epoch !== message.epoch) this.resume = { epoch: message.epoch, sequence: message.sequence };
         this.attempts = 0;
-        clearInterval(this.pingTimer);
-        if (this.options.pingInterval > 0) this.pingTimer = setInterval(() => this.ping(), this.options.pingInterval);
         this.emit('header', message);
         this.become('open');
-        this.ping();
+        this.measureClock();
         return;
       case 'keyframe':
         if (this.resume) this.resume.sequence = message.sequence;
@@ -232,12 +254,13 @@ export class StreamClient extends Emitter<StreamEvents> {
   private clockOf(pong: Pong): ClockSample {
     const now = this.options.now();
     const roundTrip = Math.max(0, now - pong.client_time);
+    this.streamClock.answered(pong.client_time, now, pong.media_time);
     return { roundTrip, offset: pong.server_time + roundTrip / 2 - now, mediaTime: pong.media_time + roundTrip / 2 };
   }
 
   private lost(): void {
     this.socket = null;
-    clearInterval(this.pingTimer);
+    clearTimeout(this.pingTimer);
     const { first, longest } = this.options.backoff;
     // Half of the pause is chance, so that a thousand clients do not come back in the same moment.
     const pause = Math.min(longest, first * 2 ** this.attempts) * (0.5 + Math.random() / 2);

@@ -200,6 +200,63 @@ describe('StreamClient', () => {
     expect(events.at(-1)).toEqual(['clock', { roundTrip: 20, offset: 5010 - 120, mediaTime: 710 }]);
   });
 
+  it('Ping_AfterTheHeader_ComesQuicklyAtFirst', () => {
+    let now = 0;
+    const { stream } = client({ now: () => now });
+    stream.connect();
+    FakeSocket.last.accept();
+    now = 20;
+    FakeSocket.last.give(header);
+    const pings = (): number => FakeSocket.last.sent.filter(({ type }) => type === 'ping').length;
+    expect(pings()).toBe(1);
+    vi.advanceTimersByTime(800);
+    expect(pings()).toBe(5);
+    vi.advanceTimersByTime(10_200);
+    expect(pings()).toBe(15);
+    // Way and way back took 20 ms: that is known within 10.
+    expect(stream.streamClock.uncertainty).toBeCloseTo(10.5, 6);
+    const { sent } = FakeSocket.last;
+    FakeSocket.last.give({ type: 'pong', id: 15, client_time: 12, server_time: 0, media_time: header.media_time + 4 });
+    expect(stream.streamClock.uncertainty).toBeLessThan(10);
+    vi.advanceTimersByTime(2000); // was set before that
+    const before = sent.length;
+    vi.advanceTimersByTime(4700);
+    expect(sent.length).toBe(before);
+    vi.advanceTimersByTime(400);
+    expect(sent.length).toBe(before + 1);
+    stream.measureClock();
+    vi.advanceTimersByTime(800);
+    expect(sent.length).toBe(before + 6);
+    stream.close();
+    vi.advanceTimersByTime(60_000);
+    expect(sent.length).toBe(before + 6);
+  });
+
+  it('Header_AgainAndOfAnotherEpoch_KeepsOrForgetsTheClock', () => {
+    let now = 0;
+    const { stream } = client({ now: () => now });
+    stream.connect();
+    FakeSocket.last.accept();
+    now = 100;
+    FakeSocket.last.give(header);
+    expect(stream.streamClock.at(100)).toBeCloseTo(header.media_time + 50.5, 6);
+    FakeSocket.last.drop();
+    vi.advanceTimersByTime(250);
+    now = 1000;
+    FakeSocket.last.accept();
+    now = 1010; // the clock said 1000 and a little at 0 to 100, so now 1900 to 2010
+    FakeSocket.last.give({ ...header, media_time: 1960 });
+    expect(stream.streamClock.at(1010)).toBeCloseTo(1965.5, 6);
+    expect(stream.streamClock.steps).toBe(0);
+    FakeSocket.last.drop();
+    vi.advanceTimersByTime(250);
+    now = 2000;
+    FakeSocket.last.accept();
+    FakeSocket.last.give({ ...header, epoch: 10, media_time: 7 });
+    expect(stream.streamClock.at(2000)).toBeCloseTo(7.5, 6);
+    expect(stream.streamClock.steps).toBe(0);
+  });
+
   it('StreamUrl_OfHttpAndHttps', () => {
     expect(streamUrl('http://127.0.0.1:8080/', 'a b')).toBe('ws://127.0.0.1:8080/v1/streams/a%20b');
     expect(streamUrl('https://x', 'demo')).toBe('wss://x/v1/streams/demo');
