@@ -11,7 +11,8 @@ std::string_view subprotocol_of(Coding coding) {
 }
 
 std::string hello_frame(Coding coding) {
-  const Hello hello;
+  Hello hello;
+  if (coding == Coding::packed) hello.coding = StreamCoding::packed;
   if (coding == Coding::json) return client_frame(Opcode::text, encode_json(hello));
   const auto bytes = FrameEncoder().encode(hello);
   return client_frame(Opcode::binary, std::string(bytes.begin(), bytes.end()));

@@ -48,7 +48,7 @@ std::string SemblanteServer::make_stream(int batch_ms) {
   const auto name = "bench-" + std::to_string(getpid()) + "-" + std::to_string(streams_.size());
   Json body = {{"name", name}, {"batch_interval", batch_ms}};
   auto reply = request(endpoint_, "POST", "/v1/streams", body.dump());
-  if (reply.status != 201 && batch_ms == 0) {  // a server that knows no batches sends at once
+  if (reply.status != 201) {  // a server that gathers no batches sends at once
     body.erase("batch_interval");
     reply = request(endpoint_, "POST", "/v1/streams", body.dump());
   }
