@@ -17,6 +17,9 @@ namespace {
 using http::make_problem;
 using http::to_response;
 
+/// Seconds after which a place may have become free.
+constexpr unsigned connections_retry_after = 10;
+
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
 const Route* find_method(const Match& match, std::string_view method) {
@@ -60,7 +63,34 @@ bool is_page(const ApiConfig& config, std::string_view path) {
   return !config.web_root.empty() && path.substr(0, 4) != "/v1/";
 }
 
+http::Response to_response(const Refused& refused) {
+  auto response = http::to_response(refused.problem);
+  if (refused.retry_after > 0) response.headers["Retry-After"] = std::to_string(refused.retry_after);
+  return response;
+}
+
+/// What requests are counted by: the routes in their order, then the rest.
+std::vector<metrics::RequestKind> request_kinds() {
+  std::vector<metrics::RequestKind> kinds;
+  for (const auto& route : routes()) kinds.push_back({std::string(route.method), std::string(route.pattern)});
+  kinds.push_back({"GET", "page"});
+  kinds.push_back({"other", "other"});
+  return kinds;
+}
+
+/// Index into request_kinds(). HEAD counts as the GET it stands for.
+std::size_t kind_of(const ApiConfig& config, const http::Request& head) {
+  const auto match = match_path(head.path);
+  if (const auto* route = find_method(match, head.method)) return static_cast<std::size_t>(route - routes().data());
+  const bool page = match.routes.empty() && is_page(config, head.path) && is_safe(head.method);
+  return routes().size() + (page ? 0 : 1);
+}
+
 }  // namespace
+
+Api::Api(Context context) : context_(std::move(context)) {
+  context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
+}
 
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
   const auto& access = context_.config.access;
@@ -126,7 +156,7 @@ http::Response Api::handle(http::Request& request) {
   try {
     return route->handler(context_, request);
   } catch (const Refused& refused) {
-    return to_response(refused.problem);
+    return to_response(refused);
   }
 }
 
@@ -139,11 +169,15 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""));
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
-    return to_response(make_problem("too-many-requests", "the stream has as many connections as it takes"));
+
+    return to_response(Refused{make_problem("too-many-requests", "the stream has as many connections as it takes"),
+                               connections_retry_after});
   return to_response(make_problem("not-found", "there is no stream " + id));
 }
 
 void Api::decorate(const http::Request& head, http::Response& response) {
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - head.received;
+  context_.requests->count(kind_of(context_.config, head), response.status, took.count());
   response.headers.try_emplace("X-Content-Type-Options", "nosniff");
   const auto origin = head.header("Origin");
   if (!origin) return;

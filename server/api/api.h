@@ -11,6 +11,7 @@
 #include "server/api/access.h"
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
+#include "server/metrics/request_counts.h"
 #include "server/store/blob_store.h"
 #include "server/store/store.h"
 #include "server/streams/stream_hub.h"
@@ -32,8 +33,8 @@ struct ApiConfig {
   Access access;
 };
 
-/// Numbers of the network layer for /metrics, by the name they get there.
-using NetMetrics = std::function<std::vector<std::pair<std::string, std::uint64_t>>()>;
+/// Writes what the network layer counts into /metrics.
+using NetMetrics = std::function<void(metrics::TextWriter&)>;
 
 /// What the handlers work on. Everything in it may be used from any worker thread.
 struct Context {
@@ -43,13 +44,14 @@ struct Context {
   streams::StreamHub& hub;
   ApiConfig config;
   NetMetrics net_metrics;
+  std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The
 /// handlers are plain functions on plain values (routes.h lists them); no sockets here.
 class Api : public http::Application {
  public:
-  explicit Api(Context context) : context_(std::move(context)) {}
+  explicit Api(Context context);
 
   std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override;
   http::Response handle(http::Request& request) override;

@@ -22,6 +22,10 @@ void refuse(std::string_view slug, std::string detail, std::string pointer) {
   throw Refused{http::make_problem(slug, std::move(detail), std::move(pointer))};
 }
 
+void refuse_for_now(std::string detail, unsigned retry_after) {
+  throw Refused{http::make_problem("too-many-requests", std::move(detail)), retry_after};
+}
+
 store::ModelRecord model_of(Context& context, const http::Request& request) {
   const auto& id = request.params.at("model");
   auto model = context.store.model(id);
@@ -107,10 +111,9 @@ http::Response accepted(const store::JobRecord& job) {
   return response;
 }
 
-http::Response no_room() {
-  auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
-  response.headers["Retry-After"] = "10";
-  return response;
+void refuse_unless_room(const jobs::JobQueue& jobs) {
+  constexpr unsigned seconds = 10;
+  if (!jobs.has_room()) refuse_for_now("too many jobs are waiting", seconds);
 }
 
 void refuse_unless_imported(const store::ModelRecord& model) {

@@ -14,8 +14,11 @@ namespace semblante::api {
 /// Carries a problem out of the middle of a handler; Api::handle turns it into the answer.
 struct Refused {
   http::Problem problem;
+  unsigned retry_after = 0;  ///< seconds, for Retry-After; 0: says nothing of it
 };
 [[noreturn]] void refuse(std::string_view slug, std::string detail, std::string pointer = {});
+/// 429: the same may be asked again after so many seconds.
+[[noreturn]] void refuse_for_now(std::string detail, unsigned retry_after);
 
 /// The model of the path; refuses with 404.
 store::ModelRecord model_of(Context& context, const http::Request& request);
@@ -48,9 +51,10 @@ std::size_t page_size(const http::Request& request);
 /// The last segment of a path of any system, without what a file name cannot hold; at most 200 bytes.
 std::string clean_file_name(std::string_view name);
 
-/// 202 with a job, and 429 when no more may wait.
+/// 202 with a job.
 http::Response accepted(const store::JobRecord& job);
-http::Response no_room();
+/// Refuses with 429 when no more jobs may wait.
+void refuse_unless_room(const jobs::JobQueue& jobs);
 
 /// Refuses with 409 a model whose vertices are not known.
 void refuse_unless_imported(const store::ModelRecord& model);

@@ -78,7 +78,7 @@ http::Response create_parametrization(Context& context, http::Request& request) 
   refuse_unless_imported(model);
   if (model.feature_point_count == 0)
     refuse("missing-feature-points", "no feature point is marked on this model", "/points");
-  if (!context.jobs.has_room()) return no_room();
+  refuse_unless_room(context.jobs);
   const auto job = add_parametrization(context.store, model.id, options, check.record);
   context.jobs.enqueue(job);
   return accepted(job);
@@ -96,7 +96,7 @@ http::Response create_proposals(Context& context, http::Request& request) {
     if (!point.proposal) placed.push_back({*parse_feature_point(point.id), std::nullopt});
   }
   if (const auto fault = find_too_few_known(placed)) refuse("missing-feature-points", fault->message, fault->where);
-  if (!context.jobs.has_room()) return no_room();
+  refuse_unless_room(context.jobs);
   store::JobRecord job;
   job.id = store::random_id();
   job.model = model.id;

@@ -85,7 +85,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
   if (says_unit_only) {
     frame = apply_wish(std::move(frame), {wish.unit, {}, {}});
   } else {
-    if (!context.jobs.has_room()) refuse("too-many-requests", "too many jobs are waiting");
+    refuse_unless_room(context.jobs);
     job = new_import(model.id);
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
@@ -98,7 +98,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
 std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord& model,
                                      const std::vector<store::WornSet>& worn, bool package_goes) {
   const auto job = package_goes ? std::nullopt : make_package_again(context, model);
-  if (job && !context.jobs.has_room()) refuse("too-many-requests", "too many jobs are waiting");
+  if (job) refuse_unless_room(context.jobs);
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
     refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
   if (job) context.jobs.enqueue(*job);

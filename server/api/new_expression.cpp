@@ -185,7 +185,7 @@ http::Response create_by_example(Context& context, const http::Request& request,
   if (check.earlier) return earlier(context, *check.earlier);
   if (!example.model.empty()) check_model(context, example);
   refuse_too_many(context);
-  if (!context.jobs.has_room()) return no_room();
+  refuse_unless_room(context.jobs);
   store::JobRecord job;
   job.id = store::random_id();
   job.model = example.model;

@@ -47,8 +47,9 @@ http::Response get_health(Context&, http::Request&);
 http::Response get_ready(Context&, http::Request&);
 http::Response get_version(Context&, http::Request&);
 http::Response get_openapi(Context&, http::Request&);
-http::Response get_metrics(Context&, http::Request&);
 http::Response get_problem(Context&, http::Request&);
+// metrics_routes.cpp
+http::Response get_metrics(Context&, http::Request&);
 // models.cpp
 http::Response list_models(Context&, http::Request&);
 http::Response get_model(Context&, http::Request&);

@@ -7,14 +7,6 @@
 #include "server/http/conditional.h"
 
 namespace semblante::api {
-namespace {
-
-void metric(std::string& text, const std::string& name, std::string_view type, std::uint64_t value) {
-  text.append("# TYPE semblante_").append(name).append(" ").append(type).append("\n");
-  text.append("semblante_").append(name).append(" ").append(std::to_string(value)).append("\n");
-}
-
-}  // namespace
 
 http::Response get_health(Context&, http::Request&) { return json_response(200, {{"status", "ok"}}); }
 
@@ -44,34 +36,6 @@ http::Response get_problem(Context&, http::Request& request) {
       return json_response(
           200, {{"type", "/problems/" + slug}, {"title", std::string(kind.title)}, {"status", kind.status}});
   refuse("not-found", "there is no problem " + slug);
-}
-
-http::Response get_metrics(Context& context, http::Request&) {
-  std::string text;
-  if (context.net_metrics)
-    for (const auto& [name, value] : context.net_metrics())
-      metric(text, name, name.ends_with("_total") ? "counter" : "gauge", value);
-  metric(text, "models", "gauge", context.store.model_count());
-  metric(text, "expressions", "gauge", context.store.set_count());
-  metric(text, "jobs_waiting", "gauge", context.jobs.waiting());
-  metric(text, "jobs_running", "gauge", context.jobs.running());
-  const auto streams = context.hub.list();
-  std::uint64_t subscribers = 0;
-  for (const auto& stream : streams) subscribers += stream.subscribers;
-  metric(text, "streams", "gauge", streams.size());
-  metric(text, "stream_subscribers", "gauge", subscribers);
-  const auto counts = context.hub.counts();
-  metric(text, "stream_frames_total", "counter", counts.frames);
-  metric(text, "stream_messages_sent_total", "counter", counts.messages_sent);
-  metric(text, "stream_messages_replaced_total", "counter", counts.messages_replaced);
-  metric(text, "stream_closed_slow_total", "counter", counts.closed_slow);
-  metric(text, "stream_refused_total", "counter", counts.refused);
-  metric(text, "stream_clamped_values_total", "counter", counts.clamped_values);
-  http::Response response;
-  response.headers["Content-Type"] = "text/plain; version=0.0.4; charset=utf-8";
-  response.headers["Cache-Control"] = "no-store";
-  response.body = std::move(text);
-  return response;
 }
 
 }  // namespace semblante::api

@@ -89,11 +89,7 @@ http::Response create_model(Context& context, http::Request& request) {
   }
   if (context.store.model_count() >= context.config.limits.max_models)
     refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_models) + " models");
-  if (!context.jobs.has_room()) {
-    auto response = http::to_response(http::make_problem("too-many-requests", "too many jobs are waiting"));
-    response.headers["Retry-After"] = "10";
-    return response;
-  }
+  refuse_unless_room(context.jobs);
   auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record);
   if (!made) refuse("limit-exceeded", "the model cannot be kept: " + made.error().message);
   context.jobs.enqueue(made->job);

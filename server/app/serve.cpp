@@ -72,6 +72,17 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
   }
 }
 
+void write_net_metrics(metrics::TextWriter& writer, const net::ServerCounts& counts) {
+  using metrics::MetricType;
+  writer.single("semblante_connections", MetricType::gauge, "Connections open, WebSockets among them.",
+                counts.connections_open);
+  writer.single("semblante_connections_accepted_total", MetricType::counter, "Connections that came.",
+                counts.connections_total);
+  writer.single("semblante_connections_refused_total", MetricType::counter,
+                "Connections turned away because as many were open as are served.", counts.connections_refused);
+  writer.single("semblante_websockets", MetricType::gauge, "WebSockets open.", counts.websockets_open);
+}
+
 std::string url_of(const std::string& address, std::uint16_t port) {
   const bool is_six = address.find(':') != std::string::npos;
   return "http://" + (is_six ? "[" + address + "]" : address) + ":" + std::to_string(port);
@@ -118,14 +129,7 @@ void run_serve(const ServeOptions& options) {
   api_config.web_root = options.web_root;
   api_config.access = {options.allowed_hosts, options.allowed_origins};
   net::Server* running = nullptr;
-  const auto net_metrics = [&running] {
-    const auto counts = running->counts();
-    return std::vector<std::pair<std::string, std::uint64_t>>{{"connections", counts.connections_open},
-                                                              {"connections_total", counts.connections_total},
-                                                              {"connections_refused_total", counts.connections_refused},
-                                                              {"requests_total", counts.requests_total},
-                                                              {"websockets", counts.websockets_open}};
-  };
+  const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
   api::Api api(api::Context{**store, *blobs, queue, hub, api_config, net_metrics});
 
   net::ServerConfig net_config;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -47,6 +48,7 @@ struct Request {
   std::shared_ptr<TemporaryFile> body_file;   ///< when the route wanted it on disk
   std::uint64_t body_size = 0;                ///< bytes, in memory or on disk
   std::map<std::string, std::string> params;  ///< of the route pattern: {"model", "k3f..."}
+  std::chrono::steady_clock::time_point received = std::chrono::steady_clock::now();  ///< its header
 
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;
   [[nodiscard]] std::optional<std::string_view> query_value(const std::string& name) const;

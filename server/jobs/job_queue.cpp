@@ -63,6 +63,16 @@ std::size_t JobQueue::running() const {
   return running_.size();
 }
 
+std::uint64_t JobQueue::ended(JobKind kind, JobState state) const {
+  return ended_[static_cast<std::size_t>(kind) * states + static_cast<std::size_t>(state)];
+}
+
+void JobQueue::conclude(const JobRecord& job) {
+  ++ended_[static_cast<std::size_t>(job.kind) * states + static_cast<std::size_t>(job.state)];
+  publish(job);
+  if (on_finished_) on_finished_(job);
+}
+
 void JobQueue::enqueue(const JobRecord& job) {
   {
     const std::lock_guard lock(mutex_);
@@ -85,8 +95,7 @@ bool JobQueue::cancel(std::string_view id) {
     queue_.erase(waiting);
   }
   fail(job, JobState::cancelled, http::make_problem("cancelled", "it was cancelled before it began"));
-  publish(job);
-  if (on_finished_) on_finished_(job);
+  conclude(job);
   return true;
 }
 
@@ -159,10 +168,7 @@ void JobQueue::work() {
       running_.erase(running->job.id);
     }
     changed_.notify_all();
-    if (store::is_final(running->job.state)) {
-      publish(running->job);
-      if (on_finished_) on_finished_(running->job);
-    }
+    if (store::is_final(running->job.state)) conclude(running->job);
   }
 }
 

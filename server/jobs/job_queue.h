@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -69,6 +70,8 @@ class JobQueue {
 
   [[nodiscard]] std::size_t waiting() const;
   [[nodiscard]] std::size_t running() const;
+  /// How many jobs of a kind have ended so (done, failed, cancelled) since the queue was made.
+  [[nodiscard]] std::uint64_t ended(store::JobKind kind, store::JobState state) const;
 
  private:
   struct Running {
@@ -91,11 +94,15 @@ class JobQueue {
   http::Problem problem_of(const WorkerExit& exit) const;
   Result<WorkerRequest> make_request(const store::JobRecord& job) const;
   void publish(const store::JobRecord& job);
+  /// publish(), count and on_finished_: after the last change of a job.
+  void conclude(const store::JobRecord& job);
 
   store::Store& store_;
   store::BlobStore& blobs_;
   const JobConfig config_;
   Watcher on_finished_;
+  static constexpr std::size_t kinds = 4, states = 5;
+  std::array<std::atomic<std::uint64_t>, kinds * states> ended_{};
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;

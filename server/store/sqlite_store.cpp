@@ -156,6 +156,13 @@ class SqliteStore : public Store {
     return find_public_artefact(db_, sha256);
   }
 
+  std::uint64_t artefact_bytes() override {
+    const std::lock_guard lock(mutex_);
+    Statement statement(
+        db_, "SELECT coalesce(sum(bytes), 0) FROM (SELECT max(bytes) AS bytes FROM artefacts GROUP BY sha256)");
+    return statement.step() ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
+  }
+
   std::vector<std::string> referenced_hashes() override {
     const std::lock_guard lock(mutex_);
     return all_hashes(db_);

@@ -55,6 +55,8 @@ class Store {
   virtual std::vector<ArtefactRecord> artefacts(std::string_view model) = 0;
   /// By content, among those clients may fetch (all but "source" and "positions").
   virtual std::optional<ArtefactRecord> public_artefact(std::string_view sha256) = 0;
+  /// Bytes of all artefacts, each content counted once.
+  virtual std::uint64_t artefact_bytes() = 0;
   /// Every hash the facts refer to: what a sweep of the blob folder must keep.
   virtual std::vector<std::string> referenced_hashes() = 0;
 
