@@ -34,9 +34,12 @@ int main(int argc, char** argv) {
     using namespace semblante::codegen;
     const std::string root = std::string(argv[1]) + "/protocol";
     const auto schema = read_schema(root + "/schema/messages.json");
+    const auto packed = read_schema(root + "/schema/packed_tables.json");
+    write(root + "/cpp/generated/packed_tables.h", render_packed_cpp(packed));
+    write(root + "/ts/generated/packed_tables.ts", render_packed_typescript(packed));
     write(root + "/cpp/generated/messages.h", render_cpp(schema));
     write(root + "/ts/generated/messages.ts", render_typescript(schema));
-    write(root + "/SPEC.md", render_spec(schema, read(root + "/SPEC.md")));
+    write(root + "/SPEC.md", render_spec(schema, packed, read(root + "/SPEC.md")));
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "semblante-codegen-protocol: %s\n", fault.what());
     return 1;

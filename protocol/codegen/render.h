@@ -6,14 +6,23 @@
 
 namespace semblante::codegen {
 
-/// Reads protocol/schema/messages.json. Throws std::exception on any fault: this runs at development time only.
+/// Reads messages.json or packed_tables.json of protocol/schema. Throws std::exception on any fault: this runs at
+/// development time only.
 nlohmann::ordered_json read_schema(const std::string& path);
 
 /// protocol/cpp/generated/messages.h: structs, enums and `visit_fields`, from which the codecs are templates.
 std::string render_cpp(const nlohmann::ordered_json& schema);
 /// protocol/ts/generated/messages.ts: interfaces, and the same description as data, which the codecs interpret.
 std::string render_typescript(const nlohmann::ordered_json& schema);
+/// protocol/cpp/generated/packed_tables.h and protocol/ts/generated/packed_tables.ts: what the packed form knows
+/// beforehand.
+std::string render_packed_cpp(const nlohmann::ordered_json& packed);
+std::string render_packed_typescript(const nlohmann::ordered_json& packed);
+/// Two tables of SPEC.md.
+std::string packed_table_list(const nlohmann::ordered_json& packed);
+std::string packed_reference_list(const nlohmann::ordered_json& packed);
 /// SPEC.md with the text between each pair of `<!-- generated: NAME -->` and `<!-- end -->` made anew.
-std::string render_spec(const nlohmann::ordered_json& schema, const std::string& spec);
+std::string render_spec(const nlohmann::ordered_json& schema, const nlohmann::ordered_json& packed,
+                        const std::string& spec);
 
 }  // namespace semblante::codegen

@@ -98,11 +98,15 @@ std::string quantizer_table() {
 
 }  // namespace
 
-std::string render_spec(const Json& schema, const std::string& spec) {
+std::string render_spec(const Json& schema, const Json& packed, const std::string& spec) {
   const std::map<std::string, std::function<std::string()>> sections = {
-      {"messages", [&] { return message_tables(schema); }}, {"enums", [&] { return enum_tables(schema); }},
-      {"limits", [&] { return limit_table(schema); }},      {"groups", [] { return group_table(); }},
+      {"messages", [&] { return message_tables(schema); }},
+      {"enums", [&] { return enum_tables(schema); }},
+      {"limits", [&] { return limit_table(schema); }},
+      {"groups", [] { return group_table(); }},
       {"quantizers", [] { return quantizer_table(); }},
+      {"packed tables", [&] { return packed_table_list(packed); }},
+      {"packed references", [&] { return packed_reference_list(packed); }},
   };
   const std::string open = "<!-- generated: ";
   const std::string close = "<!-- end -->";

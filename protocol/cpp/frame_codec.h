@@ -7,6 +7,7 @@
 
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
+#include "protocol/cpp/packed_state.h"
 
 namespace semblante {
 
@@ -26,7 +27,8 @@ class FrameEncoder {
   std::uint64_t last_sequence_ = 0;
 };
 
-/// Reads the messages of ONE stream in the binary form; takes any bytes.
+/// Reads the messages of ONE stream in the binary form, plain or packed; takes any bytes. Both give the same messages;
+/// frames must be of the form of the keyframe before them.
 class FrameDecoder {
  public:
   /// Errors: `unsupported` for a message type of a later version (skip it), `mismatch` (where "/sequence") for frames
@@ -34,11 +36,17 @@ class FrameDecoder {
   /// the decoder's state is what it was before the message.
   Result<Message> decode(std::span<const std::uint8_t> bytes);
 
-  void reset() { last_.reset(); }
+  void reset() {
+    last_.reset();
+    packed_.reset();
+  }
 
  private:
-  std::optional<FaceFrame> last_;
+  Result<Message> decode_packed(std::span<const std::uint8_t> bytes);
+
+  std::optional<FaceFrame> last_;  ///< of the plain form
   std::uint64_t last_sequence_ = 0;
+  std::optional<PackedState> packed_;
 };
 
 }  // namespace semblante

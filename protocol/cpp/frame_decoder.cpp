@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/state_codec.h"
 #include "protocol/cpp/utf8.h"
 
@@ -164,11 +165,13 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::opt
 Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "an empty message"};
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
+  if (is_packed_keyframe(bytes[0]) || is_packed_frames(bytes[0])) return decode_packed(bytes);
   auto result = read_by_type(bytes, last_, static_cast<const Message*>(nullptr));
   if (!result) return result;
   if (const auto* keyframe = std::get_if<Keyframe>(&*result)) {
     last_ = keyframe->state;
     last_sequence_ = keyframe->sequence;
+    packed_.reset();
   } else if (auto* frames = std::get_if<Frames>(&*result)) {
     const std::uint64_t next = last_sequence_ + 1;
     if (frames->sequence == 0) frames->sequence = next;
@@ -180,6 +183,21 @@ Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
     last_sequence_ += frames->frames.size();
   }
   return result;
+}
+
+Result<Message> FrameDecoder::decode_packed(std::span<const std::uint8_t> bytes) {
+  if (is_packed_keyframe(bytes[0])) {
+    PackedState state;
+    auto keyframe = read_packed_keyframe(bytes, state);
+    if (!keyframe) return std::move(keyframe).error();
+    packed_ = state;
+    last_.reset();
+    return Message(*keyframe);
+  }
+  if (!packed_) return Error{ErrorCode::mismatch, "/sequence", "packed frames before a packed keyframe"};
+  auto frames = read_packed_frames(bytes, *packed_);
+  if (!frames) return std::move(frames).error();
+  return Message(*std::move(frames));
 }
 
 }  // namespace semblante

@@ -34,6 +34,10 @@ inline constexpr std::uint32_t protocol_version = 1;
 inline constexpr std::string_view binary_subprotocol = "semblante.v1";
 inline constexpr std::string_view json_subprotocol = "semblante.v1.json";
 
+/// First bytes of the packed form; that of frames has the low seven bits of `sequence` added.
+inline constexpr std::uint8_t packed_keyframe_type = 9;
+inline constexpr std::uint8_t packed_frames_type = 128;
+
 inline constexpr std::size_t max_binary_message_bytes = 262144;
 inline constexpr std::size_t max_json_message_bytes = 1048576;
 inline constexpr std::size_t max_frames_per_message = 1024;

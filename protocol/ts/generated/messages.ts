@@ -6,6 +6,9 @@ export const protocolVersion = 1;
 export const binarySubprotocol = 'semblante.v1';
 export const jsonSubprotocol = 'semblante.v1.json';
 
+export const packedKeyframeType = 9;
+export const packedFramesType = 128;
+
 export const limits = {
   max_binary_message_bytes: 262144,
   max_json_message_bytes: 1048576,

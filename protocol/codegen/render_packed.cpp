@@ -1,0 +1,106 @@
+#include "protocol/codegen/render.h"
+#include "protocol/codegen/schema.h"
+
+namespace semblante::codegen {
+namespace {
+
+/// Lines of at most 20 numbers.
+std::string numbers(const Json& values, const std::string& indent) {
+  std::string out;
+  std::size_t i = 0;
+  for (const Json& value : values) {
+    out += (i % 20 == 0 ? (i == 0 ? "" : ",\n") + indent : ", ") + value.dump();
+    ++i;
+  }
+  return out;
+}
+
+std::string all_values(const Json& packed, const std::string& comment, const std::string& indent) {
+  std::string out;
+  for (const Json& table : packed.at("tables")) {
+    out += indent + comment + text(table, "name") + "\n" + numbers(table.at("values"), indent) + ",\n";
+  }
+  return out;
+}
+
+std::string camel_case(const std::string& name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (name[i] == '_') continue;
+    const bool first = i > 0 && name[i - 1] == '_';
+    out += first ? static_cast<char>(name[i] - 'a' + 'A') : name[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render_packed_cpp(const Json& packed) {
+  std::string out = R"(// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
+// clang-format off
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+/// What the packed form knows beforehand: SPEC.md, "Packed form".
+namespace semblante::packed_tables {
+
+/// By FAP: one coded before it that often moves as it does; 0: none.
+)";
+  out += "inline constexpr std::array<std::uint8_t, 69> references = {\n" + numbers(packed.at("references"), "    ") +
+         "};\n\n// The first context of each table.\n";
+  std::size_t at = 0;
+  for (const Json& table : packed.at("tables")) {
+    const std::string doc = text(table, "doc");
+    out += "inline constexpr std::size_t " + text(table, "name") + " = " + std::to_string(at) + ";" +
+           (doc.empty() ? "\n" : "  ///< " + doc + "\n");
+    at += table.at("values").size();
+  }
+  out += "inline constexpr std::size_t size = " + std::to_string(at) + ";\n\n";
+  out +=
+      "/// By context: the probability of a 1 in 4096ths.\ninline constexpr std::array<std::uint16_t, size> values = "
+      "{\n" +
+      all_values(packed, "// ", "    ") + "};\n\n}  // namespace semblante::packed_tables\n";
+  return out;
+}
+
+std::string render_packed_typescript(const Json& packed) {
+  std::string out = R"(// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
+
+/** By FAP: one coded before it that often moves as it does; 0: none. */
+)";
+  out += "export const references: readonly number[] = [\n" + numbers(packed.at("references"), "  ") +
+         ",\n];\n\n/** The first context of each table. */\nexport const contexts = {\n";
+  std::size_t at = 0;
+  for (const Json& table : packed.at("tables")) {
+    out += "  " + camel_case(text(table, "name")) + ": " + std::to_string(at) + ",\n";
+    at += table.at("values").size();
+  }
+  out +=
+      "} as const;\n\n/** By context: the probability of a 1 in 4096ths. */\nexport const probabilities = "
+      "Uint16Array.of(\n" +
+      all_values(packed, "// ", "  ") + ");\n";
+  return out;
+}
+
+std::string packed_table_list(const Json& packed) {
+  std::string out = "| table | contexts | index |\n|---|---|---|\n";
+  for (const Json& table : packed.at("tables")) {
+    out += "| `" + text(table, "name") + "` | " + std::to_string(table.at("values").size()) + " | " +
+           text(table, "doc") + " |\n";
+  }
+  return out;
+}
+
+std::string packed_reference_list(const Json& packed) {
+  std::string out = "| FAP | reference |\n|---|---|\n";
+  for (std::size_t fap = 3; fap < packed.at("references").size(); ++fap) {
+    const Json& reference = packed.at("references").at(fap);
+    if (reference != 0) out += "| " + std::to_string(fap) + " | " + reference.dump() + " |\n";
+  }
+  return out;
+}
+
+}  // namespace semblante::codegen

@@ -1,0 +1,83 @@
+#include <string>
+
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/packed_model.h"
+#include "protocol/cpp/range_coder.h"
+
+namespace semblante {
+namespace {
+
+Status check(const RangeDecoder& coder, const PackedModel<RangeDecoder>& model, const std::string& where) {
+  if (!coder.valid()) return Error{ErrorCode::malformed, where, "begins as no packed message does"};
+  if (coder.truncated()) return Error{ErrorCode::truncated, where, "the message ends within a packed state"};
+  if (!model.fault().empty()) return Error{ErrorCode::out_of_range, where + model.fault(), "outside its range"};
+  return Unit{};
+}
+
+/// A longer message would be of a later version, which has to be of another type: what is coded has no end of its own.
+Status check_end(const RangeDecoder& coder, const std::string& where) {
+  if (coder.has_more()) return Error{ErrorCode::malformed, where, "bytes after the end"};
+  return Unit{};
+}
+
+Error out_of_range(const char* where) { return {ErrorCode::out_of_range, where, "must be at most 2^53 - 1"}; }
+
+}  // namespace
+
+Result<Keyframe> read_packed_keyframe(std::span<const std::uint8_t> bytes, PackedState& state,
+                                      const PackedTable& table) {
+  byte_io::Reader reader(bytes);
+  reader.u8();
+  PackedState read;
+  read.sequence = reader.varint();
+  if (reader.failed()) return Error{ErrorCode::truncated, "/sequence", "the message ends within this field"};
+  if (read.sequence > max_media_time) return out_of_range("/sequence");
+  const std::uint64_t media_time = reader.varint();
+  if (reader.failed()) return Error{ErrorCode::truncated, "/media_time", "the message ends within this field"};
+  if (media_time > max_media_time) return out_of_range("/media_time");
+
+  RangeDecoder coder(bytes.subspan(reader.position()));
+  PackedModel model(coder, table, read);
+  model.history(PackedState{});
+  read.media_time = media_time;
+  if (auto status = check(coder, model, "/state"); !status) return std::move(status).error();
+  if (auto status = check_end(coder, "/state"); !status) return std::move(status).error();
+  state = read;
+  return Keyframe{read.sequence, media_time, read.before[0]};
+}
+
+Result<Frames> read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& state, const PackedTable& table) {
+  const std::uint64_t next = state.sequence + 1;
+  if (bytes.empty() || (bytes[0] & 0x7FU) != (next & 0x7FU)) {
+    return Error{ErrorCode::mismatch, "/sequence", "frame " + std::to_string(next) + " is expected"};
+  }
+  PackedState read = state;
+  RangeDecoder coder(bytes.subspan(1));
+  PackedModel model(coder, table, read);
+  Frames frames;
+  frames.sequence = next;
+  const std::uint64_t count = model.count(0);
+  frames.media_time = model.base_time(0);
+  std::uint64_t time = model.offset(0);
+  if (auto status = check(coder, model, ""); !status) return std::move(status).error();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::string where = "/frames/" + std::to_string(i);
+    TimedFrame frame;
+    if (i > 0) time += model.step(0);
+    if (time > max_frame_time) {
+      return Error{ErrorCode::out_of_range, where + "/time", "more than a day after media_time"};
+    }
+    frame.time = static_cast<std::uint32_t>(time);
+    model.frame(frame.state);
+    if (auto status = check(coder, model, where); !status) return std::move(status).error();
+    frames.frames.push_back(frame);
+  }
+  if (auto status = check_end(coder, "/frames"); !status) return std::move(status).error();
+  read.sequence += count;
+  read.fresh = false;
+  state = read;
+  return frames;
+}
+
+}  // namespace semblante

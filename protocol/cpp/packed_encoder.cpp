@@ -1,0 +1,55 @@
+#include <cassert>
+
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/packed_model.h"
+#include "protocol/cpp/range_coder.h"
+
+namespace semblante {
+
+PackedEncoder::PackedEncoder(const Keyframe& start, const PackedTable& table) : table_(&table) {
+  assert(is_valid(start.state) && start.sequence <= max_media_time && start.media_time <= max_media_time);
+  state_.before.fill(start.state);
+  state_.sequence = start.sequence;
+  state_.media_time = start.media_time;
+}
+
+std::vector<std::uint8_t> PackedEncoder::encode(const Frames& frames) {
+  assert(frames.sequence == 0 || frames.sequence == state_.sequence + 1);
+  assert(!frames.frames.empty() && frames.frames.size() <= max_frames_per_message);
+  assert(frames.media_time <= max_media_time);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(16 * frames.frames.size());
+  bytes.push_back(static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU)));
+  RangeEncoder coder(bytes);
+  PackedModel model(coder, *table_, state_);
+  model.count(frames.frames.size());
+  model.base_time(frames.media_time);
+  model.offset(frames.frames.front().time);
+  std::uint32_t time = frames.frames.front().time;
+  for (const TimedFrame& frame : frames.frames) {
+    assert(is_valid(frame.state) && frame.time >= time && frame.time <= max_frame_time);
+    if (&frame != &frames.frames.front()) model.step(frame.time - time);
+    time = frame.time;
+    FaceFrame now = frame.state;
+    model.frame(now);
+  }
+  coder.finish();
+  state_.sequence += frames.frames.size();
+  state_.fresh = false;
+  return bytes;
+}
+
+std::vector<std::uint8_t> PackedEncoder::keyframe() const {
+  std::vector<std::uint8_t> bytes = {packed_keyframe_type};
+  byte_io::append_varint(bytes, state_.sequence);
+  byte_io::append_varint(bytes, state_.media_time);
+  RangeEncoder coder(bytes);
+  PackedState said;
+  PackedModel model(coder, *table_, said);
+  model.history(state_);
+  coder.finish();
+  return bytes;
+}
+
+}  // namespace semblante

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/cpp/face_frame.h"
+
+namespace semblante {
+
+inline constexpr std::uint64_t max_media_time = 9007199254740991U;  // 2^53 - 1
+
+/// All that both sides of a packed stream remember: the last four frames and what the next message's numbers and times
+/// are expected to be. Its tables are fixed, so nothing else is learned, and a keyframe can say the whole of it.
+struct PackedState {
+  std::array<FaceFrame, 4> before{};  ///< [0] the newest
+  std::uint64_t sequence = 0;         ///< of before[0]
+  std::uint64_t media_time = 0;       ///< ms, of before[0]
+  std::uint32_t step = 40;            ///< ms that the next frame is expected to come later
+  std::uint16_t count = 1;            ///< frames that the next batch is expected to have
+  std::uint8_t time_class = 0;        ///< of the newest frame: 0 as expected, 1 later, 2 earlier
+  std::uint8_t viseme_class = 0;      ///< 0: as before; else 1 + the kind of its change
+  std::uint8_t expression_class = 0;  ///< 1: changed
+  bool fresh = true;                  ///< nothing but a keyframe has been said
+
+  friend bool operator==(const PackedState&, const PackedState&) = default;
+};
+
+}  // namespace semblante
