@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "server/app/clip_output.h"
 #include "server/app/commands.h"
 #include "server/app/face_formats.h"
 #include "server/app/face_reading_options.h"
@@ -18,12 +19,21 @@ struct ConvertCommand {
   std::string in_format, out_format;  ///< names; empty: by the file's name
   FaceReading reading;
   FaceWriting writing;
+  ClipOutput clip;
   bool quiet = false;
 };
 
 void run(ConvertCommand& options) {
   options.reading.rate = options.writing.rate;
-  const FaceSequence sequence = read_faces(options.in, options.in_format, options.reading);
+  FaceSequence sequence = read_faces(options.in, options.in_format, options.reading);
+  if (is_clip(options.out, options.out_format)) {
+    options.clip.head.quiet = options.quiet;
+    const std::string name = std::filesystem::path(options.in).stem().string();
+    for (std::string& warning : write_clip(options.clip, sequence, name, options.out))
+      sequence.warnings.push_back(std::move(warning));
+    print_warnings(sequence.warnings, options.quiet);
+    return;
+  }
   const std::string text = write_faces(sequence, options.out, options.out_format, options.writing);
   write_file(options.out, [&text](std::ostream& out) { out << text; });
   print_warnings(sequence.warnings, options.quiet);
@@ -36,7 +46,7 @@ std::string list_of_formats() {
     if (format.read == nullptr) text += "; written only";
     if (format.write == nullptr) text += "; read only";
   }
-  return text;
+  return text + "\n  glb (.glb): an animated face for any glTF viewer, of --model or --package; written only";
 }
 
 }  // namespace
@@ -54,7 +64,7 @@ void add_convert_command(CLI::App& app) {
       ->envname("SEMBLANTE_IN_FORMAT");
   command
       ->add_option("--out-format", options->out_format,
-                   "Of --out, if its name does not tell: " + writable_face_formats())
+                   "Of --out, if its name does not tell: " + writable_face_formats() + ", glb")
       ->envname("SEMBLANTE_OUT_FORMAT");
   add_face_reading_options(*command, options->reading);
   command
@@ -69,6 +79,7 @@ void add_convert_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_TOLERANCE");
+  add_clip_options(*command, options->clip);
   command->add_flag("--quiet", options->quiet, "No warnings")->envname("SEMBLANTE_QUIET");
   command->callback([options] { run(*options); });
 }

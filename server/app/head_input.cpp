@@ -105,6 +105,40 @@ void warn_of_missing_points(const std::vector<MarkedPoint>& marked, std::vector<
   }
 }
 
+const std::vector<std::string> model_formats = {"glb", "gltf", "gltf_zip", "obj", "ply", "stl"};
+
+/// --unit, --up and --front.
+void add_placing_options(CLI::App& command, HeadOptions& options) {
+  command.add_option("--unit", options.unit, "Unit of MODEL's coordinates, instead of a guess")
+      ->check(CLI::IsMember(std::vector<std::string>(length_unit_names.begin(), length_unit_names.end())))
+      ->envname("SEMBLANTE_UNIT");
+  const auto direction = CLI::Validator(
+      [](std::string& text) { return parse_direction(text) ? std::string() : "must be +X, -X, +Y, -Y, +Z or -Z"; },
+      "DIRECTION");
+  command.add_option("--up", options.up, "Where the top of the head is in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_UP");
+  command.add_option("--front", options.front, "Where the face looks in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_FRONT");
+}
+
+/// --weights and --metric.
+void add_weight_options(CLI::App& command, HeadOptions& options) {
+  command
+      .add_option("--weights", options.weights,
+                  "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
+      ->check(CLI::IsMember({"paper", "smooth"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_WEIGHTS");
+  command
+      .add_option("--metric", options.metric,
+                  "What the surface distance is measured along: edge, or unfolded (nearer to the geodesic)")
+      ->check(CLI::IsMember({"edge", "unfolded"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_METRIC");
+}
+
 }  // namespace
 
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points) {
@@ -118,37 +152,31 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
       ->required(points == PointsOption::required)
       ->envname("SEMBLANTE_FEATURE_POINTS");
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
-      ->check(CLI::IsMember({"glb", "gltf", "gltf_zip", "obj", "ply", "stl"}))
+      ->check(CLI::IsMember(model_formats))
       ->envname("SEMBLANTE_FORMAT");
-  command.add_option("--unit", options.unit, "Unit of MODEL's coordinates, instead of a guess")
-      ->check(CLI::IsMember(std::vector<std::string>(length_unit_names.begin(), length_unit_names.end())))
-      ->envname("SEMBLANTE_UNIT");
-  const auto direction = CLI::Validator(
-      [](std::string& text) { return parse_direction(text) ? std::string() : "must be +X, -X, +Y, -Y, +Z or -Z"; },
-      "DIRECTION");
-  command.add_option("--up", options.up, "Where the top of the head is in MODEL, instead of a guess")
-      ->check(direction)
-      ->envname("SEMBLANTE_UP");
-  command.add_option("--front", options.front, "Where the face looks in MODEL, instead of a guess")
-      ->check(direction)
-      ->envname("SEMBLANTE_FRONT");
+  add_placing_options(command, options);
   command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
 }
 
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
   add_file_options(command, options, points);
-  command
-      .add_option("--weights", options.weights,
-                  "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
-      ->check(CLI::IsMember({"paper", "smooth"}))
-      ->capture_default_str()
-      ->envname("SEMBLANTE_WEIGHTS");
-  command
-      .add_option("--metric", options.metric,
-                  "What the surface distance is measured along: edge, or unfolded (nearer to the geodesic)")
-      ->check(CLI::IsMember({"edge", "unfolded"}))
-      ->capture_default_str()
-      ->envname("SEMBLANTE_METRIC");
+  add_weight_options(command, options);
+}
+
+void add_named_head_options(CLI::App& command, HeadOptions& options) {
+  CLI::Option* const model =
+      command.add_option("--model", options.model_path, "A head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+          ->envname("SEMBLANTE_MODEL");
+  CLI::Option* const points =
+      command.add_option("--feature-points,--points", options.feature_points_path, "Its feature points, as JSON")
+          ->needs(model)
+          ->envname("SEMBLANTE_FEATURE_POINTS");
+  model->needs(points);
+  command.add_option("--model-format", options.format, "Format of the head, instead of what its content shows")
+      ->check(CLI::IsMember(model_formats))
+      ->envname("SEMBLANTE_MODEL_FORMAT");
+  add_placing_options(command, options);
+  add_weight_options(command, options);
 }
 
 void print_warnings(const std::vector<std::string>& warnings, bool quiet) {

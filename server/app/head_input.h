@@ -34,6 +34,10 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
 /// The same, and --weights and --metric.
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
+/// The same for a command whose own argument is another file: --model, --model-format and the rest but --quiet, none of
+/// them required.
+void add_named_head_options(CLI::App& command, HeadOptions& options);
+
 /// What the files say, brought into the MPEG-4 frame.
 struct HeadFiles {
   Model model;

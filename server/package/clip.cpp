@@ -279,7 +279,7 @@ nlohmann::json extras_of(const ClipFigures& figures, const FaceSkin& skin, const
   out["error"] = figures.error;
   out["error_first_four"] = figures.error_first_four;
   if (figures.error_tongue_roll > 0.0) out["error_tongue_roll"] = figures.error_tongue_roll;
-  out["warnings"] = warnings;
+  if (!warnings.empty()) out["warnings"] = warnings;
   return {{"semblante", out}};
 }
 
