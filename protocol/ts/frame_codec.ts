@@ -1,6 +1,15 @@
 import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from './byte_io.ts';
 import { copyFrame, neutralFrame, type FaceFrame, type TimedFrame } from './face_frame.ts';
-import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
+import {
+  isAppended,
+  limits,
+  messages,
+  packedFramesType,
+  packedKeyframeType,
+  type Field,
+  type Message,
+} from './generated/messages.ts';
+import { PackedDecoder } from './packed_codec.ts';
 import { ProtocolError } from './protocol_error.ts';
 import { readState, writeState } from './state_codec.ts';
 
@@ -119,10 +128,15 @@ export class FrameEncoder {
   }
 }
 
-/** Reads the messages of ONE stream in the binary form; takes any bytes. */
+/**
+ * Reads the messages of ONE stream in the binary form, plain or packed; takes any bytes. Both give the same messages;
+ * frames must be of the form of the keyframe before them.
+ */
 export class FrameDecoder {
+  /** Of the plain form. */
   private last: FaceFrame | null = null;
   private lastSequence = 0;
+  private packed = new PackedDecoder();
 
   /**
    * Throws ProtocolError: `unsupported` for a message type of a later version (skip it), `mismatch` at "/sequence" for
@@ -133,6 +147,12 @@ export class FrameDecoder {
     const type = bytes[0];
     if (type === undefined) throw new ProtocolError('truncated', '/type', 'an empty message');
     if (bytes.length > limits.max_binary_message_bytes) throw new ProtocolError('too_large', '', 'over 256 KiB');
+    if (type === packedKeyframeType) {
+      const keyframe = this.packed.keyframe(bytes);
+      this.last = null;
+      return keyframe;
+    }
+    if (type >= packedFramesType) return this.packed.frames(bytes);
     const description = messages.find((candidate) => candidate.type === type);
     if (!description) throw new ProtocolError('unsupported', '/type', `no message has the type ${type}`);
 
@@ -143,6 +163,7 @@ export class FrameDecoder {
     if (message.type === 'keyframe') {
       this.last = copyFrame(message.state);
       this.lastSequence = message.sequence;
+      this.packed = new PackedDecoder();
     } else if (message.type === 'frames') {
       const next = this.lastSequence + 1;
       if (message.sequence === 0) message.sequence = next;
@@ -157,6 +178,7 @@ export class FrameDecoder {
 
   reset(): void {
     this.last = null;
+    this.packed = new PackedDecoder();
   }
 
   private read(from: ByteReader, field: Field, prefix: string): unknown {

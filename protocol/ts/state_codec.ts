@@ -106,7 +106,7 @@ function readGroup(from: ByteReader, group: FapGroup, state: FaceFrame, where: s
 }
 
 /** Our own mistakes are RangeErrors: what is written is within the documented ranges. */
-function checkState(state: FaceFrame): void {
+export function checkState(state: FaceFrame): void {
   const within = (value: number, most: number): boolean => Number.isInteger(value) && value >= 0 && value <= most;
   const { viseme, expression, levels } = state;
   const good =

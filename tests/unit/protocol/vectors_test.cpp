@@ -2,12 +2,14 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 
@@ -74,6 +76,50 @@ TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
   const auto absent = FrameDecoder().decode(from_hex(vectors.at("reads_as_absent")));
   ASSERT_TRUE(absent.ok());
   EXPECT_EQ(std::get<Header>(*absent).viseme_share, std::nullopt);
+}
+
+TEST(Vectors, PackedStreams_BinaryAndJson_MeanTheSame) {
+  const json vectors = json::parse(read("packed.json"));
+  ASSERT_EQ(vectors.at("streams").size(), 6U);
+  for (const json& stream : vectors.at("streams")) {
+    const std::string name = stream.at("name");
+    std::optional<PackedEncoder> encoder;
+    std::vector<FrameDecoder> readers;  // one more at each keyframe, which it begins with
+    for (const json& vector : stream.at("messages")) {
+      const Bytes bytes = from_hex(vector.at("binary"));
+      const auto meant = decode_json(vector.at("json").dump());
+      ASSERT_TRUE(meant.ok()) << name << ": " << meant.error().message;
+      const auto* keyframe = std::get_if<Keyframe>(&*meant);
+      if (keyframe != nullptr) {
+        if (!encoder) encoder.emplace(*keyframe);
+        EXPECT_EQ(encoder->keyframe(), bytes) << name;
+        readers.emplace_back();
+      } else {
+        EXPECT_EQ(encoder->encode(std::get<Frames>(*meant)), bytes) << name;
+      }
+      for (FrameDecoder& reader : readers) {
+        if (keyframe != nullptr && &reader != &readers.back()) continue;
+        const auto from_bytes = reader.decode(bytes);
+        ASSERT_TRUE(from_bytes.ok()) << name << ": " << from_bytes.error().message;
+        EXPECT_EQ(*from_bytes, *meant) << name;
+      }
+    }
+  }
+}
+
+TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
+  const json vectors = json::parse(read("packed_refused.json"));
+  ASSERT_FALSE(vectors.at("refused").empty());
+  for (const json& vector : vectors.at("refused")) {
+    const std::string name = vector.at("name");
+    FrameDecoder decoder;
+    for (const json& before : vector.at("before")) ASSERT_TRUE(decoder.decode(from_hex(before)).ok()) << name;
+    const auto result = decoder.decode(from_hex(vector.at("binary")));
+    ASSERT_FALSE(result.ok()) << name;
+    const StreamError error = to_stream_error(result.error());
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
+    EXPECT_EQ(error.where, vector.at("where")) << name;
+  }
 }
 
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
