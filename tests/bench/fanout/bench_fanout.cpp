@@ -71,5 +71,6 @@ int main(int count, char** words) {
   if (is_soak) return soak(options);
   if (is_idle) return idle(options);
   if (is_stall) return stall(options);
+  if (is_hostile) return hostile(options);
   return compare(options);
 }

@@ -19,7 +19,7 @@ constexpr std::size_t wave = 128;
 constexpr std::size_t sample_every = 97;
 constexpr std::size_t buffer_bytes = 256 * 1024;
 /// A subscriber may be so far ahead of all others when it joins in the middle of a round of sending.
-constexpr std::size_t most_early = 64;
+constexpr std::size_t most_early = 1024;
 
 }  // namespace
 
