@@ -48,6 +48,8 @@ export interface ClockSample {
 export interface StreamOptions {
   role?: StreamRole;
   subprotocol?: 'binary' | 'json';
+  /** Of a publisher: to replace the one there is. Default false. */
+  takeOver?: boolean;
   /** Default: the platform's. Node 18 has none: pass that of a package. */
   WebSocket?: new (url: string, protocols: string[]) => WebSocket;
   /** ms; default performance.now() */
@@ -98,6 +100,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.options = {
       role: 'subscribe',
       subprotocol: 'binary',
+      takeOver: false,
       WebSocket: globalThis.WebSocket,
       now: () => performance.now(),
       backoff: { first: 250, longest: 10_000 },
@@ -123,8 +126,8 @@ export class StreamClient extends Emitter<StreamEvents> {
         version: protocolVersion,
         role: this.options.role,
         resume: this.resume,
-        coding: 'plain',
-        take_over: false,
+        coding: name === binarySubprotocol ? 'packed' : 'plain',
+        take_over: this.options.takeOver,
       });
     };
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {

@@ -146,6 +146,8 @@ Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stre
   Hello hello;
   hello.role = options.role;
   hello.resume = options.resume;
+  hello.coding = options.json ? StreamCoding::plain : StreamCoding::packed;
+  hello.take_over = options.take_over;
   if (auto said = client.send(hello); !said) {
     return std::move(said).error();
   }

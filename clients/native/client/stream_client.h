@@ -17,6 +17,7 @@ struct StreamOptions {
   bool json = false;  ///< the subprotocol to write and read by hand, instead of the binary one
   StreamRole role = StreamRole::subscribe;
   std::optional<ResumePoint> resume;
+  bool take_over = false;  ///< of a publisher: to replace the one there is
   std::chrono::milliseconds timeout{10'000};  ///< of connecting and of one send
 };
 

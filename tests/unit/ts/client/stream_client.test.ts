@@ -59,8 +59,9 @@ describe.each(['binary', 'json'] as const)('StreamClient %s', (subprotocol) => {
     stream.connect();
     FakeSocket.last.accept();
     expect(FakeSocket.last.protocols).toEqual([subprotocol === 'json' ? 'semblante.v1.json' : 'semblante.v1']);
+    const coding = subprotocol === 'json' ? 'plain' : 'packed';
     expect(FakeSocket.last.sent).toEqual([
-      { type: 'hello', version: 1, role: 'subscribe', resume: null, coding: 'plain', take_over: false },
+      { type: 'hello', version: 1, role: 'subscribe', resume: null, coding, take_over: false },
     ]);
     FakeSocket.last.give(header);
     expect(stream.state).toBe('open');
