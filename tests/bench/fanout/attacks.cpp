@@ -218,7 +218,7 @@ Outcome storm(const Endpoint& endpoint, const std::string& path, const SendTimes
   constexpr std::size_t at_a_time = 10;
   constexpr milliseconds pause{50};  // 200 a second
   constexpr std::size_t stay = 10;   // pauses, half a second
-  Timeline timeline(stream_content(options.coding, sent, options.batch_ms, options.feed.heavy));
+  Timeline timeline(stream_content(options.coding, sent, options.feed.heavy));
   SubscriberPool pool(endpoint, path, timeline);
   pool.open(1);
   std::size_t came = 0;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "protocol/cpp/json_codec.h"
+#include "tests/bench/fanout/batch_grid.h"
 #include "tests/bench/fanout/rivals/payload.h"
 #include "tests/bench/fanout/trace.h"
 
@@ -42,15 +43,10 @@ class StreamSample : public Content::Sample {
 
 class StreamContent : public Content {
  public:
-  StreamContent(Coding coding, const SendTimes& sent, int batch_interval_ms, bool heavy)
-      : coding_(coding),
-        sent_(sent),
-        batch_interval_ns_(std::int64_t{batch_interval_ms} * 1'000'000),
-        heavy_(heavy),
-        hello_(hello_frame(coding)),
-        reader_(coding) {}
+  StreamContent(Coding coding, const SendTimes& sent, bool heavy)
+      : coding_(coding), sent_(sent), heavy_(heavy), hello_(hello_frame(coding)), reader_(coding) {}
 
-  std::optional<Batch> next(std::string_view bytes) override {
+  std::optional<Batch> next(std::string_view bytes, std::int64_t now) override {
     if (!begun_) return std::nullopt;
     MessageReader before = reader_;
     auto message = reader_.read(bytes);
@@ -62,7 +58,7 @@ class StreamContent : public Content {
     Batch batch;
     batch.first = frames->sequence;
     batch.last = last_ = batch.first + frames->frames.size() - 1;
-    batch.due = std::max(sent_.get(batch.last), sent_.get(batch.first) + batch_interval_ns_);
+    batch.due = grid_.due(sent_.get(batch.first), sent_.get(batch.last), now);
     for (std::size_t i = 0; i < frames->frames.size(); ++i)
       if (frames->frames[i].state != trace_frame(batch.first + i, heavy_)) ++wrong_states_;
     batch.frames = std::move(*frames);
@@ -73,7 +69,10 @@ class StreamContent : public Content {
     MessageReader reader(coding_);
     const auto message = reader.read(bytes);
     if (!message) return {};
-    if (std::holds_alternative<Header>(*message)) return {Notice::Kind::header, 0};
+    if (const auto* header = std::get_if<Header>(&*message)) {
+      grid_.set_interval(std::int64_t{header->batch_interval} * 1'000'000);
+      return {Notice::Kind::header, 0};
+    }
     if (std::holds_alternative<StreamError>(*message)) return {Notice::Kind::error, 0};
     if (std::holds_alternative<End>(*message)) return {Notice::Kind::end, 0};
     const auto* key = std::get_if<Keyframe>(&*message);
@@ -89,15 +88,16 @@ class StreamContent : public Content {
   [[nodiscard]] std::uint64_t next_frame() const override { return begun_ ? last_ + 1 : 0; }
   [[nodiscard]] const std::string& hello() const override { return hello_; }
   [[nodiscard]] std::string_view subprotocol() const override { return subprotocol_of(coding_); }
+  void begin_measuring() override { grid_.restart(); }
   [[nodiscard]] std::uint64_t wrong_states() const override { return wrong_states_; }
   [[nodiscard]] std::unique_ptr<Sample> sample() const override { return std::make_unique<StreamSample>(coding_); }
 
  private:
   const Coding coding_;
   const SendTimes& sent_;
-  const std::int64_t batch_interval_ns_;
   const bool heavy_;
   const std::string hello_;
+  BatchGrid grid_;
   MessageReader reader_;
   bool begun_ = false;
   std::uint64_t last_ = 0, wrong_states_ = 0;
@@ -105,7 +105,7 @@ class StreamContent : public Content {
 
 class RivalContent : public Content {
  public:
-  std::optional<Batch> next(std::string_view bytes) override {
+  std::optional<Batch> next(std::string_view bytes, std::int64_t) override {
     const auto payload = rivals::read_payload(bytes);
     if (!payload || (last_ != 0 && payload->sequence != last_ + 1)) return std::nullopt;
     last_ = payload->sequence;
@@ -126,8 +126,8 @@ class RivalContent : public Content {
 
 }  // namespace
 
-std::unique_ptr<Content> stream_content(Coding coding, const SendTimes& sent, int batch_interval_ms, bool heavy) {
-  return std::make_unique<StreamContent>(coding, sent, batch_interval_ms, heavy);
+std::unique_ptr<Content> stream_content(Coding coding, const SendTimes& sent, bool heavy) {
+  return std::make_unique<StreamContent>(coding, sent, heavy);
 }
 
 std::unique_ptr<Content> rival_content() { return std::make_unique<RivalContent>(); }

@@ -46,12 +46,14 @@ struct Notice {
 class Content {
  public:
   virtual ~Content() = default;
-  /// The next batch after those read before; nullopt for what is not the next one.
-  virtual std::optional<Batch> next(std::string_view bytes) = 0;
+  /// The next batch after those read before; nullopt for what is not the next one. `now`: ns, when it came.
+  virtual std::optional<Batch> next(std::string_view bytes, std::int64_t now) = 0;
   /// Number of the frame that the next batch begins with; 0: whichever comes.
   [[nodiscard]] virtual std::uint64_t next_frame() const = 0;
   /// A message to one subscriber alone. Where batches begin when nothing has been read yet.
   virtual Notice notice(std::string_view bytes) = 0;
+  /// From here on lateness counts.
+  virtual void begin_measuring() {}
   /// What a subscriber says after the handshake; empty: nothing, and batches begin at once.
   [[nodiscard]] virtual const std::string& hello() const = 0;
   [[nodiscard]] virtual std::string_view subprotocol() const = 0;
@@ -67,9 +69,9 @@ class Content {
   [[nodiscard]] virtual std::unique_ptr<Sample> sample() const { return nullptr; }
 };
 
-/// What `semblante serve` sends when the bench's publisher feeds it. A batch is due when its newest frame was sent, or
-/// `batch_interval_ms` after its oldest one, whichever is later.
-std::unique_ptr<Content> stream_content(Coding coding, const SendTimes& sent, int batch_interval_ms, bool heavy);
+/// What `semblante serve` sends when the bench's publisher feeds it. A batch is due when its newest frame was sent;
+/// where the stream's header names a batch interval, as BatchGrid has it.
+std::unique_ptr<Content> stream_content(Coding coding, const SendTimes& sent, bool heavy);
 /// What the baselines send; see rivals/payload.h.
 std::unique_ptr<Content> rival_content();
 

@@ -270,6 +270,7 @@ void SubscriberPool::begin_measuring() {
   counts_.delivered = 0;
   lateness_.clear();
   spread_.clear();
+  timeline_.content().begin_measuring();
 }
 
 }  // namespace semblante::bench

@@ -65,7 +65,7 @@ FedStream::FedStream(SemblanteServer& server, const Options& options, double sec
     : path(server.make_stream(options.batch_ms)),
       sent(1000 + static_cast<std::size_t>(seconds * options.feed.messages_per_second *
                                            static_cast<double>(options.feed.frames_per_message))),
-      timeline(stream_content(options.coding, sent, options.batch_ms, options.feed.heavy)),
+      timeline(stream_content(options.coding, sent, options.feed.heavy)),
       publisher(server.endpoint(), path, options.feed, sent) {}
 
 std::optional<ServerProcess> start_rival(const std::string& name, double messages_per_second, std::size_t bytes) {

@@ -27,7 +27,7 @@ const Timeline::Entry* Timeline::match(std::uint64_t index, std::string_view byt
     const Entry& entry = entries_[static_cast<std::size_t>(index - base_)];
     return entry.bytes == bytes ? &entry : nullptr;
   }
-  auto batch = content_->next(bytes);
+  auto batch = content_->next(bytes, now);
   if (!batch) return nullptr;
   ++batches_;
   bytes_ += bytes.size();
