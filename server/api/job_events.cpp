@@ -42,7 +42,7 @@ std::optional<http::FeedItem> JobEvents::take() {
   std::string text("id: ");
   text.append(std::to_string(++number_)).append("\nevent: ").append(event).append("\ndata: ");
   text.append(represent(*job).dump(-1, ' ', false, Json::error_handler_t::replace)).append("\n\n");
-  return http::FeedItem{std::make_shared<const std::string>(std::move(text)), false};
+  return http::FeedItem{std::make_shared<const std::string>(std::move(text))};
 }
 
 bool JobEvents::finished() const {

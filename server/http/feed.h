@@ -7,11 +7,9 @@
 
 namespace semblante::http {
 
-/// One piece of an endless answer: an event of an event stream, a message of a WebSocket. Many receivers share the
-/// bytes.
+/// One piece of an endless answer: an event of an event stream. Many receivers may share the bytes.
 struct FeedItem {
   std::shared_ptr<const std::string> bytes;
-  bool binary = false;  ///< WebSocket opcode; without meaning for an event stream
 };
 
 /// Where a producer on any thread meets the connection that sends. Producers call wake(); the connection, on its own

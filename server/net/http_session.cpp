@@ -98,8 +98,8 @@ class BodySink {
 /// One connection's state between its coroutine's steps; lives in that coroutine.
 class Session {
  public:
-  Session(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state)
-      : stream_(std::move(socket)), state_(std::move(state)) {}
+  Session(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state, ConnectionCount count)
+      : stream_(std::move(socket)), state_(std::move(state)), count_(std::move(count)) {}
 
   asio::awaitable<void> run() {
     while (!state_->stopping) {
@@ -113,7 +113,7 @@ class Session {
  private:
   enum class Next { again, close, gone };
 
-  /// Counts a connection that is owed an answer (or speaks WebSocket): a stopping server waits for those alone.
+  /// Counts a connection that is owed an answer: a stopping server waits for those, and for WebSockets, alone.
   class Busy {
    public:
     explicit Busy(SharedState& state) : state_(state) { ++state_.busy; }
@@ -272,23 +272,25 @@ class Session {
           request, http::to_response(http::make_problem("malformed-request", "bytes follow the upgrade request")), 11,
           false);
     beast::http::request<beast::http::empty_body> head(std::move(parser.get().base()));
-    co_await serve_websocket(std::move(stream_), std::move(head),
-                             std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_);
+    serve_websocket(stream_.release_socket(), std::move(head),
+                    std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_, std::move(count_));
     co_return Next::gone;
   }
 
   beast::tcp_stream stream_;
   std::shared_ptr<SharedState> state_;
+  ConnectionCount count_;
   beast::flat_buffer buffer_;
 };
 
 }  // namespace
 
-asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state) {
+asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state,
+                                       ConnectionCount count) {
   // Small answers and stream frames go out at once.
   boost::system::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-  Session session(std::move(socket), std::move(state));
+  Session session(std::move(socket), std::move(state), std::move(count));
   co_await session.run();
 }
 

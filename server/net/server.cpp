@@ -58,23 +58,22 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, std::shared_pt
       co_await pause.async_wait(use_tuple);
       continue;
     }
-    ++state->connections_total;
     const auto executor = socket.get_executor();
     if (state->connections_open >= state->config.limits.max_connections) {
+      ++state->connections_total;
       ++state->connections_refused;
       asio::co_spawn(executor, turn_away(std::move(socket)), asio::detached);
       continue;
     }
-    ++state->connections_open;
-    asio::co_spawn(executor, serve_connection(std::move(socket), state), [state](const std::exception_ptr& fault) {
-      --state->connections_open;
-      if (!fault) return;
-      try {
-        std::rethrow_exception(fault);
-      } catch (const std::exception& reason) {
-        log::error(std::string("a connection ended by a fault: ") + reason.what());
-      }
-    });
+    asio::co_spawn(executor, serve_connection(std::move(socket), state, ConnectionCount(state)),
+                   [](const std::exception_ptr& fault) {
+                     if (!fault) return;
+                     try {
+                       std::rethrow_exception(fault);
+                     } catch (const std::exception& reason) {
+                       log::error(std::string("a connection ended by a fault: ") + reason.what());
+                     }
+                   });
   }
 }
 

@@ -3,6 +3,7 @@
 // Private to net/: what the listener and its sessions share. Beast itself stays in the two session sources.
 
 #include <atomic>
+#include <memory>
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
@@ -24,6 +25,25 @@ struct SharedState {
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
       busy{0}, websockets_open{0}, upload_number{0};
+};
+
+/// One open connection, counted for as long as this lives.
+class ConnectionCount {
+ public:
+  explicit ConnectionCount(std::shared_ptr<SharedState> state) : state_(std::move(state)) {
+    ++state_->connections_open;
+    ++state_->connections_total;
+  }
+  ~ConnectionCount() {
+    if (state_) --state_->connections_open;
+  }
+  ConnectionCount(ConnectionCount&&) noexcept = default;
+  ConnectionCount(const ConnectionCount&) = delete;
+  ConnectionCount& operator=(const ConnectionCount&) = delete;
+  ConnectionCount& operator=(ConnectionCount&&) = delete;
+
+ private:
+  std::shared_ptr<SharedState> state_;
 };
 
 }  // namespace semblante::net

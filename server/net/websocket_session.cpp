@@ -1,16 +1,15 @@
 #include "server/net/websocket_session.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
-#include <boost/asio/as_tuple.hpp>
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
-#include <boost/asio/use_awaitable.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include "server/log/log.h"
-#include "server/net/waker.h"
+#include "server/net/outbox.h"
+#include "server/net/outbox_stream.h"
 
 namespace semblante::net {
 
@@ -20,105 +19,164 @@ namespace websocket = boost::beast::websocket;
 
 namespace {
 
-constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
+using boost::system::error_code;
+
 /// After we decided to close: for the last write and the client's own close frame.
 constexpr std::chrono::seconds closing_time{5};
-/// A short send queue: what waits in the kernel is stale for a face, and costs memory for each slow client.
-constexpr int send_buffer_bytes = 64 * 1024;
+/// A short send queue: what waits in the kernel is stale for a face, and costs memory for each slow client. The kernel
+/// takes it twice, for its own bookkeeping.
+constexpr int send_buffer_bytes = 16 * 1024;
+/// Room for one piece of a message: most of what clients say (hello, ping) fits into the first. An idle connection
+/// keeps no more than that.
+constexpr std::size_t first_piece_bytes = 128;
+constexpr std::size_t largest_piece_bytes = 64 * 1024;
 
-/// Shared by the reading and the writing coroutine, both on the strand of the socket.
-struct Connection {
-  Connection(beast::tcp_stream stream, std::shared_ptr<http::WebSocketPeer> p)
-      : ws(std::move(stream)),
-        peer(std::move(p)),
-        waker(std::make_shared<Waker>(ws.get_executor())),
-        deadline(ws.get_executor()) {}
+/// One WebSocket. Lives as long as one of its operations is under way; the strand of its socket guards it.
+class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
+ public:
+  static void start(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade,
+                    std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                    ConnectionCount count) {
+    const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
+    self->accept(std::move(socket), std::move(upgrade));
+  }
 
-  websocket::stream<beast::tcp_stream> ws;
-  std::shared_ptr<http::WebSocketPeer> peer;
-  std::shared_ptr<Waker> waker;
-  asio::steady_timer deadline;
-  bool closing = false;
-};
+  WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                      ConnectionCount count)
+      : state_(std::move(state)), peer_(std::move(peer)), count_(std::move(count)) {
+    ++state_->busy;
+  }
+  ~WebSocketConnection() override {
+    leave();
+    --state_->busy;
+  }
+  WebSocketConnection(const WebSocketConnection&) = delete;
+  WebSocketConnection& operator=(const WebSocketConnection&) = delete;
 
-/// A client that reads nothing cannot be told to go: its socket is closed when the time is over.
-void close_by_deadline(const std::shared_ptr<Connection>& connection) {
-  if (connection->closing || !connection->peer->finished()) return;
-  connection->closing = true;
-  connection->deadline.expires_after(closing_time);
-  connection->deadline.async_wait([connection](const boost::system::error_code& error) {
-    if (!error) beast::get_lowest_layer(connection->ws).close();
-  });
-}
+  // ---- any thread
+  void on_blocked() override {
+    asio::post(executor_, [self = shared_from_this()] { self->wait_writable(); });
+  }
+  void on_close(const http::CloseReason& reason) override {
+    asio::post(executor_, [self = shared_from_this(), reason] { self->close(reason); });
+  }
 
-asio::awaitable<void> write_messages(std::shared_ptr<Connection> connection) {
-  auto& [ws, peer, waker, deadline, closing] = *connection;
-  while (true) {
-    if (const auto item = peer->take()) {
-      ws.binary(item->binary);
-      const auto [error, count] = co_await ws.async_write(asio::buffer(*item->bytes), use_tuple);
-      if (error) co_return;
-    } else if (peer->finished()) {
-      const auto reason = peer->close_reason();
-      websocket::close_reason close(reason.text);
-      close.code = reason.code;
-      co_await ws.async_close(close, use_tuple);
-      co_return;
-    } else {
-      co_await waker->wait(std::chrono::hours(1));
-      if (!ws.is_open()) co_return;
+ private:
+  using Stream = websocket::stream<OutboxStream, false>;
+
+  void accept(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade) {
+    error_code ignored;
+    socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
+    executor_ = socket.get_executor();
+    outbox_ = std::make_shared<Outbox>(socket.native_handle(), peer_->outbox_limits(), weak_from_this());
+    ws_.emplace(std::move(socket), outbox_);
+    websocket::stream_base::timeout clocks{};
+    clocks.handshake_timeout = state_->config.limits.header_timeout;
+    clocks.idle_timeout = state_->config.limits.idle_timeout;
+    clocks.keep_alive_pings = true;
+    ws_->set_option(clocks);
+    ws_->read_message_max(peer_->max_message_bytes());
+    ws_->set_option(websocket::stream_base::decorator(
+        [name = std::string(peer_->subprotocol())](websocket::response_type& response) {
+          if (!name.empty()) response.set(beast::http::field::sec_websocket_protocol, name);
+        }));
+    auto request = std::make_unique<beast::http::request<beast::http::empty_body>>(std::move(upgrade));
+    const auto& head = *request;
+    ws_->async_accept(
+        head, [self = shared_from_this(), request = std::move(request)](error_code error) { self->accepted(error); });
+  }
+
+  void accepted(error_code error) {
+    if (error) return end();
+    ++state_->websockets_open;
+    open_ = true;
+    peer_->attach(outbox_);
+    read();
+  }
+
+  void read() {
+    const std::size_t piece = std::clamp(read_, first_piece_bytes, largest_piece_bytes);
+    message_.resize(read_ + piece);
+    ws_->async_read_some(
+        asio::buffer(message_.data() + read_, piece),
+        [self = shared_from_this()](error_code error, std::size_t count) { self->have_read(error, count); });
+  }
+
+  void have_read(error_code error, std::size_t count) {
+    if (error) return end();
+    read_ += count;
+    if (ws_->is_message_done()) {
+      peer_->receive({message_.data(), read_}, ws_->got_binary());
+      read_ = 0;
+      if (message_.size() > first_piece_bytes) message_ = std::string();
     }
+    read();
   }
-}
 
-asio::awaitable<void> read_messages(std::shared_ptr<Connection> connection) {
-  beast::flat_buffer buffer;
-  while (true) {
-    const auto [error, count] = co_await connection->ws.async_read(buffer, use_tuple);
-    if (error) co_return;
-    const auto data = buffer.cdata();
-    connection->peer->receive({static_cast<const char*>(data.data()), data.size()}, connection->ws.got_binary());
-    buffer.consume(buffer.size());
+  void wait_writable() {
+    if (ended_) return;
+    ws_->next_layer().socket().async_wait(asio::socket_base::wait_write, [self = shared_from_this()](error_code error) {
+      if (!error) self->flush();
+    });
   }
-}
+
+  void flush() {
+    if (ended_) return;
+    const auto flushed = outbox_->flush();
+    if (flushed == Outbox::Flushed::some) return wait_writable();
+    if (flushed == Outbox::Flushed::all && open_) peer_->writable();
+  }
+
+  void close(const http::CloseReason& reason) {
+    if (ended_ || deadline_) return;
+    // A client that reads nothing cannot be told to go: its socket is closed when the time is over.
+    deadline_.emplace(executor_, closing_time);
+    deadline_->async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (!error && self && !self->ended_) self->ws_->next_layer().close();
+    });
+    websocket::close_reason words(reason.text);
+    words.code = reason.code;
+    ws_->async_close(words, [self = shared_from_this()](error_code) {});
+  }
+
+  /// The reader is always there until it ends, so it alone decides when all is over.
+  void end() {
+    if (ended_) return;
+    ended_ = true;
+    ws_->next_layer().close();
+    if (deadline_) deadline_->cancel();
+    leave();
+  }
+
+  void leave() {
+    if (!peer_) return;
+    peer_->disconnected();
+    peer_ = nullptr;
+    if (open_) --state_->websockets_open;
+    open_ = false;
+  }
+
+  const std::shared_ptr<SharedState> state_;
+  std::shared_ptr<http::WebSocketPeer> peer_;
+  const ConnectionCount count_;
+  asio::any_io_executor executor_;
+  std::shared_ptr<Outbox> outbox_;
+  std::optional<Stream> ws_;
+  std::optional<asio::steady_timer> deadline_;
+  std::string message_;   ///< what has come of it
+  std::size_t read_ = 0;  ///< bytes of it
+  bool open_ = false;     ///< the handshake is done
+  bool ended_ = false;
+};
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(beast::tcp_stream stream, beast::http::request<beast::http::empty_body> upgrade,
-                                      std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state) {
-  stream.expires_never();  // the WebSocket stream has its own clocks
-  boost::system::error_code ignored;
-  stream.socket().set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
-  const auto connection = std::make_shared<Connection>(std::move(stream), std::move(peer));
-  auto& ws = connection->ws;
-  websocket::stream_base::timeout clocks{};
-  clocks.handshake_timeout = state->config.limits.header_timeout;
-  clocks.idle_timeout = state->config.limits.idle_timeout;
-  clocks.keep_alive_pings = true;
-  ws.set_option(clocks);
-  ws.read_message_max(connection->peer->max_message_bytes());
-  ws.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
-    const auto name = connection->peer->subprotocol();
-    if (!name.empty())
-      response.set(beast::http::field::sec_websocket_protocol, boost::core::string_view(name.data(), name.size()));
-  }));
-  const auto [error] = co_await ws.async_accept(upgrade, use_tuple);
-  if (error) {
-    connection->peer->disconnected();
-    co_return;
-  }
-  ++state->websockets_open;
-  connection->waker->set_on_wake([connection] { close_by_deadline(connection); });
-  connection->peer->attach(connection->waker->function());
-  asio::co_spawn(ws.get_executor(), write_messages(connection), asio::detached);
-  co_await read_messages(connection);
-
-  connection->peer->attach({});
-  connection->peer->disconnected();
-  connection->waker->set_on_wake({});
-  connection->waker->function()();  // the writer looks up and sees the closed socket
-  connection->deadline.cancel();
-  --state->websockets_open;
+void serve_websocket(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade,
+                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                     ConnectionCount connection) {
+  WebSocketConnection::start(std::move(socket), std::move(upgrade), std::move(peer), std::move(state),
+                             std::move(connection));
 }
 
 }  // namespace semblante::net

@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include <boost/asio/awaitable.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 
@@ -11,11 +10,11 @@
 
 namespace semblante::net {
 
-/// Answers the upgrade and runs the WebSocket to its end: one coroutine reads, one writes what the peer has to say,
-/// both on the strand of the socket.
-boost::asio::awaitable<void> serve_websocket(boost::beast::tcp_stream stream,
-                                             boost::beast::http::request<boost::beast::http::empty_body> upgrade,
-                                             std::shared_ptr<http::WebSocketPeer> peer,
-                                             std::shared_ptr<SharedState> state);
+/// Answers the upgrade and runs the WebSocket to its end, by callbacks on the strand of the socket. Returns at once:
+/// the HTTP session that led here ends, so that its buffers do not stay behind a connection that is idle for hours.
+void serve_websocket(boost::asio::ip::tcp::socket socket,
+                     boost::beast::http::request<boost::beast::http::empty_body> upgrade,
+                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                     ConnectionCount connection);
 
 }  // namespace semblante::net

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -10,20 +12,25 @@
 #include <vector>
 
 #include "core/types/result.h"
-#include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
+#include "protocol/cpp/packed_codec.h"
+#include "server/streams/stream_counts.h"
+#include "server/streams/subscriber_list.h"
 
 namespace semblante::streams {
 
 class BatchListener;
+class BatchSender;
 class StreamConnection;
-using SharedBytes = std::shared_ptr<const std::string>;
 
 struct StreamLimits {
-  std::size_t max_connections = 256;  ///< of one stream
-  std::size_t held_batches = 1024;    ///< for clients that come back
+  std::size_t max_connections = 16384;  ///< of one stream
+  std::size_t held_batches = 1024;      ///< for clients that come back
   std::chrono::milliseconds held_time{30'000};
-  std::size_t pending_messages = 64;        ///< of one subscriber, before newest replaces all
+  std::size_t resumed_frames = 1024;       ///< sent again at most to one who comes back
+  std::size_t resumed_bytes = 256 * 1024;  ///< in one go
+  std::size_t pending_messages = 16;       ///< of one subscriber, before newest replaces all
+  std::size_t pending_bytes = 256 * 1024;
   std::chrono::milliseconds stalled{5000};  ///< reading nothing for so long closes with 1013
   std::chrono::milliseconds hello_time{10'000};
   std::uint32_t frames_per_second = 500;  ///< of one publisher, on average
@@ -52,10 +59,6 @@ struct StreamInfo {
   std::uint32_t batch_interval = 0;    ///< ms for which frames are gathered into one message; 0: each is sent at once
 };
 
-struct StreamCounts {
-  std::uint64_t frames = 0, messages_sent = 0, messages_replaced = 0, closed_slow = 0, refused = 0, clamped_values = 0;
-};
-
 /// Who feeds a stream. One connection publishes or one source plays at a time; a REST call comes between only while
 /// neither does.
 enum class Source { connection, request };
@@ -66,14 +69,15 @@ struct PublishReceipt {
   std::size_t clamped = 0;     ///< values that were beyond the range of their FAP
 };
 
-/// One live stream: the newest state, a short memory, and who listens. Shared by the hub and its connections; one
-/// mutex, taken before the mutex of a connection, never after. Each batch is encoded once per subprotocol, and all
-/// subscribers get the same bytes.
+/// One live stream: the newest state, a short memory, and who listens. Shared by the hub and its connections. Frames
+/// are gathered into batches; each is encoded once per form, and all subscribers get the same bytes. Those are sent
+/// outside the mutex, in slices: a publisher or a newcomer waits for nobody's socket.
 class Stream : public std::enable_shared_from_this<Stream> {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Stream(StreamInfo info, StreamLimits limits);
+  /// `sender` calls work(); without one, whoever brings frames sends them himself.
+  Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender> sender = nullptr);
 
   [[nodiscard]] const StreamLimits& limits() const { return limits_; }
   [[nodiscard]] StreamInfo info() const;
@@ -100,27 +104,44 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// A new connection, before its hello. False when the stream has as many as it takes, or has ended.
   bool admit(const std::shared_ptr<StreamConnection>& connection);
   void leave(StreamConnection& connection);
-  /// After the hello: queues header and keyframe (or the gap) into the connection and lets frames follow.
+  /// After the hello: sends header and keyframe (or the gap) and lets the batches follow that are made from then on.
   void subscribe(StreamConnection& connection, const Hello& hello);
   /// After the hello: false when another connection publishes.
   bool begin_publishing(StreamConnection& connection);
-  /// The newest state for a subscriber that fell behind; from here on batches reach it again.
-  void catch_up(StreamConnection& connection);
+  /// All that waited for it has gone. If it fell behind it gets the newest state; from there on batches reach it again.
+  void writable(StreamConnection& connection);
+  void count_throttled(std::size_t frames);
+  void count_dropped() { ++dropped_; }
 
   /// Ends it for everyone. Connections are told the reason and closed.
   void end(EndReason reason);
   /// Closes connections that say no hello, or read nothing. A few times a second.
   void look_after_connections();
 
+  /// Closes the batch that is due at `now` and sends to some of the subscribers; returns when it wants to be called
+  /// again: at once (not after `now`), later, or never (time_point::max()).
+  Clock::time_point advance(Clock::time_point now);
+  /// advance(), for the sender: nothing if the stream has asked for another time since it asked for `asked`.
+  Clock::time_point work(Clock::time_point asked);
+
   [[nodiscard]] std::uint64_t media_time_now() const;
   static double server_time_now();
 
  private:
   struct Batch {
+    std::uint64_t number = 0;
     Frames message;
-    FaceFrame state_before;
-    SharedBytes binary, json;  ///< json is encoded when somebody wants it
-    std::chrono::steady_clock::time_point when;
+    PackedEncoder before;                              ///< as it was, with the state
+    std::array<http::SharedWire, coding_count> wires;  ///< packed at once, others when somebody wants them
+    Clock::time_point when, due;
+  };
+  /// Without a sender: sends when the mutex has been left.
+  class SendAfter;
+  struct Target {
+    http::WebSocketSink* sink;
+    StreamConnection* connection;
+    Coding coding;
+    http::Sent sent;
   };
 
   /// What every source goes through: values beyond the range of their FAP are clamped, and counted.
@@ -128,21 +149,50 @@ class Stream : public std::enable_shared_from_this<Stream> {
   [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const;
   /// A played frame keeps its own time, but never falls behind the frame before it by a breath.
   [[nodiscard]] std::uint64_t place_played(Clock::time_point when) const;
-  Header make_header(bool recovered) const;
-  const SharedBytes& encoded(Batch& batch, bool binary) const;
-  void send_keyframe(StreamConnection& connection, std::uint64_t sequence, std::uint64_t media_time,
-                     const FaceFrame& state) const;
+  Header make_header(bool recovered, StreamCoding coding) const;
+  // With the mutex held, all of them.
+  void gather(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+  void close_batch(Clock::time_point due);
+  [[nodiscard]] bool may_close_batch() const;
+  void want(Clock::time_point when);
+  [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
+  const http::SharedWire& wire_of(Batch& batch, Coding coding);
+  template <class Write>
+  void keep_wire(Batch& batch, Coding coding, const Write& write);
+  const http::SharedWire& join_point(Coding coding);
+  [[nodiscard]] std::size_t find_held(const ResumePoint& resume) const;
+  [[nodiscard]] http::SharedWire gap_from(std::size_t held, Coding coding);
+  void rejoin(Subscriber& subscriber);
+  void settle(std::span<const Target> targets, const std::array<http::SharedWire, coding_count>& wires);
+  void tell_end(StreamConnection& connection, EndReason reason);
+  /// Without it.
+  std::size_t send_slice(std::span<Target> targets, const std::array<http::SharedWire, coding_count>& wires,
+                         Clock::time_point due);
   std::uint64_t place_in_time(Source source, std::uint64_t media_time);
 
   const StreamLimits limits_;
-  mutable std::mutex mutex_;
-  StreamInfo info_;
+  const std::shared_ptr<BatchSender> sender_;
+  const std::shared_ptr<metrics::LatenessHistogram> lateness_;
+  std::atomic<std::uint64_t> dropped_{0};
+  std::mutex pass_mutex_;        ///< of who sends a slice; taken before mutex_
+  std::vector<Target> targets_;  ///< of that slice
+  mutable std::mutex mutex_;     ///< guards what follows
+  StreamInfo info_;              ///< sequence: of the newest frame taken
   StreamCounts counts_;
-  FaceFrame state_;
-  std::uint64_t media_time_ = 0;  ///< of the newest frame
-  FrameEncoder encoder_;
-  std::deque<Batch> held_;
+  PackedEncoder packed_;  ///< with sequence, media time and state as of the last batch
+  std::uint64_t newest_media_time_ = 0;
+  Frames gathering_;  ///< not yet in a batch; no frames: nothing
+  Clock::time_point gather_due_;
+  Clock::time_point wanted_ = Clock::time_point::max();  ///< when the sender is to call
+  std::uint64_t batches_ = 0;
+  std::deque<std::shared_ptr<Batch>> held_;
+  std::deque<std::shared_ptr<Batch>> passes_;  ///< not yet sent to all; the first is being sent
+  std::array<http::SharedWire, coding_count> join_points_;
+  SubscriberList subscribers_;
+  bool in_slice_ = false;                                  ///< subscribers' connections must stay
+  std::vector<std::shared_ptr<StreamConnection>> parked_;  ///< that left meanwhile
   std::vector<std::shared_ptr<StreamConnection>> connections_;
+  std::deque<std::weak_ptr<StreamConnection>> newcomers_;  ///< oldest first
   std::shared_ptr<BatchListener> listener_;
   StreamConnection* publisher_ = nullptr;
   std::uint64_t player_ = 0;  ///< ticket of what plays; 0: nothing

@@ -14,15 +14,6 @@ constexpr std::chrono::milliseconds look_interval{200};
 /// The own filling of a stream: see Player's ticket.
 constexpr std::uint64_t no_ticket = 0;
 
-void add(StreamCounts& sum, const StreamCounts& counts) {
-  sum.frames += counts.frames;
-  sum.messages_sent += counts.messages_sent;
-  sum.messages_replaced += counts.messages_replaced;
-  sum.closed_slow += counts.closed_slow;
-  sum.refused += counts.refused;
-  sum.clamped_values += counts.clamped_values;
-}
-
 }  // namespace
 
 InProcessHub::InProcessHub(StreamLimits limits) : limits_(limits), thread_([this] { run(); }) {}
@@ -34,6 +25,7 @@ InProcessHub::~InProcessHub() {
   }
   changed_.notify_all();
   thread_.join();
+  sender_->stop();
 }
 
 std::shared_ptr<Stream> InProcessHub::find(std::string_view id) const {
@@ -49,7 +41,8 @@ bool InProcessHub::open(const StreamInfo& info) {
   last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
   StreamInfo full = info;
   full.epoch = last_epoch_;
-  const auto stream = streams_.emplace(info.id, std::make_shared<Stream>(std::move(full), limits_)).first->second;
+  const auto stream =
+      streams_.emplace(info.id, std::make_shared<Stream>(std::move(full), limits_, sender_)).first->second;
   order_.push_back(info.id);
   if (info.source == "demo") {
     PlayOptions options;
@@ -74,7 +67,7 @@ bool InProcessHub::close(std::string_view id, EndReason reason) {
     for (auto* players : {&playing_, &fillings_}) {
       if (const auto player = players->find(id); player != players->end()) players->erase(player);
     }
-    add(gone_, stream->counts());
+    gone_ += stream->counts();
   }
   stream->end(reason);
   return true;
@@ -126,7 +119,7 @@ std::optional<StreamInfo> InProcessHub::info(std::string_view id) const {
 StreamCounts InProcessHub::counts() const {
   const std::lock_guard lock(mutex_);
   StreamCounts sum = gone_;
-  for (const auto& [id, stream] : streams_) add(sum, stream->counts());
+  for (const auto& [id, stream] : streams_) sum += stream->counts();
   return sum;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/http/websocket_peer.h"
+#include "server/streams/batch_sender.h"
 #include "server/streams/player.h"
 #include "server/streams/stream.h"
 
@@ -48,7 +49,8 @@ class StreamHub {
                                                                               std::string_view offered) = 0;
 };
 
-/// All streams in this process. Its thread plays what is to be played and looks after the connections. Any thread.
+/// All streams in this process. Its thread plays what is to be played and looks after the connections; its sender
+/// sends. Any thread.
 class InProcessHub : public StreamHub {
  public:
   explicit InProcessHub(StreamLimits limits = {});
@@ -86,6 +88,7 @@ class InProcessHub : public StreamHub {
   void forget(const std::vector<std::shared_ptr<Playing>>& finished);
 
   const StreamLimits limits_;
+  const std::shared_ptr<BatchSender> sender_ = std::make_shared<BatchSender>();
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;

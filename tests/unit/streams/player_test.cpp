@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
-#include "server/streams/stream_connection.h"
 #include "server/streams/stream_hub.h"
+#include "tests/unit/streams/fake_socket.h"
 
 namespace semblante::streams {
 namespace {
@@ -40,23 +40,11 @@ class PlayerTest : public ::testing::Test {
     subscriber_ = connect(StreamRole::subscribe);
     take_frames();
   }
-  void TearDown() override {
-    for (const auto& connection : connections_) connection->disconnected();
-  }
-  std::shared_ptr<StreamConnection> connect(StreamRole role) {
-    auto connection = std::make_shared<StreamConnection>(stream_, false, false);
-    EXPECT_TRUE(stream_->admit(connection));
-    connection->receive(encode_json(Hello{1, role, std::nullopt}), false);
-    connections_.push_back(connection);
-    return connection;
-  }
+  std::shared_ptr<FakeClient> connect(StreamRole role) { return std::make_shared<FakeClient>(stream_, role); }
   std::vector<Frames> take_frames() {
     std::vector<Frames> frames;
-    while (const auto item = subscriber_->take()) {
-      const auto message = decode_json(*item->bytes);
-      EXPECT_TRUE(message);
-      if (message && std::holds_alternative<Frames>(*message)) frames.push_back(std::get<Frames>(*message));
-    }
+    for (const auto& message : subscriber_->take_all())
+      if (std::holds_alternative<Frames>(message)) frames.push_back(std::get<Frames>(message));
     return frames;
   }
   Player player(double duration, PlayOptions options) {
@@ -69,8 +57,7 @@ class PlayerTest : public ::testing::Test {
   }
 
   std::shared_ptr<Stream> stream_;
-  std::shared_ptr<StreamConnection> subscriber_;
-  std::vector<std::shared_ptr<StreamConnection>> connections_;
+  std::shared_ptr<FakeClient> subscriber_;
   const Player::Clock::time_point begin_ = Player::Clock::now() + std::chrono::seconds(5);
 };
 
@@ -123,7 +110,7 @@ TEST_F(PlayerTest, OneSourceAtATime) {
   auto playing = player(1000.0, {});
   EXPECT_FALSE(stream_->publish(Source::request, 0, {TimedFrame{}}));
   EXPECT_FALSE(stream_->begin_playing(25.0, false));
-  EXPECT_TRUE(connect(StreamRole::publish)->finished()) << "no publisher beside it";
+  EXPECT_TRUE(connect(StreamRole::publish)->socket->closed()) << "no publisher beside it";
   playing.stop();
   EXPECT_EQ(take_frames().back().frames[0].state, FaceFrame{}) << "back to rest";
   EXPECT_TRUE(stream_->publish(Source::request, 0, {TimedFrame{}}));
@@ -135,26 +122,21 @@ TEST_F(PlayerTest, TakeOver_TellsThePublisherAndStopsWhatPlayed) {
   PlayOptions options;
   options.take_over = true;
   auto first = player(1000.0, options);
-  EXPECT_TRUE(publisher->finished());
+  EXPECT_TRUE(publisher->socket->closed());
   auto second = player(1000.0, options);
   first.play(at(0.0));
   EXPECT_TRUE(first.finished());
   EXPECT_TRUE(take_frames().empty());
   second.play(at(0.0));
   EXPECT_EQ(take_frames().size(), 1U);
-  publisher->receive(encode_json(Frames{1, 0, {TimedFrame{}}}), false);
+  publisher->connection->receive(encode_json(Frames{1, 0, {TimedFrame{}}}), false);
   EXPECT_TRUE(take_frames().empty()) << "what the old publisher still says is not heard";
 }
 
 TEST_F(PlayerTest, Header_TellsTheRate) {
   auto playing = player(1000.0, {});
-  const auto late = std::make_shared<StreamConnection>(stream_, false, false);
-  ASSERT_TRUE(stream_->admit(late));
-  connections_.push_back(late);
-  late->receive(encode_json(Hello{1, StreamRole::subscribe, std::nullopt}), false);
-  const auto header = decode_json(*late->take()->bytes);
-  ASSERT_TRUE(header);
-  EXPECT_EQ(std::get<Header>(*header).batch_interval, 40U);
+  const auto late = connect(StreamRole::subscribe);
+  EXPECT_EQ(std::get<Header>(late->take_all().at(0)).batch_interval, 40U);
 }
 
 TEST(HubPlaying, PlaysToTheEndByItself) {

@@ -8,8 +8,8 @@
 #include "server/streams/batch_listener.h"
 #include "server/streams/fap_source.h"
 #include "server/streams/performance_source.h"
-#include "server/streams/stream_connection.h"
 #include "server/streams/stream_hub.h"
+#include "tests/unit/streams/fake_socket.h"
 
 namespace semblante::streams {
 namespace {
@@ -30,52 +30,32 @@ class StreamTest : public ::testing::Test {
     limits_.stalled = milliseconds(0);
     stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   }
-  std::shared_ptr<StreamConnection> connect() {
-    auto connection = std::make_shared<StreamConnection>(stream_, false, false);
-    EXPECT_TRUE(stream_->admit(connection));
-    connections_.push_back(connection);
-    return connection;
-  }
-  std::shared_ptr<StreamConnection> connect(StreamRole role) {
-    auto connection = connect();
-    connection->receive(encode_json(Hello{1, role, std::nullopt}), false);
-    return connection;
-  }
-  static std::vector<Message> take_all(StreamConnection& connection) {
-    std::vector<Message> messages;
-    while (const auto item = connection.take()) {
-      auto message = decode_json(*item->bytes);
-      EXPECT_TRUE(message);
-      if (message) messages.push_back(*message);
-    }
-    return messages;
-  }
+  std::shared_ptr<FakeClient> connect(StreamRole role) { return std::make_shared<FakeClient>(stream_, role); }
   void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish(Source::request, 0, {frame_with(level)})); }
-
-  /// As net does when a socket is gone: a stream and its connections hold each other until then.
-  void TearDown() override {
-    for (const auto& connection : connections_) connection->disconnected();
-  }
 
   StreamLimits limits_;
   std::shared_ptr<Stream> stream_;
-  std::vector<std::shared_ptr<StreamConnection>> connections_;
 };
 
 TEST_F(StreamTest, Behind_NewestStateReplacesWhatWaits) {
-  const auto connection = connect(StreamRole::subscribe);
-  take_all(*connection);
-  for (std::int16_t level = 1; level <= 10; ++level) publish(level);
-  const auto messages = take_all(*connection);
+  const auto client = connect(StreamRole::subscribe);
+  client->take_all();
+  client->socket->stop_reading();
+  for (std::int16_t level = 1; level <= 10; ++level) {
+    publish(level);
+    EXPECT_LE(client->socket->waiting(), limits_.pending_messages);
+  }
+  client->socket->read_again(*client->connection);
+  const auto messages = client->take_all();
   ASSERT_EQ(messages.size(), 1U) << "one keyframe instead of ten batches";
   const auto& keyframe = std::get<Keyframe>(messages[0]);
   EXPECT_EQ(keyframe.sequence, 10U);
   EXPECT_EQ(keyframe.state.level[3], 10);
   publish(11);
-  const auto after = take_all(*connection);
+  const auto after = client->take_all();
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(std::get<Frames>(after[0]).sequence, 11U) << "and from there on without a gap";
-  EXPECT_GT(stream_->counts().messages_replaced, 0U);
+  EXPECT_EQ(stream_->counts().messages_replaced, 10U);
 }
 
 /// What a recorder would see.
@@ -115,27 +95,29 @@ TEST_F(StreamTest, Listener_HearsEveryBatchAndTheEnd) {
 TEST_F(StreamTest, Stalled_IsClosedAsSlow) {
   const auto stalled = connect(StreamRole::subscribe);
   const auto quick = connect(StreamRole::subscribe);
-  for (std::int16_t level = 1; level <= 3; ++level) {
-    publish(level);
-    take_all(*quick);
-  }
+  stalled->take_all();
+  stalled->socket->stop_reading();
+  for (std::int16_t level = 1; level <= 3; ++level) publish(level);
   stream_->look_after_connections();
-  ASSERT_TRUE(stalled->finished());
-  EXPECT_EQ(stalled->close_reason().code, 1013);
-  EXPECT_FALSE(quick->finished());
-  const auto last = take_all(*stalled);
-  ASSERT_EQ(last.size(), 1U);
+  ASSERT_TRUE(stalled->socket->closed());
+  EXPECT_EQ(stalled->socket->closed()->code, 1013);
+  EXPECT_FALSE(quick->socket->closed());
+  EXPECT_EQ(stream_->info().subscribers, 1U);
+  EXPECT_EQ(stream_->counts().closed_slow, 1U);
+  stalled->socket->read_again(*stalled->connection);
+  const auto last = stalled->take_all();
+  ASSERT_EQ(last.size(), 1U) << "what waited is dropped";
   EXPECT_EQ(std::get<End>(last[0]).reason, EndReason::slow);
 }
 
 TEST_F(StreamTest, PublisherLeaves_AnotherMayFollow) {
   const auto first = connect(StreamRole::publish);
-  EXPECT_FALSE(first->finished());
+  EXPECT_FALSE(first->socket->closed());
   const auto second = connect(StreamRole::publish);
-  EXPECT_EQ(second->close_reason().code, 1008);
+  EXPECT_EQ(second->socket->closed()->code, 1008);
   EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
-  first->disconnected();
-  EXPECT_FALSE(connect(StreamRole::publish)->finished());
+  first->leave();
+  EXPECT_FALSE(connect(StreamRole::publish)->socket->closed());
 }
 
 TEST_F(StreamTest, OwnFilling_GivesWay) {
@@ -149,10 +131,10 @@ TEST_F(StreamTest, OwnFilling_GivesWay) {
 TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
   const auto subscriber = connect(StreamRole::subscribe);
   const auto publisher = connect(StreamRole::publish);
-  take_all(*subscriber);
+  subscriber->take_all();
   const auto send = [&](std::uint64_t media_time) {
-    publisher->receive(encode_json(Frames{1, media_time, {frame_with(1)}}), false);
-    const auto messages = take_all(*subscriber);
+    publisher->connection->receive(encode_json(Frames{1, media_time, {frame_with(1)}}), false);
+    const auto messages = subscriber->take_all();
     return messages.size() == 1 ? std::get<Frames>(messages[0]).media_time : 0;
   };
   const auto begin = send(5000);
@@ -166,25 +148,25 @@ TEST_F(StreamTest, Rate_IsLimited) {
   limits_.frames_per_second = 0;
   stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   const auto publisher = connect(StreamRole::publish);
-  take_all(*publisher);
-  publisher->receive(encode_json(Frames{1, 0, {frame_with(1), frame_with(2)}}), false);
-  EXPECT_TRUE(take_all(*publisher).empty());
-  publisher->receive(encode_json(Frames{3, 0, {frame_with(1), frame_with(2)}}), false);
-  EXPECT_EQ(std::get<StreamError>(take_all(*publisher).at(0)).code, StreamErrorCode::throttled);
+  publisher->take_all();
+  publisher->connection->receive(encode_json(Frames{1, 0, {frame_with(1), frame_with(2)}}), false);
+  EXPECT_TRUE(publisher->take_all().empty());
+  publisher->connection->receive(encode_json(Frames{3, 0, {frame_with(1), frame_with(2)}}), false);
+  EXPECT_EQ(std::get<StreamError>(publisher->take_all().at(0)).code, StreamErrorCode::throttled);
   EXPECT_EQ(stream_->info().sequence, 2U);
 }
 
 TEST_F(StreamTest, Ended_TakesNobody) {
   const auto subscriber = connect(StreamRole::subscribe);
   stream_->end(EndReason::deleted);
-  EXPECT_EQ(subscriber->close_reason().code, 1000);
+  EXPECT_EQ(subscriber->socket->closed()->code, 1000);
   EXPECT_FALSE(stream_->admit(std::make_shared<StreamConnection>(stream_, true, true)));
   EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
 }
 
 TEST_F(StreamTest, ValuesBeyondTheirRange_AreClampedAndCounted_WhateverTheSource) {
   const auto subscriber = connect(StreamRole::subscribe);
-  take_all(*subscriber);
+  subscriber->take_all();
   // FAP 3 is unidirectional: 0..1080 by the table, -1080..1080 taken. FAP 4 is not: -600..600. FAP 26: -900..900.
   TimedFrame frame = frame_with(-1080);
   frame.state.level[4] = 601;
@@ -193,15 +175,15 @@ TEST_F(StreamTest, ValuesBeyondTheirRange_AreClampedAndCounted_WhateverTheSource
   ASSERT_TRUE(receipt);
   EXPECT_EQ(receipt->clamped, 3U);
   const auto publisher = connect(StreamRole::publish);
-  publisher->receive(encode_json(Frames{0, 0, {frame_with(-2000)}}), false);
-  publisher->disconnected();
+  publisher->connection->receive(encode_json(Frames{0, 0, {frame_with(-2000)}}), false);
+  publisher->leave();
   const auto ticket = stream_->begin_playing(25, false);
   ASSERT_TRUE(ticket);
   EXPECT_TRUE(stream_->publish_playing(*ticket, Stream::Clock::now(), frame_with(3000)).ok());
   EXPECT_EQ(stream_->info().clamped_values, 5U);
   EXPECT_EQ(stream_->counts().clamped_values, 5U);
 
-  const auto messages = take_all(*subscriber);
+  const auto messages = subscriber->take_all();
   ASSERT_EQ(messages.size(), 3U);
   const auto& batch = std::get<Frames>(messages[0]).frames;
   EXPECT_EQ(batch[0].state.level[3], -1080);

@@ -1,0 +1,171 @@
+#include "server/net/outbox.h"
+
+#include <cerrno>
+#include <utility>
+
+#include <sys/socket.h>
+
+namespace semblante::net {
+
+using http::Sent;
+using Clock = std::chrono::steady_clock;
+
+std::optional<std::size_t> Outbox::hand(std::string_view bytes) {
+  const auto count = ::send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (count >= 0) return static_cast<std::size_t>(count);
+  // A signal or a kernel without memory are no reason to give up a client: both pass.
+  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ENOBUFS || errno == ENOMEM) return 0;
+  return std::nullopt;
+}
+
+void Outbox::fail() {
+  closing_ = true;
+  close_framed_ = true;
+  waiting_.reset();
+  ::shutdown(descriptor_, SHUT_RDWR);  // whoever reads from it finds the end, and closes it
+}
+
+bool Outbox::has_room(Kind kind, std::size_t bytes) const {
+  if (kind == Kind::control) return true;
+  if (kind == Kind::answer)
+    return waiting_->items.size() < limits_.answers && waiting_->bytes + bytes <= limits_.answer_bytes;
+  return waiting_->state_messages == 0 ||
+         (waiting_->state_messages < limits_.messages && waiting_->state_bytes + bytes <= limits_.bytes);
+}
+
+void Outbox::count(const Item& item, bool comes) {
+  const auto change = [comes](std::size_t& value, std::size_t by) { value = comes ? value + by : value - by; };
+  change(waiting_->bytes, item.message->bytes.size());
+  if (item.kind != Kind::state) return;
+  change(waiting_->state_messages, 1);
+  change(waiting_->state_bytes, item.message->bytes.size());
+}
+
+Sent Outbox::send(const http::SharedWire& message, Kind kind, std::unique_lock<std::mutex>& lock) {
+  std::size_t taken = 0;
+  if (!waiting_) {
+    const auto handed = hand(message->bytes);
+    if (!handed) {
+      fail();
+      return Sent::closed;
+    }
+    if (*handed == message->bytes.size()) return Sent::handed;
+    taken = *handed;
+    waiting_ = std::make_unique<Waiting>();
+    waiting_->sent_of_first = taken;
+    waiting_->progress = Clock::now();
+  } else if (!has_room(kind, message->bytes.size())) {
+    return Sent::refused;
+  }
+  waiting_->items.push_back({message, kind});
+  count(waiting_->items.back(), true);
+  if (armed_) return Sent::waits;
+  armed_ = true;
+  lock.unlock();
+  if (const auto owner = owner_.lock()) owner->on_blocked();
+  return Sent::waits;
+}
+
+Sent Outbox::send(const http::SharedWire& message, http::Purpose purpose) {
+  std::unique_lock lock(mutex_);
+  if (descriptor_ < 0 || closing_) return Sent::closed;
+  return send(message, purpose == http::Purpose::state ? Kind::state : Kind::answer, lock);
+}
+
+Sent Outbox::send_control(std::string bytes) {
+  constexpr char close_header = '\x88';
+  http::WireMessage message;
+  message.bytes = std::move(bytes);
+  std::unique_lock lock(mutex_);
+  if (descriptor_ < 0 || close_framed_) return Sent::closed;
+  if (!message.bytes.empty() && message.bytes.front() == close_header) closing_ = close_framed_ = true;
+  return send(std::make_shared<const http::WireMessage>(std::move(message)), Kind::control, lock);
+}
+
+void Outbox::close(http::CloseReason reason, const http::SharedWire& last) {
+  {
+    std::unique_lock lock(mutex_);
+    if (descriptor_ < 0 || closing_) return;
+    closing_ = true;
+    if (last) send(last, Kind::control, lock);
+  }
+  if (const auto owner = owner_.lock()) owner->on_close(reason);
+}
+
+Outbox::Flushed Outbox::flush() {
+  const std::lock_guard lock(mutex_);
+  if (descriptor_ < 0 || (close_framed_ && !waiting_)) {
+    armed_ = false;
+    return descriptor_ < 0 ? Flushed::closed : Flushed::all;
+  }
+  while (waiting_ && !waiting_->items.empty()) {
+    const Item& first = waiting_->items.front();
+    const auto rest = std::string_view(first.message->bytes).substr(waiting_->sent_of_first);
+    const auto handed = hand(rest);
+    if (!handed) {
+      fail();
+      armed_ = false;
+      return Flushed::closed;
+    }
+    if (*handed > 0) waiting_->progress = Clock::now();
+    if (*handed < rest.size()) {
+      waiting_->sent_of_first += *handed;
+      return Flushed::some;
+    }
+    if (first.message->lateness)
+      first.message->lateness->observe(std::chrono::duration<double>(waiting_->progress - first.message->due).count());
+    waiting_->sent_of_first = 0;
+    count(first, false);
+    waiting_->items.pop_front();
+  }
+  waiting_.reset();
+  armed_ = false;
+  return Flushed::all;
+}
+
+std::size_t Outbox::drop_state() {
+  const std::lock_guard lock(mutex_);
+  if (!waiting_) return 0;
+  auto& items = waiting_->items;
+  // The rest of what has gone in part must follow: a frame cannot be taken back.
+  const std::size_t kept = waiting_->sent_of_first > 0 ? 1 : 0;
+  const auto before = items.size();
+  std::deque<Item> rest;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i >= kept && items[i].kind == Kind::state)
+      count(items[i], false);
+    else
+      rest.push_back(std::move(items[i]));
+  }
+  items = std::move(rest);
+  const auto dropped = before - items.size();
+  // Left empty it stays until flush(): the kernel did not take anything a moment ago.
+  return dropped;
+}
+
+bool Outbox::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !waiting_ && !armed_;
+}
+
+std::optional<Clock::time_point> Outbox::stalled_since() const {
+  const std::lock_guard lock(mutex_);
+  if (!waiting_) return std::nullopt;
+  return waiting_->progress;
+}
+
+void Outbox::detach() {
+  std::unique_ptr<Waiting> forgotten;
+  const std::lock_guard lock(mutex_);
+  descriptor_ = -1;
+  closing_ = true;
+  close_framed_ = true;
+  forgotten = std::move(waiting_);
+}
+
+bool Outbox::detached() const {
+  const std::lock_guard lock(mutex_);
+  return descriptor_ < 0;
+}
+
+}  // namespace semblante::net

@@ -1,0 +1,104 @@
+#pragma once
+
+// Private to net/: the layer under Beast's WebSocket.
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/compose.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/websocket/teardown.hpp>
+
+#include "server/net/outbox.h"
+
+namespace semblante::net {
+
+/// A socket whose writes go through the connection's Outbox, so that control frames of Beast and messages of the peer
+/// have one writer. Meets Beast's AsyncStream.
+class OutboxStream {
+ public:
+  using executor_type = boost::asio::ip::tcp::socket::executor_type;
+
+  OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<Outbox> outbox)
+      : socket_(std::move(socket)), outbox_(std::move(outbox)) {}
+
+  executor_type get_executor() { return socket_.get_executor(); }
+  [[nodiscard]] boost::asio::ip::tcp::socket& socket() { return socket_; }
+
+  template <class Buffers, class Handler>
+  auto async_read_some(const Buffers& buffers, Handler&& handler) {
+    return socket_.async_read_some(buffers, std::forward<Handler>(handler));
+  }
+
+  /// Completes when the bytes have gone to the kernel, behind all that waited: so whoever makes us answer (pings)
+  /// without reading is not read from either.
+  template <class Buffers, class Handler>
+  auto async_write_some(const Buffers& buffers, Handler&& handler) {
+    std::string bytes(boost::asio::buffer_size(buffers), '\0');
+    boost::asio::buffer_copy(boost::asio::buffer(bytes), buffers);
+    return boost::asio::async_compose<Handler, void(boost::system::error_code, std::size_t)>(
+        Write{*this, std::move(bytes)}, handler, socket_);
+  }
+
+  /// Strand only. Nothing is written after this; reading goes on.
+  void detach_writer() { outbox_->detach(); }
+
+  /// Strand only. Nothing reaches the descriptor after this.
+  void close() {
+    outbox_->detach();
+    boost::system::error_code ignored;
+    socket_.close(ignored);
+  }
+
+ private:
+  struct Write {
+    OutboxStream& stream;
+    std::string bytes;
+    std::size_t size = bytes.size();
+    enum class Step { send, wait, done } step = Step::send;
+
+    template <class Self>
+    void operator()(Self& self, boost::system::error_code error = {}) {
+      namespace asio = boost::asio;
+      if (step == Step::send) {
+        const auto sent = stream.outbox_->send_control(std::move(bytes));
+        step = sent == http::Sent::waits ? Step::wait : Step::done;
+        closed = sent == http::Sent::closed;
+        // Never before the function that started it has returned.
+        if (step == Step::done) {
+          asio::post(stream.get_executor(), std::move(self));
+          return;
+        }
+      } else if (step == Step::wait && !error) {
+        const auto flushed = stream.outbox_->flush();
+        closed = flushed == Outbox::Flushed::closed;
+        if (flushed != Outbox::Flushed::some) step = Step::done;
+      }
+      if (step == Step::wait && !error) {
+        stream.socket_.async_wait(asio::socket_base::wait_write, std::move(self));
+        return;
+      }
+      if (closed && !error) error = asio::error::operation_aborted;
+      self.complete(error, error ? 0 : size);
+    }
+    bool closed = false;
+  };
+
+  boost::asio::ip::tcp::socket socket_;
+  std::shared_ptr<Outbox> outbox_;
+};
+
+/// Beast closes by this when its clocks run out.
+inline void beast_close_socket(OutboxStream& stream) { stream.close(); }
+
+/// Beast ends a closing handshake by this: all of ours has gone by then, see async_write_some.
+template <class Handler>
+void async_teardown(boost::beast::role_type role, OutboxStream& stream, Handler&& handler) {
+  stream.detach_writer();
+  boost::beast::websocket::async_teardown(role, stream.socket(), std::forward<Handler>(handler));
+}
+
+}  // namespace semblante::net

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <queue>
+#include <thread>
+#include <vector>
+
+#include "server/streams/stream.h"
+
+namespace semblante::streams {
+
+/// The thread that closes batches when they are due and sends them. It works in slices, by turns over all streams that
+/// have something to send, so that a stream with thousands of subscribers holds up no other.
+class BatchSender {
+ public:
+  BatchSender() : thread_([this] { run(); }) {}
+  ~BatchSender() { stop(); }
+  BatchSender(const BatchSender&) = delete;
+  BatchSender& operator=(const BatchSender&) = delete;
+
+  /// The stream wants a Stream::work(when) at that time. Any thread.
+  void wake(std::weak_ptr<Stream> stream, Stream::Clock::time_point when);
+  /// Nothing is sent after this. Not from the thread itself.
+  void stop();
+
+ private:
+  struct Turn {
+    Stream::Clock::time_point when;
+    std::weak_ptr<Stream> stream;
+    bool operator<(const Turn& other) const { return when > other.when; }  ///< the earliest on top
+  };
+  void run();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::priority_queue<Turn> turns_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace semblante::streams

@@ -1,0 +1,27 @@
+#include "server/streams/encoding.h"
+
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/json_codec.h"
+#include "server/http/wire_message.h"
+
+namespace semblante::streams {
+
+void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload) {
+  http::append_message(wire, {reinterpret_cast<const char*>(payload.data()), payload.size()}, true);
+}
+
+void append_encoded(std::string& wire, const Message& message, bool binary) {
+  if (binary)
+    append_payload(wire, FrameEncoder().encode(message));
+  else
+    http::append_message(wire, encode_json(message), false);
+}
+
+void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding) {
+  if (coding == Coding::packed)
+    append_payload(wire, packed.keyframe());
+  else
+    append_encoded(wire, Keyframe{packed.sequence(), packed.media_time(), packed.state()}, coding == Coding::plain);
+}
+
+}  // namespace semblante::streams

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+#include "server/metrics/histogram.h"
+
+namespace semblante::streams {
+
+/// What has happened in a stream, or in all of them.
+struct StreamCounts {
+  std::uint64_t frames = 0;             ///< taken from sources
+  std::uint64_t batches = 0;            ///< into which they were gathered
+  std::uint64_t messages_sent = 0;      ///< batches and join points, to each subscriber
+  std::uint64_t bytes_sent = 0;         ///< of these, WebSocket headers included
+  std::uint64_t messages_replaced = 0;  ///< batches a subscriber lost to newer state, since it read too slowly
+  std::uint64_t messages_dropped = 0;   ///< that waited for a connection which was closed as slow; answers not kept
+  std::uint64_t closed_slow = 0;        ///< subscribers that read nothing
+  std::uint64_t closed_silent = 0;      ///< connections that said no hello
+  std::uint64_t closed_replaced = 0;    ///< publishers another source took over from
+  std::uint64_t closed_ended = 0;       ///< connections of streams that ended
+  std::uint64_t refused = 0;            ///< connections over the limit, second publishers
+  std::uint64_t throttled = 0;          ///< frames of publishers that flood
+  std::uint64_t clamped_values = 0;     ///< that were beyond the range of their FAP
+  double encode_seconds = 0.0;          ///< spent on batches and join points, in all codings
+  metrics::LatenessValues lateness;     ///< of batches: from when each was due until the kernel had it
+
+  StreamCounts& operator+=(const StreamCounts& other) {
+    frames += other.frames;
+    batches += other.batches;
+    messages_sent += other.messages_sent;
+    bytes_sent += other.bytes_sent;
+    messages_replaced += other.messages_replaced;
+    messages_dropped += other.messages_dropped;
+    closed_slow += other.closed_slow;
+    closed_silent += other.closed_silent;
+    closed_replaced += other.closed_replaced;
+    closed_ended += other.closed_ended;
+    refused += other.refused;
+    throttled += other.throttled;
+    clamped_values += other.clamped_values;
+    encode_seconds += other.encode_seconds;
+    lateness += other.lateness;
+    return *this;
+  }
+};
+
+}  // namespace semblante::streams

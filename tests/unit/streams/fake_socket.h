@@ -1,0 +1,156 @@
+#pragma once
+
+#include <deque>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/json_codec.h"
+#include "server/streams/stream_connection.h"
+
+namespace semblante::streams {
+
+/// A client's end of a connection without a socket: reads at once, or only when it is told to. It takes the bytes apart
+/// again as RFC 6455 section 5.2 has them.
+class FakeSocket : public http::WebSocketSink {
+ public:
+  explicit FakeSocket(http::OutboxLimits limits) : limits_(limits) {}
+
+  http::Sent send(const http::SharedWire& message, http::Purpose purpose) override {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return http::Sent::closed;
+    if (reads_) {
+      arrive(*message);
+      return http::Sent::handed;
+    }
+    if (waiting_.size() >= (purpose == http::Purpose::state ? limits_.messages : limits_.answers))
+      return http::Sent::refused;
+    if (waiting_.empty()) since_ = std::chrono::steady_clock::now();
+    waiting_.push_back({message, purpose});
+    return http::Sent::waits;
+  }
+  std::size_t drop_state() override {
+    const std::lock_guard lock(mutex_);
+    return std::erase_if(waiting_, [](const auto& item) { return item.second == http::Purpose::state; });
+  }
+  [[nodiscard]] bool idle() const override {
+    const std::lock_guard lock(mutex_);
+    return reads_;
+  }
+  [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> stalled_since() const override {
+    const std::lock_guard lock(mutex_);
+    if (reads_) return std::nullopt;
+    return since_;
+  }
+  void close(http::CloseReason reason, const http::SharedWire& last) override {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return;
+    if (last && reads_) arrive(*last);
+    if (last && !reads_) waiting_.push_back({last, http::Purpose::answer});
+    closed_ = std::move(reason);
+  }
+
+  // ---- the test's side
+  void stop_reading() {
+    const std::lock_guard lock(mutex_);
+    reads_ = false;
+    since_ = std::chrono::steady_clock::now();
+  }
+  /// Takes all that waits, as a client would that comes back to its socket.
+  void read_again(http::WebSocketPeer& peer) {
+    {
+      const std::lock_guard lock(mutex_);
+      for (const auto& [message, purpose] : waiting_) arrive(*message);
+      waiting_.clear();
+      reads_ = true;
+    }
+    peer.writable();
+  }
+  [[nodiscard]] std::optional<http::CloseReason> closed() const {
+    const std::lock_guard lock(mutex_);
+    return closed_;
+  }
+  [[nodiscard]] std::size_t waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+  }
+  /// What has arrived since the last call, in JSON.
+  std::vector<Message> take_all() {
+    std::vector<Message> messages;
+    for (const auto& payload : take_payloads()) {
+      auto message = decode_json(payload);
+      EXPECT_TRUE(message) << payload;
+      if (message) messages.push_back(*message);
+    }
+    return messages;
+  }
+  std::vector<std::string> take_payloads() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(arrived_, {});
+  }
+  /// The wires themselves, to see that they are shared.
+  [[nodiscard]] const http::WireMessage* last_wire() const { return last_wire_; }
+
+ private:
+  void arrive(const http::WireMessage& message) {
+    last_wire_ = &message;
+    std::string_view rest = message.bytes;
+    while (!rest.empty()) {
+      const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(rest.at(i)); };
+      EXPECT_TRUE(byte(0) == 0x81 || byte(0) == 0x82) << "a whole message in one frame";
+      std::size_t header = 2;
+      std::size_t size = byte(1);
+      ASSERT_LT(size, 128U) << "a server does not mask";
+      if (size >= 126) {
+        const std::size_t bytes = size == 126 ? 2 : 8;
+        size = 0;
+        for (std::size_t i = 0; i < bytes; ++i) size = size << 8U | byte(2 + i);
+        header += bytes;
+      }
+      ASSERT_GE(rest.size(), header + size);
+      arrived_.emplace_back(rest.substr(header, size));
+      rest.remove_prefix(header + size);
+    }
+  }
+
+  const http::OutboxLimits limits_;
+  mutable std::mutex mutex_;
+  bool reads_ = true;
+  std::chrono::steady_clock::time_point since_;
+  std::deque<std::pair<http::SharedWire, http::Purpose>> waiting_;
+  std::vector<std::string> arrived_;
+  std::optional<http::CloseReason> closed_;
+  const http::WireMessage* last_wire_ = nullptr;
+};
+
+/// A connection with such an end, admitted to its stream.
+struct FakeClient {
+  explicit FakeClient(const std::shared_ptr<Stream>& stream, bool binary = false)
+      : connection(std::make_shared<StreamConnection>(stream, binary, false)),
+        socket(std::make_shared<FakeSocket>(connection->outbox_limits())) {
+    EXPECT_TRUE(stream->admit(connection));
+    connection->attach(socket);
+  }
+  FakeClient(const std::shared_ptr<Stream>& stream, StreamRole role) : FakeClient(stream) { hello(role); }
+  /// As net does when a socket is gone: a stream and its connections hold each other until then.
+  ~FakeClient() { leave(); }
+  FakeClient(const FakeClient&) = delete;
+  FakeClient& operator=(const FakeClient&) = delete;
+
+  void hello(StreamRole role) {
+    Hello hello;
+    hello.role = role;
+    connection->receive(encode_json(hello), false);
+  }
+  void leave() {
+    if (here) connection->disconnected();
+    here = false;
+  }
+  std::vector<Message> take_all() const { return socket->take_all(); }
+
+  std::shared_ptr<StreamConnection> connection;
+  std::shared_ptr<FakeSocket> socket;
+  bool here = true;
+};
+
+}  // namespace semblante::streams
