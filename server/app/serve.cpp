@@ -11,6 +11,7 @@
 
 #include "server/api/api.h"
 #include "server/app/command_failure.h"
+#include "server/app/open_files.h"
 #include "server/app/sample_installer.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
@@ -117,7 +118,9 @@ void run_serve(const ServeOptions& options) {
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;
   jobs::JobQueue queue(**store, *blobs, job_config);
-  streams::InProcessHub hub;
+  streams::StreamLimits stream_limits;
+  stream_limits.max_connections = options.max_stream_connections;
+  streams::InProcessHub hub(stream_limits);
   open_streams(**store, hub, options);
 
   api::ApiConfig api_config;
@@ -137,7 +140,7 @@ void run_serve(const ServeOptions& options) {
   net_config.port = options.port;
   net_config.worker_threads = options.threads;
   net_config.upload_directory = blobs->temporary();
-  net_config.limits.max_connections = static_cast<std::uint32_t>(options.max_connections);
+  net_config.limits.max_connections = connections_to_serve(options.max_connections);
   net::Server server(net_config, api);
   running = &server;
   const auto port = server.listen();

@@ -21,7 +21,8 @@ struct ServeOptions {
   std::uint64_t max_models = 1000;
   std::uint64_t max_streams = 256;
   std::uint64_t max_expressions = 1000;
-  std::uint64_t max_connections = 1024;
+  std::uint64_t max_connections = 0;  ///< 0: what the process may open, but for a reserve
+  std::uint64_t max_stream_connections = 16384;
   std::uint64_t worker_memory = std::uint64_t{4} << 30U;
   std::uint64_t worker_cpu_seconds = 300;
   std::vector<std::string> allowed_hosts;

@@ -39,7 +39,12 @@ void add_serve_command(CLI::App& app) {
       "MAX_EXPRESSIONS")
       ->check(count);
   add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS")->check(count);
-  add("--max-connections", options->max_connections, "Connections served at a time", "MAX_CONNECTIONS")
+  add("--max-connections", options->max_connections,
+      "Connections served at a time; 0: as many as the process may have files open (its hard limit), but 512",
+      "MAX_CONNECTIONS")
+      ->check(CLI::Range(0, 1'000'000));
+  add("--max-stream-connections", options->max_stream_connections, "Connections of one stream",
+      "MAX_STREAM_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
   add("--worker-memory", options->worker_memory, "Address space of one job's process, bytes (or 4GB); 0: no limit",
       "WORKER_MEMORY")
