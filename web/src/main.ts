@@ -152,7 +152,7 @@ function main(root: HTMLElement): void {
     });
   });
 
-  setInterval(() => livePanel.refreshFigures(scene.performer.value?.playhead ?? NaN), 500);
+  setInterval(() => livePanel.refreshFigures(scene.performer.value?.player ?? null), 500);
   setInterval(() => {
     performance.tick();
     clip.tick();

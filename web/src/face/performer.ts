@@ -17,7 +17,8 @@ export const poseCount = 7;
  * clip. Nothing is allocated per displayed frame.
  */
 export class Performer {
-  private readonly player: Player;
+  /** Of what is followed. */
+  readonly player: Player;
   private stopListening: (() => void) | null = null;
   private shown = handShown;
   private settled = handDuration;
@@ -36,11 +37,6 @@ export class Performer {
 
   get poseNumber(): number {
     return this.shown;
-  }
-
-  /** ms of the stream's clock on display; NaN before the first frame. */
-  get playhead(): number {
-    return this.player.playhead;
   }
 
   /** Plays what a client receives from now on; null: nothing. */

@@ -11,7 +11,7 @@ export interface LinkStatus {
 export interface LiveStats {
   framesPerSecond: number;
   bytesPerSecond: number;
-  /** Of the stream's own clock now, ms; null while no ping has come back quickly. */
+  /** Of the stream's own clock now, ms; null while that is not known well. */
   mediaTime: number | null;
   sequence: number;
 }
@@ -57,8 +57,8 @@ function countingSocket(count: (bytes: number) => void): typeof WebSocket {
   };
 }
 
-/** A ping that took longer, ms, says too little about the clock: half of it is the error. */
-const longestRoundTrip = 250;
+/** A clock that is not known better, ms, is not shown. */
+const worstUncertainty = 125;
 
 /** Follows a stream. `client` feeds the player of the face. */
 export class LiveSubscriber {
@@ -67,9 +67,6 @@ export class LiveSubscriber {
   private frames = 0;
   private bytes = 0;
   private ticker: ReturnType<typeof setInterval> | null = null;
-  /** The stream's clock minus ours, by the quickest recent ping. */
-  private clockOffset: number | null = null;
-  private bestRoundTrip = Infinity;
 
   constructor(url: string, title: string, onStatus: (status: LinkStatus) => void) {
     this.client = new StreamClient(url, { WebSocket: countingSocket((bytes) => (this.bytes += bytes)) });
@@ -77,12 +74,6 @@ export class LiveSubscriber {
     this.client.on('frames', (batch) => {
       this.frames += batch.frames.length;
       this.stats.sequence = batch.sequence + batch.frames.length - 1;
-    });
-    this.client.on('clock', ({ roundTrip, mediaTime }) => {
-      this.bestRoundTrip *= 1.1;
-      if (roundTrip > this.bestRoundTrip) return;
-      this.bestRoundTrip = roundTrip;
-      this.clockOffset = mediaTime - performance.now();
     });
   }
 
@@ -95,8 +86,8 @@ export class LiveSubscriber {
       before = now;
       this.stats.framesPerSecond += (this.frames / seconds - this.stats.framesPerSecond) * 0.6;
       this.stats.bytesPerSecond += (this.bytes / seconds - this.stats.bytesPerSecond) * 0.6;
-      this.stats.mediaTime =
-        this.clockOffset === null || this.bestRoundTrip > longestRoundTrip ? null : now + this.clockOffset;
+      const { streamClock } = this.client;
+      this.stats.mediaTime = streamClock.uncertainty <= worstUncertainty ? streamClock.at(now) : null;
       this.frames = 0;
       this.bytes = 0;
     }, 1000);

@@ -1,3 +1,4 @@
+import type { Player } from '@client/index.ts';
 import type { StreamInfo } from '../net/types.ts';
 import { ask } from './dialog.ts';
 import { h, replace, setText } from './dom.ts';
@@ -18,6 +19,18 @@ const stateWords = {
 /** Milliseconds; a face that plays never lags so far. */
 const longestDelay = 2000;
 
+/** How the network is, as far as it explains the delay. */
+function networkWords({ clock, jitter, starved }: Player['stats']): string {
+  if (Number.isNaN(clock.uncertainty)) return '';
+  const words = [
+    `Round trip ${clock.roundTrip.toFixed(0)} ms`,
+    `jitter ${jitter.toFixed(0)} ms`,
+    `clock within ${Math.max(1, clock.uncertainty).toFixed(0)} ms`,
+  ];
+  if (starved > 0) words.push(`frames late ${starved === 1 ? 'once' : `${starved} times`}`);
+  return words.join(' · ');
+}
+
 /** Streams: what there is, what the face follows, how it goes, and sending one's own. */
 export class LivePanel {
   readonly element: HTMLElement;
@@ -29,6 +42,7 @@ export class LivePanel {
     latency: h('dd'),
     frames: h('dd'),
   };
+  private readonly network = h('p', { class: 'muted small', 'aria-label': 'Network' });
   private readonly publishBox = h('input', { type: 'checkbox', id: 'publish', role: 'switch' });
   private readonly target = h('select', { 'aria-label': 'Stream to send to' });
   private readonly publishNote = h('p', { class: 'muted small' });
@@ -59,6 +73,7 @@ export class LivePanel {
           figure('Delay', this.figures.latency),
           figure('Frame', this.figures.frames),
         ),
+        this.network,
       ),
       h(
         'section',
@@ -110,7 +125,9 @@ export class LivePanel {
   }
 
   /** Called twice a second. `playhead`: ms of the stream's clock on display. */
-  refreshFigures(playhead: number): void {
+  /** `player`: of the face that is shown, if there is one. */
+  refreshFigures(player: Player | null): void {
+    const playhead = player?.playhead ?? NaN;
     const { stats } = this.live;
     const open = this.live.status.value.kind === 'open';
     setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
@@ -119,6 +136,7 @@ export class LivePanel {
     const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
     setText(this.figures.latency, delay !== null && delay < longestDelay ? `${Math.max(0, delay)} ms` : '–');
     setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
+    setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
   }
 
   private drawStatus(): void {
