@@ -38,13 +38,15 @@ struct StreamClient::Impl {
   QuantizerSteps steps = standard_quantizers();
   bool reading = false;
   std::optional<error_code> read_result;
+  Clock::time_point hello_sent{};
 
   /// Lets things happen until `done` or the time is up.
   template <class Done>
   bool run_until(Clock::time_point deadline, Done done) {
     io.restart();
     while (!done()) {
-      if (io.run_one_until(deadline) == 0) {
+      // What is ready is done even when the time is up: who never has time to wait must hear of it, too.
+      if (io.run_one_until(deadline) == 0 && io.poll_one() == 0) {
         return done();
       }
     }
@@ -148,6 +150,7 @@ Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stre
   hello.resume = options.resume;
   hello.coding = options.json ? StreamCoding::plain : StreamCoding::packed;
   hello.take_over = options.take_over;
+  client.impl_->hello_sent = Clock::now();
   if (auto said = client.send(hello); !said) {
     return std::move(said).error();
   }
@@ -183,6 +186,8 @@ Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds time
     }
   }
 }
+
+Clock::time_point StreamClient::hello_sent() const { return impl_->hello_sent; }
 
 Status StreamClient::send(const Message& message) {
   if (impl_->options.json) {

@@ -35,6 +35,9 @@ class StreamClient {
   /// Errors: io when the connection is closed (close_code says how), else what was wrong with the message.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
 
+  /// When the hello went out: its header answers it.
+  [[nodiscard]] std::chrono::steady_clock::time_point hello_sent() const;
+
   /// Sends in the subprotocol in use. Frames must follow a keyframe of the same client. Errors: io.
   Status send(const Message& message);
   /// Sends anything at all, as a peer that does not keep to the protocol would.

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "clients/native/client/clock_estimate.h"
+#include "clients/native/client/stream_client.h"
+#include "clients/native/client/url.h"
+#include "core/types/result.h"
+#include "protocol/cpp/messages.h"
+
+namespace semblante::client {
+
+struct LiveStreamOptions {
+  /// Of every connection; its `resume` is the first one's.
+  StreamOptions stream;
+  /// First and longest pause before connecting again; each try doubles it, half of it is chance.
+  std::chrono::milliseconds first_pause{250}, longest_pause{10'000};
+  std::uint64_t seed = std::random_device{}();
+};
+
+/// A subscription that outlives its connections: connects again after a loss, resumes where it stopped, and measures
+/// the stream's clock all the while. For one thread, which should be in next() as much as it can: what comes meanwhile
+/// is stamped late.
+class LiveStream {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  LiveStream(Url url, std::string stream, LiveStreamOptions options = {});
+
+  /// The next message; nullopt when none came in time, and while there is no connection. Errors: missing (no such
+  /// stream), mismatch (another subprotocol): connecting again does not help. After an `end` for good nothing comes.
+  Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
+  /// The stream's clock against now().
+  ClockEstimate& clock() { return clock_; }
+  /// ms of the clock that everything is stamped by, of any origin.
+  static double now();
+
+  [[nodiscard]] bool connected() const { return client_.has_value() && greeted_; }
+  [[nodiscard]] const std::optional<Header>& header() const { return header_; }
+  /// What the next hello resumes from; with what the last one did, `recovered` is to be compared.
+  [[nodiscard]] const std::optional<ResumePoint>& resume() const { return resume_; }
+  [[nodiscard]] const std::optional<ResumePoint>& said_resume() const { return said_resume_; }
+  [[nodiscard]] std::uint64_t connections() const { return connections_; }
+
+ private:
+  Status connect();
+  void lose();
+  void take(const Message& message, double received);
+  /// Sends a ping when one is due.
+  void ping();
+
+  Url url_;
+  std::string stream_;
+  LiveStreamOptions options_;
+  std::mt19937_64 random_;
+  std::optional<StreamClient> client_;
+  std::optional<Header> header_;
+  std::optional<ResumePoint> resume_, said_resume_;
+  ClockEstimate clock_;
+  Clock::time_point next_try_{}, next_ping_{};
+  std::uint64_t tries_ = 0, connections_ = 0;
+  std::size_t pings_ = 0;
+  std::uint32_t ping_id_ = 0;
+  bool greeted_ = false, over_ = false;
+};
+
+}  // namespace semblante::client
