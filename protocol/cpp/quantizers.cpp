@@ -1,5 +1,7 @@
 #include "protocol/cpp/quantizers.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/tables/mpeg4.h"
@@ -14,6 +16,34 @@ const QuantizerSteps& standard_quantizers() {
     return result;
   }();
   return steps;
+}
+
+bool is_quantizer_scale(double scale) {
+  return std::find(quantizer_scales.begin(), quantizer_scales.end(), scale) != quantizer_scales.end();
+}
+
+QuantizerSteps scaled_quantizers(double scale) {
+  assert(is_quantizer_scale(scale));
+  QuantizerSteps result = standard_quantizers();
+  for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) result[fap] *= scale;
+  return result;
+}
+
+std::vector<double> header_quantizers(double scale) {
+  if (scale == 1.0) return {};
+  const QuantizerSteps steps = scaled_quantizers(scale);
+  return {steps.begin() + first_low_level_fap, steps.end()};
+}
+
+FaceFrame requantized(const FaceFrame& frame, const QuantizerSteps& from, const QuantizerSteps& to) {
+  constexpr double most = max_level;
+  FaceFrame result = frame;
+  for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
+    if (from[fap] == to[fap]) continue;
+    result.level[fap] =
+        static_cast<std::int16_t>(std::clamp(std::round(frame.level[fap] * from[fap] / to[fap]), -most, most));
+  }
+  return result;
 }
 
 QuantizerSteps quantizers_of(const Header& header) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
@@ -13,6 +14,20 @@ using QuantizerSteps = std::array<double, 69>;
 
 /// The steps of the standard's table.
 const QuantizerSteps& standard_quantizers();
+
+/// What a stream's steps may be of the standard ones: as they are, or finer.
+inline constexpr std::array<double, 4> quantizer_scales = {1.0, 0.5, 0.25, 0.125};
+bool is_quantizer_scale(double scale);
+
+/// The standard steps times one of quantizer_scales.
+QuantizerSteps scaled_quantizers(double scale);
+
+/// A header's `quantizers` for such steps: empty for 1.
+std::vector<double> header_quantizers(double scale);
+
+/// The same face in levels of other steps, to the nearest (halves away from zero); what is beyond +-32767 levels
+/// becomes that. From coarse to fine and back is exact.
+FaceFrame requantized(const FaceFrame& frame, const QuantizerSteps& from, const QuantizerSteps& to);
 
 /// The steps a stream uses: its header's own, or the standard ones when it gives none.
 QuantizerSteps quantizers_of(const Header& header);
