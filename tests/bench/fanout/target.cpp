@@ -58,7 +58,7 @@ std::string SemblanteServer::make_stream(int batch_ms) {
 }
 
 std::uint64_t SemblanteServer::stream_number(const std::string& path, const std::string& member) const {
-  return Json::parse(request(endpoint_, "GET", path).body).value(member, std::uint64_t{0});
+  return Json::parse(request(endpoint_, "GET", path).body).at(member).get<std::uint64_t>();
 }
 
 FedStream::FedStream(SemblanteServer& server, const Options& options, double seconds)
