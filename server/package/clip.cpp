@@ -164,8 +164,7 @@ class ClipMaker {
       const JointTransform transform = joint_transform(skin_, j, pose);
       const FaceJoint::Kind kind = skin_.joints[j].kind;
       // What a kind of joint never does has no track.
-      if (kind == FaceJoint::Kind::point || kind == FaceJoint::Kind::eye)
-        tracks_[j].translation.push(seconds, transform.translation);
+      if (kind != FaceJoint::Kind::head) tracks_[j].translation.push(seconds, transform.translation);
       if (kind == FaceJoint::Kind::head || kind == FaceJoint::Kind::eye)
         tracks_[j].rotation.push(seconds, transform.rotation);
       if (kind == FaceJoint::Kind::pupil) tracks_[j].scale.push(seconds, transform.scale);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -42,6 +43,44 @@ glm::quat turn_to(glm::vec3 axis) {
   if (cosine < -0.9999F) return {0.0F, 1.0F, 0.0F, 0.0F};  // half a turn about x
   const glm::vec3 across = glm::cross(z, axis);
   return glm::normalize(glm::quat(1.0F + cosine, across.x, across.y, across.z));
+}
+
+/// One vertex of an iris: how far along the axis it lies, its share of the pupil, bend * r * r.
+struct IrisVertex {
+  double along = 0.0, share = 0.0, curve = 0.0;
+};
+
+/// The kernel lets a vertex sink by curve * (2 s share + s s share^2), a joint gives share * (scale * along + shift):
+/// the scale and shift that come nearest, of the term with s and of that with s s. On the surface that the rig
+/// describes the former is exact; eyes that are built of several layers keep what is left over.
+std::array<glm::vec2, 2> nearest_sink(std::span<const IrisVertex> vertices) {
+  double zz = 0.0;
+  double z = 0.0;
+  double one = 0.0;
+  std::array<double, 2> to_z{};
+  std::array<double, 2> to_one{};
+  for (const IrisVertex& v : vertices) {
+    const double across = v.share * v.along;
+    zz += across * across;
+    z += across * v.share;
+    one += v.share * v.share;
+    for (std::size_t term = 0; term < 2; ++term) {
+      const double wanted = v.curve * v.share * (term == 0 ? 1.0 : v.share);
+      to_z[term] += across * wanted;
+      to_one[term] += v.share * wanted;
+    }
+  }
+  const double determinant = zz * one - z * z;
+  std::array<glm::vec2, 2> out{};
+  for (std::size_t term = 0; term < 2 && one > 0.0; ++term) {
+    if (determinant > 1e-9 * zz * one) {
+      out[term] = {(to_z[term] * one - to_one[term] * z) / determinant,
+                   (to_one[term] * zz - to_z[term] * z) / determinant};
+    } else {
+      out[term] = {0.0, to_one[term] / one};  // flat: nothing to scale
+    }
+  }
+  return out;
 }
 
 /// Puts the joints together as rows ask for them.
@@ -89,23 +128,25 @@ class SkinMaker {
     skin_.joints.push_back(joint);
     const std::optional<Iris>& iris = face_.rig.irises[eye];
     const RigidMotion motion = eye == 0 ? RigidMotion::left_iris : RigidMotion::right_iris;
-    // The apex of the surface, from the vertices: at distance r it lies bend * r * r farther along the axis.
-    double apex = 0.0;
-    std::size_t count = 0;
+    std::vector<IrisVertex> vertices;
+    double apex = 0.0;  // of the surface: at distance r it lies bend * r * r farther along the axis
     for (std::size_t v = 0; v < face_.mesh.positions.size(); ++v) {
       if (!iris || RigidMotion{face_.table.rigid[v]} != motion) continue;
       const glm::vec3 d = face_.mesh.positions[v] - pivot;
       const float along = glm::dot(d, iris->axis);
       const glm::vec3 out = d - along * iris->axis;
-      apex += along - iris->bend * glm::dot(out, out);
-      ++count;
+      vertices.push_back({along, pupil_share(*iris, d), iris->bend * glm::dot(out, out)});
+      apex += along - vertices.back().curve;
     }
-    if (count == 0) return;
+    if (vertices.empty()) return;
+    apex /= static_cast<double>(vertices.size());
+    for (IrisVertex& vertex : vertices) vertex.along -= apex;
+    joint.sink = nearest_sink(vertices);
     pupil_joint_[eye] = skin_.joints.size();
     joint.kind = FaceJoint::Kind::pupil;
     joint.name = side + "_pupil";
     joint.parent = eye_joint_[eye];
-    joint.place = pivot + static_cast<float>(apex / static_cast<double>(count)) * iris->axis;
+    joint.place = pivot + static_cast<float>(apex) * iris->axis;
     joint.facing = turn_to(iris->axis);
     skin_.joints.push_back(joint);
   }
@@ -231,8 +272,10 @@ JointTransform joint_transform(const FaceSkin& skin, std::size_t joint, const se
       break;
     case FaceJoint::Kind::pupil: {
       const float radius = pose.iris[j.index].pupil_radius;
-      const float grown = radius > 0.0F ? 1.0F + pose.pupil_growth[j.index] / radius : 1.0F;
-      out.scale = {grown, grown, grown * grown};  // bend * r * r along the axis grows by the square
+      const float growth = radius > 0.0F ? pose.pupil_growth[j.index] / radius : 0.0F;
+      const glm::vec2 sink = 2.0F * growth * j.sink[0] + growth * growth * j.sink[1];
+      out.scale = {1.0F + growth, 1.0F + growth, std::max(0.01F, 1.0F + sink.x)};
+      out.translation += j.facing * glm::vec3(0.0F, 0.0F, sink.y);
       break;
     }
     case FaceJoint::Kind::point:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/kernel/semblante_kernel.h"
@@ -26,7 +28,10 @@ struct FaceJoint {
   glm::vec3 place{0.0F};                     ///< on the neutral face
   glm::quat facing{1.0F, 0.0F, 0.0F, 0.0F};  ///< likewise; only pupils are turned: z along the iris' axis
   std::size_t index = 0;                     ///< eye and pupil: 0 left, 1 right; point: the FeaturePointId's value
-  float gain = 1.0F;                         ///< of a point: moves that many times its displacement
+  /// Of a pupil that grows to 1 + s of its radius: its z axis is scaled by 1 + 2 s sink[0].x + s s sink[1].x, and it
+  /// goes along it by 2 s sink[0].y + s s sink[1].y.
+  std::array<glm::vec2, 2> sink{glm::vec2(0.0F), glm::vec2(0.0F)};
+  float gain = 1.0F;  ///< of a point: moves that many times its displacement
 };
 
 /// How a joint stands in a pose, relative to its parent.

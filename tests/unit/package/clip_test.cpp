@@ -9,6 +9,7 @@
 #include <set>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@
 #include "core/parametrize/place_feature_points.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/rig_kernel.h"
+#include "server/package/clip_tracks.h"
 #include "server/package/package.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/sample_head_model.h"
@@ -212,6 +214,234 @@ TEST_P(ClipOfHead, Played_AtTheFrames_IsTheKernelWithinTheStatedError) {
     EXPECT_LE(first_four, clip->figures.error_first_four + 1.5 * quantum);
     EXPECT_LT(clip->figures.error, (influences == 4 ? 200.0 : influences == 8 ? 80.0 : 40.0) * quantum);
   }
+}
+
+TEST_P(ClipOfHead, Played_BetweenTheFrames_IsTheKernelsInterpolation) {
+  const auto frames = many_frames();
+  const auto clip = make_clip(face_->parts(), frames);
+  ASSERT_TRUE(clip.ok());
+  const double quantum = clip->figures.quantum;
+  const GltfPlayer player(clip->glb);
+  double greatest = 0.0;
+  for (std::size_t i = 0; i + 1 < frames.size(); i += 3) {
+    const semblante_pose a = face_->pose(frames[i].state);
+    const semblante_pose b = face_->pose(frames[i + 1].state);
+    for (const float t : {0.25F, 0.5F}) {
+      semblante_pose between{};
+      semblante_interpolate(&a, &b, t, &between);
+      const float from = seconds_of(frames, i);
+      const float at = from + t * (seconds_of(frames, i + 1) - from);
+      greatest = std::max(greatest, worst(*face_, player, at, face_->deformed(between)));
+    }
+  }
+  // As at the frames; turns by slerp there and by nlerp here differ by 0.03 degrees for a step of 30, in steps of up to
+  // 0.3 rad about as little as a quarter of that: 1e-4 of the head's size.
+  EXPECT_LE(greatest, clip->figures.error + 1.5 * quantum + 2.0 * quantum);
+}
+
+TEST_P(ClipOfHead, Shares_SumToOneExactly_AndNameJointsOnce) {
+  for (const int influences : {4, 8, 16}) {
+    ClipOptions options;
+    options.influences = influences;
+    const auto face = make_skinned_face(face_->parts(), options);
+    ASSERT_TRUE(face.ok());
+    const GltfPlayer player(face->glb);
+    EXPECT_EQ(player.animation_count(), 0U);
+    for (const GltfPlayer::Primitive& primitive : player.primitives()) {
+      EXPECT_LE(primitive.sets * 4, static_cast<std::size_t>(influences));
+      const std::size_t width = primitive.sets * 4;
+      for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+        std::uint32_t sum = 0;
+        std::set<std::uint32_t> joints;
+        for (std::size_t i = v * width; i < (v + 1) * width; ++i) {
+          sum += primitive.weights[i];
+          if (primitive.weights[i] > 0) {
+            EXPECT_TRUE(joints.insert(primitive.joints[i]).second);
+          } else {
+            EXPECT_EQ(primitive.joints[i], 0U);
+          }
+          if (i % width > 0) {
+            EXPECT_LE(primitive.weights[i], primitive.weights[i - 1]);
+          }
+        }
+        ASSERT_EQ(sum, 65535U) << v;
+      }
+    }
+    // At rest every vertex is where it was, but for what float matrices lose.
+    EXPECT_LT(worst(*face_, player, 0.0F, face_->packed.mesh.positions), 0.2 * face->figures.quantum);
+  }
+}
+
+const TestFace& sample() { return *test_face("sample smooth"); }
+
+std::vector<TimedValues> jaw_frames(std::initializer_list<std::pair<std::uint32_t, double>> keys) {
+  std::vector<TimedValues> frames;
+  for (const auto& [time, value] : keys) {
+    frames.push_back({time, {}});
+    frames.back().state.fap[3] = value;
+  }
+  return frames;
+}
+
+TEST(Clip, OfFewFrames_HasOnlyTheChannelsThatMove_AndTheirLength) {
+  // A line: its middle is left out. 2.1 moves, alone and for the tongue twice as far; the head's turn marks the length.
+  const auto line = make_clip(sample().parts(), jaw_frames({{500, 0}, {600, 100}, {700, 200}}));
+  ASSERT_TRUE(line.ok());
+  const GltfPlayer player(line->glb);
+  EXPECT_EQ(player.channel_count(), 3U);
+  EXPECT_EQ(line->figures.keys, 6U);
+  EXPECT_EQ(line->figures.keys_unthinned, 9U);
+  EXPECT_FLOAT_EQ(player.duration(), 0.2F);
+  EXPECT_NE(player.extras().find("\"keys\":6"), std::string::npos) << player.extras();
+
+  const auto bent = make_clip(sample().parts(), jaw_frames({{0, 0}, {100, 180}, {200, 200}}));
+  EXPECT_EQ(bent->figures.keys, 8U);
+
+  // Still, but not neutral: one key a joint that stands elsewhere, and still as long as it was.
+  const auto still = make_clip(sample().parts(), jaw_frames({{0, 200}, {100, 200}, {900, 200}}));
+  const GltfPlayer held(still->glb);
+  EXPECT_EQ(still->figures.keys, 4U);
+  EXPECT_FLOAT_EQ(held.duration(), 0.9F);
+  EXPECT_LE(worst(sample(), held, 0.5F, sample().deformed(sample().pose(jaw_frames({{0, 200}})[0].state))),
+            still->figures.error + 1.5 * still->figures.quantum);
+
+  const auto one = make_clip(sample().parts(), jaw_frames({{40, 0}}));
+  ASSERT_TRUE(one.ok());
+  EXPECT_EQ(GltfPlayer(one->glb).duration(), 0.0F);
+}
+
+TEST(Clip, OfFramesAtOneTime_TheLastCounts) {
+  const auto clip = make_clip(sample().parts(), jaw_frames({{0, 0}, {100, 50}, {100, 200}, {200, 0}}));
+  ASSERT_TRUE(clip.ok());
+  EXPECT_LE(
+      worst(sample(), GltfPlayer(clip->glb), 0.1F, sample().deformed(sample().pose(jaw_frames({{0, 200}})[0].state))),
+      clip->figures.error + 1.5 * clip->figures.quantum);
+}
+
+TEST(Clip, OfARolledTongue_SaysWhatIsMissing) {
+  auto frames = jaw_frames({{0, 0}, {100, 0}});
+  frames[1].state.fap[47] = 20000.0;
+  const auto clip = make_clip(sample().parts(), frames);
+  ASSERT_TRUE(clip.ok());
+  ASSERT_EQ(clip->warnings.size(), 1U);
+  EXPECT_GT(clip->figures.error_tongue_roll, 0.0);
+  EXPECT_NE(GltfPlayer(clip->glb).extras().find("FAP 47"), std::string::npos);
+}
+
+TEST(Clip, WithAVisemeShareOfItsOwn_FollowsIt) {
+  std::vector<TimedValues> frames(2);
+  frames[1].time = 40;
+  frames[1].state.viseme = {10, 0, 63};
+  frames[1].state.expression = {1, 63, 0, 0};
+  ClipOptions options;
+  options.viseme_share = 0.25F;
+  const auto clip = make_clip(sample().parts(), frames, options);
+  ASSERT_TRUE(clip.ok());
+  const GltfPlayer player(clip->glb);
+  const double allowed = clip->figures.error + 1.5 * clip->figures.quantum;
+  EXPECT_LE(worst(sample(), player, 0.04F, sample().deformed(sample().pose(frames[1].state, 0.25F))), allowed);
+  EXPECT_GT(worst(sample(), player, 0.04F, sample().deformed(sample().pose(frames[1].state))), allowed);
+}
+
+TEST(Clip, OfWhatCannotBeOne_IsRefusedWithItsPlace) {
+  const auto refusal = [](std::span<const TimedValues> frames, const ClipOptions& options = {}) {
+    const auto clip = make_clip(sample().parts(), frames, options);
+    return clip ? "made" : clip.error().where + ": " + clip.error().message;
+  };
+  EXPECT_EQ(refusal({}), "/frames: there is no frame to make a clip of");
+  EXPECT_EQ(refusal(jaw_frames({{10, 0}, {5, 0}})), "/frames/1/time: falls");
+  EXPECT_EQ(refusal(jaw_frames({{0, 0}, {max_clip_time + 1, 0}})), "/frames/1/time: a clip lasts four hours at most");
+  EXPECT_EQ(refusal(jaw_frames({{0, 0}, {1, 1e300}})), "/frames/1/faps/3: is no number that single precision can hold");
+  EXPECT_EQ(refusal(jaw_frames({{0, 0}, {1, std::nan("")}})),
+            "/frames/1/faps/3: is no number that single precision can hold");
+  ClipOptions options;
+  options.influences = 6;
+  EXPECT_EQ(refusal(jaw_frames({{0, 0}}), options), "influences: are 4, 8, 12 or 16");
+  options = {};
+  options.viseme_share = 1.5F;
+  EXPECT_EQ(refusal(jaw_frames({{0, 0}}), options), "viseme_share: is 0 to 1");
+  const std::vector<TimedValues> many(max_clip_frames + 1);
+  EXPECT_EQ(refusal(many), "/frames: a clip has at most 1000000 frames");
+}
+
+TEST(OpenPackage, OfPartsThatDoNotFit_SaysWhich) {
+  const auto where = [](const FaceParts& parts) {
+    const auto face = open_package(parts);
+    return face ? "opened" : face.error().where;
+  };
+  FaceParts parts = sample().parts();
+  EXPECT_EQ(where(parts), "opened");
+  parts.mesh_drc = parts.mesh_drc.first(100);
+  EXPECT_EQ(where(parts), "mesh.drc");
+  parts = sample().parts();
+  parts.weights = parts.weights.first(60);
+  EXPECT_TRUE(where(parts).starts_with("weights")) << where(parts);
+  parts = sample().parts();
+  parts.rig_json = parts.rig_json.substr(0, parts.rig_json.size() / 2);
+  EXPECT_TRUE(where(parts).starts_with("rig.json")) << where(parts);
+  const TestFace& other = *test_face("sample paper");
+  parts = sample().parts();
+  parts.weights = other.package.weights.bytes;  // of the same mesh: they fit
+  EXPECT_EQ(where(parts), "opened");
+  // Any flipped byte of the mesh is another mesh.
+  std::vector<std::uint8_t> mesh = sample().package.mesh_drc.bytes;
+  for (std::size_t i = 0; i < mesh.size(); i += 997) {
+    mesh[i] ^= 0x10U;
+    parts.mesh_drc = mesh;
+    EXPECT_EQ(where(parts), "mesh.drc");
+    mesh[i] ^= 0x10U;
+  }
+}
+
+TEST(VectorTrack, KeepsWhatALineDoesNotGive_WithinTheTolerance) {
+  std::vector<std::pair<float, glm::vec3>> came;
+  for (int i = 0; i < 2000; ++i) {
+    const float t = static_cast<float>(i) * 0.04F;
+    came.emplace_back(t,
+                      glm::vec3(std::sin(0.3F * t), i < 500 ? 0.0F : std::cos(0.5F * t), i % 400 < 200 ? 1.0F : 0.0F));
+  }
+  const double tolerance = 1e-3;
+  VectorTrack track(tolerance);
+  for (const auto& [t, value] : came) track.push(t, value);
+  track.finish();
+  const auto& times = track.times();
+  EXPECT_LT(times.size(), came.size() / 3);
+  EXPECT_EQ(times.front(), came.front().first);
+  EXPECT_EQ(times.back(), came.back().first);
+  std::size_t next = 1;
+  for (const auto& [t, value] : came) {
+    while (next + 1 < times.size() && times[next] < t) ++next;
+    const double share =
+        (static_cast<double>(t) - times[next - 1]) / (static_cast<double>(times[next]) - times[next - 1]);
+    const glm::dvec3 given = glm::mix(glm::dvec3(track.values()[next - 1]), glm::dvec3(track.values()[next]), share);
+    EXPECT_LE(glm::distance(given, glm::dvec3(value)), tolerance * 1.001) << t;
+  }
+}
+
+TEST(TurnTrack, KeepsWhatAnArcDoesNotGive_AndGoesTheShortWay) {
+  const auto turn = [](float angle) { return glm::angleAxis(angle, glm::vec3(0.0F, 1.0F, 0.0F)); };
+  TurnTrack even(1e-4);
+  for (int i = 0; i <= 60; ++i) even.push(static_cast<float>(i), (i % 2 == 0 ? 1.0F : -1.0F) * turn(0.05F * i));
+  even.finish();
+  EXPECT_EQ(even.times().size(), 2U);  // an even turn is one arc, whatever the signs
+
+  const double tolerance = 1e-3;
+  TurnTrack track(tolerance);
+  for (int i = 0; i < 500; ++i) track.push(static_cast<float>(i), turn(std::sin(0.01F * static_cast<float>(i))));
+  track.finish();
+  EXPECT_LT(track.times().size(), 150U);
+  std::size_t next = 1;
+  for (int i = 0; i < 500; ++i) {
+    while (next + 1 < track.times().size() && track.times()[next] < static_cast<float>(i)) ++next;
+    EXPECT_GE(glm::dot(track.values()[next - 1], track.values()[next]), 0.0F);
+    const float share =
+        (static_cast<float>(i) - track.times()[next - 1]) / (track.times()[next] - track.times()[next - 1]);
+    const glm::quat given = glm::slerp(track.values()[next - 1], track.values()[next], share);
+    const double off = glm::angle(glm::conjugate(given) * turn(std::sin(0.01F * static_cast<float>(i))));
+    EXPECT_LE(std::min(off, 2.0 * glm::pi<double>() - off), tolerance + 5e-4)
+        << i;  // glm::angle is that coarse in floats
+  }
+  EXPECT_LE(track.times().back(), 499.0F);
 }
 
 }  // namespace
