@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/types/result.h"
+
+namespace semblante::gateways {
+
+/// "host:port" with a number for a port, an IPv6 address in brackets; the port may be left out where there is a usual
+/// one.
+struct Endpoint {
+  std::string host;
+  std::string port;
+};
+Result<Endpoint> parse_endpoint(const std::string& text, const std::string& usual_port);
+
+/// One UDP socket, for one thread.
+class UdpSocket {
+ public:
+  /// Receives at an address of this machine (numbers, no name). Port 0: any free one.
+  static Result<UdpSocket> listen(const Endpoint& at);
+  /// Sends to one address. Unless `anywhere`, refused when that is not of this machine's loopback: UDP asks nobody
+  /// whether he wants the packets.
+  static Result<UdpSocket> send_to(const Endpoint& to, bool anywhere);
+  ~UdpSocket();
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&& other) noexcept;
+
+  [[nodiscard]] std::uint16_t port() const;
+
+  /// Waits for a packet; false when none came in time (or a signal did).
+  bool wait(std::chrono::milliseconds timeout);
+  /// The packet that is there, valid until the next call; nullopt when there is none.
+  std::optional<std::span<const std::uint8_t>> receive();
+  /// False when the system does not take it; UDP does not tell more.
+  bool send(std::span<const std::uint8_t> packet);
+
+ private:
+  explicit UdpSocket(int handle);
+
+  int handle_ = -1;
+  std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace semblante::gateways

@@ -1,0 +1,157 @@
+#include "clients/gateways/tools/outbound.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <iostream>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "clients/gateways/net/pacer.h"
+#include "clients/gateways/net/udp_socket.h"
+#include "clients/gateways/tools/stop_signal.h"
+#include "clients/native/client/stream_client.h"
+#include "protocol/cpp/kernel_values.h"
+
+namespace semblante::gateways {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr std::size_t most_waiting = 1024;  ///< frames that are not due yet
+constexpr double repeat_ms = 250.0;
+constexpr milliseconds longest_wait{20};  ///< between looks for a signal
+constexpr milliseconds connect_time{3000};
+constexpr milliseconds first_retry{250};
+constexpr milliseconds last_retry{5000};
+
+class Outbound {
+ public:
+  Outbound(const OutboundOptions& options, client::Url url, UdpSocket& socket)
+      : options_(options), url_(std::move(url)), socket_(socket) {}
+
+  Status run() {
+    milliseconds retry = first_retry;
+    while (!stop_requested()) {
+      auto stream = client::StreamClient::connect(url_, options_.stream, wanted());
+      if (!stream && stream.error().code == ErrorCode::missing) return std::move(stream).error();
+      std::string why = stream ? follow(*stream) : stream.error().message;
+      if (stop_requested()) {
+        if (stream) stream->close();
+        break;
+      }
+      std::cerr << options_.program << ": no connection to " << options_.stream << ": " << why << '\n';
+      retry = stream ? first_retry : std::min(2 * retry, last_retry);
+      for (const auto until = Clock::now() + retry; Clock::now() < until && !stop_requested();) {
+        send_due();
+        static_cast<void>(socket_.wait(longest_wait));
+      }
+    }
+    return Unit{};
+  }
+
+  void print_counts() const {
+    std::cout << "packets " << packets_ << ", refused " << refused_ << ", frames " << frames_ << ", repeated "
+              << repeated_ << std::endl;
+  }
+
+ private:
+  [[nodiscard]] double now() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
+
+  [[nodiscard]] client::StreamOptions wanted() const {
+    client::StreamOptions options;
+    options.timeout = connect_time;
+    if (epoch_ != 0) options.resume = ResumePoint{epoch_, sequence_};
+    return options;
+  }
+
+  /// Why the connection ended.
+  std::string follow(client::StreamClient& stream) {
+    while (!stop_requested()) {
+      const double left = waiting_.empty() ? static_cast<double>(longest_wait.count()) : waiting_.front().first - now();
+      const milliseconds patience(
+          std::clamp<long long>(static_cast<long long>(left), 1, static_cast<long long>(longest_wait.count())));
+      auto message = stream.next(patience);
+      if (!message) return message.error().message;
+      if (*message && !take(**message)) return "the stream ended";
+      send_due();
+    }
+    return {};
+  }
+
+  /// False at the stream's end.
+  bool take(const Message& message) {
+    if (const auto* header = std::get_if<Header>(&message)) {
+      steps_ = quantizers_of(*header);
+      epoch_ = header->epoch;
+    } else if (const auto* key = std::get_if<Keyframe>(&message)) {
+      // The state as it is, however old: in place of all that waits.
+      sequence_ = key->sequence;
+      waiting_.clear();
+      waiting_.emplace_back(now(), key->state);
+    } else if (const auto* batch = std::get_if<Frames>(&message)) {
+      const auto base = static_cast<double>(batch->media_time);
+      pacer_.arrived(base + batch->frames.front().time, now());
+      for (const TimedFrame& frame : batch->frames) waiting_.emplace_back(pacer_.due(base + frame.time), frame.state);
+      sequence_ = batch->sequence + batch->frames.size() - 1;
+      while (waiting_.size() > most_waiting) waiting_.pop_front();
+    } else if (const auto* error = std::get_if<StreamError>(&message)) {
+      std::cerr << options_.program << ": the server says: " << error->message << '\n';
+    }
+    return !std::holds_alternative<End>(message);
+  }
+
+  void send_due() {
+    const double moment = now();
+    while (!waiting_.empty() && waiting_.front().first <= moment) {
+      newest_ = to_kernel_frame(to_values(waiting_.front().second, steps_));
+      waiting_.pop_front();
+      say(moment);
+      ++frames_;
+    }
+    if (newest_ && moment - said_ > repeat_ms) {
+      say(moment);
+      ++repeated_;
+    }
+  }
+
+  void say(double moment) {
+    for (const auto& packet : vmc::packets_of(*newest_, moment / 1000.0, options_.sender)) {
+      ++(socket_.send(packet) ? packets_ : refused_);
+    }
+    said_ = moment;
+  }
+
+  const OutboundOptions& options_;
+  client::Url url_;
+  UdpSocket& socket_;
+  QuantizerSteps steps_ = standard_quantizers();
+  std::uint64_t epoch_ = 0, sequence_ = 0;
+  Pacer pacer_;
+  std::deque<std::pair<double, FaceFrame>> waiting_;  ///< by when they are due
+  std::optional<semblante_frame> newest_;
+  double said_ = 0.0;
+  std::uint64_t packets_ = 0, refused_ = 0, frames_ = 0, repeated_ = 0;
+  Clock::time_point begin_ = Clock::now();
+};
+
+}  // namespace
+
+Status run_outbound(const OutboundOptions& options) {
+  auto url = client::parse_url(options.server);
+  if (!url) return std::move(url).error();
+  const auto to = parse_endpoint(options.to, options.usual_port);
+  if (!to) return to.error();
+  auto socket = UdpSocket::send_to(*to, options.anywhere);
+  if (!socket) return std::move(socket).error();
+  catch_stop_signals();
+  std::cout << "sending stream " << options.stream << " to " << to->host << " port " << to->port << std::endl;
+  Outbound outbound(options, *std::move(url), *socket);
+  auto ran = outbound.run();
+  outbound.print_counts();
+  return ran;
+}
+
+}  // namespace semblante::gateways

@@ -1,0 +1,116 @@
+#include "clients/gateways/vmc/receiver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "clients/gateways/osc/packet.h"
+#include "clients/gateways/vmc/turn.h"
+
+namespace semblante::vmc {
+namespace {
+
+/// Smaller values are taken for trackers' noise, or for a blend shape that the avatar has and nobody drives.
+constexpr float is_driven = 1e-3F;
+/// Cosine of half the angle from which on an eye's bone counts as turned: a tenth of a degree.
+constexpr double is_turned = 0.9999996;
+
+template <class T>
+const T* value(const osc::Message& message, std::size_t index) {
+  return index < message.arguments.size() ? std::get_if<T>(&message.arguments[index]) : nullptr;
+}
+
+std::optional<glm::dquat> rotation_at(const osc::Message& message, std::size_t first) {
+  std::array<double, 4> xyzw{};
+  for (std::size_t i = 0; i < xyzw.size(); ++i) {
+    const float* part = value<float>(message, first + i);
+    // Beyond 1e6 a length would tell nothing: a unit quaternion has parts of at most 1.
+    if (part == nullptr || !std::isfinite(*part) || std::abs(*part) > 1e6F) return std::nullopt;
+    xyzw[i] = static_cast<double>(*part);
+  }
+  const glm::dquat rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  const double length = glm::length(rotation);
+  if (length < 1e-3) return std::nullopt;
+  return rotation / length;
+}
+
+}  // namespace
+
+Result<std::optional<ReceivedFace>> Receiver::take(std::span<const std::uint8_t> bytes, double arrival) {
+  const auto packet = osc::read_packet(bytes);
+  if (!packet) return packet.error();
+  if (last_packet_ && arrival - *last_packet_ > forget_seconds) {
+    values_ = Values();
+    time_.reset();
+    last_packet_.reset();
+  }
+  // Whoever begins may be about to say Apply: the first bundle is not all of a face.
+  if (!last_packet_) last_apply_ = arrival;
+  last_packet_ = arrival;
+  bool applied = false;
+  bool timed = false;
+  for (const osc::Message& message : packet->messages) {
+    const Said said = read(message);
+    applied = applied || said == Said::apply;
+    timed = timed || said == Said::time;
+    changed_ = changed_ || said == Said::value;
+    skipped_ += said == Said::wrong ? 1 : 0;
+  }
+  if (applied) last_apply_ = arrival;
+  const bool applies = arrival - last_apply_ < apply_seconds;
+  const bool finished = applied || (!applies && changed_ && (packet->is_bundle || timed));
+  if (!finished) return std::optional<ReceivedFace>();
+  ReceivedFace face;
+  face.frame = face_from_values(values_, face.clamped);
+  face.time = time_;
+  time_.reset();
+  changed_ = false;
+  return std::optional<ReceivedFace>(face);
+}
+
+Receiver::Said Receiver::read(const osc::Message& message) {
+  if (message.address == "/VMC/Ext/Blend/Val") return read_blend(message);
+  if (message.address == "/VMC/Ext/Blend/Apply") return Said::apply;
+  if (message.address == "/VMC/Ext/Bone/Pos") return read_bone(message);
+  if (message.address != "/VMC/Ext/T") return Said::nothing;
+  const float* seconds = value<float>(message, 0);
+  if (seconds == nullptr || !std::isfinite(*seconds)) return Said::wrong;
+  // After nine hours a float's steps are 4 ms: the packets' arrival tells more.
+  constexpr float coarse = 32'768.0F;
+  if (std::abs(*seconds) < coarse) time_ = static_cast<double>(*seconds);
+  return Said::time;
+}
+
+Receiver::Said Receiver::read_blend(const osc::Message& message) {
+  const auto* name = value<std::string_view>(message, 0);
+  const float* amount = value<float>(message, 1);
+  if (name == nullptr || amount == nullptr || !std::isfinite(*amount)) return Said::wrong;
+  if (const auto shape = find_perfect_sync(*name)) {
+    values_.perfect_sync[*shape] = *amount;
+    values_.has_perfect_sync = values_.has_perfect_sync || *amount > is_driven;
+  } else if (const auto preset = find_vrm_preset(*name)) {
+    values_.presets[*preset] = *amount;
+  } else {
+    return Said::nothing;
+  }
+  return Said::value;
+}
+
+Receiver::Said Receiver::read_bone(const osc::Message& message) {
+  const auto* name = value<std::string_view>(message, 0);
+  if (name == nullptr) return Said::wrong;
+  glm::dquat* bone = *name == "Head"       ? &values_.head
+                     : *name == "Neck"     ? &values_.neck
+                     : *name == "LeftEye"  ? &values_.eyes[0]
+                     : *name == "RightEye" ? &values_.eyes[1]
+                                           : nullptr;
+  if (bone == nullptr) return Said::nothing;
+  const auto rotation = rotation_at(message, 4);
+  if (!rotation) return Said::wrong;
+  *bone = mirror_x(*rotation);
+  const bool is_eye = bone == &values_.eyes[0] || bone == &values_.eyes[1];
+  values_.eye_bones = values_.eye_bones || (is_eye && std::abs(rotation->w) < is_turned);
+  return Said::value;
+}
+
+}  // namespace semblante::vmc

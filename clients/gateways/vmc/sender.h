@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/kernel/semblante_kernel.h"
+
+namespace semblante::vmc {
+
+/// What is said of a face, and how.
+struct SenderOptions {
+  bool perfect_sync = true;  ///< blend values with ARKit's names
+  bool vrm0 = true;          ///< those of VRM 0's presets
+  bool vrm1 = false;         ///< those of VRM 1's
+  bool bones = true;         ///< Neck, Head, LeftEye and RightEye; their positions are 0
+};
+
+/// Of a bundle: a packet of 1500 bytes on Ethernet less the headers of IPv4 and UDP.
+inline constexpr std::size_t max_sent_bytes = 1472;
+
+/// One face as UDP packets of OSC bundles, to be sent in this order: OK and T (`seconds` of the sender's clock) first,
+/// Apply last. The frame's FAPs must be finite.
+std::vector<std::vector<std::uint8_t>> packets_of(const semblante_frame& frame, double seconds,
+                                                  const SenderOptions& options);
+
+}  // namespace semblante::vmc

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace semblante::vmc {
+
+/// How a head or an eye is turned, radians, by the right-hand rule about our axes (+X to the face's left, +Y up, +Z out
+/// of the face), as FAPs 48 to 50 and 23 to 26 have it: yaw to the face's left, pitch down, roll towards its right
+/// shoulder.
+struct Turn {
+  double yaw = 0.0;
+  double pitch = 0.0;
+  double roll = 0.0;
+};
+
+/// Roll, then pitch, then yaw: the kernel's order.
+glm::dquat to_rotation(const Turn& turn);
+/// The same the other way; pitch within a quarter turn. `rotation` must be a unit quaternion.
+Turn to_turn(const glm::dquat& rotation);
+
+/// Unity's axes are left-handed, +X to the right of an avatar that looks along +Z: ours with x mirrored. A rotation
+/// keeps its part about x and turns the other way about y and z. Its own inverse.
+glm::dquat mirror_x(const glm::dquat& rotation);
+
+}  // namespace semblante::vmc

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/bridges/oculus.h"
+
+namespace semblante::vmc {
+
+/// One preset blend value of VRM avatars and what it says: data/vrm_blends.json.
+struct VrmPreset {
+  std::string vrm0, vrm1;          ///< its names
+  std::vector<std::size_t> arkit;  ///< coefficients (arkit.h)
+  std::optional<std::size_t> viseme;
+  std::uint8_t expression = 0;  ///< of FAP 2; 0: none
+  float amount = 0.0F;          ///< of the expression, at a value of 1
+  bool send = true;
+  std::array<float, oculus_count> shown{};  ///< share of it that a mouth of each viseme shows
+};
+
+/// The file data/vrm_blends.json, which is compiled in.
+std::string_view vrm_blends_document();
+/// What it says; asserts that the file is right.
+const std::vector<VrmPreset>& vrm_presets();
+/// By its VRM 0 or VRM 1 name, in any case.
+std::optional<std::size_t> find_vrm_preset(std::string_view name);
+/// An ARKit coefficient by its name in any case ("EyeBlinkLeft", "eyeblinkleft").
+std::optional<std::size_t> find_perfect_sync(std::string_view name);
+
+}  // namespace semblante::vmc
