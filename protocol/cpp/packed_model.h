@@ -419,6 +419,7 @@ typename PackedModel<Coder>::Guess PackedModel<Coder>::guess(std::size_t fap, st
   const int rb = before[1].level[reference];
   const int rc = before[2].level[reference];
   Guess best{held(a + r - ra), 2 * std::abs(a - held(b + ra - rb)) + std::abs(b - held(c + rb - rc)), shared};
+  if (best.cost == 0) return best;  // most of a face follows exactly, and ratios are divisions
   const int ratio_cost = 2 * std::abs(a - ratio(rb, ra, b)) + std::abs(b - ratio(rc, rb, c));
   if (ratio_cost < best.cost) best = {ratio(ra, r, a), ratio_cost, shared};
   if (line_guess.cost < best.cost) best = line_guess;
