@@ -15,6 +15,7 @@ void add_convert_command(CLI::App& app);
 void add_deform_command(CLI::App& app);
 void add_examine_command(CLI::App& app);
 void add_extract_command(CLI::App& app);
+void add_play_command(CLI::App& app);
 void add_propose_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 void add_version_command(CLI::App& app);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   add_deform_command(app);
   add_examine_command(app);
   add_extract_command(app);
+  add_play_command(app);
   add_propose_command(app);
   add_serve_command(app);
   add_version_command(app);
@@ -27,12 +28,13 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr << "semblante: "
-              << (has_command
-                      ? fault.what()
-                      : "give a subcommand: parametrize, deform, convert, examine, extract, propose or serve (see "
-                        "semblante --help)")
-              << "\n";
+    std::cerr
+        << "semblante: "
+        << (has_command
+                ? fault.what()
+                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose or serve (see "
+                  "semblante --help)")
+        << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";
