@@ -1,3 +1,5 @@
+#include <array>
+
 #include "server/api/common.h"
 #include "server/api/routes.h"
 #include "server/metrics/process_metrics.h"
@@ -35,22 +37,53 @@ void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
       writer.sample(jobs.ended(kind, state), {{"kind", to_string(kind)}, {"state", to_string(state)}});
 }
 
+/// Streams are summed up: their ids are chosen by clients.
 void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
-  const auto streams = hub.list();
-  std::uint64_t subscribers = 0;
-  for (const auto& stream : streams) subscribers += stream.subscribers;
+  using streams::source_names;
+  std::array<std::uint64_t, streams::source_count + 1> fed{};
+  std::array<std::uint64_t, streams::coding_count> subscribers{};
+  for (const auto& stream : hub.list()) {
+    ++fed[stream.active_source ? static_cast<std::size_t>(*stream.active_source) : streams::source_count];
+    for (std::size_t i = 0; i < subscribers.size(); ++i) subscribers[i] += stream.subscribers_by_coding[i];
+  }
   const auto counts = hub.counts();
-  writer.single("semblante_streams", MetricType::gauge, "Streams open.", std::uint64_t{streams.size()});
-  writer.single("semblante_stream_subscribers", MetricType::gauge, "Connections that follow a stream.", subscribers);
-  writer.single("semblante_stream_frames_total", MetricType::counter, "Frames that entered a stream.", counts.frames);
+  writer.family("semblante_streams", MetricType::gauge, "Streams open, by what feeds them now.");
+  for (std::size_t i = 0; i < fed.size(); ++i)
+    writer.sample(fed[i], {{"source", i < streams::source_count ? source_names[i] : "none"}});
+  writer.family("semblante_stream_subscribers", MetricType::gauge, "Connections that follow a stream.");
+  for (std::size_t i = 0; i < subscribers.size(); ++i)
+    writer.sample(subscribers[i], {{"coding", streams::coding_names[i]}});
+  writer.family("semblante_stream_frames_total", MetricType::counter, "Frames that entered a stream.");
+  for (std::size_t i = 0; i < streams::source_count; ++i)
+    writer.sample(counts.frames_by_source[i], {{"source", source_names[i]}});
+  writer.single("semblante_stream_batches_total", MetricType::counter, "Batches into which frames were gathered.",
+                counts.batches);
+  writer.single("semblante_stream_encode_seconds_total", MetricType::counter,
+                "Time spent on encoding batches and join points, in all codings.", counts.encode_seconds);
   writer.single("semblante_stream_messages_sent_total", MetricType::counter,
-                "Messages with frames, for each subscriber they were meant for.", counts.messages_sent);
+                "Batches and join points sent, to each subscriber.", counts.messages_sent);
+  writer.single("semblante_stream_sent_bytes_total", MetricType::counter, "Bytes of these, WebSocket headers included.",
+                counts.bytes_sent);
   writer.single("semblante_stream_messages_coalesced_total", MetricType::counter,
-                "Messages to subscribers that fell behind, replaced by the newest state.", counts.messages_replaced);
-  writer.single("semblante_stream_closed_slow_total", MetricType::counter,
-                "Connections closed because they read nothing.", counts.closed_slow);
-  writer.single("semblante_stream_refused_total", MetricType::counter,
-                "Connections and publishers that were not taken.", counts.refused);
+                "Batches to subscribers that fell behind, replaced by the newest state.", counts.messages_replaced);
+  writer.single("semblante_stream_messages_dropped_total", MetricType::counter,
+                "Messages that waited for a connection closed as slow, and answers there was no room for.",
+                counts.messages_dropped);
+  writer.family("semblante_stream_lateness_seconds", MetricType::histogram,
+                "From when a batch was due until the kernel had it, for each subscriber.");
+  writer.histogram(metrics::lateness_bounds, counts.lateness);
+  writer.single("semblante_stream_throttled_frames_total", MetricType::counter,
+                "Frames left out because their source sent too many.", counts.throttled);
+  writer.family("semblante_stream_connections_closed_total", MetricType::counter,
+                "Connections of streams that the server closed.");
+  writer.sample(counts.closed_slow, {{"reason", "slow"}});
+  writer.sample(counts.closed_silent, {{"reason", "no_hello"}});
+  writer.sample(counts.closed_replaced, {{"reason", "replaced"}});
+  writer.sample(counts.closed_conflict, {{"reason", "conflict"}});
+  writer.sample(counts.closed_flooding, {{"reason", "throttled"}});
+  writer.sample(counts.closed_ended, {{"reason", "ended"}});
+  writer.single("semblante_stream_connections_refused_total", MetricType::counter,
+                "Connections turned away because the stream had as many as it takes.", counts.refused);
   writer.single("semblante_stream_clamped_values_total", MetricType::counter,
                 "Values beyond the range of their FAP, made its end.", counts.clamped_values);
 }

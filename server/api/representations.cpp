@@ -122,6 +122,31 @@ Json represent(const store::JobRecord& job) {
           {"result", json_or_null(job.result)}};
 }
 
+namespace {
+
+Json by_coding(const streams::StreamInfo& stream) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < streams::coding_count; ++i)
+    json[std::string(streams::coding_names[i])] = stream.subscribers_by_coding[i];
+  return json;
+}
+
+/// ms: the bound of the bucket that the hundredth part of all is above; null before anything was sent, and beyond the
+/// last bound.
+Json lateness_p99(const metrics::LatenessValues& lateness) {
+  const auto count = lateness.count();
+  if (count == 0) return nullptr;
+  std::uint64_t below = 0;
+  for (std::size_t i = 0; i < metrics::lateness_bounds.upper.size(); ++i) {
+    below += lateness.buckets[i];
+    if (static_cast<double>(below) >= 0.99 * static_cast<double>(count))
+      return metrics::lateness_bounds.upper[i] * 1000.0;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 Json represent(const streams::StreamInfo& stream) {
   return {{"id", stream.id},
           {"title", stream.title},
@@ -132,6 +157,14 @@ Json represent(const streams::StreamInfo& stream) {
           {"subscribers", stream.subscribers},
           {"publishers", stream.publishers},
           {"source", stream.source},
+          {"active_source", stream.active_source
+                                ? Json(streams::source_names[static_cast<std::size_t>(*stream.active_source)])
+                                : Json(nullptr)},
+          {"batch_interval", stream.batch_interval},
+          {"subscribers_by_coding", by_coding(stream)},
+          {"bytes_sent", stream.counts.bytes_sent},
+          {"messages_coalesced", stream.counts.messages_replaced},
+          {"lateness_p99", lateness_p99(stream.counts.lateness)},
           {"clamped_values", stream.clamped_values},
           {"viseme_share", stream.viseme_share ? Json(*stream.viseme_share) : Json(nullptr)},
           {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}};

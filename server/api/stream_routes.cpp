@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t max_slug_bytes = 64;
 constexpr std::size_t max_title_bytes = 200;
+constexpr std::uint32_t usual_batch_interval = 100;  ///< ms
+constexpr int most_batch_interval = 1000;
+/// Seconds: in three there is room for the 1024 frames of the longest message.
+constexpr unsigned throttled_retry_after = 3;
 
 std::string checked_slug(const Json& value) {
   auto slug = checked_text(value, max_slug_bytes, "/name");
@@ -25,6 +29,14 @@ double checked_share(const Json& value) {
   const double share = value.is_number() ? value.get<double>() : -1.0;
   if (!(share >= 0.0 && share <= 1.0)) refuse("invalid-field", "must be a number from 0 to 1", "/viseme_share");
   return share;
+}
+
+std::uint32_t checked_interval(const Json& value) {
+  const double interval = value.is_number_integer() ? value.get<double>() : -1.0;
+  if (!(interval >= 0.0 && interval <= most_batch_interval))
+    refuse("invalid-field", "must be a whole number from 0 to " + std::to_string(most_batch_interval),
+           "/batch_interval");
+  return static_cast<std::uint32_t>(interval);
 }
 
 streams::StreamInfo info_of(Context& context, const http::Request& request) {
@@ -50,7 +62,7 @@ http::Response list_streams(Context& context, http::Request&) {
 
 http::Response create_stream(Context& context, http::Request& request) {
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "title", "model", "viseme_share"});
+  refuse_unknown_members(body, {"name", "title", "model", "viseme_share", "batch_interval"});
   streams::StreamInfo info;
   info.id = body.contains("name") ? checked_slug(body["name"]) : store::random_id();
   info.title = body.contains("title") ? checked_text(body["title"], max_title_bytes, "/title") : info.id;
@@ -60,6 +72,7 @@ http::Response create_stream(Context& context, http::Request& request) {
   }
   if (body.contains("viseme_share") && !body["viseme_share"].is_null())
     info.viseme_share = checked_share(body["viseme_share"]);
+  info.batch_interval = checked_interval(body.value("batch_interval", Json(usual_batch_interval)));
   info.created = store::timestamp_now();
   info.source = "none";
 
@@ -73,7 +86,8 @@ http::Response create_stream(Context& context, http::Request& request) {
   if (check.record) check.record->resource = info.id;
   // Durable before it is there for others, so that a stream somebody saw is never forgotten.
   if (context.hub.info(info.id) ||
-      !context.store.create_stream({info.id, info.title, info.model, info.created, info.viseme_share}, check.record))
+      !context.store.create_stream(
+          {info.id, info.title, info.model, info.created, info.viseme_share, info.batch_interval}, check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
   return created(context.hub.info(info.id).value_or(info));
@@ -106,6 +120,8 @@ http::Response post_frames(Context& context, http::Request& request) {
   if (!receipt) {
     const auto& error = receipt.error();
     if (error.code == ErrorCode::missing) refuse("not-found", error.message);
+    // So long until there is room for as many, whether it was the rate or the frames that are ahead.
+    if (error.code == ErrorCode::too_large) refuse_for_now(error.message, throttled_retry_after);
     refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
   }
   return json_response(202, {{"accepted", receipt->accepted},

@@ -68,6 +68,7 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
     info.model = record.model;
     info.created = record.created;
     info.viseme_share = record.viseme_share;
+    info.batch_interval = record.batch_interval;
     info.source = "none";
     if (!hub.open(info)) log::warning("the stream " + record.id + " is hidden by one of the server's own");
   }

@@ -187,6 +187,7 @@ struct JobRecord {
 struct StreamRecord {
   std::string id, title, model, created;
   std::optional<double> viseme_share;  ///< of Eq. 5, 0..1
+  std::uint32_t batch_interval = 100;  ///< ms
 
   bool operator==(const StreamRecord&) const = default;
 };

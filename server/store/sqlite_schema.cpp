@@ -78,6 +78,7 @@ constexpr std::array migrations = {
     "ALTER TABLE jobs ADD COLUMN lods TEXT NOT NULL DEFAULT ''",
     with_displacement_sets,
     "ALTER TABLE streams ADD COLUMN viseme_share REAL",
+    "ALTER TABLE streams ADD COLUMN batch_interval INTEGER NOT NULL DEFAULT 100",
 };
 constexpr int schema_version = migrations.size();
 

@@ -369,8 +369,10 @@ class SqliteStore : public Store {
   bool create_stream(const StreamRecord& stream, const std::optional<IdempotencyRecord>& key) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
-    Statement(db_, "INSERT OR IGNORE INTO streams(id, title, model, created, viseme_share) VALUES(?,?,?,?,?)")
-        .bind(stream.id, stream.title, stream.model, stream.created, stream.viseme_share)
+    Statement(
+        db_,
+        "INSERT OR IGNORE INTO streams(id, title, model, created, viseme_share, batch_interval) VALUES(?,?,?,?,?,?)")
+        .bind(stream.id, stream.title, stream.model, stream.created, stream.viseme_share, stream.batch_interval)
         .run();
     if (db_.changes() == 0) return false;
     insert_key(key);
@@ -381,10 +383,12 @@ class SqliteStore : public Store {
   std::vector<StreamRecord> streams() override {
     const std::lock_guard lock(mutex_);
     std::vector<StreamRecord> list;
-    Statement statement(db_, "SELECT id, title, model, created, viseme_share FROM streams ORDER BY number");
+    Statement statement(db_,
+                        "SELECT id, title, model, created, viseme_share, batch_interval FROM streams ORDER BY number");
     while (statement.step()) {
       StreamRecord stream{statement.text(0), statement.text(1), statement.text(2), statement.text(3), std::nullopt};
       if (!statement.is_null(4)) stream.viseme_share = statement.real(4);
+      stream.batch_interval = static_cast<std::uint32_t>(statement.integer(5));
       list.push_back(std::move(stream));
     }
     return list;

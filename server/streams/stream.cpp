@@ -13,9 +13,6 @@ namespace {
 using Clock = Stream::Clock;
 /// A stream's own source comes back when nobody has published for so long.
 constexpr std::chrono::seconds demo_patience{3};
-/// A publisher's clock may run ahead of or behind the stream's by so much before it is set anew.
-constexpr std::int64_t clock_ahead = 10'000;
-constexpr std::int64_t clock_behind = 1'000;
 
 }  // namespace
 
@@ -40,7 +37,8 @@ Stream::Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender
     : limits_(limits),
       sender_(std::move(sender)),
       lateness_(std::make_shared<metrics::LatenessHistogram>(metrics::lateness_bounds)),
-      info_(std::move(info)) {}
+      info_(std::move(info)),
+      requests_(limits.publisher, Clock::now()) {}
 
 double Stream::server_time_now() {
   return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -58,6 +56,11 @@ StreamInfo Stream::info() const {
   StreamInfo info = info_;
   info.publishers = publisher_ != nullptr ? 1 : 0;
   info.subscribers = subscribers_.size();
+  for (const auto& subscriber : subscribers_.all())
+    ++info.subscribers_by_coding[static_cast<std::size_t>(subscriber.coding)];
+  info.active_source = active_source();
+  info.counts = counts_;
+  info.counts.lateness = lateness_->values();
   return info;
 }
 
@@ -74,65 +77,70 @@ void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
   listener_ = std::move(listener);
 }
 
-std::uint64_t Stream::place_played(Clock::time_point when) const {
-  const auto at = media_time_at(when);
-  const auto newest = newest_media_time_;
-  const bool just_behind = newest > at && newest - at < static_cast<std::uint64_t>(clock_behind);
-  return just_behind ? newest : at;
-}
-
-std::uint64_t Stream::place_in_time(Source source, std::uint64_t media_time) {
-  const auto now = static_cast<std::int64_t>(media_time_now());
-  if (source != Source::connection || media_time == 0) return static_cast<std::uint64_t>(now);
-  // The publisher's own spacing is kept, so that a jittery network does not make a jittery face.
-  const auto theirs = static_cast<std::int64_t>(std::min<std::uint64_t>(media_time, INT64_MAX / 2));
-  const auto ours = theirs + publisher_offset_;
-  if (!publisher_offset_known_ || ours > now + clock_ahead || ours < now - clock_behind) {
-    publisher_offset_ = now - theirs;
-    publisher_offset_known_ = true;
-    return static_cast<std::uint64_t>(now);
-  }
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(ours, 0));
-}
-
-Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames) {
+Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames,
+                                       const StreamConnection* from) {
   if (frames.empty()) return Error{ErrorCode::empty, "/frames", "there is no frame in it"};
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
   if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
-  if (source == Source::request && publisher_ != nullptr)
+  if (publisher_ != from)
     return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
-  if (player_ != 0) return Error{ErrorCode::mismatch, "", "a performance plays into this stream: one source at a time"};
+  if (player_ != 0)
+    return Error{ErrorCode::mismatch, "",
+                 "a " + std::string(source_names[static_cast<std::size_t>(playing_)]) +
+                     " plays into this stream: one source at a time"};
+  const bool request = source == Source::request;
+  if (request && requests_.offer(frames.size(), Clock::now()) != FloodGuard::Verdict::take) {
+    counts_.throttled += frames.size();
+    return Error{ErrorCode::too_large, "/frames", requests_.words()};
+  }
+  const auto now = media_time_now();
+  auto placed = frames;
+  const auto at = request || media_time == 0 ? timeline_.place_now(now, placed)
+                                             : timeline_.place_published(now, media_time, placed);
+  if (!at) return at.error();
   last_live_ = Clock::now();
-  return take(place_in_time(source, media_time), frames);
+  last_was_request_ = request;
+  return take(source, *at, std::move(placed));
 }
 
-PublishReceipt Stream::take(std::uint64_t media_time, const std::vector<TimedFrame>& frames) {
-  std::vector<TimedFrame> within = frames;
+PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames) {
   std::size_t clamped = 0;
-  for (auto& frame : within) clamped += clamp_to_ranges(frame.state);
+  for (auto& frame : frames) clamped += clamp_to_ranges(frame.state);
   info_.clamped_values += clamped;
   counts_.clamped_values += clamped;
   counts_.frames += frames.size();
+  counts_.frames_by_source[static_cast<std::size_t>(source)] += frames.size();
   info_.sequence += frames.size();
-  newest_media_time_ = media_time + frames.back().time;
-  gather(media_time, within);
+  gather(media_time, frames);
   return PublishReceipt{frames.size(), info_.sequence, clamped};
 }
 
-Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over) {
+void Stream::replace_publisher() {
+  if (publisher_ == nullptr) return;
+  publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
+  publisher_ = nullptr;
+  ++counts_.closed_replaced;
+}
+
+std::optional<Source> Stream::active_source() const {
+  if (publisher_ != nullptr) return Source::connection;
+  if (player_ != 0) return playing_;
+  if (last_was_request_ && Clock::now() - last_live_ < demo_patience) return Source::request;
+  if (info_.source == "demo") return Source::demo;
+  return std::nullopt;
+}
+
+Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over, Source source) {
   const std::lock_guard lock(mutex_);
   if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
   if (!take_over && publisher_ != nullptr)
     return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
   if (!take_over && player_ != 0)
     return Error{ErrorCode::mismatch, "", "something plays into this stream already: one source at a time"};
-  if (publisher_ != nullptr) {
-    publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
-    publisher_ = nullptr;
-    ++counts_.closed_replaced;
-  }
+  replace_publisher();
   rate_ = rate;
+  playing_ = source;
   player_ = ++last_ticket_;
   return player_;
 }
@@ -140,19 +148,20 @@ Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over) {
 Status Stream::publish_playing(std::uint64_t ticket, Clock::time_point when, const TimedFrame& frame) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
-  if (ended_ || ticket != player_) return Error{ErrorCode::mismatch, "", "it plays no more"};
+  if (ended_ || ticket == 0 || ticket != player_) return Error{ErrorCode::mismatch, "", "it plays no more"};
   last_live_ = Clock::now();
-  take(place_played(when), {frame});
+  last_was_request_ = false;
+  take(playing_, timeline_.place_due(media_time_at(when)), {frame});
   return Unit{};
 }
 
 void Stream::end_playing(std::uint64_t ticket, bool neutral) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
-  if (ended_ || ticket != player_) return;
+  if (ended_ || ticket == 0 || ticket != player_) return;
   player_ = 0;
   last_live_ = Clock::now();
-  if (neutral) take(place_played(Clock::now()), {TimedFrame{}});
+  if (neutral) take(playing_, timeline_.place_due(media_time_now()), {TimedFrame{}});
 }
 
 Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
@@ -160,7 +169,7 @@ Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
   const std::lock_guard lock(mutex_);
   if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
   if (publisher_ != nullptr || player_ != 0 || Clock::now() - last_live_ < demo_patience) return Unit{};
-  take(place_played(when), {frame});
+  take(Source::demo, timeline_.place_due(media_time_at(when)), {frame});
   return Unit{};
 }
 

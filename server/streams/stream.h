@@ -14,8 +14,11 @@
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
+#include "server/streams/flood_guard.h"
+#include "server/streams/source.h"
 #include "server/streams/stream_counts.h"
 #include "server/streams/subscriber_list.h"
+#include "server/streams/timeline.h"
 
 namespace semblante::streams {
 
@@ -33,8 +36,7 @@ struct StreamLimits {
   std::size_t pending_bytes = 256 * 1024;
   std::chrono::milliseconds stalled{5000};  ///< reading nothing for so long closes with 1013
   std::chrono::milliseconds hello_time{10'000};
-  std::uint32_t frames_per_second = 500;  ///< of one publisher, on average
-  std::uint32_t frames_burst = 2000;
+  FloodLimits publisher;  ///< of one connection that publishes, and of all requests of one stream together
   std::size_t playing_bytes = std::size_t{512} << 20U;  ///< of all that plays, in all streams together
 };
 
@@ -57,11 +59,10 @@ struct StreamInfo {
   std::optional<PlayStatus> playing;   ///< filled in by the hub
   std::uint64_t clamped_values = 0;    ///< that were beyond the range of their FAP
   std::uint32_t batch_interval = 0;    ///< ms for which frames are gathered into one message; 0: each is sent at once
+  std::optional<Source> active_source{};  ///< who feeds it now; of requests: within the last seconds
+  std::array<std::size_t, coding_count> subscribers_by_coding{};
+  StreamCounts counts{};
 };
-
-/// Who feeds a stream. One connection publishes or one source plays at a time; a REST call comes between only while
-/// neither does.
-enum class Source { connection, request };
 
 struct PublishReceipt {
   std::size_t accepted = 0;
@@ -86,14 +87,16 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// Who hears every batch from now on; null: nobody. One at a time.
   void set_listener(std::shared_ptr<BatchListener> listener);
 
-  /// Takes frames in and sends them on. Errors: conflict (somebody else publishes) as `mismatch`; empty list as
-  /// `empty`.
-  Result<PublishReceipt> publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+  /// Frames from a request, or from the connection `from` that publishes. `media_time`: by the publisher's clock; 0:
+  /// now. Errors: `mismatch` (somebody else publishes or plays), `empty` (no frame), `out_of_range` (they last too
+  /// long), `too_large` (too many in too short a time, or too far ahead of the clock already: later there is room).
+  Result<PublishReceipt> publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames,
+                                 const StreamConnection* from = nullptr);
 
   /// Makes what plays (frames a second: rate) the stream's only source. The ticket for publish_playing. Errors:
   /// conflict (a connection publishes, or something else plays) as `mismatch`, unless it takes over: then that
   /// connection is told `replaced` and closed.
-  Result<std::uint64_t> begin_playing(double rate, bool take_over);
+  Result<std::uint64_t> begin_playing(double rate, bool take_over, Source source = Source::performance);
   /// One frame of what plays, at its own time. Errors: `mismatch` when it plays no more.
   Status publish_playing(std::uint64_t ticket, Clock::time_point when, const TimedFrame& frame);
   /// Nothing when somebody else plays by now. `neutral`: the face goes back to rest.
@@ -106,8 +109,11 @@ class Stream : public std::enable_shared_from_this<Stream> {
   void leave(StreamConnection& connection);
   /// After the hello: sends header and keyframe (or the gap) and lets the batches follow that are made from then on.
   void subscribe(StreamConnection& connection, const Hello& hello);
-  /// After the hello: false when another connection publishes.
-  bool begin_publishing(StreamConnection& connection);
+  /// After the hello: false when another source is there, unless it takes over; then that one is told `replaced` and
+  /// closed, or plays no more.
+  bool begin_publishing(StreamConnection& connection, bool take_over);
+  /// A publisher is about to be closed because it floods.
+  void dismiss(StreamConnection& connection);
   /// All that waited for it has gone. If it fell behind it gets the newest state; from there on batches reach it again.
   void writable(StreamConnection& connection);
   void count_throttled(std::size_t frames);
@@ -145,10 +151,11 @@ class Stream : public std::enable_shared_from_this<Stream> {
   };
 
   /// What every source goes through: values beyond the range of their FAP are clamped, and counted.
-  PublishReceipt take(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+  PublishReceipt take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames);
+  /// Tells the connection that publishes, if there is one, that another source has taken over.
+  void replace_publisher();
+  [[nodiscard]] std::optional<Source> active_source() const;
   [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const;
-  /// A played frame keeps its own time, but never falls behind the frame before it by a breath.
-  [[nodiscard]] std::uint64_t place_played(Clock::time_point when) const;
   Header make_header(bool recovered, StreamCoding coding) const;
   // With the mutex held, all of them.
   void gather(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
@@ -168,7 +175,6 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// Without it.
   std::size_t send_slice(std::span<Target> targets, const std::array<http::SharedWire, coding_count>& wires,
                          Clock::time_point due);
-  std::uint64_t place_in_time(Source source, std::uint64_t media_time);
 
   const StreamLimits limits_;
   const std::shared_ptr<BatchSender> sender_;
@@ -180,7 +186,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   StreamInfo info_;              ///< sequence: of the newest frame taken
   StreamCounts counts_;
   PackedEncoder packed_;  ///< with sequence, media time and state as of the last batch
-  std::uint64_t newest_media_time_ = 0;
+  Timeline timeline_;
   Frames gathering_;  ///< not yet in a batch; no frames: nothing
   Clock::time_point gather_due_;
   Clock::time_point wanted_ = Clock::time_point::max();  ///< when the sender is to call
@@ -201,8 +207,9 @@ class Stream : public std::enable_shared_from_this<Stream> {
   bool ended_ = false;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_live_;  ///< when somebody other than its own source did
-  std::int64_t publisher_offset_ = 0;                ///< stream clock minus the publisher's
-  bool publisher_offset_known_ = false;
+  Source playing_ = Source::performance;             ///< what plays, if something does
+  bool last_was_request_ = false;                    ///< what was live then
+  FloodGuard requests_;
 };
 
 }  // namespace semblante::streams

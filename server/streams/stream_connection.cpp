@@ -29,19 +29,10 @@ http::SharedWire encoded(const Message& message, bool binary) {
 }  // namespace
 
 struct StreamConnection::Publishing {
-  FrameDecoder decoder;
-  double tokens = 0.0;  ///< frames it may send now
-  Clock::time_point refilled = Clock::now();
+  explicit Publishing(const FloodLimits& limits) : guard(limits, Clock::now()) {}
 
-  bool take(std::size_t frames, const StreamLimits& limits) {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - refilled).count();
-    refilled = now;
-    tokens = std::min<double>(limits.frames_burst, tokens + seconds * limits.frames_per_second);
-    if (tokens < static_cast<double>(frames)) return false;
-    tokens -= static_cast<double>(frames);
-    return true;
-  }
+  FrameDecoder decoder;
+  FloodGuard guard;
 };
 
 StreamConnection::StreamConnection(std::shared_ptr<Stream> stream, bool binary, bool subprotocol_offered)
@@ -145,11 +136,11 @@ void StreamConnection::handle_hello(const Hello& hello) {
     return;
   }
   role_ = Role::publishes;
-  publishing_ = std::make_unique<Publishing>();
-  publishing_->tokens = stream_->limits().frames_burst;
-  if (!stream_->begin_publishing(*this)) {
+  publishing_ = std::make_unique<Publishing>(stream_->limits().publisher);
+  if (!stream_->begin_publishing(*this, hello.take_over)) {
     close(Message(StreamError{StreamErrorCode::conflict, "/role",
-                              "somebody else publishes or plays to this stream: one source at a time"}),
+                              "somebody else publishes or plays to this stream: one source at a time; `take_over` in "
+                              "the hello takes its place"}),
           {1008, "another source is there"});
   }
 }
@@ -159,14 +150,24 @@ void StreamConnection::handle_frames(std::uint64_t media_time, const std::vector
     refuse(StreamErrorCode::invalid_argument, "", "this connection subscribes: only a publisher sends frames");
     return;
   }
-  if (!publishing_->take(frames.size(), stream_->limits())) {
-    stream_->count_throttled(frames.size());
-    refuse(StreamErrorCode::throttled, "/frames",
-           "more than " + std::to_string(stream_->limits().frames_per_second) + " frames a second");
-    return;
-  }
-  if (auto taken = stream_->publish(Source::connection, media_time, frames); !taken)
+  if (!admit(frames.size())) return;
+  if (auto taken = stream_->publish(Source::connection, media_time, frames, this); !taken)
     send(Message(to_stream_error(taken.error())));
+}
+
+bool StreamConnection::admit(std::size_t frames) {
+  const auto verdict = publishing_->guard.offer(frames, Clock::now());
+  if (verdict == FloodGuard::Verdict::take) return true;
+  stream_->count_throttled(frames);
+  if (verdict == FloodGuard::Verdict::drop) return false;
+  StreamError error{StreamErrorCode::throttled, "/frames", publishing_->guard.words()};
+  if (verdict == FloodGuard::Verdict::drop_and_say) {
+    send(Message(std::move(error)));
+    return false;
+  }
+  stream_->dismiss(*this);
+  close(Message(std::move(error)), {1008, "sends too many frames for too long"});
+  return false;
 }
 
 // ---- the stream's side

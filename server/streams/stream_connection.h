@@ -58,6 +58,8 @@ class StreamConnection : public http::WebSocketPeer {
   void handle(Message message);
   void handle_hello(const Hello& hello);
   void handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
+  /// Whether so many more frames may come now; says so when they may not.
+  bool admit(std::size_t frames);
 
   const std::shared_ptr<Stream> stream_;
   const bool binary_;

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "server/metrics/histogram.h"
+#include "server/streams/source.h"
 
 namespace semblante::streams {
 
 /// What has happened in a stream, or in all of them.
 struct StreamCounts {
-  std::uint64_t frames = 0;             ///< taken from sources
+  std::uint64_t frames = 0;  ///< taken from sources
+  std::array<std::uint64_t, source_count> frames_by_source{};
   std::uint64_t batches = 0;            ///< into which they were gathered
   std::uint64_t messages_sent = 0;      ///< batches and join points, to each subscriber
   std::uint64_t bytes_sent = 0;         ///< of these, WebSocket headers included
@@ -18,7 +21,9 @@ struct StreamCounts {
   std::uint64_t closed_silent = 0;      ///< connections that said no hello
   std::uint64_t closed_replaced = 0;    ///< publishers another source took over from
   std::uint64_t closed_ended = 0;       ///< connections of streams that ended
-  std::uint64_t refused = 0;            ///< connections over the limit, second publishers
+  std::uint64_t closed_flooding = 0;    ///< publishers that did not stop to send too much
+  std::uint64_t closed_conflict = 0;    ///< publishers that came while another source was there
+  std::uint64_t refused = 0;            ///< connections over the limit
   std::uint64_t throttled = 0;          ///< frames of publishers that flood
   std::uint64_t clamped_values = 0;     ///< that were beyond the range of their FAP
   double encode_seconds = 0.0;          ///< spent on batches and join points, in all codings
@@ -26,6 +31,7 @@ struct StreamCounts {
 
   StreamCounts& operator+=(const StreamCounts& other) {
     frames += other.frames;
+    for (std::size_t i = 0; i < source_count; ++i) frames_by_source[i] += other.frames_by_source[i];
     batches += other.batches;
     messages_sent += other.messages_sent;
     bytes_sent += other.bytes_sent;
@@ -35,6 +41,8 @@ struct StreamCounts {
     closed_silent += other.closed_silent;
     closed_replaced += other.closed_replaced;
     closed_ended += other.closed_ended;
+    closed_flooding += other.closed_flooding;
+    closed_conflict += other.closed_conflict;
     refused += other.refused;
     throttled += other.throttled;
     clamped_values += other.clamped_values;

@@ -92,7 +92,8 @@ StreamInfo InProcessHub::full_info(std::string_view id, const Stream& stream) co
   StreamInfo info = stream.info();
   if (const auto playing = find_playing(id)) {
     const std::lock_guard lock(playing->mutex);
-    if (!playing->player.finished()) info.playing = playing->player.status(Player::Clock::now());
+    const bool plays = info.active_source && *info.active_source != Source::connection;
+    if (plays && !playing->player.finished()) info.playing = playing->player.status(Player::Clock::now());
   }
   return info;
 }
@@ -156,7 +157,7 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   for (const auto& [stream, playing] : playing_) bytes += stream == id ? 0 : playing->bytes;
   if (bytes > limits_.playing_bytes)
     return Error{ErrorCode::too_large, "", "what plays in all streams takes as much memory as it may"};
-  auto ticket = found->second->begin_playing(options.rate, options.take_over);
+  auto ticket = found->second->begin_playing(options.rate, options.take_over, played_source(source->kind()));
   if (!ticket) return std::move(ticket).error();
   const auto now = Player::Clock::now();
   // As epochs, ids never repeat over restarts: nobody stops another's performance by an old address.

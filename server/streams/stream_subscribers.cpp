@@ -114,16 +114,27 @@ void Stream::subscribe(StreamConnection& connection, const Hello& hello) {
   subscribers_.add(subscriber);
 }
 
-bool Stream::begin_publishing(StreamConnection& connection) {
+bool Stream::begin_publishing(StreamConnection& connection, bool take_over) {
   const std::lock_guard lock(mutex_);
-  if (player_ != 0 || (publisher_ != nullptr && publisher_ != &connection)) {
-    ++counts_.refused;
+  if (ended_) return false;
+  if (!take_over && (player_ != 0 || publisher_ != nullptr)) {
+    ++counts_.closed_conflict;
     return false;
   }
+  replace_publisher();
+  player_ = 0;
   publisher_ = &connection;
-  publisher_offset_known_ = false;
+  timeline_.forget_publisher();
   connection.send(Message(make_header(false, StreamCoding::plain)));
   return true;
+}
+
+void Stream::dismiss(StreamConnection& connection) {
+  const std::lock_guard lock(mutex_);
+  if (publisher_ != &connection) return;
+  publisher_ = nullptr;
+  last_live_ = Clock::now();
+  ++counts_.closed_flooding;
 }
 
 void Stream::writable(StreamConnection& connection) {

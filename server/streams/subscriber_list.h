@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "server/http/websocket_peer.h"
@@ -16,6 +18,7 @@ class StreamConnection;
 /// The forms in which a stream's batches are sent. Each is made once, when somebody wants it.
 enum class Coding : std::uint8_t { packed, plain, json };
 inline constexpr std::size_t coding_count = 3;
+inline constexpr std::array<std::string_view, coding_count> coding_names = {"packed", "plain", "json"};
 
 /// One who listens, as the thread that sends sees it.
 struct Subscriber {
@@ -38,6 +41,7 @@ class SubscriberList {
   [[nodiscard]] std::size_t size() const { return items_.size(); }
   [[nodiscard]] Subscriber& operator[](std::size_t slot) { return items_[slot]; }
   [[nodiscard]] std::span<Subscriber> all() { return items_; }
+  [[nodiscard]] std::span<const Subscriber> all() const { return items_; }
 
   void add(const Subscriber& subscriber) {
     *subscriber.slot = items_.size();

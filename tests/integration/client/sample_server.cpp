@@ -57,7 +57,7 @@ SampleServer::~SampleServer() {
 std::string SampleServer::url() const { return "http://" + http_->url().host + ":" + http_->url().port; }
 
 void SampleServer::create_stream(const std::string& name, std::optional<double> viseme_share) const {
-  nlohmann::json body = {{"name", name}, {"model", "sample"}};
+  nlohmann::json body = {{"name", name}, {"model", "sample"}, {"batch_interval", 0}};
   if (viseme_share) {
     body["viseme_share"] = *viseme_share;
   }

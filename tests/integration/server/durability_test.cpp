@@ -81,7 +81,8 @@ TEST(Durability, Streams_AreThereAfterARestart) {
   {
     ServerProcess server(folder.path() / "data");
     EXPECT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type).status, 201);
-    for (const char* body : {R"({"name":"spoken","viseme_share":0.25})", R"({"name":"felt","viseme_share":0})"}) {
+    for (const char* body :
+         {R"({"name":"spoken","viseme_share":0.25,"batch_interval":40})", R"({"name":"felt","viseme_share":0})"}) {
       EXPECT_EQ(request(server.port(), "POST", "/v1/streams", body, json_type).status, 201);
     }
     EXPECT_EQ(server.end(SIGINT), 0) << "Ctrl-C ends it well";
@@ -90,6 +91,8 @@ TEST(Durability, Streams_AreThereAfterARestart) {
   const auto kept = request(server.port(), "GET", "/v1/streams/kept");
   EXPECT_EQ(kept.status, 200);
   EXPECT_TRUE(json_of(kept).at("viseme_share").is_null());
+  EXPECT_EQ(json_of(kept).at("batch_interval"), 100);
+  EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("batch_interval"), 40);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("viseme_share"), 0.25);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/felt")).at("viseme_share"), 0.0);
 }

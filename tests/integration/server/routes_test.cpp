@@ -496,6 +496,9 @@ TEST_F(Routes, BadFrames_NameTheField) {
     expect_problem(request(port(), "POST", "/v1/streams", R"({"viseme_share":)" + share + "}", json_type), 422,
                    "invalid-field", "/viseme_share");
   }
+  for (const std::string interval : {"-1", "1001", "0.5", "null", "\"100\""})
+    expect_problem(request(port(), "POST", "/v1/streams", R"({"batch_interval":)" + interval + "}", json_type), 422,
+                   "invalid-field", "/batch_interval");
   expect_problem(request(port(), "DELETE", "/v1/streams/demo"), 409, "conflict");
 }
 

@@ -31,7 +31,8 @@ class Streams : public ::testing::Test {
   }
   static int port() { return server_->port(); }
   static std::string create(const std::string& name) {
-    request(port(), "POST", "/v1/streams", R"({"name":")" + name + R"("})", {{"Content-Type", "application/json"}});
+    request(port(), "POST", "/v1/streams", R"({"name":")" + name + R"(","batch_interval":0})",
+            {{"Content-Type", "application/json"}});
     return "/v1/streams/" + name;
   }
   static json next(WebSocket& socket, milliseconds limit = milliseconds(5000)) {
@@ -486,7 +487,8 @@ TEST_F(Streams, WhoDoesNotRead_DelaysNobody_TakesBoundedMemory_AndIsClosed) {
   int rounds = 0;
   int received = 0;
   std::uint64_t sequence = 1;
-  const std::string all_closed = "semblante_stream_closed_slow_total " + std::to_string(count) + "\n";
+  const std::string all_closed =
+      "semblante_stream_connections_closed_total{reason=\"slow\"} " + std::to_string(count) + "\n";
   const auto begin = std::chrono::steady_clock::now();
   // Within the publisher's 500 frames a second (2000 at once), until the slow one must have been given up.
   for (; std::chrono::steady_clock::now() - begin < std::chrono::seconds(16); ++rounds) {

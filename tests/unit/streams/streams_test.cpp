@@ -144,8 +144,8 @@ TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
 }
 
 TEST_F(StreamTest, Rate_IsLimited) {
-  limits_.frames_burst = 3;
-  limits_.frames_per_second = 0;
+  limits_.publisher.frames_burst = 3;
+  limits_.publisher.frames_per_second = 0;
   stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   const auto publisher = connect(StreamRole::publish);
   publisher->take_all();

@@ -1,0 +1,62 @@
+#include "server/streams/timeline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+namespace semblante::streams {
+namespace {
+
+/// The first frame that is too long after the others' beginning.
+Status check_length(const std::vector<TimedFrame>& frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (frames[i].time > most_ahead)
+      return Error{ErrorCode::out_of_range, "/frames/" + std::to_string(i) + "/time",
+                   "frames of one message lie within " + std::to_string(most_ahead) + " ms"};
+  return Unit{};
+}
+
+}  // namespace
+
+Result<std::uint64_t> Timeline::place_now(std::uint64_t now, const std::vector<TimedFrame>& frames) {
+  assert(!frames.empty());
+  if (auto length = check_length(frames); !length) return length.error();
+  const auto begin = std::max(now, newest_);
+  if (begin + frames.back().time > now + most_ahead)
+    return Error{ErrorCode::too_large, "/frames",
+                 "with the frames that came before they would end more than " + std::to_string(most_ahead) +
+                     " ms ahead of the stream's clock"};
+  newest_ = begin + frames.back().time;
+  return begin;
+}
+
+Result<std::uint64_t> Timeline::place_published(std::uint64_t now, std::uint64_t media_time,
+                                                std::vector<TimedFrame>& frames) {
+  assert(!frames.empty());
+  if (auto length = check_length(frames); !length) return length.error();
+  const auto here = static_cast<std::int64_t>(now);
+  const auto theirs = static_cast<std::int64_t>(std::min<std::uint64_t>(media_time, INT64_MAX / 4));
+  const auto last = static_cast<std::int64_t>(frames.back().time);
+  auto begin = theirs + offset_;
+  if (!offset_known_ || begin + last > here + static_cast<std::int64_t>(most_ahead) ||
+      begin < here - static_cast<std::int64_t>(most_behind)) {
+    offset_ = here - theirs;
+    offset_known_ = true;
+    begin = here;
+  }
+  const auto newest = static_cast<std::int64_t>(newest_);
+  const auto placed = std::max(begin, newest);
+  for (auto& frame : frames) {
+    const auto at = std::max(begin + static_cast<std::int64_t>(frame.time), newest);
+    frame.time = static_cast<decltype(frame.time)>(at - placed);
+  }
+  newest_ = static_cast<std::uint64_t>(placed) + frames.back().time;
+  return static_cast<std::uint64_t>(placed);
+}
+
+std::uint64_t Timeline::place_due(std::uint64_t when) {
+  newest_ = std::max(newest_, when);
+  return newest_;
+}
+
+}  // namespace semblante::streams
