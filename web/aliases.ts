@@ -15,6 +15,7 @@ export const packagesForTests = [
   { find: /^vitest$/, replacement: here('node_modules/vitest/dist/index.js') },
   { find: /^draco3d$/, replacement: here('node_modules/draco3d/draco3d.js') },
   { find: /^playwright-core$/, replacement: here('node_modules/playwright-core/index.mjs') },
+  { find: /^gltf-validator$/, replacement: here('node_modules/gltf-validator/module.mjs') },
   { find: /^esbuild$/, replacement: here('node_modules/esbuild/lib/main.js') },
   { find: /^three$/, replacement: here('node_modules/three/build/three.module.js') },
   { find: /^three\/addons\/(.*)$/, replacement: here('node_modules/three/examples/jsm') + '/$1' },
