@@ -30,7 +30,9 @@ class BatchGrid {
     }
     // However late it comes: no frame is gathered for longer than an interval.
     const std::int64_t latest = std::min(arrival, first_frame_sent + interval_ + slack);
-    return latest - modulo(latest - phase_);
+    // A little before its moment is on time: not all of the arrivals that the phase was taken from were prompt.
+    const std::int64_t reached = latest + interval_ / 4;
+    return reached - modulo(reached - phase_);
   }
 
  private:
