@@ -35,6 +35,13 @@ inline constexpr std::size_t max_live_link_columns = 256;
 /// shapes is a moment without a face: it repeats the row before. Errors name the line ("line 12").
 Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate = live_link_timecode_rate);
 
+/// What the app would have seen of a face.
+LiveLinkRow live_link_row_of(double seconds, const semblante_frame& face);
+
+/// The two parts of such a file, for who writes it piece by piece.
+void append_live_link_header(std::string& to);
+void append_live_link_row(std::string& to, const LiveLinkRow& row, double timecode_rate = live_link_timecode_rate);
+
 /// The same file again: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines ended by LF.
 std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate = live_link_timecode_rate);
 

@@ -51,22 +51,33 @@ void append_value(std::string& to, float value) {
 
 }  // namespace
 
-std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate) {
+LiveLinkRow live_link_row_of(double seconds, const semblante_frame& face) {
+  return {seconds, arkit_from_frame(face), head_turn_of(face), left_eye_turn_of(face), right_eye_turn_of(face)};
+}
+
+void append_live_link_header(std::string& to) {
+  to += "Timecode,BlendShapeCount";
+  for (const std::size_t s : columns_of_file()) to.append(",").append(in_capitals(arkit_name(s)));
+  for (const std::string_view rotation : generated::arkit_rotations) to.append(",").append(in_capitals(rotation));
+  to += '\n';
+}
+
+void append_live_link_row(std::string& to, const LiveLinkRow& row, double timecode_rate) {
   static const std::array<std::size_t, arkit_count> order = columns_of_file();
-  std::string text = "Timecode,BlendShapeCount";
-  for (const std::size_t s : order) text.append(",").append(in_capitals(arkit_name(s)));
-  for (const std::string_view rotation : generated::arkit_rotations) text.append(",").append(in_capitals(rotation));
-  text += '\n';
-  for (const LiveLinkRow& row : rows) {
-    append_timecode(text, row.seconds, timecode_rate);
-    text.append(",").append(std::to_string(arkit_count + generated::arkit_rotations.size()));
-    for (const std::size_t s : order) append_value(text, row.coefficients[s]);
-    for (const float angle : {row.head.yaw, row.head.pitch, row.head.roll, row.left_eye.yaw, row.left_eye.pitch, 0.0F,
-                              row.right_eye.yaw, row.right_eye.pitch, 0.0F}) {
-      append_value(text, angle);
-    }
-    text += '\n';
+  append_timecode(to, row.seconds, timecode_rate);
+  to.append(",").append(std::to_string(arkit_count + generated::arkit_rotations.size()));
+  for (const std::size_t s : order) append_value(to, row.coefficients[s]);
+  for (const float angle : {row.head.yaw, row.head.pitch, row.head.roll, row.left_eye.yaw, row.left_eye.pitch, 0.0F,
+                            row.right_eye.yaw, row.right_eye.pitch, 0.0F}) {
+    append_value(to, angle);
   }
+  to += '\n';
+}
+
+std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate) {
+  std::string text;
+  append_live_link_header(text);
+  for (const LiveLinkRow& row : rows) append_live_link_row(text, row, timecode_rate);
   return text;
 }
 

@@ -31,6 +31,8 @@ struct JsonValuesLimits {
 
 /// The same form as a file: in FAP units as they stand (finite, within +-1e9), not quantized.
 Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits = {});
+/// One frame of it, without what stands around the list.
+std::string encode_json_value(const TimedValues& frame);
 /// One frame a line. FAPs that are 0 are left out, and FAPs 1 and 2 that are none.
 std::string encode_json_values(std::span<const TimedValues> frames);
 

@@ -110,19 +110,22 @@ std::string encode_json(const Message& message, const QuantizerSteps& steps) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string encode_json_value(const TimedValues& frame) {
+  const auto& [time, state] = frame;
+  Json item = {{"time", time}};
+  if (!(state.viseme == VisemeBlend{})) write_viseme(item, state.viseme);
+  if (!(state.expression == ExpressionBlend{})) write_expression(item, state.expression);
+  Json faps = Json::object();
+  for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
+    if (state.fap[fap] != 0.0) faps[std::to_string(fap)] = number(state.fap[fap]);
+  }
+  if (!faps.empty()) item["faps"] = std::move(faps);
+  return item.dump();
+}
+
 std::string encode_json_values(std::span<const TimedValues> frames) {
   std::string text = "{\"frames\": [";
-  for (const auto& [time, state] : frames) {
-    Json item = {{"time", time}};
-    if (!(state.viseme == VisemeBlend{})) write_viseme(item, state.viseme);
-    if (!(state.expression == ExpressionBlend{})) write_expression(item, state.expression);
-    Json faps = Json::object();
-    for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
-      if (state.fap[fap] != 0.0) faps[std::to_string(fap)] = number(state.fap[fap]);
-    }
-    if (!faps.empty()) item["faps"] = std::move(faps);
-    text.append(text.back() == '[' ? "\n" : ",\n").append(item.dump());
-  }
+  for (const auto& frame : frames) text.append(text.back() == '[' ? "\n" : ",\n").append(encode_json_value(frame));
   return text + "\n]}\n";
 }
 

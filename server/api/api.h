@@ -12,6 +12,7 @@
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
 #include "server/metrics/request_counts.h"
+#include "server/recordings/recorder.h"
 #include "server/store/blob_store.h"
 #include "server/store/store.h"
 #include "server/streams/stream_hub.h"
@@ -44,6 +45,7 @@ struct Context {
   streams::StreamHub& hub;
   ApiConfig config;
   NetMetrics net_metrics;
+  std::shared_ptr<recordings::Recorder> recorder = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
 };
 

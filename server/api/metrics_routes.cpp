@@ -88,6 +88,16 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
                 "Values beyond the range of their FAP, made its end.", counts.clamped_values);
 }
 
+void write_recordings(TextWriter& writer, const recordings::RecorderCounts& counts) {
+  writer.single("semblante_recordings_running", MetricType::gauge, "Recordings being made.", counts.running);
+  writer.single("semblante_recordings_bytes", MetricType::gauge, "Size of all recordings.", counts.bytes);
+  writer.single("semblante_recordings_frames_total", MetricType::counter, "Frames made durable.", counts.frames);
+  writer.single("semblante_recordings_dropped_frames_total", MetricType::counter,
+                "Frames that came faster than the disk took them.", counts.dropped);
+  writer.single("semblante_recordings_failed_total", MetricType::counter,
+                "Recordings that ended because they could not be written.", counts.failed);
+}
+
 }  // namespace
 
 http::Response get_metrics(Context& context, http::Request&) {
@@ -99,6 +109,7 @@ http::Response get_metrics(Context& context, http::Request&) {
   write_store(writer, context.store);
   write_jobs(writer, context.jobs);
   write_streams(writer, context.hub);
+  if (context.recorder) write_recordings(writer, context.recorder->counts());
   http::Response response;
   response.headers["Content-Type"] = "text/plain; version=0.0.4; charset=utf-8";
   response.headers["Cache-Control"] = "no-store";

@@ -47,6 +47,16 @@ constexpr auto table = std::to_array<Route>({
     {"POST", "/v1/streams/{stream}/performances", BodyKind::performance, json, post_performance},
     {"GET", "/v1/streams/{stream}/performances/{performance}", BodyKind::none, json, get_performance},
     {"DELETE", "/v1/streams/{stream}/performances/{performance}", BodyKind::none, "", stop_performance},
+    {"POST", "/v1/streams/{stream}/plays", BodyKind::json, json, post_play},
+    {"GET", "/v1/streams/{stream}/recording", BodyKind::none, "*/*", get_newest_recording},
+    {"GET", "/v1/streams/{stream}/recordings", BodyKind::none, json, list_stream_recordings},
+    {"POST", "/v1/streams/{stream}/recordings", BodyKind::json, json, create_recording},
+    {"GET", "/v1/recordings", BodyKind::none, json, list_recordings},
+    {"GET", "/v1/recordings/{recording}", BodyKind::none, json, get_recording},
+    {"DELETE", "/v1/recordings/{recording}", BodyKind::none, "", delete_recording},
+    {"POST", "/v1/recordings/{recording}/stop", BodyKind::json, json, stop_recording},
+    {"GET", "/v1/recordings/{recording}/content", BodyKind::none, "*/*", get_recording_content},
+    {"GET", "/v1/recordings/{recording}/frames", BodyKind::none, json, get_recording_frames},
 });
 
 /// Takes one segment off the front: "/a/b" -> "a", leaving "/b".

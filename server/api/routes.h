@@ -82,6 +82,18 @@ http::Response create_stream(Context&, http::Request&);
 http::Response get_stream(Context&, http::Request&);
 http::Response delete_stream(Context&, http::Request&);
 http::Response post_frames(Context&, http::Request&);
+// recording_routes.cpp
+http::Response create_recording(Context&, http::Request&);
+http::Response list_recordings(Context&, http::Request&);
+http::Response list_stream_recordings(Context&, http::Request&);
+http::Response get_recording(Context&, http::Request&);
+http::Response stop_recording(Context&, http::Request&);
+http::Response delete_recording(Context&, http::Request&);
+http::Response post_play(Context&, http::Request&);
+// recording_content.cpp
+http::Response get_recording_content(Context&, http::Request&);
+http::Response get_recording_frames(Context&, http::Request&);
+http::Response get_newest_recording(Context&, http::Request&);
 // fap_routes.cpp
 http::Response post_fap(Context&, http::Request&);
 // performance_routes.cpp

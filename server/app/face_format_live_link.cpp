@@ -31,11 +31,8 @@ Result<FaceSequence> read_live_link_faces(std::string_view text, const FaceReadi
 
 Result<std::string> write_live_link_faces(const FaceSequence& sequence, const FaceWriting& /*writing*/) {
   std::vector<LiveLinkRow> rows;
-  for (const TimedValues& timed : sequence.frames) {
-    const semblante_frame frame = to_kernel_frame(timed.state);
-    rows.push_back({timed.time / 1000.0, arkit_from_frame(frame), head_turn_of(frame), left_eye_turn_of(frame),
-                    right_eye_turn_of(frame)});
-  }
+  for (const TimedValues& timed : sequence.frames)
+    rows.push_back(live_link_row_of(timed.time / 1000.0, to_kernel_frame(timed.state)));
   return write_live_link_csv(rows);
 }
 

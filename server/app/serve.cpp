@@ -119,9 +119,17 @@ void run_serve(const ServeOptions& options) {
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;
   jobs::JobQueue queue(**store, *blobs, job_config);
+  recordings::RecorderLimits recorder_limits;
+  recorder_limits.max_recordings = options.max_recordings;
+  recorder_limits.max_bytes = options.max_recording_bytes;
+  recorder_limits.max_total_bytes = options.max_recordings_bytes;
+  recorder_limits.disk_reserve = options.disk_reserve;
+  auto recorder = recordings::Recorder::open(**store, options.data / "recordings", recorder_limits);
+  if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
   streams::InProcessHub hub(stream_limits);
+  hub.set_listener(*recorder);
   open_streams(**store, hub, options);
 
   api::ApiConfig api_config;
@@ -134,7 +142,7 @@ void run_serve(const ServeOptions& options) {
   api_config.access = {options.allowed_hosts, options.allowed_origins};
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
-  api::Api api(api::Context{**store, *blobs, queue, hub, api_config, net_metrics});
+  api::Api api(api::Context{**store, *blobs, queue, hub, api_config, net_metrics, *recorder});
 
   net::ServerConfig net_config;
   net_config.address = address;
@@ -154,8 +162,12 @@ void run_serve(const ServeOptions& options) {
   sample.begin();
 
   std::cout << "semblante listening on " << url_of(address, *port) << std::endl;
-  server.run([&hub] { hub.close_all(EndReason::shutdown); });
+  server.run([&] {
+    (*recorder)->stop_all(recordings::ended::server_stopped);
+    hub.close_all(EndReason::shutdown);
+  });
   log::info("stopping");
+  (*recorder)->close();
   queue.stop();
 }
 

@@ -21,6 +21,10 @@ struct ServeOptions {
   std::uint64_t max_models = 1000;
   std::uint64_t max_streams = 256;
   std::uint64_t max_expressions = 1000;
+  std::uint64_t max_recordings = 1000;
+  std::uint64_t max_recording_bytes = std::uint64_t{256} << 20U;
+  std::uint64_t max_recordings_bytes = std::uint64_t{16} << 30U;
+  std::uint64_t disk_reserve = std::uint64_t{256} << 20U;
   std::uint64_t max_connections = 0;  ///< 0: what the process may open, but for a reserve
   std::uint64_t max_stream_connections = 16384;
   std::uint64_t worker_memory = std::uint64_t{4} << 30U;

@@ -39,6 +39,17 @@ void add_serve_command(CLI::App& app) {
       "MAX_EXPRESSIONS")
       ->check(count);
   add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS")->check(count);
+  add("--max-recordings", options->max_recordings, "Recordings of streams kept at most", "MAX_RECORDINGS")
+      ->check(count);
+  const auto add_size = [&](const std::string& name, std::uint64_t& value, const std::string& help,
+                            const std::string& variable) {
+    add(name, value, help, variable)->transform(CLI::AsSizeValue(false))->check(CLI::Range(std::uint64_t{0}, max_size));
+  };
+  add_size("--max-recording-bytes", options->max_recording_bytes, "Size at which a recording ends",
+           "MAX_RECORDING_BYTES");
+  add_size("--max-recordings-bytes", options->max_recordings_bytes, "Size of all recordings at which none goes on",
+           "MAX_RECORDINGS_BYTES");
+  add_size("--disk-reserve", options->disk_reserve, "Free bytes of the disk that recordings leave", "DISK_RESERVE");
   add("--max-connections", options->max_connections,
       "Connections served at a time; 0: as many as the process may have files open (its hard limit), but 512",
       "MAX_CONNECTIONS")

@@ -59,6 +59,7 @@ struct FileBody {
   std::filesystem::path path;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
+  std::shared_ptr<TemporaryFile> owner = nullptr;  ///< of a file that goes when it has been sent
 };
 
 /// Nothing, bytes, a file, or a feed of events that goes on until it ends itself.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/recordings/recording_format.h"
@@ -38,8 +39,10 @@ class RecordingWriter {
 
   /// Of what is written and durable; add() alone changes nothing in it until its chunk is full.
   [[nodiscard]] const RecordingProgress& durable() const { return durable_; }
-  /// Frames that wait for flush().
-  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
+  /// Of the first frame that came, durable or not.
+  [[nodiscard]] std::optional<std::uint64_t> first_media_time() const {
+    return last_sequence_ == 0 ? std::nullopt : std::optional(first_time_);
+  }
 
  private:
   RecordingWriter(int descriptor, std::uint64_t bytes);

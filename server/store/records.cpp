@@ -50,6 +50,11 @@ std::string_view to_string(JobState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
+std::string_view to_string(RecordingState state) {
+  static constexpr std::array<std::string_view, 3> names = {"recording", "finished", "broken"};
+  return names[static_cast<std::size_t>(state)];
+}
+
 std::string artefact_name(std::size_t lod, std::string_view name) {
   return lod == 0 ? std::string(name) : "lod" + std::to_string(lod) + "." + std::string(name);
 }

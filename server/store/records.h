@@ -192,6 +192,27 @@ struct StreamRecord {
   bool operator==(const StreamRecord&) const = default;
 };
 
+enum class RecordingState {
+  recording,
+  finished,
+  broken,  ///< its file is damaged, or gone: what can be read of it is what it is
+};
+
+/// A recording of a stream; the frames are in a file of the data folder under its id. While it runs, what it has grown
+/// to is known by who records: durations and counts here are those of its end.
+struct RecordingRecord {
+  std::string id, stream, name, model, created;
+  RecordingState state = RecordingState::recording;
+  std::string ended;           ///< why: a word of server/recordings/recorder.h; empty while it runs
+  std::uint64_t duration = 0;  ///< ms
+  std::uint64_t frames = 0, lost = 0, bytes = 0;
+  std::uint64_t epoch = 0;
+  std::uint64_t media_time = 0;               ///< of the first frame
+  std::optional<std::uint64_t> max_duration;  ///< ms, if it was asked to end by itself
+
+  bool operator==(const RecordingRecord&) const = default;
+};
+
 /// Remembers under which key a creating request came, and what it made.
 struct IdempotencyRecord {
   std::string key;
@@ -205,6 +226,7 @@ std::string_view to_string(ModelState state);
 std::string_view to_string(JobKind kind);
 std::optional<JobKind> parse_job_kind(std::string_view text);
 std::string_view to_string(JobState state);
+std::string_view to_string(RecordingState state);
 inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
 
 /// The points after new proposals came: every placed point of `current` as it is, and the proposals for the others.

@@ -69,6 +69,16 @@ CREATE TABLE worn_sets(
   PRIMARY KEY(model, slot)) STRICT, WITHOUT ROWID;
 )sql";
 
+constexpr const char* with_recordings = R"sql(
+CREATE TABLE recordings(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, stream TEXT NOT NULL, name TEXT NOT NULL, model TEXT NOT NULL, created TEXT NOT NULL,
+  state INTEGER NOT NULL, ended TEXT NOT NULL, duration INTEGER NOT NULL, frames INTEGER NOT NULL,
+  lost INTEGER NOT NULL, bytes INTEGER NOT NULL, epoch INTEGER NOT NULL, media_time INTEGER NOT NULL,
+  max_duration INTEGER) STRICT;
+CREATE INDEX recordings_by_stream ON recordings(stream);
+)sql";
+
 /// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
 /// change.
 constexpr std::array migrations = {
@@ -79,6 +89,7 @@ constexpr std::array migrations = {
     with_displacement_sets,
     "ALTER TABLE streams ADD COLUMN viseme_share REAL",
     "ALTER TABLE streams ADD COLUMN batch_interval INTEGER NOT NULL DEFAULT 100",
+    with_recordings,
 };
 constexpr int schema_version = migrations.size();
 

@@ -7,6 +7,7 @@
 #include "server/store/sqlite_artefacts.h"
 #include "server/store/sqlite_jobs.h"
 #include "server/store/sqlite_models.h"
+#include "server/store/sqlite_recordings.h"
 #include "server/store/sqlite_schema.h"
 #include "server/store/sqlite_sets.h"
 
@@ -397,6 +398,48 @@ class SqliteStore : public Store {
   bool remove_stream(std::string_view id) override {
     const std::lock_guard lock(mutex_);
     Statement(db_, "DELETE FROM streams WHERE id = ?").bind(id).run();
+    return db_.changes() != 0;
+  }
+
+  void create_recording(const RecordingRecord& recording, const std::optional<IdempotencyRecord>& key) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    insert_recording(db_, recording);
+    insert_key(key);
+    transaction.commit();
+  }
+
+  std::optional<RecordingRecord> recording(std::string_view id) override {
+    const std::lock_guard lock(mutex_);
+    return find_recording(db_, id);
+  }
+
+  std::optional<RecordingRecord> newest_recording(std::string_view stream) override {
+    const std::lock_guard lock(mutex_);
+    return find_newest_recording(db_, stream);
+  }
+
+  std::optional<std::vector<RecordingRecord>> recordings(std::string_view stream, std::string_view after,
+                                                         std::size_t limit) override {
+    const std::lock_guard lock(mutex_);
+    return list_recordings(db_, stream, after, limit);
+  }
+
+  std::size_t recording_count() override {
+    const std::lock_guard lock(mutex_);
+    Statement statement(db_, "SELECT count(*) FROM recordings");
+    statement.step();
+    return static_cast<std::size_t>(statement.integer(0));
+  }
+
+  void finish_recording(const RecordingRecord& recording) override {
+    const std::lock_guard lock(mutex_);
+    write_recording(db_, recording);
+  }
+
+  bool remove_recording(std::string_view id) override {
+    const std::lock_guard lock(mutex_);
+    Statement(db_, "DELETE FROM recordings WHERE id = ?").bind(id).run();
     return db_.changes() != 0;
   }
 

@@ -34,6 +34,12 @@ std::shared_ptr<Stream> InProcessHub::find(std::string_view id) const {
   return found == streams_.end() ? nullptr : found->second;
 }
 
+void InProcessHub::set_listener(std::shared_ptr<BatchListener> listener) {
+  const std::lock_guard lock(mutex_);
+  listener_ = std::move(listener);
+  for (const auto& [id, stream] : streams_) stream->set_listener(listener_);
+}
+
 bool InProcessHub::open(const StreamInfo& info) {
   const std::lock_guard lock(mutex_);
   if (stopping_ || streams_.contains(info.id)) return false;
@@ -43,6 +49,7 @@ bool InProcessHub::open(const StreamInfo& info) {
   full.epoch = last_epoch_;
   const auto stream =
       streams_.emplace(info.id, std::make_shared<Stream>(std::move(full), limits_, sender_)).first->second;
+  stream->set_listener(listener_);
   order_.push_back(info.id);
   if (info.source == "demo") {
     PlayOptions options;

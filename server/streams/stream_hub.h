@@ -19,6 +19,8 @@
 
 namespace semblante::streams {
 
+class BatchListener;
+
 /// Why a connection was not taken.
 enum class Refusal { no_such_stream, too_many };
 
@@ -58,6 +60,9 @@ class InProcessHub : public StreamHub {
   InProcessHub(const InProcessHub&) = delete;
   InProcessHub& operator=(const InProcessHub&) = delete;
 
+  /// Who hears the batches of all streams, those there are and those to come.
+  void set_listener(std::shared_ptr<BatchListener> listener);
+
   bool open(const StreamInfo& info) override;
   bool close(std::string_view id, EndReason reason) override;
   void close_all(EndReason reason) override;
@@ -91,6 +96,7 @@ class InProcessHub : public StreamHub {
   const std::shared_ptr<BatchSender> sender_ = std::make_shared<BatchSender>();
   mutable std::mutex mutex_;
   std::condition_variable changed_;
+  std::shared_ptr<BatchListener> listener_;
   bool stopping_ = false;
   bool more_to_play_ = false;  ///< the thread has to look again when the next frame is due
   std::uint64_t last_epoch_ = 0;

@@ -2,6 +2,7 @@
 // worker.
 
 #include <csignal>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,6 +96,79 @@ TEST(Durability, Streams_AreThereAfterARestart) {
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("batch_interval"), 40);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("viseme_share"), 0.25);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/felt")).at("viseme_share"), 0.0);
+}
+
+TEST(Durability, Recording_HoldsWhatItSaidWasDurable) {
+  const TemporaryFolder folder;
+  std::string recording;
+  std::size_t said = 0;
+  for (int round = 0; round < 3; ++round) {
+    ServerProcess server(folder.path() / "data");
+    if (round == 0) request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type);
+    if (!recording.empty()) {
+      const auto before = json_of(request(server.port(), "GET", "/v1/recordings/" + recording));
+      EXPECT_EQ(before["state"], "finished");
+      EXPECT_EQ(before["ended"], "server-killed");
+      EXPECT_GE(before["frames"], said);
+      const auto frames =
+          json_of(request(server.port(), "GET", "/v1/recordings/" + recording + "/frames?limit=1000"))["frames"];
+      ASSERT_GE(frames.size(), said);
+      for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i]["faps"]["3"], 4 * (i + 1));
+      EXPECT_EQ(request(server.port(), "GET", "/v1/recordings/" + recording + "/content?format=fap").status, 200);
+    }
+    recording = json_of(request(server.port(), "POST", "/v1/streams/talk/recordings"))["id"];
+    json now;
+    for (std::size_t i = 0; i < 100 + 50U * static_cast<std::size_t>(round); ++i) {
+      const auto body = R"({"frames":[{"faps":{"3":)" + std::to_string(4 * (i + 1)) + "}}]}";
+      ASSERT_EQ(request(server.port(), "POST", "/v1/streams/talk/frames", body, json_type).status, 202);
+    }
+    // Some are known to be durable, others may still be on their way.
+    for (int i = 0; i < 600; ++i) {
+      now = json_of(request(server.port(), "GET", "/v1/recordings/" + recording));
+      if (now["frames"] > 0) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    said = now["frames"];
+    EXPECT_GT(said, 0U);
+    server.end(SIGKILL);
+  }
+}
+
+TEST(Durability, StoppedRecording_HasEveryFrame) {
+  const TemporaryFolder folder;
+  json stopped;
+  {
+    ServerProcess server(folder.path() / "data");
+    request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type);
+    const std::string id = json_of(request(server.port(), "POST", "/v1/streams/talk/recordings"))["id"];
+    for (int i = 0; i < 60; ++i)
+      request(server.port(), "POST", "/v1/streams/talk/frames", R"({"frames":[{"faps":{"3":80}},{"time":9}]})",
+              json_type);
+    stopped = json_of(request(server.port(), "POST", "/v1/recordings/" + id + "/stop"));
+    server.end(SIGKILL);
+  }
+  EXPECT_EQ(stopped["frames"], 120);
+  ServerProcess server(folder.path() / "data");
+  const std::string self = stopped["links"]["self"];
+  EXPECT_EQ(json_of(request(server.port(), "GET", self)), stopped);
+  EXPECT_EQ(json_of(request(server.port(), "GET", self + "/frames"))["frames"].size(), 120U);
+}
+
+TEST(Durability, Recording_OfAServerThatStops_IsWhole) {
+  const TemporaryFolder folder;
+  std::string id;
+  {
+    ServerProcess server(folder.path() / "data");
+    request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type);
+    id = json_of(request(server.port(), "POST", "/v1/streams/talk/recordings"))["id"];
+    request(server.port(), "POST", "/v1/streams/talk/frames", R"({"frames":[{"faps":{"3":80}},{"time":9}]})",
+            json_type);
+    EXPECT_EQ(server.end(SIGTERM), 0);
+  }
+  ServerProcess server(folder.path() / "data");
+  const auto now = json_of(request(server.port(), "GET", "/v1/recordings/" + id));
+  EXPECT_EQ(now["ended"], "server-stopped");
+  EXPECT_EQ(now["frames"], 2);
 }
 
 TEST(Durability, SecondServerOnTheSameFolder_IsRefused) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,6 +84,14 @@ void expect_documented(const json& document, const std::string& method, const st
       << method << " " << path << " answered with " << type;
 }
 
+void wait_for_frames(int port, const std::string& recording) {
+  for (int i = 0; i < 600; ++i) {
+    if (json_of(request(port, "GET", "/v1/recordings/" + recording))["frames"] > 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  FAIL() << "nothing was recorded in 30 s";
+}
+
 TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   const auto document = json_of(request(port(), "GET", "/openapi.json"));
   const auto model = import_grid(port());
@@ -99,6 +108,11 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   const auto set = json_of(request(port(), "POST", "/v1/expressions", by_hand, json_type));
   std::map<std::string, std::string> good = {{"{model}", model}, {"{job}", job["id"]},    {"{stream}", "walk"},
                                              {"{sha256}", hash}, {"{slug}", "not-found"}, {"{expression}", set["id"]}};
+  // A recording of another stream, with a frame in it.
+  request(port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type);
+  good["{recording}"] = json_of(request(port(), "POST", "/v1/streams/kept/recordings"))["id"];
+  request(port(), "POST", "/v1/streams/kept/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type);
+  request(port(), "POST", "/v1/recordings/" + good["{recording}"] + "/stop");
   struct Body {
     std::string text, type;
   };
@@ -114,6 +128,8 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"post /v1/streams", {R"({"name":"walk","viseme_share":1})", "application/json"}},
       {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
       {"post /v1/streams/{stream}/fap", {short_fap, "text/plain"}},
+      {"post /v1/streams/{stream}/plays",
+       {R"({"loop":true,"take_over":true,"recording":")" + good["{recording}"] + "\"}", "application/json"}},
       {"post /v1/streams/{stream}/performances",
        {R"({"format":"semblante.performance","version":1,"idle":{"seed":7}})", "application/json"}}};
   // Creating before reading, deleting last, and what is within a thing before the thing.
@@ -141,6 +157,9 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       if (method + path == "post/v1/streams/{stream}/fap")
         request(port(), "DELETE", "/v1/streams/walk/performances/" + json_of(reply)["id"].get<std::string>());
       if (method + path == "post/v1/streams/{stream}/performances") good["{performance}"] = json_of(reply)["id"];
+      // It takes over, and goes on until what follows has recorded it.
+      if (method + path == "post/v1/streams/{stream}/plays") good["{performance}"] = json_of(reply)["id"];
+      if (method + path == "post/v1/streams/{stream}/recordings") wait_for_frames(port(), json_of(reply)["id"]);
       expect_documented(document, method, path, reply);
       // A finished job cannot be cancelled any more; all else succeeds.
       if (upper + path != "DELETE/v1/jobs/{job}") {
@@ -153,6 +172,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
                                         {"{job}", "absent"},
                                         {"{stream}", "absent"},
                                         {"{performance}", "absent"},
+                                        {"{recording}", "absent"},
                                         {"{expression}", "absent"},
                                         {"{sha256}", std::string(64, '0')},
                                         {"{slug}", "absent"}}),

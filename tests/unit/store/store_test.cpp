@@ -61,6 +61,45 @@ class StoreTest : public ::testing::Test {
   std::unique_ptr<Store> store_;
 };
 
+TEST_F(StoreTest, Recordings_StayWhenTheirStreamGoes) {
+  EXPECT_TRUE(store_->create_stream({"talk", "Talk", "", timestamp_now(), {}}, std::nullopt));
+  const auto made = [](const std::string& id, const std::string& stream) {
+    RecordingRecord recording;
+    recording.id = id;
+    recording.stream = stream;
+    recording.name = "Of " + stream;
+    recording.model = "head";
+    recording.created = timestamp_now();
+    return recording;
+  };
+  auto first = made("r1", "talk");
+  first.epoch = 1'750'000'000'000;
+  first.max_duration = 60'000;
+  const auto second = made("r2", "talk");
+  const auto other = made("r3", "walk");
+  for (const auto& recording : {first, second, other}) store_->create_recording(recording, std::nullopt);
+  EXPECT_TRUE(store_->remove_stream("talk"));
+  first.state = RecordingState::finished;
+  first.ended = "stopped";
+  first.duration = 5000;
+  first.frames = 120;
+  first.lost = 3;
+  first.bytes = 9000;
+  first.media_time = 777;
+  store_->finish_recording(first);
+  reopen();
+  EXPECT_EQ(store_->recording("r1"), first);
+  EXPECT_EQ(store_->newest_recording("talk"), second);
+  EXPECT_EQ(store_->newest_recording("nobody"), std::nullopt);
+  EXPECT_EQ(*store_->recordings("", "", 10), (std::vector<RecordingRecord>{first, second, other}));
+  EXPECT_EQ(*store_->recordings("talk", "r1", 10), std::vector<RecordingRecord>{second});
+  EXPECT_EQ(*store_->recordings("", "r1", 1), std::vector<RecordingRecord>{second});
+  EXPECT_EQ(store_->recordings("", "nobody", 1), std::nullopt);
+  EXPECT_EQ(store_->recording_count(), 3U);
+  EXPECT_TRUE(store_->remove_recording("r1"));
+  EXPECT_FALSE(store_->remove_recording("r1"));
+}
+
 TEST_F(StoreTest, Model_ComesBackAfterReopening) {
   import(add("m"));
   const auto before = store_->model("m");
@@ -379,7 +418,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   EXPECT_EQ(sqlite3_exec(database,
                          "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                          "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
-                         "ALTER TABLE streams DROP COLUMN viseme_share; PRAGMA user_version=2",
+                         "ALTER TABLE streams DROP COLUMN viseme_share; DROP TABLE recordings; PRAGMA user_version=2",
                          nullptr, nullptr, nullptr),
             SQLITE_OK);
   sqlite3_close(database);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/api/common.h"
+#include "server/recordings/recording_reader.h"
+
+namespace semblante::api {
+
+/// The recording of the path; refuses with 404.
+recordings::RecordingStatus recording_of(Context& context, const http::Request& request);
+
+/// Its file, as far as it is on the disk. Refuses with 409 what cannot be read.
+std::shared_ptr<const recordings::ByteSource> bytes_of(Context& context, const recordings::RecordingStatus& recording);
+std::shared_ptr<const recordings::RecordingReader> read_recording(Context& context,
+                                                                  const recordings::RecordingStatus& recording);
+[[noreturn]] void refuse_damaged(const Error& error);
+
+/// A number of the query, 0..most.
+std::uint32_t whole_number(const http::Request& request, const std::string& name, std::uint32_t otherwise,
+                           std::uint32_t most);
+
+Json represent(const recordings::RecordingStatus& recording);
+
+}  // namespace semblante::api

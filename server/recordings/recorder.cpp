@@ -1,0 +1,345 @@
+#include "server/recordings/recorder.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <sys/statvfs.h>
+
+#include "server/log/log.h"
+
+namespace semblante::recordings {
+namespace {
+
+constexpr std::string_view extension = ".srec";
+constexpr std::size_t page = 200;
+
+void take_over(store::RecordingRecord& record, const RecordingProgress& progress) {
+  record.duration = progress.duration;
+  record.frames = progress.frames;
+  record.lost = progress.lost;
+  record.bytes = progress.bytes;
+  record.media_time = progress.media_time;
+}
+
+std::uint64_t free_bytes(const std::filesystem::path& folder) {
+  struct statvfs facts {};
+  if (::statvfs(folder.c_str(), &facts) != 0) return UINT64_MAX;  // who cannot be asked is found out by writing
+  return static_cast<std::uint64_t>(facts.f_bavail) * facts.f_frsize;
+}
+
+}  // namespace
+
+Recorder::Recorder(store::Store& store, std::filesystem::path folder, RecorderLimits limits)
+    : store_(store), folder_(std::move(folder)), limits_(limits) {}
+
+Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, std::filesystem::path folder,
+                                                 RecorderLimits limits) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error{ErrorCode::io, folder.string(), error.message()};
+  std::shared_ptr<Recorder> recorder(new Recorder(store, std::move(folder), limits));
+  if (auto status = recorder->repair(); !status) return status.error();
+  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  return recorder;
+}
+
+Recorder::~Recorder() { close(); }
+
+Status Recorder::repair() {
+  std::set<std::string> known;
+  std::string after;
+  while (true) {
+    const auto records = store_.recordings("", after, page);
+    if (!records || records->empty()) break;
+    after = records->back().id;
+    for (auto record : *records) {
+      known.insert(record.id + std::string(extension));
+      if (record.state == store::RecordingState::recording) {
+        if (const auto progress = repair_recording(path_of(record.id))) {
+          take_over(record, *progress);
+          record.state = store::RecordingState::finished;
+          record.ended = ended::server_killed;
+          log::info("recording " + record.id + ": finished with the " + std::to_string(record.frames) +
+                    " frames that were on the disk when the server was killed");
+        } else {
+          record.state = store::RecordingState::broken;
+          record.ended = ended::damaged;
+          log::warning("recording " + record.id + " is damaged: " + progress.error().where + ": " +
+                       progress.error().message);
+        }
+        store_.finish_recording(record);
+      }
+      total_bytes_ += record.bytes;
+    }
+  }
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(folder_, error)) {
+    std::error_code ignored;
+    if (!known.contains(file.path().filename().string())) std::filesystem::remove(file.path(), ignored);
+  }
+  if (error) return Error{ErrorCode::io, folder_.string(), error.message()};
+  return Unit{};
+}
+
+std::filesystem::path Recorder::path_of(std::string_view id) const {
+  return folder_ / std::string(id).append(extension);
+}
+
+std::optional<Error> Recorder::refusal() const {
+  const auto full = [](std::string message) { return Error{ErrorCode::too_large, "", std::move(message)}; };
+  if (store_.recording_count() >= limits_.max_recordings)
+    return full("the server keeps its " + std::to_string(limits_.max_recordings) + " recordings: delete some");
+  if (running_count_ >= limits_.max_running)
+    return full("the server makes its " + std::to_string(limits_.max_running) + " recordings at a time");
+  if (total_bytes_ >= limits_.max_total_bytes)
+    return full("the recordings take the " + std::to_string(limits_.max_total_bytes) + " bytes they may");
+  if (free_bytes(folder_) < limits_.disk_reserve) return full("the disk is nearly full");
+  return std::nullopt;
+}
+
+Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::optional<store::IdempotencyRecord> key) {
+  const std::lock_guard one_at_a_time(starting_);
+  if (auto error = refusal()) return *error;
+  auto running = std::make_shared<Running>();
+  auto& record = running->record;
+  record.id = store::random_id();
+  record.stream = start.header.stream;
+  record.name = std::move(start.name);
+  record.model = start.header.model;
+  record.created = store::timestamp_now();
+  record.epoch = start.header.epoch;
+  record.max_duration = start.max_duration;
+  if (record.max_duration) running->ends = Clock::now() + std::chrono::milliseconds(*record.max_duration);
+  auto writer = RecordingWriter::create(path_of(record.id), start.header);
+  if (!writer) return writer.error();
+  running->writer = std::move(*writer);
+  take_over(record, running->writer->durable());
+  if (key) key->resource = record.id;
+  // The file comes first: a fact never speaks of one that is not there. One without a fact is swept at the next start.
+  const auto path = path_of(record.id);
+  try {
+    store_.create_recording(record, key);
+  } catch (...) {
+    std::filesystem::remove(path);
+    throw;
+  }
+  const std::lock_guard lock(mutex_);
+  if (closing_) {
+    store_.remove_recording(record.id);
+    std::filesystem::remove(path);
+    return Error{ErrorCode::io, "", "the server stops"};
+  }
+  total_bytes_ += record.bytes;
+  running_.emplace(record.id, running);
+  ++running_count_;
+  has_work_ = true;
+  work_.notify_one();
+  return record;
+}
+
+std::optional<store::RecordingRecord> Recorder::stop(std::string_view id) {
+  {
+    std::unique_lock lock(mutex_);
+    if (const auto found = running_.find(id); found != running_.end()) {
+      const auto running = found->second;
+      if (running->stop_reason.empty()) running->stop_reason = ended::stopped;
+      has_work_ = true;
+      work_.notify_one();
+      done_.wait(lock, [&] { return running->done; });
+    }
+  }
+  return store_.recording(id);
+}
+
+void Recorder::stop_all(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  closing_ = true;
+  for (const auto& [id, running] : running_)
+    if (running->stop_reason.empty()) running->stop_reason = reason;
+  has_work_ = true;
+  work_.notify_one();
+}
+
+void Recorder::close() {
+  stop_all(ended::server_stopped);
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  work_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+RecordingStatus Recorder::with_progress(store::RecordingRecord record) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = running_.find(record.id);
+  if (found == running_.end()) return {std::move(record), 0};
+  return {found->second->record, found->second->dropped};
+}
+
+std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = running_.find(id); found != running_.end())
+      return RecordingStatus{found->second->record, found->second->dropped};
+  }
+  auto record = store_.recording(id);
+  if (!record) return std::nullopt;
+  return RecordingStatus{std::move(*record), 0};
+}
+
+bool Recorder::remove(std::string_view id) {
+  const auto record = stop(id);
+  if (!record || !store_.remove_recording(id)) return false;
+  std::error_code ignored;
+  std::filesystem::remove(path_of(id), ignored);
+  total_bytes_ -= record->bytes;
+  return true;
+}
+
+RecorderCounts Recorder::counts() const {
+  return {running_count_.load(), frames_.load(), dropped_.load(), total_bytes_.load(), failed_.load()};
+}
+
+// ---- the streams' side ------------------------------------------------------------------------------------------
+
+void Recorder::taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) {
+  if (running_count_ == 0) return;
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const Frames> copy;
+  for (const auto& [id, running] : running_) {
+    if (running->record.stream != stream || running->record.epoch != epoch || !running->stop_reason.empty()) continue;
+    if (running->queued_frames + batch.frames.size() > limits_.queued_frames) {
+      running->dropped += batch.frames.size();
+      dropped_ += batch.frames.size();
+      continue;
+    }
+    if (!copy) copy = std::make_shared<const Frames>(batch);
+    running->queue.push_back(copy);
+    running->queued_frames += batch.frames.size();
+  }
+  if (!copy || has_work_) return;
+  has_work_ = true;
+  work_.notify_one();
+}
+
+void Recorder::ended(std::string_view stream) {
+  if (running_count_ == 0) return;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, running] : running_)
+    if (running->record.stream == stream && running->stop_reason.empty()) running->stop_reason = ended::stream_ended;
+  has_work_ = true;
+  work_.notify_one();
+}
+
+// ---- the thread -------------------------------------------------------------------------------------------------
+
+void Recorder::run() {
+  std::unique_lock lock(mutex_);
+  auto next_flush = Clock::now();
+  while (true) {
+    work_.wait_until(lock, next_flush, [this] { return has_work_ || stopping_; });
+    if (stopping_ && running_.empty()) return;
+    has_work_ = false;
+    std::vector<std::shared_ptr<Running>> all;
+    for (const auto& [id, running] : running_) all.push_back(running);
+    for (const auto& running : all) {
+      std::deque<std::shared_ptr<const Frames>> batches;
+      batches.swap(running->queue);
+      running->queued_frames = 0;
+      std::string reason = running->stop_reason;
+      lock.unlock();
+      const auto now = Clock::now();
+      if (!running->waiting_since && !batches.empty()) running->waiting_since = now;
+      if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
+      const bool flush =
+          !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
+      const auto must_end = write(*running, batches, flush);
+      if (!must_end.empty() && (reason.empty() || must_end == ended::disk_full)) reason = must_end;
+      if (!reason.empty()) finish(*running, reason);
+      lock.lock();
+      if (!reason.empty()) {
+        running->done = true;
+        running_.erase(running->record.id);
+        --running_count_;
+        done_.notify_all();
+      }
+    }
+    next_flush = Clock::now() + (running_.empty() ? std::chrono::hours(1) : limits_.flush_interval / 2);
+  }
+}
+
+std::string_view Recorder::write(Running& running, const std::deque<std::shared_ptr<const Frames>>& batches,
+                                 bool flush) {
+  auto& writer = *running.writer;
+  std::string_view reason;
+  for (const auto& batch : batches) {
+    if (reason = beyond_a_limit(running); !reason.empty()) break;
+    Status added = Unit{};
+    const auto first = writer.first_media_time().value_or(batch->media_time);
+    const auto last_time = first + running.record.max_duration.value_or(max_recording_ms);
+    if (batch->media_time + batch->frames.back().time <= last_time) {
+      added = writer.add(*batch);
+    } else {
+      Frames part = *batch;
+      std::erase_if(part.frames, [&](const TimedFrame& frame) { return batch->media_time + frame.time > last_time; });
+      if (!part.frames.empty()) added = writer.add(part);
+      reason = ended::max_duration;
+    }
+    if (!added) {
+      reason = added.error().code == ErrorCode::io ? ended::disk_full : ended::max_duration;
+      if (added.error().code == ErrorCode::io)
+        log::error("recording " + running.record.id + ": " + added.error().message);
+    }
+    if (!reason.empty()) break;
+  }
+  if (flush || !reason.empty()) {
+    running.waiting_since.reset();
+    if (const auto flushed = writer.flush(); !flushed) {
+      log::error("recording " + running.record.id + ": " + flushed.error().message);
+      reason = ended::disk_full;
+    }
+    if (reason.empty() && free_bytes(folder_) < limits_.disk_reserve) reason = ended::disk_full;
+  }
+  publish_progress(running);
+  return reason;
+}
+
+std::string_view Recorder::beyond_a_limit(const Running& running) const {
+  // A chunk more must fit, so that no limit is ever passed.
+  constexpr std::uint64_t chunk = chunk_head_bytes + max_chunk_bytes;
+  if (running.writer->durable().bytes + chunk > limits_.max_bytes) return ended::max_bytes;
+  if (total_bytes_ + chunk > limits_.max_total_bytes) return ended::max_total_bytes;
+  return {};
+}
+
+void Recorder::publish_progress(Running& running) {
+  const auto& progress = running.writer->durable();
+  const std::lock_guard lock(mutex_);
+  total_bytes_ += progress.bytes - running.record.bytes;
+  frames_ += progress.frames - running.record.frames;
+  take_over(running.record, progress);
+}
+
+void Recorder::finish(Running& running, std::string reason) {
+  auto record = running.record;
+  record.state = store::RecordingState::finished;
+  record.ended = std::move(reason);
+  if (record.ended == ended::disk_full) ++failed_;
+  {
+    const std::lock_guard lock(mutex_);
+    record.lost = std::max(record.lost, running.dropped);  // those at its end are no gap in the file
+  }
+  try {
+    store_.finish_recording(record);
+  } catch (const std::exception& fault) {
+    // The next start repairs it: the file is whole.
+    log::error("recording " + record.id + " cannot be finished: " + fault.what());
+  }
+  const std::lock_guard lock(mutex_);
+  running.record = std::move(record);
+}
+
+}  // namespace semblante::recordings

@@ -1,0 +1,79 @@
+#include "server/store/sqlite_recordings.h"
+
+#include <string>
+
+namespace semblante::store {
+namespace {
+
+constexpr const char* columns =
+    "SELECT id, stream, name, model, created, state, ended, duration, frames, lost, bytes, epoch, media_time, "
+    "max_duration FROM recordings ";
+
+RecordingRecord read_recording(const Statement& row) {
+  const auto number = [&row](int column) { return static_cast<std::uint64_t>(row.integer(column)); };
+  RecordingRecord recording;
+  recording.id = row.text(0);
+  recording.stream = row.text(1);
+  recording.name = row.text(2);
+  recording.model = row.text(3);
+  recording.created = row.text(4);
+  recording.state = static_cast<RecordingState>(row.integer(5));
+  recording.ended = row.text(6);
+  recording.duration = number(7);
+  recording.frames = number(8);
+  recording.lost = number(9);
+  recording.bytes = number(10);
+  recording.epoch = number(11);
+  recording.media_time = number(12);
+  if (!row.is_null(13)) recording.max_duration = number(13);
+  return recording;
+}
+
+}  // namespace
+
+void insert_recording(Database& db, const RecordingRecord& r) {
+  Statement(db, "INSERT INTO recordings VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+      .bind(r.id, r.stream, r.name, r.model, r.created, static_cast<int>(r.state), r.ended, r.duration, r.frames,
+            r.lost, r.bytes, r.epoch, r.media_time, r.max_duration)
+      .run();
+}
+
+std::optional<RecordingRecord> find_recording(Database& db, std::string_view id) {
+  Statement statement(db, std::string(columns) + "WHERE id = ?");
+  statement.bind(id);
+  if (!statement.step()) return std::nullopt;
+  return read_recording(statement);
+}
+
+std::optional<RecordingRecord> find_newest_recording(Database& db, std::string_view stream) {
+  Statement statement(db, std::string(columns) + "WHERE stream = ? ORDER BY number DESC LIMIT 1");
+  statement.bind(stream);
+  if (!statement.step()) return std::nullopt;
+  return read_recording(statement);
+}
+
+std::optional<std::vector<RecordingRecord>> list_recordings(Database& db, std::string_view stream,
+                                                            std::string_view after, std::size_t limit) {
+  std::int64_t number = 0;
+  if (!after.empty()) {
+    Statement statement(db, "SELECT number FROM recordings WHERE id = ?");
+    statement.bind(after);
+    if (!statement.step()) return std::nullopt;
+    number = statement.integer(0);
+  }
+  std::vector<RecordingRecord> list;
+  Statement statement(db, std::string(columns) + "WHERE number > ? AND (? = '' OR stream = ?) ORDER BY number LIMIT ?");
+  statement.bind(number, stream, stream, static_cast<std::uint64_t>(limit));
+  while (statement.step()) list.push_back(read_recording(statement));
+  return list;
+}
+
+void write_recording(Database& db, const RecordingRecord& r) {
+  Statement(db,
+            "UPDATE recordings SET state = ?, ended = ?, duration = ?, frames = ?, lost = ?, bytes = ?, media_time = ? "
+            "WHERE id = ?")
+      .bind(static_cast<int>(r.state), r.ended, r.duration, r.frames, r.lost, r.bytes, r.media_time, r.id)
+      .run();
+}
+
+}  // namespace semblante::store
