@@ -77,6 +77,11 @@ void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
   listener_ = std::move(listener);
 }
 
+Clock::time_point Stream::newest_frame_time() const {
+  const std::lock_guard lock(mutex_);
+  return began_ + std::chrono::milliseconds(timeline_.newest());
+}
+
 Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames,
                                        const StreamConnection* from) {
   if (frames.empty()) return Error{ErrorCode::empty, "/frames", "there is no frame in it"};
@@ -112,6 +117,8 @@ PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector
   counts_.frames += frames.size();
   counts_.frames_by_source[static_cast<std::size_t>(source)] += frames.size();
   info_.sequence += frames.size();
+  // Before they are gathered: what a client was told is taken must not still be on its way when a recording ends.
+  if (listener_) listener_->taken(info_.id, info_.epoch, {info_.sequence - frames.size() + 1, media_time, frames});
   gather(media_time, frames);
   return PublishReceipt{frames.size(), info_.sequence, clamped};
 }

@@ -131,6 +131,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Clock::time_point work(Clock::time_point asked);
 
   [[nodiscard]] std::uint64_t media_time_now() const;
+  /// When the newest frame is to be seen: what has times of its own begins no earlier, for no frame is before another.
+  [[nodiscard]] Clock::time_point newest_frame_time() const;
   static double server_time_now();
 
  private:

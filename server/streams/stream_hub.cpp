@@ -167,11 +167,13 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   auto ticket = found->second->begin_playing(options.rate, options.take_over, played_source(source->kind()));
   if (!ticket) return std::move(ticket).error();
   const auto now = Player::Clock::now();
+  // Frames that were sent ahead of their time are played out first (most_ahead).
+  const auto begin = std::max(now, found->second->newest_frame_time());
   // As epochs, ids never repeat over restarts: nobody stops another's performance by an old address.
   last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
   const std::size_t own_bytes = source->bytes();
   auto playing = std::make_shared<Playing>(
-      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, now), own_bytes);
+      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, begin), own_bytes);
   PlayStatus status = playing->player.status(now);
   playing_[std::string(id)] = std::move(playing);
   more_to_play_ = true;

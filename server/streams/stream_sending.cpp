@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "protocol/cpp/frame_codec.h"
-#include "server/streams/batch_listener.h"
 #include "server/streams/batch_sender.h"
 #include "server/streams/encoding.h"
 #include "server/streams/stream.h"
@@ -73,7 +72,6 @@ void Stream::close_batch(Clock::time_point due) {
   held_.push_back(batch);
   while (held_.size() > limits_.held_batches || batch->when - held_.front()->when > limits_.held_time)
     held_.pop_front();
-  if (listener_) listener_->taken(info_.id, info_.epoch, batch->message);
   if (subscribers_.size() > 0) passes_.push_back(std::move(batch));
 }
 
