@@ -418,7 +418,8 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   EXPECT_EQ(sqlite3_exec(database,
                          "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                          "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
-                         "ALTER TABLE streams DROP COLUMN viseme_share; DROP TABLE recordings; PRAGMA user_version=2",
+                         "ALTER TABLE streams DROP COLUMN viseme_share; "
+                         "ALTER TABLE streams DROP COLUMN batch_interval; DROP TABLE recordings; PRAGMA user_version=2",
                          nullptr, nullptr, nullptr),
             SQLITE_OK);
   sqlite3_close(database);
