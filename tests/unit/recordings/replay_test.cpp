@@ -76,16 +76,17 @@ class Replay : public ::testing::Test {
     info.epoch = 9;
     return std::make_shared<streams::Stream>(info, streams::StreamLimits{});
   }();
-  const Player::Clock::time_point begin_ = Player::Clock::now() + std::chrono::milliseconds(5'123);
+  Player::Clock::time_point begin_ = Player::Clock::now() + std::chrono::milliseconds(5'123);
 };
 
 TEST_F(Replay, EveryFrame_AtItsTime_HoweverLateTheThread) {
   const auto frames = random_frames(3000, 1);
   for (const double late : {0.0, 30.0, 4000.0}) {
     listener_->frames.clear();
+    begin_ = std::max(begin_, stream_->newest_frame_time());  // no frame falls behind those of the round before
     auto playing = player(source_of(frames));
     play_out(playing, late);
-    EXPECT_EQ(relative(listener_->frames), relative(frames)) << late;
+    EXPECT_TRUE(relative(listener_->frames) == relative(frames)) << late;
   }
 }
 
@@ -104,7 +105,7 @@ TEST_F(Replay, RecordedAgain_IsTheSameRecording) {
   const auto cursor = (*source)->frames_from(0.0);
   for (; cursor->time(); cursor->advance())
     again.push_back({again.size(), static_cast<std::uint64_t>(*cursor->time()), cursor->frame()});
-  EXPECT_EQ(again, relative(frames));
+  EXPECT_TRUE(again == relative(frames));
 }
 
 TEST_F(Replay, ManyDueAtOnce_AreSentInBoundedPieces) {
@@ -118,7 +119,7 @@ TEST_F(Replay, ManyDueAtOnce_AreSentInBoundedPieces) {
     EXPECT_LE(listener_->frames.size() - before, Player::most_at_once);
     before = listener_->frames.size();
   }
-  EXPECT_EQ(relative(listener_->frames), relative(frames));
+  EXPECT_TRUE(relative(listener_->frames) == relative(frames));
   EXPECT_EQ(playing.next(), Player::Clock::time_point::max());
 }
 
