@@ -264,13 +264,14 @@ class Session {
 
   asio::awaitable<Next> upgrade(Parser& parser, const http::Request& request) {
     if (auto fault = handshake_fault(request)) co_return co_await answer(request, std::move(*fault), 11, false);
-    auto opened = state_->application.open_websocket(request);
-    if (auto* refusal = std::get_if<http::Response>(&opened))
-      co_return co_await answer(request, std::move(*refusal), 11, false);
     if (buffer_.size() != 0)
       co_return co_await answer(
           request, http::to_response(http::make_problem("malformed-request", "bytes follow the upgrade request")), 11,
           false);
+    // Last of all: a peer has a place in its stream until it is told that its connection is gone.
+    auto opened = state_->application.open_websocket(request);
+    if (auto* refusal = std::get_if<http::Response>(&opened))
+      co_return co_await answer(request, std::move(*refusal), 11, false);
     beast::http::request<beast::http::empty_body> head(std::move(parser.get().base()));
     serve_websocket(stream_.release_socket(), std::move(head),
                     std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_, std::move(count_));

@@ -163,6 +163,11 @@ void Outbox::detach() {
   forgotten = std::move(waiting_);
 }
 
+void Outbox::finish() {
+  detach();
+  if (const auto owner = owner_.lock()) owner->on_over();
+}
+
 bool Outbox::detached() const {
   const std::lock_guard lock(mutex_);
   return descriptor_ < 0;

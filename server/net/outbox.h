@@ -20,6 +20,8 @@ class OutboxOwner {
   virtual void on_blocked() = 0;
   /// The peer wants it closed: send a close frame with this reason, by send_control().
   virtual void on_close(const http::CloseReason& reason) = 0;
+  /// Strand only. Both sides have said that it is over; only the socket is still to be closed.
+  virtual void on_over() = 0;
 };
 
 /// The one writer of a WebSocket: messages of the peer, from any thread, and control frames, from the strand, go to the
@@ -50,6 +52,8 @@ class Outbox : public http::WebSocketSink {
   Flushed flush();
   /// No send reaches the descriptor from here on; what waits is forgotten.
   void detach();
+  /// The closing handshake is done: detach(), and the owner hears of it.
+  void finish();
   [[nodiscard]] bool detached() const;
 
  private:

@@ -43,8 +43,8 @@ class OutboxStream {
         Write{*this, std::move(bytes)}, handler, socket_);
   }
 
-  /// Strand only. Nothing is written after this; reading goes on.
-  void detach_writer() { outbox_->detach(); }
+  /// Strand only. Nothing is written after this; reading goes on, until the client closes its socket.
+  void finish() { outbox_->finish(); }
 
   /// Strand only. Nothing reaches the descriptor after this.
   void close() {
@@ -97,7 +97,7 @@ inline void beast_close_socket(OutboxStream& stream) { stream.close(); }
 /// Beast ends a closing handshake by this: all of ours has gone by then, see async_write_some.
 template <class Handler>
 void async_teardown(boost::beast::role_type role, OutboxStream& stream, Handler&& handler) {
-  stream.detach_writer();
+  stream.finish();
   boost::beast::websocket::async_teardown(role, stream.socket(), std::forward<Handler>(handler));
 }
 

@@ -1,13 +1,16 @@
 #include "server/net/websocket_session.h"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "server/log/log.h"
 #include "server/net/outbox.h"
 #include "server/net/outbox_stream.h"
 
@@ -48,7 +51,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   }
   ~WebSocketConnection() override {
     leave();
-    --state_->busy;
+    if (outbox_) outbox_->detach();  // the socket is closed now, if a fault brought us here
   }
   WebSocketConnection(const WebSocketConnection&) = delete;
   WebSocketConnection& operator=(const WebSocketConnection&) = delete;
@@ -60,6 +63,10 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   void on_close(const http::CloseReason& reason) override {
     asio::post(executor_, [self = shared_from_this(), reason] { self->close(reason); });
   }
+
+  /// A client may leave its socket open for long after the closing handshake: its place in the stream and a server that
+  /// stops do not wait for that.
+  void on_over() override { leave(); }
 
  private:
   using Stream = websocket::stream<OutboxStream, false>;
@@ -106,11 +113,23 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     if (error) return end();
     read_ += count;
     if (ws_->is_message_done()) {
-      peer_->receive({message_.data(), read_}, ws_->got_binary());
+      if (!receive()) return end();
       read_ = 0;
       if (message_.size() > first_piece_bytes) message_ = std::string();
     }
     read();
+  }
+
+  /// False when the peer has come to an end by a fault of ours: the others' connections go on.
+  bool receive() {
+    if (!peer_) return false;
+    try {
+      peer_->receive({message_.data(), read_}, ws_->got_binary());
+      return true;
+    } catch (const std::exception& fault) {
+      log::error(std::string("a WebSocket ended by a fault: ") + fault.what());
+      return false;
+    }
   }
 
   void wait_writable() {
@@ -155,6 +174,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     peer_ = nullptr;
     if (open_) --state_->websockets_open;
     open_ = false;
+    --state_->busy;
   }
 
   const std::shared_ptr<SharedState> state_;

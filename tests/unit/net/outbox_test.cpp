@@ -24,8 +24,10 @@ http::SharedWire wire(std::string bytes) {
 struct Owner : OutboxOwner {
   void on_blocked() override { ++blocked; }
   void on_close(const http::CloseReason& reason) override { code = reason.code; }
+  void on_over() override { over = true; }
   std::atomic<int> blocked{0};
   std::atomic<int> code{0};
+  std::atomic<bool> over{false};
 };
 
 /// An outbox on one end of a pair of sockets with a small buffer, and a client that reads when it is told to.
@@ -182,6 +184,14 @@ TEST_F(OutboxTest, Detached_TouchesNoDescriptor) {
   outbox_->close({1000, ""}, wire("last"));
   EXPECT_EQ(read(), "");
   EXPECT_EQ(owner_->code, 0);
+}
+
+TEST_F(OutboxTest, Finished_IsDetachedAndSaysSo) {
+  fill();
+  outbox_->finish();
+  EXPECT_TRUE(owner_->over);
+  EXPECT_TRUE(outbox_->detached());
+  EXPECT_EQ(outbox_->send(wire("state"), Purpose::state), Sent::closed);
 }
 
 TEST_F(OutboxTest, ClientGone_IsNoticedByWhoeverSends) {

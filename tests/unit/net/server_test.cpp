@@ -1,0 +1,194 @@
+// The server under an application of three lines, spoken to byte by byte.
+
+#include "server/net/server.h"
+
+#include <array>
+#include <atomic>
+#include <poll.h>
+#include <stdexcept>
+#include <thread>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+namespace semblante::net {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// Says back what it is told, and ends like a fault of ours at "throw".
+class Echo : public http::WebSocketPeer {
+ public:
+  explicit Echo(std::atomic<int>& here) : here_(here) { ++here_; }
+  [[nodiscard]] std::string_view subprotocol() const override { return {}; }
+  [[nodiscard]] std::size_t max_message_bytes() const override { return 1 << 20; }
+  [[nodiscard]] http::OutboxLimits outbox_limits() const override { return {}; }
+  void attach(std::shared_ptr<http::WebSocketSink> sink) override { sink_ = std::move(sink); }
+  void receive(std::string_view bytes, bool binary) override {
+    if (bytes == "throw") throw std::runtime_error("a fault of ours");
+    if (bytes == "bye") return sink_->close({1000, "bye"}, nullptr);
+    sink_->send(http::make_wire(bytes, binary), http::Purpose::answer);
+  }
+  void writable() override {}
+  void disconnected() override { --here_; }
+
+ private:
+  std::atomic<int>& here_;
+  std::shared_ptr<http::WebSocketSink> sink_;
+};
+
+struct EchoApplication : http::Application {
+  std::variant<http::BodyPlan, http::Response> plan(const http::Request&) override { return http::BodyPlan{}; }
+  http::Response handle(http::Request&) override { return {}; }
+  std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> open_websocket(const http::Request&) override {
+    ++opened;
+    return std::shared_ptr<http::WebSocketPeer>(std::make_shared<Echo>(peers));
+  }
+  void decorate(const http::Request&, http::Response&) override {}
+  std::atomic<int> opened{0}, peers{0};
+};
+
+bool soon(const std::function<bool()>& condition) {
+  for (const auto end = Clock::now() + 30s; Clock::now() < end; std::this_thread::sleep_for(2ms))
+    if (condition()) return true;
+  return condition();
+}
+
+class Client {
+ public:
+  explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  }
+  ~Client() { ::close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  void send(std::string_view bytes) const {
+    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+  }
+  /// So many bytes, or fewer when the connection ends before, or nothing comes for long.
+  [[nodiscard]] std::string read(std::size_t count) const {
+    std::string all;
+    std::array<char, 1> piece{};
+    while (all.size() < count) {
+      pollfd waiting{socket_, POLLIN, 0};
+      if (::poll(&waiting, 1, 30'000) != 1 || ::recv(socket_, piece.data(), 1, 0) != 1) break;
+      all += piece[0];
+    }
+    return all;
+  }
+  [[nodiscard]] std::string read_head() const {
+    std::string head;
+    while (!head.ends_with("\r\n\r\n")) {
+      const auto more = read(1);
+      if (more.empty()) break;
+      head += more;
+    }
+    return head;
+  }
+  void upgrade() const {
+    send(upgrade_request);
+    EXPECT_TRUE(read_head().starts_with("HTTP/1.1 101 "));
+  }
+  /// One whole text message in one frame; the mask of zeros leaves it as it is.
+  void say(std::string_view text) const { send(frame('\x81', text)); }
+  static std::string frame(char first, std::string_view payload) {
+    EXPECT_LT(payload.size(), 126U);
+    std::string bytes{first, static_cast<char>(0x80U | payload.size()), 0, 0, 0, 0};
+    return bytes.append(payload);
+  }
+
+  static constexpr std::string_view upgrade_request =
+      "GET /echo HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+
+ private:
+  int socket_;
+};
+
+class ServerTest : public ::testing::Test {
+ protected:
+  ServerTest() {
+    ServerConfig config;
+    config.port = 0;
+    // So long that whoever waits for one of these does not pass.
+    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 60s;
+    server_ = std::make_unique<Server>(config, application_);
+    port_ = server_->listen().value();
+    thread_ = std::thread([this] { server_->run([] {}); });
+  }
+  ~ServerTest() override {
+    EXPECT_TRUE(soon([&] { return server_->counts().connections_open == 0; }));
+    server_->stop();
+    thread_.join();
+  }
+
+  EchoApplication application_;
+  std::unique_ptr<Server> server_;
+  std::uint16_t port_ = 0;
+  std::thread thread_;
+};
+
+TEST_F(ServerTest, WebSocket_SaysBack) {
+  const Client client(port_);
+  client.upgrade();
+  client.say("hello");
+  EXPECT_EQ(client.read(7), "\x81\x05hello");
+  client.send(Client::frame('\x89', "p"));
+  client.say("again");
+  EXPECT_EQ(client.read(10),
+            "\x8A\x01p\x81\x05"
+            "again");
+  client.send(Client::frame('\x88', "\x03\xE8"));
+  EXPECT_EQ(client.read(4), "\x88\x02\x03\xE8");
+  EXPECT_EQ(client.read(1), "") << "and its side of the connection";
+}
+
+TEST_F(ServerTest, BytesBehindTheUpgrade_LeaveNoPeerBehind) {
+  const Client client(port_);
+  client.send(std::string(Client::upgrade_request) + Client::frame('\x81', "hello"));
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 "));
+  EXPECT_TRUE(soon([&] { return application_.peers == 0; })) << "it holds its place in a stream for ever";
+}
+
+TEST_F(ServerTest, AfterTheClosingHandshake_NobodyWaitsForTheSocket) {
+  // Both have said that it is over, but this client never closes its socket.
+  const Client theirs(port_);
+  theirs.upgrade();
+  theirs.send(Client::frame('\x88', "\x03\xE8"));
+  EXPECT_EQ(theirs.read(4), "\x88\x02\x03\xE8");
+  const Client ours(port_);
+  ours.upgrade();
+  ours.say("bye");
+  EXPECT_EQ(ours.read(7),
+            "\x88\x05\x03\xE8"
+            "bye");
+  ours.send(Client::frame('\x88', "\x03\xE8"));
+  EXPECT_TRUE(soon([&] { return application_.peers == 0; }));
+  EXPECT_EQ(server_->counts().websockets_open, 0U);
+  EXPECT_EQ(server_->counts().connections_open, 2U);
+}
+
+TEST_F(ServerTest, FaultOfAPeer_EndsItsConnectionAlone) {
+  const Client good(port_);
+  good.upgrade();
+  const Client bad(port_);
+  bad.upgrade();
+  bad.say("throw");
+  EXPECT_EQ(bad.read(1), "") << "cut off";
+  EXPECT_TRUE(soon([&] { return application_.peers == 1; }));
+  good.say("hello");
+  EXPECT_EQ(good.read(7), "\x81\x05hello");
+  const Client next(port_);
+  next.upgrade();
+}
+
+}  // namespace
+}  // namespace semblante::net
