@@ -32,10 +32,13 @@ void BatchSender::run() {
     const auto now = Clock::now();
     for (; !turns_.empty() && turns_.top().when <= now; turns_.pop()) ready.push_back(turns_.top());
     if (ready.empty()) {
-      if (turns_.empty())
+      if (turns_.empty()) {
         changed_.wait(lock);
-      else
-        changed_.wait_until(lock, turns_.top().when);
+      } else {
+        // A copy: it is read again after the wait, and the turns may have moved by then.
+        const auto next = turns_.top().when;
+        changed_.wait_until(lock, next);
+      }
       continue;
     }
     Turn turn = std::move(ready.front());

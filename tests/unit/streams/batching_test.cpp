@@ -271,6 +271,17 @@ TEST_F(BatchingTest, ComingGoingAndFallingBehind_WhileTheSenderSends_BreaksNobod
   EXPECT_GT(stream_->counts().lateness.count(), 0U);
 }
 
+TEST(BatchSender, ManyTurnsThatComeWhileItWaits_MoveNothingItLooksAt) {
+  // AddressSanitizer sees it when the place of the turn that is waited for is read again after it has moved.
+  BatchSender sender;
+  const auto far = Clock::now() + std::chrono::hours(1);
+  sender.wake({}, far);
+  std::this_thread::sleep_for(milliseconds(20));
+  for (int i = 1; i <= 1000; ++i) sender.wake({}, far + milliseconds(i));
+  sender.wake({}, Clock::now());
+  std::this_thread::sleep_for(milliseconds(20));
+}
+
 TEST(BatchSender, ServesManyStreamsAndForgetsThoseThatAreGone) {
   const auto sender = std::make_shared<BatchSender>();
   std::vector<std::shared_ptr<Stream>> streams;
