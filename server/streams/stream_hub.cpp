@@ -63,20 +63,19 @@ bool InProcessHub::open(const StreamInfo& info) {
 }
 
 bool InProcessHub::close(std::string_view id, EndReason reason) {
-  std::shared_ptr<Stream> stream;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = streams_.find(id);
-    if (found == streams_.end()) return false;
-    stream = found->second;
-    streams_.erase(found);
-    std::erase(order_, id);
-    for (auto* players : {&playing_, &fillings_}) {
-      if (const auto player = players->find(id); player != players->end()) players->erase(player);
-    }
-    gone_ += stream->counts();
-  }
+  const auto stream = find(id);
+  if (!stream) return false;
+  // Before it is taken off the list: what its end counts must be in the sum, and the sum must never fall.
   stream->end(reason);
+  const std::lock_guard lock(mutex_);
+  const auto found = streams_.find(id);
+  if (found == streams_.end() || found->second != stream) return false;  // somebody else closed it meanwhile
+  streams_.erase(found);
+  std::erase(order_, id);
+  for (auto* players : {&playing_, &fillings_}) {
+    if (const auto player = players->find(id); player != players->end()) players->erase(player);
+  }
+  gone_ += stream->counts();
   return true;
 }
 
