@@ -112,6 +112,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// After the hello: false when another source is there, unless it takes over; then that one is told `replaced` and
   /// closed, or plays no more.
   bool begin_publishing(StreamConnection& connection, bool take_over);
+  /// A publisher says that it has finished: the next one need not wait until its socket is closed.
+  void end_publishing(const StreamConnection& connection);
   /// A publisher is about to be closed because it floods.
   void dismiss(StreamConnection& connection);
   /// All that waited for it has gone. If it fell behind it gets the newest state; from there on batches reach it again.

@@ -111,6 +111,7 @@ void StreamConnection::handle(Message message) {
             send(Message(Pong{ping.id, ping.client_time, Stream::server_time_now(), stream_->media_time_now()}));
           },
           [&](const End&) {
+            stream_->end_publishing(*this);
             close(Message(End{EndReason::finished}), {1000, "bye"});
           },
           [&](const Pong&) {}, [&](const StreamError&) {},

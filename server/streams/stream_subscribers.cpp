@@ -102,13 +102,20 @@ void Stream::subscribe(StreamConnection& connection, const Hello& hello) {
   }
   connection.send(Message(make_header(recovered, packed ? StreamCoding::packed : StreamCoding::plain)));
   const auto& begin = gap ? gap : join_point(coding);
+  const auto sent = connection.sink()->send(begin, http::Purpose::answer);
+  if (sent == http::Sent::refused) {
+    // It has read nothing of many answers before its hello. Batches without a beginning are no use to it.
+    ++counts_.closed_slow;
+    connection.close(Message(End{EndReason::slow}), {1013, "reads too slowly: come back later"});
+    return;
+  }
   Subscriber subscriber;
   subscriber.connection = &connection;
   subscriber.sink = connection.sink();
   subscriber.slot = &connection.slots().subscriber;
   subscriber.next_batch = batches_ + 1;
   subscriber.coding = coding;
-  subscriber.waits = subscriber.sink->send(begin, http::Purpose::answer) != http::Sent::handed;
+  subscriber.waits = sent != http::Sent::handed;
   ++counts_.messages_sent;
   counts_.bytes_sent += begin->bytes.size();
   subscribers_.add(subscriber);
@@ -127,6 +134,11 @@ bool Stream::begin_publishing(StreamConnection& connection, bool take_over) {
   timeline_.forget_publisher();
   connection.send(Message(make_header(false, StreamCoding::plain)));
   return true;
+}
+
+void Stream::end_publishing(const StreamConnection& connection) {
+  const std::lock_guard lock(mutex_);
+  if (publisher_ == &connection) publisher_ = nullptr;
 }
 
 void Stream::dismiss(StreamConnection& connection) {

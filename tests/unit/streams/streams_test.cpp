@@ -120,6 +120,24 @@ TEST_F(StreamTest, PublisherLeaves_AnotherMayFollow) {
   EXPECT_FALSE(connect(StreamRole::publish)->socket->closed());
 }
 
+TEST_F(StreamTest, PublisherHasFinished_AnotherNeedNotWaitForItsSocket) {
+  const auto first = connect(StreamRole::publish);
+  first->connection->receive(encode_json(End{EndReason::finished}), false);
+  EXPECT_EQ(first->socket->closed()->code, 1000);
+  EXPECT_FALSE(connect(StreamRole::publish)->socket->closed());
+}
+
+TEST_F(StreamTest, NoRoomForTheJoinPoint_IsClosedAsSlow_AndGetsNoBatches) {
+  // Before its hello it has made many answers, and read none.
+  const auto client = std::make_shared<FakeClient>(stream_);
+  client->socket->stop_reading();
+  for (std::size_t i = 0; i < client->connection->outbox_limits().answers; ++i) client->connection->receive("{", false);
+  client->hello(StreamRole::subscribe);
+  ASSERT_TRUE(client->socket->closed());
+  EXPECT_EQ(client->socket->closed()->code, 1013);
+  EXPECT_EQ(stream_->info().subscribers, 0U);
+}
+
 TEST_F(StreamTest, OwnFilling_GivesWay) {
   ASSERT_TRUE(stream_->fill(Stream::Clock::now(), frame_with(1)));
   EXPECT_EQ(stream_->info().sequence, 1U);
@@ -225,11 +243,14 @@ TEST(Hub, Streams_OpenOnceAndEndOnce) {
   EXPECT_TRUE(hub.publish("a", {frame_with(1)}));
   EXPECT_FALSE(hub.publish("b", {frame_with(1)}));
   EXPECT_EQ(std::get<Refusal>(hub.connect("b", "")), Refusal::no_such_stream);
+  const auto peer = std::get<std::shared_ptr<http::WebSocketPeer>>(hub.connect("a", ""));
   EXPECT_TRUE(hub.close("a", EndReason::deleted));
   EXPECT_FALSE(hub.close("a", EndReason::deleted));
   EXPECT_EQ(hub.counts().frames, 1U) << "what was counted stays counted";
+  EXPECT_EQ(hub.counts().closed_ended, 1U) << "the end itself is counted too";
   EXPECT_TRUE(hub.open(info));
   EXPECT_GT(hub.info("a")->epoch, epoch) << "a new life has a new epoch";
+  peer->disconnected();
 }
 
 TEST(Demo, Minute_TalksBlinksFeelsAndStaysInRange) {
