@@ -1,6 +1,7 @@
 """A WebSocket client of RFC 6455 for streams, on a plain socket, and what section 3 of protocol/SPEC.md lets a client say."""
 
 import base64
+import contextlib
 import hashlib
 import json
 import os
@@ -110,7 +111,8 @@ class StreamClient:
             if opcode == PING:
                 self.send_frame(PONG, payload)
             elif opcode == CLOSE:
-                self.send_frame(CLOSE, payload)
+                with contextlib.suppress(OSError):  # it need not wait for the answer
+                    self.send_frame(CLOSE, payload)
                 raise Closed(struct.unpack(">H", payload[:2])[0] if payload else None)
             elif opcode != PONG:
                 of, message = of or opcode, message + payload
