@@ -23,8 +23,12 @@ import { PerformanceModel } from './ui/performance_model.ts';
 import { PerformancePanel } from './ui/performance_panel.ts';
 import { PointsModel } from './ui/points_model.ts';
 import { PointsPanel } from './ui/points_panel.ts';
+import { RecordingsModel } from './ui/recordings_model.ts';
+import { RecordingsPanel } from './ui/recordings_panel.ts';
+import { saveFile } from './ui/save_file.ts';
 import { SceneView } from './ui/scene.ts';
 import { acceptDrops, Shelf } from './ui/shelf.ts';
+import { Signal } from './ui/signal.ts';
 import { StagePanel } from './ui/stage_panel.ts';
 import { Studio } from './ui/studio.ts';
 import { themeButton } from './ui/theme.ts';
@@ -58,9 +62,24 @@ function main(root: HTMLElement): void {
 
   const clipPlayer = new ClipPlayer();
   scene.clip = clipPlayer;
-  const clip = new ClipPanel(clipPlayer, () => live.driving.set(false));
+  const clip = new ClipPanel(clipPlayer, () => {
+    recordings.look.set(null);
+    live.driving.set(false);
+  });
+  const recordings = new RecordingsModel(
+    studio,
+    live,
+    (moment) => {
+      clip.release();
+      live.driving.set(false);
+      scene.held = true;
+      scene.performer.value?.follow(moment);
+    },
+    saveFile,
+  );
   const takeByHand = (): void => {
     clip.release();
+    recordings.look.set(null);
     live.driving.set(false);
     scene.performer.value?.follow(frame);
   };
@@ -82,9 +101,22 @@ function main(root: HTMLElement): void {
   const shelf = new Shelf(studio, thumbnails);
   const parametrizer = new Parametrizer(studio, points);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
-  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, clip.shown, demo));
+  /** What the face shows of a file or a recording. */
+  const shown = new Signal<string | null>(null);
+  const tell = (): void => shown.set(recordings.looksAt ?? clip.shown.value);
+  clip.shown.watch(tell);
+  recordings.look.watch((look) => {
+    if (look === null) scene.held = false;
+    tell();
+  });
+  const stagePanel = new StagePanel(canvas, scene, studio, points, makeDriverChip(live, scene, studio.tab, shown, demo));
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
-  const livePanel = new LivePanel(studio, live, performance.element);
+  const livePanel = new LivePanel(
+    studio,
+    live,
+    performance.element,
+    new RecordingsPanel(recordings, live, studio).element,
+  );
   const layout = makeLayout(
     studio,
     {
@@ -113,14 +145,17 @@ function main(root: HTMLElement): void {
   });
 
   live.driving.watch((driving) => {
-    if (driving) clip.release();
-    else scene.performer.value?.follow(frame);
+    if (driving) {
+      clip.release();
+      recordings.look.set(null);
+    } else scene.performer.value?.follow(frame);
   });
   live.driving.watch((driving) => (scene.live = driving));
   const listen = (): void => scene.performer.value?.listen(live.subscriber.value?.client ?? null);
   live.subscriber.watch(listen);
   scene.performer.watch((performer) => {
     animate.showFace(performer?.pose ?? null);
+    recordings.look.set(null);
     performer?.follow(frame);
     clip.showAgain();
     listen();
@@ -158,10 +193,17 @@ function main(root: HTMLElement): void {
     clip.tick();
   }, 200);
   setInterval(() => {
-    if (studio.tab.value === 'live' && document.visibilityState === 'visible') void live.refresh();
+    if (studio.tab.value !== 'live' || document.visibilityState !== 'visible') return;
+    void live.refresh();
+    if (recordings.running.length === 0) void recordings.refresh();
   }, 3000);
+  setInterval(() => {
+    if (recordings.running.length > 0 && studio.tab.value === 'live') void recordings.refresh();
+  }, 1000);
   studio.tab.watch((tab) => {
-    if (tab === 'live') void live.refresh();
+    if (tab !== 'live') return;
+    void live.refresh();
+    void recordings.refresh();
   });
 
   void studio.start().then(() => {

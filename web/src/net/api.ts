@@ -1,5 +1,6 @@
-import { streamUrl } from '@client/index.ts';
-import { requestBytes, requestJson, type Answer } from './http.ts';
+import { streamUrl, type FaceFrame } from '@client/index.ts';
+import { decodeJson } from '@protocol/json_codec.ts';
+import { requestBlob, requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf, upload } from './upload.ts';
 import type {
   FeaturePointSet,
@@ -13,7 +14,10 @@ import type {
   PartRole,
   Playing,
   PlayWish,
+  Recording,
+  RecordingFormat,
   StreamInfo,
+  StreamOptions,
   VersionInfo,
 } from './types.ts';
 
@@ -134,8 +138,8 @@ export class Api {
     return (await requestJson<{ streams: StreamInfo[] }>(`${this.base}/v1/streams`)).value.streams;
   }
 
-  async createStream(title: string, model: string | null): Promise<StreamInfo> {
-    const json = model === null ? { title } : { title, model };
+  async createStream(title: string, model: string | null, options: StreamOptions = {}): Promise<StreamInfo> {
+    const json = model === null ? { title, ...options } : { title, model, ...options };
     return (await requestJson<StreamInfo>(`${this.base}/v1/streams`, { method: 'POST', json })).value;
   }
 
@@ -158,6 +162,59 @@ export class Api {
   /** Ends what plays; the face returns to neutral. */
   async stopPlaying(stream: string, id: string): Promise<void> {
     await requestJson(`${this.base}/v1/streams/${segment(stream)}/performances/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  /** Of a stream, or (null) of all; oldest first. */
+  async listRecordings(stream: string | null): Promise<Recording[]> {
+    const url = stream === null ? '/v1/recordings' : `/v1/streams/${segment(stream)}/recordings`;
+    const recordings: Recording[] = [];
+    let after: string | null = null;
+    do {
+      const query: string = after === null ? '' : `&after=${segment(after)}`;
+      const page: { recordings: Recording[]; next: string | null } = (
+        await requestJson<{ recordings: Recording[]; next: string | null }>(`${this.base}${url}?limit=200${query}`)
+      ).value;
+      recordings.push(...page.recordings);
+      after = page.next;
+    } while (after !== null);
+    return recordings;
+  }
+
+  async startRecording(stream: string): Promise<Recording> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/recordings`;
+    return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
+  }
+
+  /** Answered when all of it is on the disk. */
+  async stopRecording(id: string): Promise<Recording> {
+    const url = `${this.base}/v1/recordings/${segment(id)}/stop`;
+    return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
+  }
+
+  async deleteRecording(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/recordings/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  /** `model`: whose face a clip (glb) moves. */
+  recordingContent(id: string, format: RecordingFormat, model: string | null): Promise<Blob> {
+    const query = new URLSearchParams({ format, ...(format === 'glb' && model !== null ? { model } : {}) });
+    return requestBlob(`${this.base}/v1/recordings/${segment(id)}/content?${query.toString()}`);
+  }
+
+  /** The face at a time, ms after the first frame. */
+  async recordedFrame(id: string, at: number): Promise<FaceFrame> {
+    const url = `${this.base}/v1/recordings/${segment(id)}/frames?at=${Math.round(at)}`;
+    const { frames } = (await requestJson<{ frames: unknown[] }>(url)).value;
+    const message = decodeJson(JSON.stringify({ type: 'frames', sequence: 0, media_time: 0, frames }));
+    if (message.type !== 'frames') throw new TypeError('not frames');
+    return message.frames[0]!.state;
+  }
+
+  /** Plays a recording into a stream, from now on. */
+  async playRecording(stream: string, recording: string, wish: PlayWish): Promise<Playing> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/plays`;
+    const json = { recording, from: wish.from, loop: wish.loop, take_over: wish.takeOver };
+    return (await requestJson<Playing>(url, { method: 'POST', json })).value;
   }
 
   streamUrl(id: string): string {

@@ -61,6 +61,11 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
   }
 }
 
+/** Bytes that go to a file: the browser keeps large ones on the disk. */
+export async function requestBlob(path: string): Promise<Blob> {
+  return (await send(path, {})).blob();
+}
+
 export async function requestBytes(path: string, signal?: AbortSignal): Promise<Uint8Array> {
   const response = await send(path, signal ? { signal } : {});
   return new Uint8Array(await response.arrayBuffer());

@@ -227,8 +227,40 @@ export interface StreamInfo {
   subscribers: number;
   publishers: number;
   source?: string;
+  /** What feeds it now. */
+  active_source?: 'connection' | 'request' | 'performance' | 'fap' | 'recording' | 'demo' | null;
+  /** ms for which frames are gathered into one message; 0: each is sent at once. */
+  batch_interval?: number;
+  /** null: clients take that of the head. */
+  viseme_share?: number | null;
   playing?: Playing | null;
 }
+
+/** What may be said of a stream when it is made; what is left out is as the server has it. */
+export interface StreamOptions {
+  batch_interval?: number;
+  viseme_share?: number;
+}
+
+/** A stream on the server's disk; times in ms. */
+export interface Recording {
+  id: string;
+  /** May be gone by now. */
+  stream: string;
+  name: string;
+  model: string | null;
+  created: string;
+  state: 'recording' | 'finished' | 'broken';
+  /** Why it ended; null: it runs. */
+  ended: string | null;
+  duration: number;
+  frames: number;
+  /** Frames that came faster than the disk took them. */
+  lost: number;
+  bytes: number;
+}
+
+export type RecordingFormat = 'performance' | 'fap' | 'arkit-csv' | 'glb' | 'frames-json';
 
 export interface VersionInfo {
   version: string;

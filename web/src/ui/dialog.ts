@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { h, type Child } from './dom.ts';
 
 interface Question {
   title: string;
@@ -11,37 +11,45 @@ interface Question {
 }
 
 /** Asks in a modal dialog. Resolves with the text (empty where none was asked for), or null when cancelled. */
-export function ask(question: Question): Promise<string | null> {
+export async function ask(question: Question): Promise<string | null> {
+  const input =
+    question.value === undefined
+      ? null
+      : h('input', { type: 'text', id: 'dialog-value', maxlength: 120, required: true, autocomplete: 'off' });
+  if (input) input.value = question.value ?? '';
+  const accepted = await openDialog(
+    question,
+    question.text ? h('p', {}, question.text) : null,
+    input ? [h('label', { for: 'dialog-value' }, question.label ?? 'Name'), input] : null,
+  );
+  return accepted ? (input?.value.trim() ?? '') : null;
+}
+
+/** A modal dialog with this content, whose first text is selected. Resolves with whether it was accepted. */
+export function openDialog(words: Pick<Question, 'title' | 'accept' | 'danger'>, ...content: Child[]): Promise<boolean> {
   return new Promise((resolve) => {
-    const input =
-      question.value === undefined
-        ? null
-        : h('input', { type: 'text', id: 'dialog-value', maxlength: 120, required: true, autocomplete: 'off' });
-    if (input) input.value = question.value ?? '';
     const dialog = h(
       'dialog',
       { class: 'dialog', 'aria-labelledby': 'dialog-title' },
       h(
         'form',
         { method: 'dialog' },
-        h('h2', { id: 'dialog-title' }, question.title),
-        question.text ? h('p', {}, question.text) : null,
-        input ? [h('label', { for: 'dialog-value' }, question.label ?? 'Name'), input] : null,
+        h('h2', { id: 'dialog-title' }, words.title),
+        content,
         h(
           'div',
           { class: 'row end' },
           h('button', { type: 'button', on: { click: () => dialog.close('') } }, 'Cancel'),
-          h('button', { type: 'submit', value: 'yes', class: question.danger ? 'danger' : 'primary' }, question.accept),
+          h('button', { type: 'submit', value: 'yes', class: words.danger ? 'danger' : 'primary' }, words.accept),
         ),
       ),
     );
     dialog.addEventListener('close', () => {
-      const accepted = dialog.returnValue === 'yes';
       dialog.remove();
-      resolve(accepted ? (input?.value.trim() ?? '') : null);
+      resolve(dialog.returnValue === 'yes');
     });
     document.body.append(dialog);
     dialog.showModal();
-    input?.select();
+    dialog.querySelector<HTMLInputElement>('input[type="text"]')?.select();
   });
 }

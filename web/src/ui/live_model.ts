@@ -1,6 +1,6 @@
 import { problemOf } from '../net/problem.ts';
 import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveStats } from '../net/live.ts';
-import type { Problem, StreamInfo } from '../net/types.ts';
+import type { Problem, StreamInfo, StreamOptions } from '../net/types.ts';
 import type { FaceFrame } from '@client/index.ts';
 import { Signal } from './signal.ts';
 import type { Studio } from './studio.ts';
@@ -54,6 +54,31 @@ export class LiveModel {
     void this.refresh();
   }
 
+  /** Streams that one may play into: the demo is for everyone. */
+  get ownStreams(): readonly StreamInfo[] {
+    return (this.streams.value ?? []).filter((stream) => stream.source !== 'demo');
+  }
+
+  titleOf(id: string): string {
+    return this.streams.value?.find((stream) => stream.id === id)?.title || id;
+  }
+
+  /** The stream to play into (empty: one of this head, made where there is none), with the face on screen following it. */
+  async openFor(target: string): Promise<string | null> {
+    let id: string | null = target;
+    if (id === '') {
+      // One such stream of a head is enough: that of another day is taken again while nobody is on it.
+      const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
+      const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
+      id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
+      if (id === null) return null;
+    }
+    if (this.following.value === id && this.status.value.kind !== 'ended') this.driving.set(true);
+    else this.subscribe(id, this.titleOf(id));
+    await this.opened();
+    return id;
+  }
+
   /** Resolves when what is followed is there to be seen, or after `patience` ms without. */
   async opened(patience = 2000): Promise<void> {
     const end = performance.now() + patience;
@@ -70,10 +95,10 @@ export class LiveModel {
     void this.refresh();
   }
 
-  async create(title: string): Promise<string | null> {
+  async create(title: string, options: StreamOptions = {}): Promise<string | null> {
     let id: string | null = null;
     await this.studio.attempt('The stream was not made', async () => {
-      id = (await this.studio.api.createStream(title, this.studio.selected.value?.id ?? null)).id;
+      id = (await this.studio.api.createStream(title, this.studio.selected.value?.id ?? null, options)).id;
       await this.refresh();
     });
     return id;

@@ -6,6 +6,8 @@ import { formatBytes } from './format.ts';
 import { icon } from './icons.ts';
 import type { LiveModel } from './live_model.ts';
 import { bar } from './shelf.ts';
+import { askForStream } from './stream_dialog.ts';
+import { StreamFacts } from './stream_facts.ts';
 import type { Studio } from './studio.ts';
 
 const stateWords = {
@@ -51,6 +53,7 @@ export class LivePanel {
     private readonly studio: Studio,
     private readonly live: LiveModel,
     performance: HTMLElement,
+    recordings: HTMLElement,
   ) {
     const figure = (term: string, value: HTMLElement): HTMLElement => h('div', {}, h('dt', {}, term), value);
     this.publishBox.addEventListener('change', () => void this.togglePublish());
@@ -74,6 +77,7 @@ export class LivePanel {
           figure('Frame', this.figures.frames),
         ),
         this.network,
+        new StreamFacts(live).element,
       ),
       h(
         'section',
@@ -96,6 +100,7 @@ export class LivePanel {
         ),
         this.list,
       ),
+      recordings,
       performance,
       h(
         'section',
@@ -262,8 +267,8 @@ export class LivePanel {
   }
 
   private async create(): Promise<void> {
-    const title = await ask({ title: 'New stream', accept: 'Create', value: 'My stream', label: 'Title' });
-    if (title) await this.live.create(title);
+    const wish = await askForStream();
+    if (wish?.title) await this.live.create(wish.title, wish.options);
   }
 
   private async remove(stream: StreamInfo): Promise<void> {

@@ -58,9 +58,8 @@ export class PerformanceModel {
     });
   }
 
-  /** Streams that one may play into: the demo is for everyone. */
   get ownStreams(): readonly StreamInfo[] {
-    return (this.live.streams.value ?? []).filter((stream) => stream.source !== 'demo');
+    return this.live.ownStreams;
   }
 
   /** Whether what plays was started here from the script at hand, so that it may be begun anew anywhere. */
@@ -132,22 +131,9 @@ export class PerformanceModel {
     }
   }
 
-  /** The stream to play into, made where there is none, with the face on screen following it. */
   private async openTarget(): Promise<string | null> {
-    if (this.target.value === '') {
-      // One such stream of a head is enough: that of another day is taken again while nobody is on it.
-      const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
-      const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
-      const known = this.ownStreams.find((stream) => stream.title === title && free(stream));
-      const id = known?.id ?? (await this.live.create(title));
-      if (id === null) return null;
-      this.target.set(id);
-    }
-    const id = this.target.value;
-    const title = this.live.streams.value?.find((stream) => stream.id === id)?.title ?? id;
-    if (this.live.following.value === id && this.live.status.value.kind !== 'ended') this.live.driving.set(true);
-    else this.live.subscribe(id, title);
-    await this.live.opened();
+    const id = await this.live.openFor(this.target.value);
+    if (id !== null) this.target.set(id);
     return id;
   }
 

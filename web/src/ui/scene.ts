@@ -62,6 +62,8 @@ export class SceneView {
   clip: ClipPlayer | null = null;
   /** Under what is done by hand; null: none. */
   idle: IdleLife | null = null;
+  /** The face holds a moment that somebody looks at: idle life stays away. */
+  held = false;
   /** Whether the face follows the stream, or what is done by hand. */
   live = false;
 
@@ -173,9 +175,9 @@ export class SceneView {
     const { face } = this;
     const performer = this.performer.value;
     if (!face || !performer || !face.object.visible) return false;
-    const { clip, idle, live } = this;
+    const { clip, held, idle, live } = this;
     const moment = live ? null : (clip?.step(delta) ?? null);
-    if (idle && !live && !clip?.shown) performer.enliven(idle.step(delta), idle.steps);
+    if (idle && !live && !held && !clip?.shown) performer.enliven(idle.step(delta), idle.steps);
     if (moment) performer.showBetween(moment.from.state, moment.to.state, moment.t, clip?.clip?.steps);
     else if (!performer.step(delta, this.live)) return false;
     this.pose(face, performer);
