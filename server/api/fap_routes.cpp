@@ -25,7 +25,8 @@ bool second_word(const http::Request& request, const std::string& name, const st
 
 http::Response post_fap(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
-  if (!context.hub.info(stream)) refuse("not-found", "there is no stream " + stream);
+  const auto info = context.hub.info(stream);
+  if (!info) refuse("not-found", "there is no stream " + stream);
   auto options = play_options(request);
   FapFileMeaning meaning;
   if (second_word(request, "absent", "zero", "keep")) meaning.absent = AbsentFap::keep;
@@ -45,7 +46,8 @@ http::Response post_fap(Context& context, http::Request& request) {
     options.rate = std::clamp(reading->file.rate, streams::least_play_rate, streams::most_play_rate);
   std::vector<std::string> warnings;
   for (const auto& warning : reading->warnings) warnings.push_back(to_sentence(warning));
-  auto source = streams::make_fap_source(*frames, reading->file.rate, reading->file.name);
+  auto source = streams::make_fap_source(*frames, reading->file.rate, reading->file.name,
+                                         scaled_quantizers(info->quantizer_scale));
   return play_into(context, stream, std::move(source), options, warnings);
 }
 

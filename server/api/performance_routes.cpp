@@ -23,13 +23,15 @@ namespace {
 
 http::Response post_performance(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
-  if (!context.hub.info(stream)) refuse("not-found", "there is no stream " + stream);
+  const auto info = context.hub.info(stream);
+  if (!info) refuse("not-found", "there is no stream " + stream);
   const auto options = play_options(request);
   auto script = read_performance(text_of_body(request));
   if (!script) refuse_document(script.error());
   auto performance = Performance::compile(*script);
   if (!performance) refuse_document(performance.error());
-  return play_into(context, stream, streams::make_performance_source(std::move(*performance)), options);
+  auto source = streams::make_performance_source(std::move(*performance), scaled_quantizers(info->quantizer_scale));
+  return play_into(context, stream, std::move(source), options);
 }
 
 http::Response get_performance(Context& context, http::Request& request) {

@@ -32,7 +32,7 @@ Header header_of(const streams::StreamInfo& info) {
   header.epoch = info.epoch;
   header.sequence = info.sequence;
   header.server_time = streams::Stream::server_time_now();
-  const auto& steps = standard_quantizers();
+  const auto steps = scaled_quantizers(info.quantizer_scale);
   header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
   header.viseme_share = info.viseme_share;
   return header;
@@ -178,7 +178,8 @@ http::Response delete_recording(Context& context, http::Request& request) {
 
 http::Response post_play(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
-  if (!context.hub.info(stream)) refuse("not-found", "there is no stream " + stream);
+  const auto info = context.hub.info(stream);
+  if (!info) refuse("not-found", "there is no stream " + stream);
   const auto body = body_object(request);
   refuse_unknown_members(body, {"recording", "from", "loop", "take_over"});
   const auto flag = [&](const char* name) {
@@ -198,7 +199,8 @@ http::Response post_play(Context& context, http::Request& request) {
     if (!(options.from >= 0.0 && options.from <= static_cast<double>(recording->record.duration)))
       refuse("invalid-field", "must be a number of milliseconds from 0 to the recording's duration", "/from");
   }
-  const auto source = recordings::make_recording_source(*bytes_of(context, *recording), recording->record.name);
+  const auto source = recordings::make_recording_source(*bytes_of(context, *recording), recording->record.name,
+                                                        scaled_quantizers(info->quantizer_scale));
   if (!source) {
     if (source.error().code == ErrorCode::empty) refuse("conflict", "there is no frame in the recording yet");
     refuse_damaged(source.error());

@@ -161,6 +161,7 @@ Json represent(const streams::StreamInfo& stream) {
                                 ? Json(streams::source_names[static_cast<std::size_t>(*stream.active_source)])
                                 : Json(nullptr)},
           {"batch_interval", stream.batch_interval},
+          {"quantizer_scale", stream.quantizer_scale},
           {"subscribers_by_coding", by_coding(stream)},
           {"bytes_sent", stream.counts.bytes_sent},
           {"messages_coalesced", stream.counts.messages_replaced},

@@ -39,6 +39,12 @@ std::uint32_t checked_interval(const Json& value) {
   return static_cast<std::uint32_t>(interval);
 }
 
+double checked_scale(const Json& value) {
+  const double scale = value.is_number() ? value.get<double>() : 0.0;
+  if (!is_quantizer_scale(scale)) refuse("invalid-field", "must be 1, 0.5, 0.25 or 0.125", "/quantizer_scale");
+  return scale;
+}
+
 streams::StreamInfo info_of(Context& context, const http::Request& request) {
   const auto& id = request.params.at("stream");
   auto info = context.hub.info(id);
@@ -62,7 +68,7 @@ http::Response list_streams(Context& context, http::Request&) {
 
 http::Response create_stream(Context& context, http::Request& request) {
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "title", "model", "viseme_share", "batch_interval"});
+  refuse_unknown_members(body, {"name", "title", "model", "viseme_share", "batch_interval", "quantizer_scale"});
   streams::StreamInfo info;
   info.id = body.contains("name") ? checked_slug(body["name"]) : store::random_id();
   info.title = body.contains("title") ? checked_text(body["title"], max_title_bytes, "/title") : info.id;
@@ -73,6 +79,7 @@ http::Response create_stream(Context& context, http::Request& request) {
   if (body.contains("viseme_share") && !body["viseme_share"].is_null())
     info.viseme_share = checked_share(body["viseme_share"]);
   info.batch_interval = checked_interval(body.value("batch_interval", Json(usual_batch_interval)));
+  info.quantizer_scale = checked_scale(body.value("quantizer_scale", Json(1.0)));
   info.created = store::timestamp_now();
   info.source = "none";
 
@@ -87,7 +94,8 @@ http::Response create_stream(Context& context, http::Request& request) {
   // Durable before it is there for others, so that a stream somebody saw is never forgotten.
   if (context.hub.info(info.id) ||
       !context.store.create_stream(
-          {info.id, info.title, info.model, info.created, info.viseme_share, info.batch_interval}, check.record))
+          {info.id, info.title, info.model, info.created, info.viseme_share, info.batch_interval, info.quantizer_scale},
+          check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
   return created(context.hub.info(info.id).value_or(info));
@@ -110,7 +118,7 @@ http::Response delete_stream(Context& context, http::Request& request) {
 http::Response post_frames(Context& context, http::Request& request) {
   const auto info = info_of(context, request);
   std::size_t clamped_coefficients = 0;
-  auto frames = decode_json_frames(request.body, standard_quantizers(), &clamped_coefficients);
+  auto frames = decode_json_frames(request.body, scaled_quantizers(info.quantizer_scale), &clamped_coefficients);
   if (!frames) {
     const auto& error = frames.error();
     refuse(error.code == ErrorCode::malformed && error.where.empty() ? "malformed-request" : "invalid-frame",

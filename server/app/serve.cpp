@@ -69,6 +69,7 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
     info.created = record.created;
     info.viseme_share = record.viseme_share;
     info.batch_interval = record.batch_interval;
+    info.quantizer_scale = record.quantizer_scale;
     info.source = "none";
     if (!hub.open(info)) log::warning("the stream " + record.id + " is hidden by one of the server's own");
   }

@@ -188,6 +188,7 @@ struct StreamRecord {
   std::string id, title, model, created;
   std::optional<double> viseme_share;  ///< of Eq. 5, 0..1
   std::uint32_t batch_interval = 100;  ///< ms
+  double quantizer_scale = 1.0;        ///< of its steps against the standard ones
 
   bool operator==(const StreamRecord&) const = default;
 };

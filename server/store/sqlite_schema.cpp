@@ -90,6 +90,7 @@ constexpr std::array migrations = {
     "ALTER TABLE streams ADD COLUMN viseme_share REAL",
     "ALTER TABLE streams ADD COLUMN batch_interval INTEGER NOT NULL DEFAULT 100",
     with_recordings,
+    "ALTER TABLE streams ADD COLUMN quantizer_scale REAL NOT NULL DEFAULT 1",
 };
 constexpr int schema_version = migrations.size();
 

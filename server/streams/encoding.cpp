@@ -10,18 +10,19 @@ void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload)
   http::append_message(wire, {reinterpret_cast<const char*>(payload.data()), payload.size()}, true);
 }
 
-void append_encoded(std::string& wire, const Message& message, bool binary) {
+void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps) {
   if (binary)
     append_payload(wire, FrameEncoder().encode(message));
   else
-    http::append_message(wire, encode_json(message), false);
+    http::append_message(wire, encode_json(message, steps), false);
 }
 
-void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding) {
+void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding, const QuantizerSteps& steps) {
   if (coding == Coding::packed)
     append_payload(wire, packed.keyframe());
   else
-    append_encoded(wire, Keyframe{packed.sequence(), packed.media_time(), packed.state()}, coding == Coding::plain);
+    append_encoded(wire, Keyframe{packed.sequence(), packed.media_time(), packed.state()}, coding == Coding::plain,
+                   steps);
 }
 
 }  // namespace semblante::streams

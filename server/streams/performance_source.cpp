@@ -12,24 +12,26 @@ namespace {
 
 class PerformanceSource : public FrameSource {
  public:
-  explicit PerformanceSource(Performance performance) : performance_(std::move(performance)) {}
+  PerformanceSource(Performance performance, const QuantizerSteps& steps)
+      : performance_(std::move(performance)), steps_(steps) {}
   [[nodiscard]] std::string_view kind() const override { return "performance"; }
   [[nodiscard]] std::string name() const override { return performance_.name(); }
   [[nodiscard]] double duration() const override { return performance_.duration(); }
   [[nodiscard]] FaceFrame frame_at(double ms, double played_ms) const override {
-    return quantized(performance_.frame_at(ms, played_ms));
+    return quantized(performance_.frame_at(ms, played_ms), steps_);
   }
 
   [[nodiscard]] std::size_t bytes() const override { return performance_.bytes(); }
 
  private:
   const Performance performance_;
+  const QuantizerSteps steps_;
 };
 
 }  // namespace
 
-std::shared_ptr<const FrameSource> make_performance_source(Performance performance) {
-  return std::make_shared<PerformanceSource>(std::move(performance));
+std::shared_ptr<const FrameSource> make_performance_source(Performance performance, const QuantizerSteps& steps) {
+  return std::make_shared<PerformanceSource>(std::move(performance), steps);
 }
 
 std::shared_ptr<const FrameSource> demo_source() {

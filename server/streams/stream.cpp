@@ -35,6 +35,7 @@ class Stream::SendAfter {
 
 Stream::Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender> sender)
     : limits_(limits),
+      steps_(scaled_quantizers(info.quantizer_scale)),
       sender_(std::move(sender)),
       lateness_(std::make_shared<metrics::LatenessHistogram>(metrics::lateness_bounds)),
       info_(std::move(info)),
@@ -111,7 +112,7 @@ Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, 
 
 PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames) {
   std::size_t clamped = 0;
-  for (auto& frame : frames) clamped += clamp_to_ranges(frame.state);
+  for (auto& frame : frames) clamped += clamp_to_ranges(frame.state, info_.quantizer_scale);
   info_.clamped_values += clamped;
   counts_.clamped_values += clamped;
   counts_.frames += frames.size();

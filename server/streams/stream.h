@@ -14,6 +14,7 @@
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/quantizers.h"
 #include "server/streams/flood_guard.h"
 #include "server/streams/source.h"
 #include "server/streams/stream_counts.h"
@@ -59,6 +60,7 @@ struct StreamInfo {
   std::optional<PlayStatus> playing;   ///< filled in by the hub
   std::uint64_t clamped_values = 0;    ///< that were beyond the range of their FAP
   std::uint32_t batch_interval = 0;    ///< ms for which frames are gathered into one message; 0: each is sent at once
+  double quantizer_scale = 1.0;        ///< of its steps against the standard ones: one of quantizer_scales
   std::optional<Source> active_source{};  ///< who feeds it now; of requests: within the last seconds
   std::array<std::size_t, coding_count> subscribers_by_coding{};
   StreamCounts counts{};
@@ -81,6 +83,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender> sender = nullptr);
 
   [[nodiscard]] const StreamLimits& limits() const { return limits_; }
+  /// What its levels are: FAP units a level.
+  [[nodiscard]] const QuantizerSteps& steps() const { return steps_; }
   [[nodiscard]] StreamInfo info() const;
   [[nodiscard]] StreamCounts counts() const;
 
@@ -181,6 +185,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
                          Clock::time_point due);
 
   const StreamLimits limits_;
+  const QuantizerSteps steps_;
   const std::shared_ptr<BatchSender> sender_;
   const std::shared_ptr<metrics::LatenessHistogram> lateness_;
   std::atomic<std::uint64_t> dropped_{0};

@@ -20,9 +20,9 @@ struct Overloaded : T... {
 template <class... T>
 Overloaded(T...) -> Overloaded<T...>;
 
-http::SharedWire encoded(const Message& message, bool binary) {
+http::SharedWire encoded(const Message& message, bool binary, const QuantizerSteps& steps) {
   http::WireMessage wire;
-  append_encoded(wire.bytes, message, binary);
+  append_encoded(wire.bytes, message, binary, steps);
   return std::make_shared<const http::WireMessage>(std::move(wire));
 }
 
@@ -88,7 +88,7 @@ void StreamConnection::receive(std::string_view bytes, bool binary) {
   FrameDecoder decoder_of_one;
   auto& decoder = publishing_ ? publishing_->decoder : decoder_of_one;
   auto decoded = binary_ ? decoder.decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()))
-                         : decode_json(bytes);
+                         : decode_json(bytes, stream_->steps());
   if (decoded)
     handle(std::move(*decoded));
   else
@@ -177,12 +177,13 @@ bool StreamConnection::admit(std::size_t frames) {
 void StreamConnection::send(const Message& message) {
   // What came before attach() has nobody to send it; there is nothing but close() that does.
   if (closing_ || sink_ == nullptr) return;
-  if (sink_->send(encoded(message, binary_), http::Purpose::answer) == http::Sent::refused) stream_->count_dropped();
+  if (sink_->send(encoded(message, binary_, stream_->steps()), http::Purpose::answer) == http::Sent::refused)
+    stream_->count_dropped();
 }
 
 void StreamConnection::close(const std::optional<Message>& last, http::CloseReason reason) {
   if (closing_.exchange(true)) return;
-  auto words = last ? encoded(*last, binary_) : nullptr;
+  auto words = last ? encoded(*last, binary_, stream_->steps()) : nullptr;
   {
     const std::lock_guard lock(mutex_);
     if (sink_ == nullptr) {

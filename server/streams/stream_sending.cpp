@@ -91,7 +91,7 @@ const http::SharedWire& Stream::wire_of(Batch& batch, Coding coding) {
   if (wire) return wire;
   keep_wire(batch, coding, [&](std::string& bytes) {
     if (coding == Coding::json) {
-      append_encoded(bytes, batch.message, false);
+      append_encoded(bytes, batch.message, false, steps_);
       return;
     }
     // The plain form says what changed: the encoder must know the face before.
@@ -119,7 +119,7 @@ const http::SharedWire& Stream::join_point(Coding coding) {
   if (wire) return wire;
   const auto begin = Clock::now();
   http::WireMessage message;
-  append_join_point(message.bytes, packed_, coding);
+  append_join_point(message.bytes, packed_, coding, steps_);
   wire = std::make_shared<const http::WireMessage>(std::move(message));
   counts_.encode_seconds += std::chrono::duration<double>(Clock::now() - begin).count();
   return wire;

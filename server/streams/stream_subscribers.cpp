@@ -61,8 +61,7 @@ Header Stream::make_header(bool recovered, StreamCoding coding) const {
     header.batch_interval = static_cast<std::uint32_t>(std::lround(1000.0 / rate));
   }
   header.batch_interval = std::max(header.batch_interval, info_.batch_interval);
-  const auto& steps = standard_quantizers();
-  header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
+  header.quantizers.assign(steps_.begin() + first_low_level_fap, steps_.end());
   header.recovered = recovered;
   header.coding = coding;
   header.viseme_share = info_.viseme_share;
@@ -80,7 +79,7 @@ std::size_t Stream::find_held(const ResumePoint& resume) const {
 http::SharedWire Stream::gap_from(std::size_t held, Coding coding) {
   const auto& first = *held_[held];
   http::WireMessage gap;
-  append_join_point(gap.bytes, first.before, coding);
+  append_join_point(gap.bytes, first.before, coding, steps_);
   for (; held < held_.size() && gap.bytes.size() <= limits_.resumed_bytes; ++held)
     gap.bytes.append(wire_of(*held_[held], coding)->bytes);
   if (gap.bytes.size() > limits_.resumed_bytes) return nullptr;

@@ -1,6 +1,9 @@
 // Bad input that a first user sends: files that lack what they name, points of another frame, handshakes of another
 // time. Each answer names the field, in a form that can be read, and the server goes on.
 
+#include <chrono>
+#include <thread>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -91,6 +94,18 @@ nlohmann::json points_on_grid(const nlohmann::json& head_center) {
   return points;
 }
 
+/// A recording of the stream with some seconds in it.
+std::string recording_of(int port, const std::string& stream) {
+  const auto made = json_of(request(port, "POST", "/v1/streams/" + stream + "/recordings", "{}", json_type));
+  const auto target = "/v1/recordings/" + made["id"].get<std::string>();
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (json_of(request(port, "GET", target))["duration"] < 2000 && std::chrono::steady_clock::now() < give_up) {
+    request(port, "POST", "/v1/streams/" + stream + "/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return made["id"];
+}
+
 /// What the documentation shows as right must be taken: each JSON body's example goes to its route.
 TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
   const auto document = json_of(request(port(), "GET", "/openapi.json"));
@@ -101,7 +116,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
   // Put before post: a parametrization needs points, proposals need eight.
   for (const std::string method : {"put", "patch", "post"}) {
     for (const auto& [path, item] : document["paths"].items()) {
-      if (!item.contains(method)) continue;
+      if (!item.contains(method) || !item[method].contains("requestBody")) continue;
       const auto& bodies = item[method]["requestBody"]["content"];
       if (!bodies.contains("application/json")) continue;
       SCOPED_TRACE(method + " " + path);
@@ -111,6 +126,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       if (example.contains("points")) example["points"] = points_on_grid(example["points"]["7.1"]);
       if (example.contains("roles")) example["roles"] = {{"0", example["roles"]["3"]}};
       if (example.contains("model")) example["model"] = model;
+      if (example.contains("recording")) example["recording"] = recording_of(port(), "hello");
       auto target = path;
       if (const auto at = target.find("{model}"); at != std::string::npos) target.replace(at, 7, model);
       if (const auto at = target.find("{stream}"); at != std::string::npos) target.replace(at, 8, "hello");
@@ -123,7 +139,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 9U);
+  EXPECT_EQ(sent, 11U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

@@ -82,8 +82,8 @@ TEST(Durability, Streams_AreThereAfterARestart) {
   {
     ServerProcess server(folder.path() / "data");
     EXPECT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type).status, 201);
-    for (const char* body :
-         {R"({"name":"spoken","viseme_share":0.25,"batch_interval":40})", R"({"name":"felt","viseme_share":0})"}) {
+    for (const char* body : {R"({"name":"spoken","viseme_share":0.25,"batch_interval":40,"quantizer_scale":0.5})",
+                             R"({"name":"felt","viseme_share":0})"}) {
       EXPECT_EQ(request(server.port(), "POST", "/v1/streams", body, json_type).status, 201);
     }
     EXPECT_EQ(server.end(SIGINT), 0) << "Ctrl-C ends it well";
@@ -95,6 +95,8 @@ TEST(Durability, Streams_AreThereAfterARestart) {
   EXPECT_EQ(json_of(kept).at("batch_interval"), 100);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("batch_interval"), 40);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("viseme_share"), 0.25);
+  EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/spoken")).at("quantizer_scale"), 0.5);
+  EXPECT_EQ(json_of(kept).at("quantizer_scale"), 1.0);
   EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/streams/felt")).at("viseme_share"), 0.0);
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/quantizers.h"
 #include "tests/integration/server/model_flow.h"
 
 namespace semblante::test {
@@ -104,6 +105,65 @@ TEST_F(Streams, DemoInBinary_Decodes) {
   EXPECT_TRUE(std::holds_alternative<Header>(messages[0]));
   EXPECT_TRUE(std::holds_alternative<Keyframe>(messages[1]));
   EXPECT_TRUE(std::holds_alternative<Frames>(messages[2]));
+}
+
+double fap_3(const json& message) { return message["frames"][0].value("faps", json::object()).value("3", 0.0); }
+
+/// FAP 3 has a standard step of 4: one unit is nothing there, and two levels of an eighth of it.
+TEST_F(Streams, FinerSteps_KeepWhatStandardOnesRound) {
+  const auto made =
+      request(port(), "POST", "/v1/streams", R"({"name":"fine","batch_interval":0,"quantizer_scale":0.125})",
+              {{"Content-Type", "application/json"}});
+  EXPECT_EQ(made.status, 201) << made.body;
+  EXPECT_EQ(json_of(made)["quantizer_scale"], 0.125);
+  const auto refused = request(port(), "POST", "/v1/streams", R"({"name":"odd","quantizer_scale":0.3})",
+                               {{"Content-Type", "application/json"}});
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(json_of(refused)["pointer"], "/quantizer_scale");
+
+  for (const bool fine : {true, false}) {
+    const auto stream = fine ? std::string("/v1/streams/fine") : create("coarse");
+    WebSocket text(port(), stream, "semblante.v1.json");
+    text.send_text(hello("subscribe"));
+    EXPECT_EQ(next(text)["quantizers"][0], fine ? 0.5 : 4.0);
+    EXPECT_EQ(next(text)["type"], "keyframe");
+    WebSocket binary(port(), stream, "semblante.v1");
+    FrameDecoder decoder;
+    const auto bytes =
+        FrameEncoder().encode(Hello{1, StreamRole::subscribe, std::nullopt, StreamCoding::packed, false});
+    binary.send({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, true);
+    const auto read = [&]() -> Message {
+      const auto message = binary.receive();
+      if (!message) return End{};
+      auto decoded = decoder.decode({reinterpret_cast<const std::uint8_t*>(message->data()), message->size()});
+      return decoded ? *decoded : Message(End{});
+    };
+    const auto header = read();
+    ASSERT_TRUE(std::holds_alternative<Header>(header));
+    EXPECT_EQ(quantizers_of(std::get<Header>(header))[3], fine ? 0.5 : 4.0);
+    ASSERT_TRUE(std::holds_alternative<Keyframe>(read()));
+
+    post(stream, 1);
+    EXPECT_EQ(fap_3(next(text)), fine ? 1.0 : 0.0);
+    const auto frames = read();
+    ASSERT_TRUE(std::holds_alternative<Frames>(frames));
+    EXPECT_EQ(std::get<Frames>(frames).frames.at(0).state.level[3], fine ? 2 : 0);
+
+    // A publisher in JSON goes by the same steps, and so does what plays.
+    WebSocket publisher(port(), stream, "semblante.v1.json");
+    publisher.send_text(hello("publish"));
+    EXPECT_EQ(next(publisher)["type"], "header");
+    publisher.send_text(R"({"type":"frames","sequence":0,"media_time":0,"frames":[{"time":0,"faps":{"3":2.5}}]})");
+    EXPECT_EQ(fap_3(next(text)), fine ? 2.5 : 4.0);
+    publisher.send_text(R"({"type":"end"})");
+    EXPECT_EQ(next(publisher)["type"], "end");
+    const auto playing = request(
+        port(), "POST", stream + "/performances",
+        R"({"format":"semblante.performance","version":1,"duration":60000,"cues":[{"time":0,"fap":3,"value":7.5,"duration":60000,"attack":0,"release":0}]})",
+        {{"Content-Type", "application/json"}});
+    EXPECT_EQ(playing.status, 202) << playing.body;
+    EXPECT_EQ(fap_3(next(text)), fine ? 7.5 : 8.0);
+  }
 }
 
 TEST_F(Streams, Published_ReachesSubscribersOfBothKinds) {

@@ -415,13 +415,15 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   store_.reset();
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(database,
-                         "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
-                         "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
-                         "ALTER TABLE streams DROP COLUMN viseme_share; "
-                         "ALTER TABLE streams DROP COLUMN batch_interval; DROP TABLE recordings; PRAGMA user_version=2",
-                         nullptr, nullptr, nullptr),
-            SQLITE_OK);
+  EXPECT_EQ(
+      sqlite3_exec(database,
+                   "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
+                   "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
+                   "ALTER TABLE streams DROP COLUMN viseme_share; "
+                   "ALTER TABLE streams DROP COLUMN batch_interval; ALTER TABLE streams DROP COLUMN quantizer_scale; "
+                   "DROP TABLE recordings; PRAGMA user_version=2",
+                   nullptr, nullptr, nullptr),
+      SQLITE_OK);
   sqlite3_close(database);
   reopen();
   EXPECT_TRUE(store_->model("m")->package->levels.empty());
