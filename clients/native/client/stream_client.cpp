@@ -148,7 +148,7 @@ Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stre
   Hello hello;
   hello.role = options.role;
   hello.resume = options.resume;
-  hello.coding = options.json ? StreamCoding::plain : StreamCoding::packed;
+  hello.coding = options.json ? StreamCoding::plain : options.coding;
   hello.take_over = options.take_over;
   client.impl_->hello_sent = Clock::now();
   if (auto said = client.send(hello); !said) {
