@@ -18,7 +18,7 @@ struct StreamOptions {
   StreamRole role = StreamRole::subscribe;
   StreamCoding coding = StreamCoding::packed;  ///< asked for; JSON is plain whatever this says
   std::optional<ResumePoint> resume;
-  bool take_over = false;  ///< of a publisher: to replace the one there is
+  bool take_over = false;                     ///< of a publisher: to replace the one there is
   std::chrono::milliseconds timeout{10'000};  ///< of connecting and of one send
 };
 
