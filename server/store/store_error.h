@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace semblante::store {
+
+/// The data folder could not be read or written: nothing was changed, and the same call may succeed later. what() is
+/// for the log, never for clients.
+class StoreError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The disk is full, or a quota is used up.
+class DiskFull : public StoreError {
+ public:
+  using StoreError::StoreError;
+};
+
+/// The disk has less free than a job needs for its files; small writes may succeed.
+class NotEnoughRoom : public DiskFull {
+ public:
+  using DiskFull::DiskFull;
+};
+
+/// Whether this errno means that there is no room.
+bool is_disk_full(int error_number);
+/// Throws DiskFull if this errno means it.
+void throw_if_disk_full(const std::filesystem::path& path, int error_number);
+
+}  // namespace semblante::store
