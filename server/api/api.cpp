@@ -7,9 +7,11 @@
 #include "server/api/common.h"
 #include "server/api/play_options.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
 #include "server/http/static_files.h"
+#include "server/log/log.h"
 
 namespace semblante::api {
 namespace {
@@ -157,6 +159,22 @@ http::Response Api::handle(http::Request& request) {
     return route->handler(context_, request);
   } catch (const Refused& refused) {
     return to_response(refused);
+  } catch (const store::StoreError& fault) {
+    return to_response(refuse(request.method + " " + request.path, fault));
+  }
+}
+
+http::Problem Api::refuse(const std::string& request, const store::StoreError& fault) {
+  log::error(request + ": " + fault.what());
+  context_.pending.note(fault);
+  return problem_of(fault);
+}
+
+http::Problem Api::unwritten_body(int error_number) {
+  try {
+    refuse_unwritten("a body", error_number);
+  } catch (const store::StoreError& fault) {
+    return refuse("an upload", fault);
   }
 }
 

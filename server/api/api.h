@@ -14,6 +14,7 @@
 #include "server/metrics/request_counts.h"
 #include "server/recordings/recorder.h"
 #include "server/store/blob_store.h"
+#include "server/store/pending_writes.h"
 #include "server/store/store.h"
 #include "server/streams/stream_hub.h"
 
@@ -41,6 +42,7 @@ using NetMetrics = std::function<void(metrics::TextWriter&)>;
 struct Context {
   store::Store& store;
   store::BlobStore& blobs;
+  store::PendingWrites& pending;
   jobs::JobQueue& jobs;
   streams::StreamHub& hub;
   ApiConfig config;
@@ -58,9 +60,12 @@ class Api : public http::Application {
   std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override;
   http::Response handle(http::Request& request) override;
   std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> open_websocket(const http::Request& head) override;
+  http::Problem unwritten_body(int error_number) override;
   void decorate(const http::Request& head, http::Response& response) override;
 
  private:
+  http::Problem refuse(const std::string& request, const store::StoreError& fault);
+
   Context context_;
 };
 

@@ -159,7 +159,8 @@ http::Response put_expression(Context& context, http::Request& request) {
 http::Response delete_expression(Context& context, http::Request& request) {
   const auto set = own_set_of(context, request);
   check_if_match(request, set_etag(set));
-  if (!context.store.remove_set(set.id)) refuse("not-found", "there is no expression " + set.id);
+  if (!context.pending.with_reserve([&] { return context.store.remove_set(set.id); }))
+    refuse("not-found", "there is no expression " + set.id);
   http::Response response;
   response.status = 204;
   return response;

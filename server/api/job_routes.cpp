@@ -7,6 +7,7 @@
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/hash/sha256.h"
 
 namespace semblante::api {
@@ -114,7 +115,9 @@ http::Response get_job(Context& context, http::Request& request) {
 
 http::Response cancel_job(Context& context, http::Request& request) {
   const auto job = job_of(context, request);
-  if (!context.jobs.cancel(job.id)) refuse("conflict", "the job has ended already");
+  const auto cancelled = context.jobs.cancel(job.id);
+  if (cancelled == jobs::Cancelled::none) refuse("conflict", "the job has ended already");
+  if (cancelled == jobs::Cancelled::pending) refuse_pending(context, "the job is cancelled");
   return json_response(202, represent(job_of(context, request)));
 }
 

@@ -25,6 +25,15 @@ void write_store(TextWriter& writer, store::Store& store) {
                 "Size of all artefacts of the models, each counted once.", store.artefact_bytes());
 }
 
+void write_pending(TextWriter& writer, const store::PendingStatus& status) {
+  writer.single("semblante_store_writable", MetricType::gauge, "1; 0 while the data folder cannot be written.",
+                std::uint64_t{status.writable});
+  writer.single("semblante_store_disk_full", MetricType::gauge, "1 while that is because the disk is full.",
+                std::uint64_t{status.disk_full});
+  writer.single("semblante_store_pending_writes", MetricType::gauge,
+                "Changes that wait until the data folder can be written.", std::uint64_t{status.count});
+}
+
 void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
   writer.family("semblante_jobs", MetricType::gauge, "Jobs that have not ended.");
   writer.sample(std::uint64_t{jobs.waiting()}, {{"state", "waiting"}});
@@ -107,6 +116,7 @@ http::Response get_metrics(Context& context, http::Request&) {
   if (context.net_metrics) context.net_metrics(writer);
   context.requests->write(writer);
   write_store(writer, context.store);
+  write_pending(writer, context.pending.status());
   write_jobs(writer, context.jobs);
   write_streams(writer, context.hub);
   if (context.recorder) write_recordings(writer, context.recorder->counts());

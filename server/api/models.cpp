@@ -172,9 +172,11 @@ http::Response patch_model(Context& context, http::Request& request) {
 http::Response delete_model(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   check_if_match(request, model_etag(model));
+  // Before its jobs are ended for nothing.
+  context.pending.with_reserve([&] { context.store.check_writable(); });
   context.jobs.cancel_all_of(model.id);
   const std::unique_lock alone(context.blobs.references());
-  const auto orphans = context.store.remove_model(model.id);
+  const auto orphans = context.pending.with_reserve([&] { return context.store.remove_model(model.id); });
   if (!orphans) refuse("not-found", "there is no model " + model.id);
   for (const auto& hash : *orphans) context.blobs.remove(hash);
   http::Response response;

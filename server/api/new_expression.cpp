@@ -13,6 +13,7 @@
 #include "server/api/mapped_file.h"
 #include "server/api/routes.h"
 #include "server/api/sets.h"
+#include "server/api/storage_problems.h"
 #include "server/hash/sha256.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
@@ -147,7 +148,7 @@ std::string default_name(const store::ExtractionRecord& wish) {
 std::string keep(Context& context, std::string_view bytes) {
   if (bytes.empty()) return {};
   auto blob = context.blobs.put(bytes);
-  if (!blob) refuse("limit-exceeded", "the file cannot be kept: " + blob.error().message);
+  if (!blob) refuse_unkept(blob.error());
   return blob->sha256;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <limits>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "server/api/mapped_file.h"
 #include "server/api/recordings_common.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
 #include "server/package/clip.h"
 #include "server/recordings/recording_export.h"
@@ -57,10 +59,12 @@ const Format& format_of(const http::Request& request) {
 template <class Write>
 http::Body through_a_file(Context& context, Write write) {
   auto file = std::make_shared<http::TemporaryFile>(context.blobs.temporary() / ("export-" + store::random_id()));
+  errno = 0;
   std::ofstream out(file->path(), std::ios::binary);
+  if (!out) refuse_unwritten(file->path(), errno);
   if (const auto written = write(out); !written) refuse_export(written.error());
   out.close();
-  if (!out) refuse("limit-exceeded", "the disk does not take it");
+  if (!out) refuse_unwritten(file->path(), errno);
   std::error_code error;
   const auto size = std::filesystem::file_size(file->path(), error);
   const auto path = file->path();

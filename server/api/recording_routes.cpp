@@ -7,6 +7,7 @@
 #include "server/api/play_options.h"
 #include "server/api/recordings_common.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/hash/sha256.h"
 #include "server/recordings/recording_source.h"
 
@@ -141,8 +142,8 @@ http::Response create_recording(Context& context, http::Request& request) {
   }
   const auto record = context.recorder->start(std::move(start), std::move(check.record));
   if (!record) {
-    const bool limit = record.error().code == ErrorCode::too_large;
-    refuse(limit ? "limit-exceeded" : "internal", record.error().message);
+    if (record.error().code == ErrorCode::io) refuse_unkept(record.error());
+    refuse("limit-exceeded", record.error().message);
   }
   return created({*record, 0});
 }
@@ -165,6 +166,7 @@ http::Response stop_recording(Context& context, http::Request& request) {
   const auto& id = request.params.at("recording");
   auto record = context.recorder->stop(id);
   if (!record) refuse("not-found", "there is no recording " + id);
+  if (record->state == store::RecordingState::recording) refuse_pending(context, "the recording has ended");
   return json_response(200, represent(RecordingStatus{std::move(*record), 0}));
 }
 

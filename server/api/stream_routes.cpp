@@ -108,7 +108,7 @@ http::Response get_stream(Context& context, http::Request& request) {
 http::Response delete_stream(Context& context, http::Request& request) {
   const auto info = info_of(context, request);
   if (info.source != "none") refuse("conflict", "the " + info.source + " stream is the server's own");
-  context.store.remove_stream(info.id);
+  context.pending.with_reserve([&] { return context.store.remove_stream(info.id); });
   context.hub.close(info.id, EndReason::deleted);
   http::Response response;
   response.status = 204;

@@ -3,6 +3,7 @@
 #include "server/api/common.h"
 #include "server/api/openapi.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/hash/sha256.h"
 #include "server/http/conditional.h"
 
@@ -11,7 +12,12 @@ namespace semblante::api {
 http::Response get_health(Context&, http::Request&) { return json_response(200, {{"status", "ok"}}); }
 
 http::Response get_ready(Context& context, http::Request&) {
-  if (!context.store.healthy()) refuse("overloaded", "the store does not answer");
+  if (!context.store.healthy()) refuse("storage-unavailable", "the store does not answer");
+  if (const auto status = context.pending.status(); !status.writable) {
+    const std::string why = status.disk_full ? "the disk is full" : "the data folder cannot be written";
+    const auto pending = pending_in_words(status);
+    refuse("storage-unavailable", pending.empty() ? why : why + "; " + pending);
+  }
   return json_response(200, {{"status", "ok"}});
 }
 

@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "server/api/mapped_file.h"
 #include "server/api/new_model.h"
 #include "server/api/routes.h"
+#include "server/api/storage_problems.h"
 #include "server/hash/sha256.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
@@ -23,7 +25,7 @@ struct Upload {
   std::shared_ptr<http::TemporaryFile> extracted;  ///< holds the file of a form's part
 };
 
-Upload take_form(Context& context, const http::Request& request) {
+Upload take_form(const http::Request& request) {
   const auto& body = request.body_file->path();
   const MappedFile mapped(body);
   auto parts =
@@ -39,17 +41,17 @@ Upload take_form(Context& context, const http::Request& request) {
   upload.file_name = clean_file_name(file->file_name);
   upload.extracted = std::make_shared<http::TemporaryFile>(body.string() + ".part");
   upload.path = upload.extracted->path();
+  errno = 0;
   std::ofstream out(upload.path, std::ios::binary);
   out.write(file->content.data(), static_cast<std::streamsize>(file->content.size()));
-  if (!out.flush()) refuse("limit-exceeded", "the model cannot be written to disk");
-  (void)context;
+  if (!out.flush()) refuse_unwritten(upload.path, errno);
   return upload;
 }
 
-Upload take_upload(Context& context, const http::Request& request) {
+Upload take_upload(const http::Request& request) {
   Upload upload;
   if (http::essence(request.header("Content-Type").value_or("")) == "multipart/form-data") {
-    upload = take_form(context, request);
+    upload = take_form(request);
   } else {
     upload.path = request.body_file->path();
     upload.file_name = clean_file_name(http::parameter(request.header("Content-Disposition").value_or(""), "filename"));
@@ -71,7 +73,7 @@ http::Response accepted(Context& context, const store::ModelRecord& model, const
 }  // namespace
 
 http::Response create_model(Context& context, http::Request& request) {
-  const auto upload = take_upload(context, request);
+  const auto upload = take_upload(request);
   std::string hash;
   {
     const MappedFile mapped(upload.path);
@@ -91,7 +93,7 @@ http::Response create_model(Context& context, http::Request& request) {
     refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_models) + " models");
   refuse_unless_room(context.jobs);
   auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record);
-  if (!made) refuse("limit-exceeded", "the model cannot be kept: " + made.error().message);
+  if (!made) refuse_unkept(made.error());
   context.jobs.enqueue(made->job);
   return accepted(context, made->model, made->job);
 }

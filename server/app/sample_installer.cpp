@@ -37,20 +37,28 @@ std::vector<store::FeaturePointRecord> read_points(const std::filesystem::path& 
 
 }  // namespace
 
-SampleInstaller::SampleInstaller(store::Store& store, store::BlobStore& blobs, jobs::JobQueue& queue,
-                                 std::filesystem::path file)
-    : store_(store), blobs_(blobs), queue_(queue), file_(std::move(file)) {}
+SampleInstaller::SampleInstaller(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending,
+                                 jobs::JobQueue& queue, std::filesystem::path file)
+    : store_(store), blobs_(blobs), pending_(pending), queue_(queue), file_(std::move(file)) {
+  if (file_.empty()) return;
+  hash_ = sha256_hex(read_text(file_));
+  points_ = read_points(std::filesystem::path(file_).replace_extension(".fps.json"));
+}
+
+SampleInstaller::~SampleInstaller() { pending_.release(this); }
 
 void SampleInstaller::begin() {
   if (file_.empty()) return;
-  const auto hash = sha256_hex(read_text(file_));
-  points_ = read_points(std::filesystem::path(file_).replace_extension(".fps.json"));
+  pending_.write(this, "sample", "the next step of the sample head", [this] { take_next_step(); });
+}
+
+void SampleInstaller::take_next_step() {
   const auto model = store_.model(sample_model_id);
-  if (!model || model->source_sha256 != hash || model->state == store::ModelState::failed) {
+  if (!model || model->source_sha256 != hash_ || model->state == store::ModelState::failed) {
     import();
   } else if (model->state == store::ModelState::ready) {
     const auto job = store_.latest_job(sample_model_id, store::JobKind::parametrize);
-    if (!job || job->state != store::JobState::queued) parametrize();
+    if (!job || store::is_final(job->state)) parametrize();
   }
 }
 
@@ -64,9 +72,13 @@ void SampleInstaller::import() {
   const auto copy = blobs_.temporary() / "sample";
   std::error_code error;
   std::filesystem::copy_file(file_, copy, std::filesystem::copy_options::overwrite_existing, error);
+  store::throw_if_disk_full(copy, error.value());
   auto made = api::add_model(store_, blobs_, copy, std::string(sample_model_id), "Sample head",
                              file_.filename().string(), std::nullopt);
-  if (!made) fail("serve: --sample", made.error());
+  if (!made) {
+    log::error("the sample head cannot be installed: " + made.error().message);
+    return;
+  }
   queue_.enqueue(made->job);
 }
 
@@ -90,7 +102,7 @@ void SampleInstaller::parametrize() {
 void SampleInstaller::job_finished(const store::JobRecord& job) {
   if (file_.empty() || job.model != sample_model_id || job.state != store::JobState::done) return;
   if (job.kind == store::JobKind::import)
-    parametrize();
+    begin();
   else
     log::info("the sample head is ready");
 }

@@ -1,6 +1,7 @@
 #include "server/app/serve.h"
 
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <iostream>
 #include <unistd.h>
@@ -46,9 +47,48 @@ std::string checked_address(std::string address) {
 void lock_data(const std::filesystem::path& data) {
   const auto file = data / "lock";
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0) fail_input("--data: " + data.string() + " cannot be written");
+  if (descriptor < 0) fail_input("--data: " + data.string() + " cannot be written: " + std::strerror(errno));
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
+}
+
+/// On a full disk with the reserve freed. A data folder that is not there yet cannot be made on one.
+Result<std::unique_ptr<store::Store>> open_store(const std::filesystem::path& file, store::DiskReserve& reserve) {
+  const auto open = [&] {
+    auto store = store::open_sqlite_store(file);
+    if (!store) fail("serve: --data", store.error());
+    return store;
+  };
+  try {
+    try {
+      return open();
+    } catch (const store::DiskFull&) {
+      if (!reserve.release()) throw;
+    }
+    return open();
+  } catch (const store::DiskFull& fault) {
+    throw CommandFailure(CommandFailure::internal, std::string("serve: --data: the disk is full: ") + fault.what());
+  }
+}
+
+/// Throws StoreError unless a change can be made durable and something more has room: the store alone may have some
+/// left in its own files.
+void check_writable(store::Store& store, const std::filesystem::path& data) {
+  constexpr std::uint64_t least_free = std::uint64_t{1} << 20U;
+  store.check_writable();
+  if (store::free_bytes(data) < least_free) throw store::DiskFull("less than 1 MiB is free in " + data.string());
+}
+
+/// What a full disk may have no room for now is made when it has.
+void make_folders(store::PendingWrites& pending, store::BlobStore& blobs, store::DiskReserve& reserve) {
+  try {
+    reserve.fill();
+  } catch (const store::StoreError& fault) {
+    pending.note(fault);
+  }
+  pending.write(&blobs, "folders", "the folders for uploads and blobs", [&blobs] {
+    if (const auto made = blobs.make_folders(); !made) throw store::StoreError(made.error().message);
+  });
 }
 
 void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptions& options) {
@@ -108,24 +148,27 @@ void run_serve(const ServeOptions& options) {
 
   auto blobs = store::BlobStore::open(options.data);
   if (!blobs) fail("serve: --data", blobs.error());
-  auto store = store::open_sqlite_store(options.data / "semblante.sqlite");
-  if (!store) fail("serve: --data", store.error());
+  store::DiskReserve reserve(options.data / "reserve");
+  auto store = open_store(options.data / "semblante.sqlite", reserve);
   const auto hashes = (*store)->referenced_hashes();
   if (const auto swept = blobs->sweep({hashes.begin(), hashes.end()}); swept > 0)
     log::info(std::to_string(swept) + " unused blobs removed");
+
+  store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});
+  make_folders(pending, *blobs, reserve);
 
   jobs::JobConfig job_config;
   job_config.worker_command = {jobs::own_executable(), "worker"};
   job_config.limits.memory_bytes = options.worker_memory;
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;
-  jobs::JobQueue queue(**store, *blobs, job_config);
+  jobs::JobQueue queue(**store, *blobs, pending, job_config);
   recordings::RecorderLimits recorder_limits;
   recorder_limits.max_recordings = options.max_recordings;
   recorder_limits.max_bytes = options.max_recording_bytes;
   recorder_limits.max_total_bytes = options.max_recordings_bytes;
   recorder_limits.disk_reserve = options.disk_reserve;
-  auto recorder = recordings::Recorder::open(**store, options.data / "recordings", recorder_limits);
+  auto recorder = recordings::Recorder::open(**store, pending, options.data / "recordings", recorder_limits);
   if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
@@ -143,7 +186,7 @@ void run_serve(const ServeOptions& options) {
   api_config.access = {options.allowed_hosts, options.allowed_origins};
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
-  api::Api api(api::Context{**store, *blobs, queue, hub, api_config, net_metrics, *recorder});
+  api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder});
 
   net::ServerConfig net_config;
   net_config.address = address;
@@ -157,7 +200,7 @@ void run_serve(const ServeOptions& options) {
   if (!port) fail("serve", port.error());
   server.stop_on_signals();
 
-  SampleInstaller sample(**store, *blobs, queue, options.sample);
+  SampleInstaller sample(**store, *blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
   queue.start();
   sample.begin();

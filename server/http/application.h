@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <variant>
 
 #include "server/http/message.h"
+#include "server/http/problem.h"
 #include "server/http/websocket_peer.h"
 
 namespace semblante::http {
@@ -27,6 +29,10 @@ class Application {
   virtual Response handle(Request& request) = 0;
   /// On the connection's strand, for a request that asks for a WebSocket: must not block.
   virtual std::variant<std::shared_ptr<WebSocketPeer>, Response> open_websocket(const Request& head) = 0;
+  /// The answer to a request whose body the disk did not take, by errno. On any thread: must not block.
+  virtual Problem unwritten_body(int error_number) {
+    return make_problem("internal", "the body cannot be written: error " + std::to_string(error_number));
+  }
   /// Adds what every answer carries (CORS). On any thread.
   virtual void decorate(const Request& head, Response& response) = 0;
 };

@@ -44,8 +44,10 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"cancelled", 409, "It was stopped on request"},
     {"internal", 500, "A fault of the server"},
     {"overloaded", 503, "The server has as many connections as it takes"},
+    {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
     {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are spoken here"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
+    {"insufficient-storage", 507, "The disk is full"},
 });
 
 const ProblemKind& kind_of(std::string_view slug) {

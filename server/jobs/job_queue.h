@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -11,36 +10,32 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
-#include "server/jobs/worker_process.h"
-#include "server/jobs/worker_protocol.h"
-#include "server/store/blob_store.h"
-#include "server/store/store.h"
+#include "server/jobs/job_run.h"
+#include "server/store/pending_writes.h"
 
 namespace semblante::jobs {
 
-struct JobConfig {
-  std::vector<std::string> worker_command;  ///< program and arguments; the limits are added
-  WorkerLimits limits;
-  std::chrono::seconds wall_limit{900};
-  unsigned concurrency = 1;     ///< workers at a time
-  std::size_t max_queued = 64;  ///< waiting jobs; more are answered 429
-  std::uint32_t max_attempts = 3;
+/// What became of a request to cancel.
+enum class Cancelled {
+  none,      ///< there is no such job, or it has ended
+  recorded,  ///< durable: it will not run again
+  pending,   ///< it does not run any more, and this is recorded when the store can be written again
 };
 
 /// Takes jobs in order, each in a worker process, and writes what became of them into the store. Jobs of one model
-/// never run at the same time. Owns its threads; store and blobs outlive it. All calls from any thread but the I/O
-/// threads.
+/// never run at the same time. A job that the disk has no room for waits until there is some; an end that cannot be
+/// recorded is a pending write, and until it is durable the job is shown as it was, in the stage "saving". Owns its
+/// threads; store, blobs and pending writes outlive it. All calls from any thread but the I/O threads.
 class JobQueue {
  public:
   using Watcher = std::function<void(const store::JobRecord&)>;
 
-  JobQueue(store::Store& store, store::BlobStore& blobs, JobConfig config);
+  JobQueue(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending, JobConfig config);
   ~JobQueue();
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
@@ -54,8 +49,8 @@ class JobQueue {
   [[nodiscard]] bool has_room() const;
   /// A job that is in the store already.
   void enqueue(const store::JobRecord& job);
-  /// False when there is no such job or it has ended. A queued one ends at once, a running one within seconds.
-  bool cancel(std::string_view id);
+  /// A queued one ends at once, a running one within seconds.
+  Cancelled cancel(std::string_view id);
   /// Ends the jobs of a model that is about to be removed; returns when none runs any more.
   void cancel_all_of(std::string_view model);
 
@@ -65,7 +60,8 @@ class JobQueue {
   std::uint64_t watch(std::string_view id, Watcher watcher);
   /// After this the watcher is not called any more.
   void unwatch(std::uint64_t watch);
-  /// Called after the end of every job, from the queue's threads. Before start().
+  /// Called after the end of every job is durable, from the queue's threads or that of the pending writes. Before
+  /// start().
   void on_finished(Watcher watcher) { on_finished_ = std::move(watcher); }
 
   [[nodiscard]] std::size_t waiting() const;
@@ -78,27 +74,35 @@ class JobQueue {
     store::JobRecord job;
     std::atomic<bool> cancel{false};
   };
+  /// A job whose next state is on its way into the store.
+  struct Unrecorded {
+    store::JobRecord shown, next;
+    std::uint64_t room_needed = 0;  ///< free bytes before it is queued again
+    bool first_in_line = false;     ///< when it is queued again
+    bool cancel = false;            ///< came after `next`
+  };
 
   void work();
   /// The first job that may begin: those of one model run one after the other, each on what the one before it left.
   std::deque<store::JobRecord>::iterator next();
-  void run(const std::shared_ptr<Running>& running);
-  void finish(const std::shared_ptr<Running>& running, const WorkerRequest& request,
-              std::optional<WorkerLine> last_line, const Result<WorkerExit>& exit);
-  void finish_with_result(store::JobRecord& job, const WorkerRequest& request, WorkerResult result);
-  void remove_orphans(const std::optional<std::vector<std::string>>& hashes) const;
-  /// The end of an extraction: the set, and its files no more.
-  void finish_extraction(store::JobRecord& job, const WorkerResult& result);
-  void release_files(const store::JobRecord& job);
-  void fail(store::JobRecord& job, store::JobState state, const http::Problem& problem);
-  http::Problem problem_of(const WorkerExit& exit) const;
-  Result<WorkerRequest> make_request(const store::JobRecord& job) const;
+  [[nodiscard]] bool is_busy(const std::string& model) const;
+  /// What follows on an attempt: the job as it ended, or queued again. Nothing when the server stops.
+  std::optional<Unrecorded> attempt(Running& running);
+  std::optional<store::JobRecord> run_once(Running& running, JobRun& attempt);
+  Unrecorded after_store_error(const Running& running, const JobRun& attempt, const store::StoreError& fault);
+  static Unrecorded ending(const store::JobRecord& job, store::JobState state, const http::Problem& problem);
+  /// Writes the next state down, now or later; true when it is durable.
+  bool record(Unrecorded unrecorded);
+  /// The write behind record(); throws.
+  void settle(const std::string& id);
+  void write_next(const store::JobRecord& next, std::uint64_t room_needed);
   void publish(const store::JobRecord& job);
   /// publish(), count and on_finished_: after the last change of a job.
   void conclude(const store::JobRecord& job);
 
   store::Store& store_;
   store::BlobStore& blobs_;
+  store::PendingWrites& pending_;
   const JobConfig config_;
   Watcher on_finished_;
   static constexpr std::size_t kinds = 4, states = 5;
@@ -108,6 +112,8 @@ class JobQueue {
   std::condition_variable changed_;
   std::deque<store::JobRecord> queue_;
   std::map<std::string, std::shared_ptr<Running>, std::less<>> running_;
+  std::map<std::string, Unrecorded, std::less<>> unrecorded_;
+  std::map<std::string, std::uint32_t, std::less<>> shortages_;  ///< attempts of a job that the disk ended
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 

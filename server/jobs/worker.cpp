@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 
 #include "server/jobs/worker_tasks.h"
+#include "server/store/store_error.h"
 
 namespace semblante::jobs {
 namespace {
@@ -81,6 +82,8 @@ int run_worker() {
     return 0;
   } catch (const std::bad_alloc&) {
     return report(http::make_problem("worker-limit", "the model needs more memory than a job is given"));
+  } catch (const store::DiskFull& fault) {
+    return report(http::make_problem("insufficient-storage", fault.what()));
   } catch (const std::exception& fault) {
     return report(http::make_problem("worker-crashed", std::string("a fault of the program: ") + fault.what()));
   }

@@ -13,6 +13,8 @@
 
 #include <sys/wait.h>
 
+#include "server/store/store_error.h"
+
 extern char** environ;
 
 namespace semblante::jobs {
@@ -86,6 +88,7 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   argv.push_back(nullptr);
   pid_t pid = 0;
   const int code = posix_spawn(&pid, arguments[0].c_str(), &options.files, &options.attributes, argv.data(), environ);
+  store::throw_if_disk_full(error_file, code);
   if (code != 0)
     return Error{ErrorCode::io, arguments[0], "cannot start a worker: " + std::string(std::strerror(code))};
   return pid;

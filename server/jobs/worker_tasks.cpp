@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <span>
@@ -26,6 +27,7 @@
 #include "server/report/levels_json.h"
 #include "server/report/report_json.h"
 #include "server/store/frame_json.h"
+#include "server/store/store_error.h"
 
 namespace semblante::jobs {
 namespace {
@@ -35,9 +37,13 @@ static_assert(std::endian::native == std::endian::little, "`positions` is writte
 /// Adds one file to the output directory and to the result.
 Status write_artefact(const WorkerRequest& request, WorkerResult& result, const std::string& name,
                       const std::string& content_type, std::span<const std::uint8_t> bytes) {
+  errno = 0;
   std::ofstream stream(request.output_directory + "/" + name, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream.flush()) return Error{ErrorCode::io, "", name + " cannot be written"};
+  if (!stream.flush()) {
+    store::throw_if_disk_full(name, errno);
+    return Error{ErrorCode::io, "", name + " cannot be written"};
+  }
   result.artefacts.push_back({name, "", bytes.size(), content_type});
   return Unit{};
 }

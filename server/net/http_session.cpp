@@ -55,11 +55,13 @@ std::optional<http::Request> plain_request(const Parser::value_type& message) {
 /// Where a body goes while it arrives: memory or a file of its own.
 class BodySink {
  public:
-  BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request) : plan_(plan), request_(request) {
+  BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request)
+      : plan_(plan), request_(request), application_(state.application) {
     if (!plan.to_file) return;
     const auto name = "upload-" + std::to_string(::getpid()) + "-" + std::to_string(state.upload_number++);
     request.body_file = std::make_shared<http::TemporaryFile>(state.config.upload_directory / name);
     descriptor_ = ::open(request.body_file->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (descriptor_ < 0) open_error_ = errno;
   }
   ~BodySink() {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -76,9 +78,9 @@ class BodySink {
       return std::nullopt;
     }
     while (!piece.empty()) {
-      const auto written = ::write(descriptor_, piece.data(), piece.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return http::make_problem("limit-exceeded", "the body cannot be written to disk");
+      const auto written = descriptor_ < 0 ? -1 : ::write(descriptor_, piece.data(), piece.size());
+      if (written < 0 && descriptor_ >= 0 && errno == EINTR) continue;
+      if (written <= 0) return application_.unwritten_body(descriptor_ < 0 ? open_error_ : errno);
       piece.remove_prefix(static_cast<std::size_t>(written));
     }
     return std::nullopt;
@@ -92,7 +94,8 @@ class BodySink {
  private:
   const http::BodyPlan& plan_;
   http::Request& request_;
-  int descriptor_ = -1;
+  http::Application& application_;
+  int descriptor_ = -1, open_error_ = 0;
 };
 
 /// One connection's state between its coroutine's steps; lives in that coroutine.

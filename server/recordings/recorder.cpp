@@ -5,8 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include <sys/statvfs.h>
-
 #include "server/log/log.h"
 
 namespace semblante::recordings {
@@ -23,23 +21,18 @@ void take_over(store::RecordingRecord& record, const RecordingProgress& progress
   record.media_time = progress.media_time;
 }
 
-std::uint64_t free_bytes(const std::filesystem::path& folder) {
-  struct statvfs facts {};
-  if (::statvfs(folder.c_str(), &facts) != 0) return UINT64_MAX;  // who cannot be asked is found out by writing
-  return static_cast<std::uint64_t>(facts.f_bavail) * facts.f_frsize;
-}
-
 }  // namespace
 
-Recorder::Recorder(store::Store& store, std::filesystem::path folder, RecorderLimits limits)
-    : store_(store), folder_(std::move(folder)), limits_(limits) {}
+Recorder::Recorder(store::Store& store, store::PendingWrites& pending, std::filesystem::path folder,
+                   RecorderLimits limits)
+    : store_(store), pending_(pending), folder_(std::move(folder)), limits_(limits) {}
 
-Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, std::filesystem::path folder,
-                                                 RecorderLimits limits) {
+Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, store::PendingWrites& pending,
+                                                 std::filesystem::path folder, RecorderLimits limits) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error{ErrorCode::io, folder.string(), error.message()};
-  std::shared_ptr<Recorder> recorder(new Recorder(store, std::move(folder), limits));
+  std::shared_ptr<Recorder> recorder(new Recorder(store, pending, std::move(folder), limits));
   if (auto status = recorder->repair(); !status) return status.error();
   recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
   return recorder;
@@ -57,19 +50,9 @@ Status Recorder::repair() {
     for (auto record : *records) {
       known.insert(record.id + std::string(extension));
       if (record.state == store::RecordingState::recording) {
-        if (const auto progress = repair_recording(path_of(record.id))) {
-          take_over(record, *progress);
-          record.state = store::RecordingState::finished;
-          record.ended = ended::server_killed;
-          log::info("recording " + record.id + ": finished with the " + std::to_string(record.frames) +
-                    " frames that were on the disk when the server was killed");
-        } else {
-          record.state = store::RecordingState::broken;
-          record.ended = ended::damaged;
-          log::warning("recording " + record.id + " is damaged: " + progress.error().where + ": " +
-                       progress.error().message);
-        }
-        store_.finish_recording(record);
+        keep_shown(record);
+        pending_.write(this, "recording " + record.id, "the repair of recording " + record.id,
+                       [this, id = record.id] { repair(id); });
       }
       total_bytes_ += record.bytes;
     }
@@ -81,6 +64,34 @@ Status Recorder::repair() {
   }
   if (error) return Error{ErrorCode::io, folder_.string(), error.message()};
   return Unit{};
+}
+
+void Recorder::repair(const std::string& id) {
+  store::RecordingRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = unrecorded_.find(id);
+    if (found == unrecorded_.end()) return;  // it was removed
+    record = found->second;
+  }
+  const auto progress = repair_recording(path_of(id));
+  if (progress) {
+    total_bytes_ += progress->bytes - record.bytes;
+    take_over(record, *progress);
+    keep_shown(record);
+    record.state = store::RecordingState::finished;
+    record.ended = ended::server_killed;
+  } else {
+    record.state = store::RecordingState::broken;
+    record.ended = ended::damaged;
+  }
+  store_.finish_recording(record);
+  forget_shown(id);
+  if (progress)
+    log::info("recording " + record.id + ": finished with the " + std::to_string(record.frames) +
+              " frames that were on the disk when the server was killed");
+  else
+    log::warning("recording " + record.id + " is damaged: " + progress.error().where + ": " + progress.error().message);
 }
 
 std::filesystem::path Recorder::path_of(std::string_view id) const {
@@ -95,7 +106,9 @@ std::optional<Error> Recorder::refusal() const {
     return full("the server makes its " + std::to_string(limits_.max_running) + " recordings at a time");
   if (total_bytes_ >= limits_.max_total_bytes)
     return full("the recordings take the " + std::to_string(limits_.max_total_bytes) + " bytes they may");
-  if (free_bytes(folder_) < limits_.disk_reserve) return full("the disk is nearly full");
+  if (store::free_bytes(folder_) < limits_.disk_reserve)
+    throw store::NotEnoughRoom("the disk has less free than the " + std::to_string(limits_.disk_reserve) +
+                               " bytes that recordings leave");
   return std::nullopt;
 }
 
@@ -122,13 +135,16 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   try {
     store_.create_recording(record, key);
   } catch (...) {
-    std::filesystem::remove(path);
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
     throw;
   }
   const std::lock_guard lock(mutex_);
   if (closing_) {
+    // Should the disk not take it: a recording without a file is said to be damaged by the next start.
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
     store_.remove_recording(record.id);
-    std::filesystem::remove(path);
     return Error{ErrorCode::io, "", "the server stops"};
   }
   total_bytes_ += record.bytes;
@@ -150,7 +166,9 @@ std::optional<store::RecordingRecord> Recorder::stop(std::string_view id) {
       done_.wait(lock, [&] { return running->done; });
     }
   }
-  return store_.recording(id);
+  auto recording = find(id);
+  if (!recording) return std::nullopt;
+  return std::move(recording->record);
 }
 
 void Recorder::stop_all(std::string_view reason) {
@@ -170,13 +188,15 @@ void Recorder::close() {
   }
   work_.notify_one();
   if (thread_.joinable()) thread_.join();
+  pending_.release(this);
 }
 
 RecordingStatus Recorder::with_progress(store::RecordingRecord record) const {
   const std::lock_guard lock(mutex_);
-  const auto found = running_.find(record.id);
-  if (found == running_.end()) return {std::move(record), 0};
-  return {found->second->record, found->second->dropped};
+  if (const auto found = running_.find(record.id); found != running_.end())
+    return {found->second->record, found->second->dropped};
+  if (const auto found = unrecorded_.find(record.id); found != unrecorded_.end()) return {found->second, 0};
+  return {std::move(record), 0};
 }
 
 std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
@@ -184,6 +204,7 @@ std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
     const std::lock_guard lock(mutex_);
     if (const auto found = running_.find(id); found != running_.end())
       return RecordingStatus{found->second->record, found->second->dropped};
+    if (const auto found = unrecorded_.find(id); found != unrecorded_.end()) return RecordingStatus{found->second, 0};
   }
   auto record = store_.recording(id);
   if (!record) return std::nullopt;
@@ -191,8 +212,11 @@ std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
 }
 
 bool Recorder::remove(std::string_view id) {
+  if (!find(id)) return false;
+  pending_.with_reserve([&] { store_.check_writable(); });  // before it is ended for nothing
   const auto record = stop(id);
-  if (!record || !store_.remove_recording(id)) return false;
+  if (!record || !pending_.with_reserve([&] { return store_.remove_recording(id); })) return false;
+  forget_shown(std::string(id));
   std::error_code ignored;
   std::filesystem::remove(path_of(id), ignored);
   total_bytes_ -= record->bytes;
@@ -301,7 +325,7 @@ std::string_view Recorder::write(Running& running, const std::deque<std::shared_
       log::error("recording " + running.record.id + ": " + flushed.error().message);
       reason = ended::disk_full;
     }
-    if (reason.empty() && free_bytes(folder_) < limits_.disk_reserve) reason = ended::disk_full;
+    if (reason.empty() && store::free_bytes(folder_) < limits_.disk_reserve) reason = ended::disk_full;
   }
   publish_progress(running);
   return reason;
@@ -332,14 +356,24 @@ void Recorder::finish(Running& running, std::string reason) {
     const std::lock_guard lock(mutex_);
     record.lost = std::max(record.lost, running.dropped);  // those at its end are no gap in the file
   }
-  try {
+  auto shown = record;
+  shown.state = store::RecordingState::recording;
+  shown.ended.clear();
+  keep_shown(std::move(shown));
+  pending_.write(this, "recording " + record.id, "the end of recording " + record.id, [this, record] {
     store_.finish_recording(record);
-  } catch (const std::exception& fault) {
-    // The next start repairs it: the file is whole.
-    log::error("recording " + record.id + " cannot be finished: " + fault.what());
-  }
+    forget_shown(record.id);
+  });
+}
+
+void Recorder::keep_shown(store::RecordingRecord record) {
   const std::lock_guard lock(mutex_);
-  running.record = std::move(record);
+  unrecorded_[record.id] = std::move(record);
+}
+
+void Recorder::forget_shown(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  unrecorded_.erase(id);
 }
 
 }  // namespace semblante::recordings

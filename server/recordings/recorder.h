@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "server/recordings/recording_writer.h"
+#include "server/store/pending_writes.h"
 #include "server/store/store.h"
 #include "server/streams/batch_listener.h"
 
@@ -65,17 +66,19 @@ struct RecorderCounts {
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that a process left running are cut off after their last whole chunk and
-  /// finished; files nobody knows are removed. Errors: io.
-  static Result<std::shared_ptr<Recorder>> open(store::Store& store, std::filesystem::path folder,
-                                                RecorderLimits limits = {});
+  /// finished, on a full disk when it has room; files nobody knows are removed. Errors: io. `store` and `pending`
+  /// outlive it.
+  static Result<std::shared_ptr<Recorder>> open(store::Store& store, store::PendingWrites& pending,
+                                                std::filesystem::path folder, RecorderLimits limits = {});
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Begins a recording; when this returns, it is on the disk, and every batch from now on is in it. Errors: too_large
-  /// (a limit; the message says which), io.
+  /// (a limit; the message says which), io. Throws DiskFull, also while the disk is nearly full, and StoreError.
   Result<store::RecordingRecord> start(RecordingStart start, std::optional<store::IdempotencyRecord> key);
   /// Ends it, and returns when all of it is on the disk. One that has ended stays as it is; nothing when there is none.
+  /// Still `recording` when the end cannot be recorded now: it is a pending write.
   std::optional<store::RecordingRecord> stop(std::string_view id);
   /// Ends all and lets no more begin; does not wait.
   void stop_all(std::string_view reason);
@@ -85,7 +88,7 @@ class Recorder : public streams::BatchListener {
   [[nodiscard]] std::optional<RecordingStatus> find(std::string_view id) const;
   /// Of a record from the store: with what is known of it if it runs.
   [[nodiscard]] RecordingStatus with_progress(store::RecordingRecord record) const;
-  /// Ends and removes it. False when there is none.
+  /// Ends and removes it. False when there is none. Throws StoreError.
   bool remove(std::string_view id);
   [[nodiscard]] std::filesystem::path path_of(std::string_view id) const;
   [[nodiscard]] RecorderCounts counts() const;
@@ -109,17 +112,22 @@ class Recorder : public streams::BatchListener {
     bool done = false;
   };
 
-  Recorder(store::Store& store, std::filesystem::path folder, RecorderLimits limits);
+  Recorder(store::Store& store, store::PendingWrites& pending, std::filesystem::path folder, RecorderLimits limits);
   Status repair();
+  void repair(const std::string& id);
   void run();
   /// Writes what came; why the recording has to end, or nothing.
   std::string_view write(Running& running, const std::deque<std::shared_ptr<const Frames>>& batches, bool flush);
   std::string_view beyond_a_limit(const Running& running) const;
   void finish(Running& running, std::string reason);
+  /// How a recording is shown that has ended, until this is durable: as one that runs.
+  void keep_shown(store::RecordingRecord record);
+  void forget_shown(const std::string& id);
   [[nodiscard]] std::optional<Error> refusal() const;
   void publish_progress(Running& running);
 
   store::Store& store_;
+  store::PendingWrites& pending_;
   const std::filesystem::path folder_;
   const RecorderLimits limits_;
   std::atomic<std::size_t> running_count_ = 0;  ///< so that streams nobody records pay nothing
@@ -129,6 +137,7 @@ class Recorder : public streams::BatchListener {
   mutable std::mutex mutex_;
   std::condition_variable work_, done_;
   std::map<std::string, std::shared_ptr<Running>, std::less<>> running_;
+  std::map<std::string, store::RecordingRecord, std::less<>> unrecorded_;  ///< ended, which is not durable yet
   bool has_work_ = false;
   bool closing_ = false;   ///< no more begin
   bool stopping_ = false;  ///< the thread ends when none runs

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "server/recordings/recording_reader.h"
+#include "server/store/store_error.h"
 
 namespace semblante::recordings {
 namespace {
@@ -46,14 +47,19 @@ RecordingWriter::~RecordingWriter() { ::close(descriptor_); }
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::filesystem::path& path,
                                                                  const Header& header) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0) return io_error(path.string());
+  if (descriptor < 0) {
+    store::throw_if_disk_full(path, errno);
+    return io_error(path.string());
+  }
   const auto beginning = encode_beginning(header);
   std::unique_ptr<RecordingWriter> writer(new RecordingWriter(descriptor, beginning.size()));
   auto status = write_at(descriptor, 0, beginning);
   if (status && ::fsync(descriptor) != 0) status = io_error(path.string());
   if (status) status = sync_folder(path.parent_path());
   if (!status) {
+    const int error_number = errno;
     ::unlink(path.c_str());
+    store::throw_if_disk_full(path, error_number);
     return status.error();
   }
   return Result<std::unique_ptr<RecordingWriter>>(std::move(writer));
@@ -119,9 +125,12 @@ Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
     const bool cut = descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(reader->whole_bytes())) == 0 &&
                      ::fsync(descriptor) == 0;
-    Error error = io_error(path.string());
+    const int error_number = errno;
     if (descriptor >= 0) ::close(descriptor);
-    if (!cut) return error;
+    if (!cut) {
+      store::throw_if_disk_full(path, error_number);
+      return Error{ErrorCode::io, "", path.string() + ": " + std::strerror(error_number)};
+    }
   }
   RecordingProgress progress;
   progress.frames = reader->frames();

@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error io_error(const fs::path& path) {
-  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(errno)};
+Error io_error(const fs::path& path, int error_number = errno) {
+  throw_if_disk_full(path, error_number);
+  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(error_number)};
 }
 
 class Descriptor {
@@ -36,6 +37,18 @@ class Descriptor {
   int value_;
 };
 
+/// Goes with the object, if it is still there.
+struct RemovedFile {
+  fs::path path;
+  explicit RemovedFile(fs::path p) : path(std::move(p)) {}
+  ~RemovedFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  RemovedFile(const RemovedFile&) = delete;
+  RemovedFile& operator=(const RemovedFile&) = delete;
+};
+
 bool sync_folder(const fs::path& folder) {
   const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
   return descriptor.ok() && ::fsync(descriptor.get()) == 0;
@@ -44,12 +57,27 @@ bool sync_folder(const fs::path& folder) {
 }  // namespace
 
 Result<BlobStore> BlobStore::open(const fs::path& folder) {
+  BlobStore blobs(folder);
+  // The folder itself stays: a full disk has no room for a new one.
   std::error_code error;
-  fs::remove_all(folder / "tmp", error);
-  fs::create_directories(folder / "tmp", error);
-  if (!error) fs::create_directories(folder / "blobs", error);
-  if (error) return Error{ErrorCode::io, folder.string(), folder.string() + ": " + error.message()};
-  return BlobStore(folder);
+  for (const auto& left : fs::directory_iterator(blobs.temporary(), error)) {
+    std::error_code ignored;
+    fs::remove_all(left.path(), ignored);
+  }
+  try {
+    if (auto made = blobs.make_folders(); !made) return made.error();
+  } catch (const DiskFull&) {  // said by who calls make_folders() again
+  }
+  return blobs;
+}
+
+Status BlobStore::make_folders() const {
+  for (const auto& folder : {temporary(), folder_ / "blobs"}) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return io_error(folder, error.value());
+  }
+  return Unit{};
 }
 
 fs::path BlobStore::path_of(std::string_view sha256) const {
@@ -79,7 +107,7 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
   }
   if (::fsync(file.get()) != 0) return io_error(path);
   const bool new_folder = fs::create_directory(target.parent_path(), error);
-  if (error) return Error{ErrorCode::io, target.string(), target.string() + ": " + error.message()};
+  if (error) return io_error(target, error.value());
   if (new_folder && !sync_folder(folder_ / "blobs")) return io_error(folder_);
   if (::rename(path.c_str(), target.c_str()) != 0) return io_error(target);
   if (!sync_folder(target.parent_path())) return io_error(target);
@@ -88,23 +116,18 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
 
 Result<Blob> BlobStore::put(std::string_view bytes) const {
   static std::atomic<std::uint64_t> number{0};
-  const auto path = temporary() / ("put-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
+  const RemovedFile file{temporary() / ("put-" + std::to_string(::getpid()) + "-" + std::to_string(number++))};
   {
-    const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
-    if (!file.ok()) return io_error(path);
+    const Descriptor out(file.path, O_WRONLY | O_CREAT | O_EXCL);
+    if (!out.ok()) return io_error(file.path);
     while (!bytes.empty()) {
-      const auto written = ::write(file.get(), bytes.data(), bytes.size());
+      const auto written = ::write(out.get(), bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) {
-        auto error = io_error(path);
-        std::error_code ignored;
-        fs::remove(path, ignored);
-        return error;
-      }
+      if (written <= 0) return io_error(file.path);
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
   }
-  return adopt(path);
+  return adopt(file.path);
 }
 
 std::optional<fs::path> BlobStore::find(std::string_view sha256) const {

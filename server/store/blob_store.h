@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "core/types/result.h"
+#include "server/store/store_error.h"
 
 namespace semblante::store {
 
@@ -24,13 +25,17 @@ struct Blob {
 /// thread.
 class BlobStore {
  public:
-  /// Makes the folders that are missing and removes what an earlier process left half done in `temporary()`.
+  /// Makes the folders that are missing and removes what an earlier process left half done in `temporary()`. On a full
+  /// disk make_folders() is still to be called.
   static Result<BlobStore> open(const std::filesystem::path& folder);
+  /// Makes the folders that are missing. Errors: io. Throws DiskFull.
+  Status make_folders() const;
 
   /// Where files may be prepared that adopt() takes over by a rename; same file system.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_ / "tmp"; }
 
-  /// Takes a file over: hashes it, makes it durable, gives it its name. The file at `path` is gone afterwards.
+  /// Takes a file over: hashes it, makes it durable, gives it its name. The file at `path` is gone afterwards. Errors:
+  /// io. Throws DiskFull.
   Result<Blob> adopt(const std::filesystem::path& path) const;
   /// The same for bytes in memory.
   Result<Blob> put(std::string_view bytes) const;

@@ -228,6 +228,9 @@ std::string_view to_string(JobKind kind);
 std::optional<JobKind> parse_job_kind(std::string_view text);
 std::string_view to_string(JobState state);
 std::string_view to_string(RecordingState state);
+/// Stage of a job that does not run any more but for its cancellation. In the store it outlives the process: the next
+/// start cancels such a job instead of taking it up.
+inline constexpr std::string_view cancelling_stage = "cancelling";
 inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
 
 /// The points after new proposals came: every placed point of `current` as it is, and the proposals for the others.

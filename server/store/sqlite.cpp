@@ -1,10 +1,34 @@
 #include "server/store/sqlite.h"
 
+#include "server/store/store_error.h"
+
 namespace semblante::store {
 namespace {
 
+/// The disk's faults are told from ours by SQLite's result codes: the former may be gone when the call is repeated.
 [[noreturn]] void fail(sqlite3* handle, std::string_view what) {
-  throw std::runtime_error(std::string(what) + ": " + (handle != nullptr ? sqlite3_errmsg(handle) : "out of memory"));
+  const std::string message = std::string(what) + ": " + (handle != nullptr ? sqlite3_errmsg(handle) : "out of memory");
+  const int extended = handle != nullptr ? sqlite3_extended_errcode(handle) : SQLITE_NOMEM;
+  // The growth of a shared-memory file fails without an errno.
+  if (extended == SQLITE_IOERR_SHMSIZE || (handle != nullptr && is_disk_full(sqlite3_system_errno(handle)) &&
+                                           ((extended & 0xFF) == SQLITE_IOERR || (extended & 0xFF) == SQLITE_CANTOPEN)))
+    throw DiskFull(message);
+  switch (extended & 0xFF) {
+    case SQLITE_FULL:
+      throw DiskFull(message);
+    case SQLITE_IOERR:
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_PERM:
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+    case SQLITE_NOMEM:
+      throw StoreError(message);
+    default:
+      throw std::runtime_error(message);
+  }
 }
 
 }  // namespace
@@ -14,8 +38,10 @@ Database::Database(const std::string& file) {
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
   if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
     const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory";
+    const int error_number = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
     sqlite3_close(handle_);
-    throw std::runtime_error(file + ": " + reason);
+    throw_if_disk_full(file, error_number);
+    throw StoreError(file + ": " + reason);
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, 5000);

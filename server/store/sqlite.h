@@ -13,11 +13,13 @@ namespace semblante::store {
 
 class Database {
  public:
+  /// Throws StoreError.
   explicit Database(const std::string& file);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
+  /// Throws, as everything here that runs SQL: DiskFull or another StoreError where the disk is the reason.
   void execute(const char* sql);
   [[nodiscard]] sqlite3* get() const { return handle_; }
   /// Rows the last statement changed.

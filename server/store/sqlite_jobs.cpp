@@ -3,6 +3,7 @@
 #include <string>
 
 #include "server/store/facts_json.h"
+#include "server/store/sqlite_artefacts.h"
 
 namespace semblante::store {
 namespace {
@@ -49,12 +50,31 @@ void insert_job(Database& db, const JobRecord& job) {
 }
 
 void write_job(Database& db, const JobRecord& job) {
+  // A job that is to be cancelled stays so until it ends.
   Statement(db,
-            "UPDATE jobs SET state = ?, progress = ?, stage = ?, updated = ?, problem = ?, attempts = ?, result = ? "
-            "WHERE id = ?")
-      .bind(static_cast<int>(job.state), job.progress, job.stage, job.updated, job.problem, job.attempts, job.result,
-            job.id)
+            "UPDATE jobs SET state = ?1, progress = ?2, stage = CASE WHEN stage = ?3 AND ?1 IN (0, 1) THEN stage ELSE "
+            "?4 END, updated = ?5, problem = ?6, attempts = ?7, result = ?8 WHERE id = ?9")
+      .bind(static_cast<int>(job.state), job.progress, cancelling_stage, job.stage, job.updated, job.problem,
+            job.attempts, job.result, job.id)
       .run();
+}
+
+bool mark_cancelled(Database& db, std::string_view id) {
+  Statement(db, "UPDATE jobs SET stage = ?, updated = ? WHERE id = ? AND state IN (0, 1)")
+      .bind(cancelling_stage, timestamp_now(), id)
+      .run();
+  return db.changes() != 0;
+}
+
+std::vector<std::string> delete_job_files(Database& db, std::string_view job) {
+  std::vector<std::string> hashes;
+  {
+    Statement statement(db, "SELECT sha256 FROM job_files WHERE job = ?");
+    statement.bind(job);
+    while (statement.step()) hashes.push_back(statement.text(0));
+  }
+  Statement(db, "DELETE FROM job_files WHERE job = ?").bind(job).run();
+  return without_reference(db, hashes);
 }
 
 std::optional<JobRecord> find_job(Database& db, std::string_view id) {

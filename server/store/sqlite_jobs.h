@@ -3,6 +3,7 @@
 // Private to store/: rows of jobs. Within the caller's transaction.
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace semblante::store {
 void insert_job(Database& db, const JobRecord& job);
 /// What changes of a job while it runs.
 void write_job(Database& db, const JobRecord& job);
+/// See Store::request_cancel.
+bool mark_cancelled(Database& db, std::string_view id);
+/// Hashes that nothing refers to any more are returned.
+std::vector<std::string> delete_job_files(Database& db, std::string_view job);
 std::optional<JobRecord> find_job(Database& db, std::string_view id);
 std::optional<JobRecord> find_latest_job(Database& db, std::string_view model, JobKind kind);
 /// Queued and running ones, in order of creation.

@@ -107,9 +107,11 @@ Status bring_up_to_date(Database& db) {
   if (version == schema_version) return Unit{};
   Transaction transaction(db);
   for (int step = version; step < schema_version; ++step) db.execute(migrations[static_cast<std::size_t>(step)]);
-  db.execute(("PRAGMA user_version=" + std::to_string(schema_version)).c_str());
+  set_schema_version(db);
   transaction.commit();
   return Unit{};
 }
+
+void set_schema_version(Database& db) { db.execute(("PRAGMA user_version=" + std::to_string(schema_version)).c_str()); }
 
 }  // namespace semblante::store

@@ -14,11 +14,21 @@
 namespace semblante::store {
 namespace {
 
+/// `exclusive` holds the index of the write-ahead log in memory instead of a file, which a full disk has no room for;
+/// other programs cannot look into the database meanwhile.
+enum class Locking { shared, exclusive };
+
 /// Owns the connection; `mutex_` guards it, every public call takes it once.
 class SqliteStore : public Store {
  public:
-  explicit SqliteStore(const std::string& file) : db_(file) {
+  SqliteStore(const std::string& file, Locking locking) : db_(file) {
+    if (locking == Locking::exclusive) db_.execute("PRAGMA locking_mode=EXCLUSIVE");
     db_.execute("PRAGMA journal_mode=WAL");
+    // The write-ahead log keeps its room over restarts, so that a start needs none.
+    int persist = 1;
+    sqlite3_file_control(db_.get(), nullptr, SQLITE_FCNTL_PERSIST_WAL, &persist);
+    db_.execute("PRAGMA journal_size_limit=16777216");
+    db_.execute("PRAGMA temp_store=MEMORY");
     db_.execute("PRAGMA synchronous=FULL");
     db_.execute("PRAGMA foreign_keys=ON");
   }
@@ -287,10 +297,11 @@ class SqliteStore : public Store {
     return true;
   }
 
-  void finish_without_result(const JobRecord& job) override {
+  std::vector<std::string> finish_without_result(const JobRecord& job) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     write_job(db_, job);
+    auto orphans = delete_job_files(db_, job.id);
     const auto model = job.kind == JobKind::import ? find_model(db_, job.model) : std::nullopt;
     if (model) {
       const bool is_first = model->vertices == 0;
@@ -301,29 +312,22 @@ class SqliteStore : public Store {
           .run();
     }
     transaction.commit();
+    return orphans;
   }
 
-  void finish_extraction(const JobRecord& job, const SetRecord& set) override {
+  std::vector<std::string> finish_extraction(const JobRecord& job, const SetRecord& set) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     insert_set(db_, set);
     write_job(db_, job);
-    transaction.commit();
-  }
-
-  std::vector<std::string> release_job_files(std::string_view job) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(db_);
-    std::vector<std::string> hashes;
-    {
-      Statement statement(db_, "SELECT sha256 FROM job_files WHERE job = ?");
-      statement.bind(job);
-      while (statement.step()) hashes.push_back(statement.text(0));
-    }
-    Statement(db_, "DELETE FROM job_files WHERE job = ?").bind(job).run();
-    auto orphans = without_reference(db_, hashes);
+    auto orphans = delete_job_files(db_, job.id);
     transaction.commit();
     return orphans;
+  }
+
+  bool request_cancel(std::string_view job) override {
+    const std::lock_guard lock(mutex_);
+    return mark_cancelled(db_, job);
   }
 
   void create_set(const SetRecord& set, const std::optional<IdempotencyRecord>& key) override {
@@ -460,6 +464,11 @@ class SqliteStore : public Store {
     return statement.step();
   }
 
+  void check_writable() override {
+    const std::lock_guard lock(mutex_);
+    set_schema_version(db_);
+  }
+
  private:
   void insert_key(const std::optional<IdempotencyRecord>& key) {
     if (!key) return;
@@ -476,11 +485,25 @@ class SqliteStore : public Store {
 
 }  // namespace
 
+namespace {
+
+Result<std::unique_ptr<Store>> open_with(const std::filesystem::path& file, Locking locking) {
+  auto store = std::make_unique<SqliteStore>(file.string(), locking);
+  if (auto prepared = store->prepare(); !prepared) return prepared.error();
+  return Result<std::unique_ptr<Store>>(std::move(store));
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& file) {
   try {
-    auto store = std::make_unique<SqliteStore>(file.string());
-    if (auto prepared = store->prepare(); !prepared) return prepared.error();
-    return Result<std::unique_ptr<Store>>(std::move(store));
+    try {
+      return open_with(file, Locking::shared);
+    } catch (const StoreError&) {
+      return open_with(file, Locking::exclusive);
+    }
+  } catch (const DiskFull&) {
+    throw;
   } catch (const std::exception& fault) {
     return Error{ErrorCode::io, file.string(), fault.what()};
   }

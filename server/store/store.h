@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/store/records.h"
+#include "server/store/store_error.h"
 
 namespace semblante::store {
 
@@ -15,7 +16,7 @@ using RoleChange = std::pair<std::uint32_t, std::optional<std::string>>;
 
 /// Facts about models, jobs and streams. Every call that changes something returns after the change is durable: it
 /// survives the end of the process and of the machine. Calls may come from any thread but never from an I/O thread:
-/// they wait for the disk. A failing disk throws std::runtime_error: nothing was changed.
+/// they wait for the disk. A disk that is full or fails throws DiskFull or another StoreError: nothing was changed.
 class Store {
  public:
   virtual ~Store() = default;
@@ -86,12 +87,12 @@ class Store {
   virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;
   /// The end of a job without a result. A first import that fails or is cancelled fails its model; a model that was
   /// imported before is again what it was.
-  virtual void finish_without_result(const JobRecord& job) = 0;
-
-  /// The end of an extraction: job and set in one step.
-  virtual void finish_extraction(const JobRecord& job, const SetRecord& set) = 0;
-  /// The files of a job that has ended are its no more; hashes no one refers to any more are returned.
-  virtual std::vector<std::string> release_job_files(std::string_view job) = 0;
+  /// Hashes no one refers to any more, of the job's files, are returned.
+  virtual std::vector<std::string> finish_without_result(const JobRecord& job) = 0;
+  /// The end of an extraction: job and set in one step. Hashes as finish_without_result.
+  virtual std::vector<std::string> finish_extraction(const JobRecord& job, const SetRecord& set) = 0;
+  /// Sets the stage of a job that has not ended to `cancelling_stage`. False when it has ended or is gone.
+  virtual bool request_cancel(std::string_view job) = 0;
 
   // ---- displacement sets
   virtual void create_set(const SetRecord& set, const std::optional<IdempotencyRecord>& key) = 0;
@@ -126,6 +127,8 @@ class Store {
 
   /// A cheap question to the disk, for /readyz.
   virtual bool healthy() = 0;
+  /// A commit that changes nothing; throws as one that does.
+  virtual void check_writable() = 0;
 };
 
 }  // namespace semblante::store

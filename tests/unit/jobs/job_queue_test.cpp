@@ -60,7 +60,8 @@ echo $lock >> done)";
   for (int round = 0; round < 3; ++round) {
     for (const std::string model : {"a", "b"}) jobs.push_back(add_job(model + std::to_string(round), model));
   }
-  JobQueue queue(*store_, *blobs_, config);
+  store::PendingWrites pending{{}};
+  JobQueue queue(*store_, *blobs_, pending, config);
   std::mutex mutex;
   std::condition_variable ended;
   std::size_t count = 0;

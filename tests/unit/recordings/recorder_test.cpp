@@ -2,12 +2,14 @@
 #include "server/recordings/recorder.h"
 
 #include <fstream>
+#include <sqlite3.h>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "server/recordings/recording_reader.h"
 #include "server/store/sqlite_store.h"
+#include "tests/support/failing_database.h"
 #include "tests/unit/recordings/recorded_frames.h"
 
 namespace semblante::recordings {
@@ -21,6 +23,7 @@ using store::RecordingState;
 class RecorderTest : public ::testing::Test {
  protected:
   RecorderTest() {
+    test::fail_database_writes(SQLITE_OK);
     auto opened = store::open_sqlite_store(folder_.file("facts.sqlite"));
     EXPECT_TRUE(opened);
     store_ = std::move(*opened);
@@ -29,7 +32,7 @@ class RecorderTest : public ::testing::Test {
   }
   void begin() {
     recorder_.reset();
-    auto opened = Recorder::open(*store_, folder_.file("recordings"), limits_);
+    auto opened = Recorder::open(*store_, pending_, folder_.file("recordings"), limits_);
     ASSERT_TRUE(opened) << opened.error().message;
     recorder_ = std::move(*opened);
   }
@@ -63,6 +66,7 @@ class RecorderTest : public ::testing::Test {
   Folder folder_;
   RecorderLimits limits_;
   std::unique_ptr<store::Store> store_;
+  store::PendingWrites pending_{{}};
   std::shared_ptr<Recorder> recorder_;
 };
 
@@ -192,7 +196,67 @@ TEST_F(RecorderTest, Limits_EndItOrRefuseIt) {
 TEST_F(RecorderTest, DiskNearlyFull_IsRefusedAndEndsWhatRuns) {
   limits_.disk_reserve = UINT64_MAX / 2;
   begin();
-  EXPECT_EQ(recorder_->start({stream_header(), "", std::nullopt}, std::nullopt).error().code, ErrorCode::too_large);
+  EXPECT_THROW(static_cast<void>(recorder_->start({stream_header(), "", std::nullopt}, std::nullopt)),
+               store::NotEnoughRoom);
+}
+
+TEST_F(RecorderTest, EndThatCannotBeRecorded_IsNotShown_AndIsRecordedWithRoom) {
+  begin();
+  const auto record = start();
+  const auto frames = random_frames(100, 9);
+  hear(frames);
+  {
+    const test::FullDatabaseDisk full;
+    const auto stopped = recorder_->stop(record.id);
+    ASSERT_TRUE(stopped);
+    EXPECT_EQ(stopped->state, RecordingState::recording) << "it is not ended before this is durable";
+    EXPECT_EQ(stopped->frames, frames.size()) << "its frames are in its file";
+    EXPECT_EQ(recorder_->with_progress(*store_->recording(record.id)).record.frames, frames.size());
+    EXPECT_EQ(recorder_->counts().running, 0U);
+    EXPECT_EQ(pending_.status().what, std::vector<std::string>{"the end of recording " + record.id});
+    EXPECT_THROW(recorder_->remove(record.id), store::DiskFull);
+    EXPECT_TRUE(std::filesystem::exists(recorder_->path_of(record.id)));
+    EXPECT_THROW(static_cast<void>(recorder_->start({stream_header(), "", std::nullopt}, std::nullopt)),
+                 store::DiskFull);
+  }
+  const auto ended = wait_until_it_ends(record.id);
+  EXPECT_EQ(ended.state, RecordingState::finished);
+  EXPECT_EQ(ended.ended, ended::stopped);
+  EXPECT_EQ(store_->recording(record.id)->frames, frames.size());
+  EXPECT_EQ(frames_of(record.id), frames);
+}
+
+TEST_F(RecorderTest, RemovedWhileItsEndIsPending_IsGone) {
+  begin();
+  const auto record = start();
+  hear(random_frames(10, 1));
+  {
+    const test::FullDatabaseDisk full;
+    recorder_->stop(record.id);
+  }
+  EXPECT_TRUE(recorder_->remove(record.id));
+  EXPECT_FALSE(recorder_->find(record.id));
+  EXPECT_EQ(recorder_->counts().bytes, 0U);
+}
+
+TEST_F(RecorderTest, StartsOnAFullDisk_AndRepairsWithRoom) {
+  begin();
+  const auto record = start();
+  const auto frames = random_frames(50, 4);
+  hear(frames);
+  {
+    const test::FullDatabaseDisk full;
+    recorder_->close();  // what a process leaves behind whose end could not be recorded
+    EXPECT_EQ(store_->recording(record.id)->state, RecordingState::recording);
+    begin();
+    EXPECT_EQ(recorder_->find(record.id)->record.state, RecordingState::recording);
+    EXPECT_EQ(recorder_->find(record.id)->record.frames, frames.size()) << "it can be read already";
+    EXPECT_EQ(pending_.status().what, std::vector<std::string>{"the repair of recording " + record.id});
+  }
+  const auto ended = wait_until_it_ends(record.id);
+  EXPECT_EQ(ended.state, RecordingState::finished);
+  EXPECT_EQ(ended.ended, ended::server_killed);
+  EXPECT_EQ(recorder_->counts().bytes, std::filesystem::file_size(recorder_->path_of(record.id)));
 }
 
 TEST_F(RecorderTest, MaxDuration_CutsByMediaTime_AndByTheClock) {

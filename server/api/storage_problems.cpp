@@ -1,0 +1,48 @@
+#include "server/api/storage_problems.h"
+
+#include <cstring>
+
+#include "server/api/common.h"
+
+namespace semblante::api {
+namespace {
+
+std::string_view slug_of(bool disk_full) { return disk_full ? "insufficient-storage" : "storage-unavailable"; }
+
+}  // namespace
+
+http::Problem problem_of(const store::StoreError& error) {
+  const bool disk_full = dynamic_cast<const store::DiskFull*>(&error) != nullptr;
+  if (dynamic_cast<const store::NotEnoughRoom*>(&error) != nullptr)
+    return http::make_problem(slug_of(disk_full), "the disk is nearly full: free some room and try again");
+  return http::make_problem(slug_of(disk_full),
+                            disk_full ? "the disk of the server is full: free some room and try again"
+                                      : "the server cannot read or write its data folder: its log says why");
+}
+
+void refuse_unkept(const Error& error) {
+  const auto& [code, where, message] = error;
+  throw store::StoreError(where.empty() ? message : where + ": " + message);
+}
+
+void refuse_unwritten(const std::filesystem::path& path, int error_number) {
+  store::throw_if_disk_full(path, error_number);
+  throw store::StoreError(path.string() + ": " + std::strerror(error_number));
+}
+
+void refuse_pending(const Context& context, const std::string& effect) {
+  const auto status = context.pending.status();
+  refuse(slug_of(status.disk_full || status.writable),
+         effect + ", but this could not be recorded: it is as soon as the disk takes it, or after a restart as it was");
+}
+
+std::string pending_in_words(const store::PendingStatus& status) {
+  if (status.count == 0) return {};
+  std::string text = std::to_string(status.count) + (status.count == 1 ? " change waits" : " changes wait");
+  text.append(" to be recorded: ");
+  for (std::size_t i = 0; i < status.what.size(); ++i) text.append(i == 0 ? "" : ", ").append(status.what[i]);
+  if (status.count > status.what.size()) text.append(", ...");
+  return text;
+}
+
+}  // namespace semblante::api

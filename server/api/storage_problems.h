@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "core/types/result.h"
+#include "server/api/api.h"
+#include "server/http/problem.h"
+#include "server/store/store_error.h"
+
+namespace semblante::api {
+
+/// What a store that cannot be read or written is to a client: 507 `insufficient-storage` or 503 `storage-unavailable`.
+http::Problem problem_of(const store::StoreError& error);
+
+/// Throws StoreError for a file that cannot be kept, which Api::handle turns into the answer.
+[[noreturn]] void refuse_unkept(const Error& error);
+/// The same for a stream that failed; `error_number` as it left errno.
+[[noreturn]] void refuse_unwritten(const std::filesystem::path& path, int error_number);
+
+/// Refuses a request whose effect is there but not durable yet; `effect` is a sentence: "the job does not run any
+/// more".
+[[noreturn]] void refuse_pending(const Context& context, const std::string& effect);
+
+/// "2 changes wait to be recorded: the end of job a, the end of recording b"; empty for none.
+std::string pending_in_words(const store::PendingStatus& status);
+
+}  // namespace semblante::api

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/jobs/worker_process.h"
+#include "server/jobs/worker_protocol.h"
+#include "server/store/blob_store.h"
+#include "server/store/store.h"
+
+namespace semblante::jobs {
+
+struct JobConfig {
+  std::vector<std::string> worker_command;  ///< program and arguments; the limits are added
+  WorkerLimits limits;
+  std::chrono::seconds wall_limit{900};
+  unsigned concurrency = 1;     ///< workers at a time
+  std::size_t max_queued = 64;  ///< waiting jobs; more are answered 429
+  std::uint32_t max_attempts = 3;
+};
+
+/// A job as it ends so. Not recorded yet.
+store::JobRecord ended_job(store::JobRecord job, store::JobState state, const http::Problem& problem);
+
+/// One attempt at a job: its worker process, and the commit of what that made. Used by one thread.
+class JobRun {
+ public:
+  using OnProgress = std::function<void(const WorkerLine&)>;
+
+  JobRun(store::Store& store, store::BlobStore& blobs, const JobConfig& config)
+      : store_(store), blobs_(blobs), config_(config) {}
+
+  /// The job as it ended: `done` is durable with its result, another end is not recorded yet. Nothing when it was
+  /// stopped with the server. Throws StoreError when its files or its result could not be written: then nothing of
+  /// the attempt is left, and it may be made again.
+  std::optional<store::JobRecord> run(const store::JobRecord& job, const OnProgress& on_progress,
+                                      const std::function<Wish()>& wish);
+
+  /// After StoreError: whether run() was called, and the free bytes with which another attempt makes sense.
+  [[nodiscard]] bool has_begun() const { return has_begun_; }
+  [[nodiscard]] std::uint64_t room_needed() const { return room_needed_; }
+
+ private:
+  Result<WorkerRequest> make_request(const store::JobRecord& job) const;
+  std::optional<store::JobRecord> work(const store::JobRecord& job, const WorkerRequest& request,
+                                       const OnProgress& on_progress, const std::function<Wish()>& wish);
+  http::Problem problem_of(const WorkerExit& exit) const;
+  store::JobRecord keep_result(store::JobRecord job, const WorkerRequest& request, WorkerResult result);
+  /// A problem when one cannot be kept for another reason than a full disk.
+  std::optional<http::Problem> adopt_artefacts(const WorkerRequest& request, WorkerResult& result);
+  void commit(store::JobRecord& job, WorkerResult& result);
+  store::JobRecord keep_set(store::JobRecord job, const WorkerResult& result);
+  void remove(const std::optional<std::vector<std::string>>& hashes) const;
+  /// Removes those of the artefacts' blobs that no fact refers to.
+  void discard(const WorkerResult& result) const;
+
+  store::Store& store_;
+  store::BlobStore& blobs_;
+  const JobConfig& config_;
+  static constexpr std::uint64_t least_room = std::uint64_t{1} << 20U;
+  bool has_begun_ = false;
+  std::uint64_t adopted_bytes_ = 0, room_needed_ = least_room;
+};
+
+}  // namespace semblante::jobs
