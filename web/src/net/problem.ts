@@ -56,6 +56,7 @@ export function adviceFor(problem: Problem): string | null {
   if (slug === 'unsupported-media-type') return 'Use a GLB, a zipped glTF, an OBJ, a PLY or an STL file.';
   if (problem.status === 413 || slug === 'limit-exceeded')
     return 'Reduce the mesh or its textures and upload it again.';
+  if (slug === 'insufficient-storage') return "The server's disk is full: free some room on it, then try again.";
   if (problem.status === 412 || problem.status === 428)
     return 'Someone else changed it meanwhile: reload, then make the change again.';
   if (slug === 'invalid-feature-point') return 'Move or remove the points marked in red, then save again.';
