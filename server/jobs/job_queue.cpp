@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "server/log/guard.h"
 #include "server/log/log.h"
 
 namespace semblante::jobs {
@@ -35,7 +36,8 @@ void JobQueue::start() {
     store_.update_job(job);
     queue_.push_back(std::move(job));
   }
-  for (unsigned i = 0; i < config_.concurrency; ++i) threads_.emplace_back([this] { work(); });
+  for (unsigned i = 0; i < config_.concurrency; ++i)
+    threads_.emplace_back([this] { log::keep_running("a job queue thread", [this] { work(); }); });
 }
 
 void JobQueue::stop() {
@@ -157,12 +159,8 @@ void JobQueue::work() {
       queue_.erase(job);
       running_[running->job.id] = running;
     }
-    try {
-      run(running);
-    } catch (const std::exception& fault) {
-      // The disk failed under us: the job stays unfinished in the store and is taken up at the next start.
-      log::error("job " + running->job.id + ": " + fault.what());
-    }
+    // When the disk fails under us, the job stays unfinished in the store and is taken up at the next start.
+    log::guarded("job " + running->job.id, [&] { run(running); });
     {
       const std::lock_guard lock(mutex_);
       running_.erase(running->job.id);

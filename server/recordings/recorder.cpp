@@ -7,6 +7,7 @@
 
 #include <sys/statvfs.h>
 
+#include "server/log/guard.h"
 #include "server/log/log.h"
 
 namespace semblante::recordings {
@@ -41,7 +42,7 @@ Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, std::files
   if (error) return Error{ErrorCode::io, folder.string(), error.message()};
   std::shared_ptr<Recorder> recorder(new Recorder(store, std::move(folder), limits));
   if (auto status = recorder->repair(); !status) return status.error();
-  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  recorder->thread_ = std::thread([&self = *recorder] { log::keep_running("the recorder", [&self] { self.run(); }); });
   return recorder;
 }
 
@@ -119,16 +120,17 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   if (key) key->resource = record.id;
   // The file comes first: a fact never speaks of one that is not there. One without a fact is swept at the next start.
   const auto path = path_of(record.id);
+  std::error_code ignored;
   try {
     store_.create_recording(record, key);
   } catch (...) {
-    std::filesystem::remove(path);
+    std::filesystem::remove(path, ignored);
     throw;
   }
   const std::lock_guard lock(mutex_);
   if (closing_) {
     store_.remove_recording(record.id);
-    std::filesystem::remove(path);
+    std::filesystem::remove(path, ignored);
     return Error{ErrorCode::io, "", "the server stops"};
   }
   total_bytes_ += record.bytes;
@@ -256,9 +258,10 @@ void Recorder::run() {
       if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
       const bool flush =
           !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
-      const auto must_end = write(*running, batches, flush);
+      std::string_view must_end = ended::disk_full;  // unless it could be written
+      log::guarded("recording " + running->record.id, [&] { must_end = write(*running, batches, flush); });
       if (!must_end.empty() && (reason.empty() || must_end == ended::disk_full)) reason = must_end;
-      if (!reason.empty()) finish(*running, reason);
+      if (!reason.empty()) log::guarded("recording " + running->record.id, [&] { finish(*running, reason); });
       lock.lock();
       if (!reason.empty()) {
         running->done = true;
@@ -332,12 +335,8 @@ void Recorder::finish(Running& running, std::string reason) {
     const std::lock_guard lock(mutex_);
     record.lost = std::max(record.lost, running.dropped);  // those at its end are no gap in the file
   }
-  try {
-    store_.finish_recording(record);
-  } catch (const std::exception& fault) {
-    // The next start repairs it: the file is whole.
-    log::error("recording " + record.id + " cannot be finished: " + fault.what());
-  }
+  // When the store cannot take its end, the next start repairs it: the file is whole.
+  log::guarded("recording " + record.id + " cannot be finished", [&] { store_.finish_recording(record); });
   const std::lock_guard lock(mutex_);
   running.record = std::move(record);
 }

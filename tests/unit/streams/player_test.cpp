@@ -1,5 +1,7 @@
 #include "server/streams/player.h"
 
+#include <atomic>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -206,6 +208,36 @@ TEST(HubPlaying, StoppedAndClosedStreamsPlayNoMore) {
   EXPECT_TRUE(hub.close("a", EndReason::deleted));
   EXPECT_TRUE(hub.open(info));
   EXPECT_FALSE(hub.info("a")->playing);
+}
+
+/// Fails at its third frame.
+class Broken : public Ramp {
+ public:
+  Broken() : Ramp(60'000.0) {}
+  [[nodiscard]] FaceFrame frame_at(double ms, double played_ms) const override {
+    if (++asked_ > 2) throw std::runtime_error("a fault of ours");
+    return Ramp::frame_at(ms, played_ms);
+  }
+
+ private:
+  mutable std::atomic<int> asked_ = 0;
+};
+
+TEST(Hub, SourceThatThrows_PlaysNoMore_OthersGoOn) {
+  InProcessHub hub{StreamLimits{}};
+  for (const char* id : {"bad", "good"}) {
+    StreamInfo info;
+    info.id = id;
+    info.source = "none";
+    ASSERT_TRUE(hub.open(info));
+  }
+  const auto plays = [&](const char* id) { return hub.info(id)->playing.has_value(); };
+  ASSERT_TRUE(hub.play("good", std::make_shared<Ramp>(600'000.0), {}));
+  ASSERT_TRUE(hub.play("bad", std::make_shared<Broken>(), {}));
+  while (plays("bad")) std::this_thread::sleep_for(milliseconds(5));
+  EXPECT_TRUE(plays("good"));
+  EXPECT_TRUE(hub.play("bad", std::make_shared<Ramp>(600'000.0), {})) << "the stream is free again";
+  EXPECT_TRUE(plays("bad"));
 }
 
 }  // namespace
