@@ -131,7 +131,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
   const auto& limits = context_.config.limits;
   switch (route->body) {
     case BodyKind::none:
-      return http::BodyPlan{limits.max_json_bytes, false, false};
+      return http::BodyPlan{limits.max_json_bytes, false, false, route->runs == Runs::at_once};
     case BodyKind::json:
     case BodyKind::merge:
       return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
