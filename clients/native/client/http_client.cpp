@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+#include <exception>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
@@ -22,8 +22,12 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
 
+/// Bytes of an answer that wait to be parsed.
+constexpr std::size_t most_unparsed = std::size_t{60} << 10U;
+
 Error failed(const Url& url, const char* step, const error_code& problem) {
-  const ErrorCode code = problem == http::error::body_limit || problem == http::error::header_limit
+  const ErrorCode code = problem == http::error::body_limit || problem == http::error::header_limit ||
+                                 problem == http::error::buffer_overflow
                              ? ErrorCode::too_large
                          : problem.category() == http::make_error_code(http::error::end_of_stream).category() &&
                                  problem != http::error::end_of_stream && problem != http::error::partial_message
@@ -84,11 +88,11 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
   co_await http::async_write(stream, message, token);
   // A server may answer and close before it has read all of a body it refuses: the answer is what counts.
   const error_code write_problem = problem;
-  beast::flat_buffer buffer;
+  // Also bounds trailers and chunk extensions: Beast keeps them whole, and throws on a field of more than 64 KiB.
+  beast::flat_buffer buffer(most_unparsed);
   http::response_parser<http::string_body> parser;
   parser.body_limit(limits.max_body);
-  parser.header_limit(
-      static_cast<std::uint32_t>(std::min<std::size_t>(limits.max_header, std::numeric_limits<std::uint32_t>::max())));
+  parser.header_limit(static_cast<std::uint32_t>(std::min(limits.max_header, most_unparsed)));
   parser.skip(request.method == "HEAD");
   co_await http::async_read(stream, buffer, parser, token);
   if (problem) {
@@ -126,7 +130,11 @@ Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
   std::optional<Result<HttpResponse>> outcome;
   std::exception_ptr fault;
   asio::co_spawn(io, exchange(url_, limits_, request, outcome), [&](std::exception_ptr f) { fault = std::move(f); });
-  io.run_for(limits_.timeout);
+  try {
+    io.run_for(limits_.timeout);
+  } catch (...) {
+    fault = std::current_exception();
+  }
   if (outcome) {
     return *std::move(outcome);
   }

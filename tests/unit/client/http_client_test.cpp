@@ -35,6 +35,14 @@ TEST(HttpClient, HostileServer_IsAnErrorWithinItsLimits) {
     ASSERT_FALSE(response);
     EXPECT_EQ(response.error().code, ErrorCode::io);
   }
+  for (const auto& chunks :
+       {"0\r\nX: " + std::string(66'000, 'a'), "1;" + std::string(1U << 20U, 'e') + "\r\nx\r\n0"}) {
+    // What surrounds chunks is as bounded as the header.
+    const CannedServer server("HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n" + chunks + "\r\n\r\n");
+    const auto response = get_from(server);
+    ASSERT_FALSE(response);
+    EXPECT_EQ(response.error().code, ErrorCode::too_large) << response.error().message;
+  }
   {  // A body shorter than announced.
     const CannedServer server("HTTP/1.1 200 OK\r\nContent-Length: 500\r\n\r\nshort");
     EXPECT_FALSE(get_from(server));
