@@ -16,13 +16,10 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/client/sample_server.h"
+#include "tests/support/wait.h"
 
 namespace semblante::testing {
 namespace {
-
-using std::chrono::seconds;
-
-constexpr seconds patience{120};
 
 std::vector<glm::vec3> read_obj(const std::filesystem::path& path) {
   std::ifstream file(path);
