@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <fstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,11 +99,10 @@ nlohmann::json points_on_grid(const nlohmann::json& head_center) {
 std::string recording_of(int port, const std::string& stream) {
   const auto made = json_of(request(port, "POST", "/v1/streams/" + stream + "/recordings", "{}", json_type));
   const auto target = "/v1/recordings/" + made["id"].get<std::string>();
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (json_of(request(port, "GET", target))["duration"] < 2000 && std::chrono::steady_clock::now() < give_up) {
+  EXPECT_TRUE(testing::eventually([&] {
     request(port, "POST", "/v1/streams/" + stream + "/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+    return json_of(request(port, "GET", target))["duration"] >= 2000;
+  }));
   return made["id"];
 }
 

@@ -16,12 +16,12 @@
 #include <sys/socket.h>
 
 #include "server/net/worker_pool.h"
+#include "tests/support/wait.h"
 
 namespace semblante::net {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
 
 /// Says back what it is told, and ends like a fault of ours at "throw".
 class Echo : public http::WebSocketPeer {
@@ -73,12 +73,6 @@ struct EchoApplication : http::Application {
 
 std::string get(std::string_view path) { return "GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n"; }
 
-bool soon(const std::function<bool()>& condition) {
-  for (const auto end = Clock::now() + 30s; Clock::now() < end; std::this_thread::sleep_for(2ms))
-    if (condition()) return true;
-  return condition();
-}
-
 class Client {
  public:
   explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -99,9 +93,10 @@ class Client {
   [[nodiscard]] std::string read(std::size_t count) const {
     std::string all;
     std::array<char, 1> piece{};
+    constexpr int poll_ms = std::chrono::milliseconds(testing::patience).count();
     while (all.size() < count) {
       pollfd waiting{socket_, POLLIN, 0};
-      if (::poll(&waiting, 1, 30'000) != 1 || ::recv(socket_, piece.data(), 1, 0) != 1) break;
+      if (::poll(&waiting, 1, poll_ms) != 1 || ::recv(socket_, piece.data(), 1, 0) != 1) break;
       all += piece[0];
     }
     return all;
@@ -142,13 +137,13 @@ class ServerTest : public ::testing::Test {
     config.port = 0;
     config.worker_threads = workers;
     // So long that whoever waits for one of these does not pass.
-    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 60s;
+    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 10 * testing::patience;
     server_ = std::make_unique<Server>(config, application_);
     port_ = server_->listen().value();
     thread_ = std::thread([this] { server_->run([] {}); });
   }
   ~ServerTest() override {
-    EXPECT_TRUE(soon([&] { return server_->counts().connections_open == 0; }));
+    EXPECT_TRUE(testing::eventually([&] { return server_->counts().connections_open == 0; }));
     server_->stop();
     thread_.join();
   }
@@ -179,7 +174,8 @@ TEST_F(ServerTest, BytesBehindTheUpgrade_LeaveNoPeerBehind) {
   const Client client(port_);
   client.send(std::string(Client::upgrade_request) + Client::frame('\x81', "hello"));
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 "));
-  EXPECT_TRUE(soon([&] { return application_.peers == 0; })) << "it holds its place in a stream for ever";
+  EXPECT_TRUE(testing::eventually([&] { return application_.peers == 0; }))
+      << "it holds its place in a stream for ever";
 }
 
 TEST_F(ServerTest, AfterTheClosingHandshake_NobodyWaitsForTheSocket) {
@@ -195,7 +191,7 @@ TEST_F(ServerTest, AfterTheClosingHandshake_NobodyWaitsForTheSocket) {
             "\x88\x05\x03\xE8"
             "bye");
   ours.send(Client::frame('\x88', "\x03\xE8"));
-  EXPECT_TRUE(soon([&] { return application_.peers == 0; }));
+  EXPECT_TRUE(testing::eventually([&] { return application_.peers == 0; }));
   EXPECT_EQ(server_->counts().websockets_open, 0U);
   EXPECT_EQ(server_->counts().connections_open, 2U);
 }
@@ -207,7 +203,7 @@ TEST_F(ServerTest, FaultOfAPeer_EndsItsConnectionAlone) {
   bad.upgrade();
   bad.say("throw");
   EXPECT_EQ(bad.read(1), "") << "cut off";
-  EXPECT_TRUE(soon([&] { return application_.peers == 1; }));
+  EXPECT_TRUE(testing::eventually([&] { return application_.peers == 1; }));
   good.say("hello");
   EXPECT_EQ(good.read(7), "\x81\x05hello");
   const Client next(port_);
@@ -217,7 +213,7 @@ TEST_F(ServerTest, FaultOfAPeer_EndsItsConnectionAlone) {
 TEST_F(ServerTest, ImmediateRoute_AnswersWhileEveryWorkerIsBusy) {
   std::vector<std::unique_ptr<Client>> slow;
   for (int i = 0; i < workers; ++i) slow.emplace_back(std::make_unique<Client>(port_))->send(get("/slow"));
-  ASSERT_TRUE(soon([&] { return application_.waiting == workers; }));
+  ASSERT_TRUE(testing::eventually([&] { return application_.waiting == workers; }));
   const Client client(port_);
   client.send(get("/immediate"));
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
