@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/import/gltf_container.h"
-#include "core/import/json.h"
 #include "core/import/limits.h"
+#include "core/json/json_cursor.h"
 
 namespace semblante::import {
 
@@ -30,7 +32,7 @@ class GltfDocument {
   [[nodiscard]] std::size_t count(const char* array) { return root().size_of(array); }
 
   /// Element `index` of a top-level array; a fault if it is not there.
-  [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root()[array].element(index); }
+  [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root().member(array).element(index); }
 
   /// The bytes of a buffer view, decoded where EXT_meshopt_compression has compressed them.
   std::span<const std::uint8_t> view(std::size_t index);

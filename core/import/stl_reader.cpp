@@ -7,6 +7,7 @@
 #include "core/import/byte_reader.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {

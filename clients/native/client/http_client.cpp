@@ -14,6 +14,9 @@
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
+
 namespace semblante::client {
 namespace {
 
@@ -105,15 +108,14 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
 
 /// What a problem document (RFC 9457) says, for people.
 std::string words_of(const HttpResponse& response) {
-  const auto document = nlohmann::json::parse(response.body, nullptr, false);
   std::string words = "the server answered " + std::to_string(response.status);
-  if (document.is_object()) {
-    for (const char* member : {"title", "detail", "pointer"}) {
-      const auto found = document.find(member);
-      if (found != document.end() && found->is_string()) {
-        words += ": " + found->get<std::string>().substr(0, 500);
-      }
-    }
+  const auto document =
+      read_json_object(response.body, {.max_bytes = 1U << 20U, .max_depth = 16, .max_values = 10'000});
+  if (!document) return words;
+  for (const char* member : {"title", "detail", "pointer"}) {
+    JsonCursor::Report report;
+    const std::string text = JsonCursor(*document, report).text_or(member, "");
+    if (!text.empty()) words += ": " + text.substr(0, 500);
   }
   return words;
 }
