@@ -160,6 +160,15 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
   return failed() ? std::span<const std::uint8_t>{} : bytes;
 }
 
+std::span<const std::uint8_t> GltfDocument::draco_view(std::size_t index, const JsonCursor& where) {
+  constexpr std::size_t max_times = 8;
+  const auto bytes = view(index);
+  draco_bytes_ += bytes.size();
+  if (draco_bytes_ <= max_times * (binary_.size() + resource_bytes_)) return bytes;
+  where.fail(ErrorCode::too_large, "names the same Draco data again and again");
+  return {};
+}
+
 GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t count, std::size_t element_size) {
   const std::size_t view_index = where.required_index("bufferView", this->count("bufferViews"));
   const std::uint64_t offset = where.integer_or("byteOffset", 0);

@@ -59,7 +59,9 @@ class PrimitiveData {
     draco_place_ = primitive_.member("extensions").member(name);
     const std::size_t view = draco_place_->required_index("bufferView", document_.count("bufferViews"));
     if (document_.failed()) return;
-    auto decoded = DracoMesh::decode(document_.view(view), limits);
+    const auto bytes = document_.draco_view(view, *draco_place_);
+    if (document_.failed()) return;
+    auto decoded = DracoMesh::decode(bytes, limits);
     if (!decoded) {
       draco_place_->fail(decoded.error().code, decoded.error().message);
     } else {

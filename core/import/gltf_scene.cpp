@@ -1,5 +1,8 @@
 #include "core/import/gltf_scene.h"
 
+#include <map>
+#include <memory>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -75,14 +78,25 @@ std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_co
   return nodes;
 }
 
-void pose_by_skin(GltfDocument& document, MeshPlacement& placement, std::span<const std::optional<glm::dmat4>> world) {
-  std::vector<glm::dmat4> joints = joint_matrices(document, *placement.skin, world);
-  if (joints.empty()) return;  // a skin that hangs on nothing: the node's own transform is the best there is
-  if (const auto common = common_matrix(joints)) {
-    placement.to_world = *common;
-    placement.is_identity = *common == glm::dmat4(1.0);
-  } else {
-    placement.joints = std::move(joints);
+/// What a skin does with the meshes that wear it.
+struct SkinPose {
+  std::optional<glm::dmat4> common;                       ///< one matrix for all vertices
+  std::shared_ptr<const std::vector<glm::dmat4>> joints;  ///< else one by joint
+};
+
+SkinPose pose_of(GltfDocument& document, std::size_t skin, std::span<const std::optional<glm::dmat4>> world) {
+  std::vector<glm::dmat4> joints = joint_matrices(document, skin, world);
+  if (joints.empty()) return {};  // a skin that hangs on nothing: the node's own transform is the best there is
+  if (const auto common = common_matrix(joints)) return {common, nullptr};
+  return {std::nullopt, std::make_shared<const std::vector<glm::dmat4>>(std::move(joints))};
+}
+
+void apply(const SkinPose& pose, MeshPlacement& placement) {
+  if (pose.common) {
+    placement.to_world = *pose.common;
+    placement.is_identity = *pose.common == glm::dmat4(1.0);
+  } else if (pose.joints) {
+    placement.joints = pose.joints;
     placement.is_identity = false;
   }
 }
@@ -125,8 +139,12 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
       pending.push_back({node.member("children").element(c).integer(0, node_count - 1), to_world});
     }
   }
+  std::map<std::size_t, SkinPose> poses;  // each once, however many meshes wear it
   for (auto& placement : placements) {
-    if (placement && placement->skin && !document.failed()) pose_by_skin(document, *placement, world);
+    if (!placement || !placement->skin || document.failed()) continue;
+    const auto [pose, is_new] = poses.try_emplace(*placement->skin);
+    if (is_new) pose->second = pose_of(document, *placement->skin, world);
+    apply(pose->second, *placement);
   }
   return placements;
 }
