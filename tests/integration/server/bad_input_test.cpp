@@ -259,7 +259,7 @@ TEST_F(BadInput, SmallTrailersAndExtensions_AreTaken) {
 
 TEST_F(BadInput, HeaderOfThousandsOfFields_IsRefused) {
   std::string fields, parameters = "?";
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1200; ++i) {  // well below 16 KiB
     fields += "a" + std::to_string(i) + ":\r\n";
     parameters += "&a" + std::to_string(i);
   }
