@@ -6,7 +6,7 @@
 namespace semblante::testing {
 
 /// How long a test waits for what must happen. Far longer than it takes on the busiest machine: only a fault meets it.
-constexpr std::chrono::seconds patience{120};
+constexpr std::chrono::seconds patience{600};
 
 /// Waits until `condition` holds. False when `patience` is over before.
 template <class Condition>

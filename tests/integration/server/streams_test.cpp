@@ -79,7 +79,8 @@ TEST_F(Streams, DemoInJson_IsHeaderKeyframeFrames) {
   for (int i = 0; i < 10; ++i) {
     const auto frames = next(socket);
     ASSERT_EQ(frames["type"], "frames");
-    EXPECT_EQ(frames["sequence"], ++sequence) << "no frame is lost or doubled";
+    EXPECT_EQ(frames["sequence"], sequence + 1) << "no frame is lost or doubled";
+    sequence += frames["frames"].size();  // a server that comes late sends several at once
   }
 }
 
@@ -96,8 +97,8 @@ TEST_F(Streams, DemoInBinary_Decodes) {
     auto message = decoder.decode({reinterpret_cast<const std::uint8_t*>(text->data()), text->size()});
     ASSERT_TRUE(message) << message.error().message;
     messages.push_back(*message);
-    if (i >= 2) {
-      EXPECT_LT(text->size(), 120U) << "a frame is a few bytes";
+    if (const auto* frames = std::get_if<Frames>(&*message)) {
+      EXPECT_LT(text->size(), 120U * frames->frames.size()) << "a frame is a few bytes";
     }
   }
   EXPECT_TRUE(std::holds_alternative<Header>(messages[0]));

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/wait.h"
 #include "tests/unit/streams/fake_socket.h"
 
 namespace semblante::streams {
@@ -79,7 +78,7 @@ class Sources : public ::testing::Test {
     info.source = "demo";
     info.epoch = 7;
     StreamLimits limits;
-    limits.demo_patience = testing::patience;
+    limits.demo_patience = std::chrono::minutes(1);
     stream_ = std::make_shared<Stream>(info, limits);
     subscriber_ = std::make_unique<FakeClient>(stream_, StreamRole::subscribe);
     see();

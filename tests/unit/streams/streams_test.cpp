@@ -9,7 +9,6 @@
 #include "server/streams/fap_source.h"
 #include "server/streams/performance_source.h"
 #include "server/streams/stream_hub.h"
-#include "tests/support/wait.h"
 #include "tests/unit/streams/fake_socket.h"
 
 namespace semblante::streams {
@@ -29,7 +28,7 @@ class StreamTest : public ::testing::Test {
   explicit StreamTest() {
     limits_.pending_messages = 4;
     limits_.stalled = milliseconds(0);
-    limits_.demo_patience = testing::patience;
+    limits_.demo_patience = std::chrono::minutes(1);
     stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   }
   std::shared_ptr<FakeClient> connect(StreamRole role) { return std::make_shared<FakeClient>(stream_, role); }
