@@ -45,7 +45,7 @@ add_custom_target(fuzz_targets)
 
 # Seconds after which ctest ends a test. Far more than any takes on a busy machine or under a sanitizer: only a hang
 # lasts so long.
-set(SEMBLANTE_TEST_TIMEOUT 1800)
+set(SEMBLANTE_TEST_TIMEOUT 3600)
 
 # semblante_test(NAME SOURCES ... DEPENDS ... [THREADS] [PROCESSES]): a GoogleTest program whose cases
 # ctest runs one by one. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs, so it belongs to the

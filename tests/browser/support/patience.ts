@@ -1,5 +1,5 @@
 /** ms that a test waits for what must happen: far longer than it takes on the busiest machine, so only a fault meets it. */
-export const patience = 300_000;
+export const patience = 600_000;
 
 /** Asks again and again until the answer is yes. */
 export async function eventually(what: string, condition: () => Promise<boolean>, pause = 100): Promise<void> {
