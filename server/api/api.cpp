@@ -90,6 +90,7 @@ std::size_t kind_of(const ApiConfig& config, const http::Request& head) {
 
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
+  context_.idempotency_keys = std::make_shared<KeyLocks>();
 }
 
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {

@@ -18,6 +18,10 @@ constexpr std::size_t max_page = 200;
 /// A body is to take no more than some 20 MB of memory; a marked head has a few thousand values.
 constexpr std::size_t max_body_values = 200'000;
 constexpr std::size_t max_file_name_bytes = 200;
+/// A request waits for the one that has its key on a worker thread. The body of either is there already, so the wait is
+/// for one creation, which waits for the disk and for no client: milliseconds, seconds for the largest model. The bound
+/// is for a disk that hangs.
+constexpr std::chrono::seconds longest_key_wait{10};
 
 }  // namespace
 
@@ -81,11 +85,13 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   for (const auto& [name, value] : request.query) whole.append("&").append(name).append("=").append(value);
   whole.append("\n").append(body_hash);
   store::IdempotencyRecord record{std::string(*key), sha256_hex(whole), {}};
+  auto held = context.idempotency_keys->acquire(*key, longest_key_wait);
+  if (!held) refuse_for_now("another request with this Idempotency-Key is still being served", 1);
   const auto earlier = context.store.idempotency(*key);
-  if (!earlier) return {std::move(record), std::nullopt};
+  if (!earlier) return {std::move(record), std::nullopt, std::move(held)};
   if (earlier->fingerprint != record.fingerprint)
     refuse("idempotency-key-reused", "this key came with another request before");
-  return {std::nullopt, earlier->resource};
+  return {std::nullopt, earlier->resource, std::move(held)};
 }
 
 std::size_t page_size(const http::Request& request) {

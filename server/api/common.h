@@ -38,10 +38,12 @@ std::string checked_text(std::string_view value, std::size_t max, const std::str
 void check_if_match(const http::Request& request, const std::string& etag);
 
 /// The request's Idempotency-Key. `earlier`: what it made the first time. Refuses a key that is too long, or was used
-/// for a different request.
+/// for a different request. Of requests with one key at the same moment one at a time gets past this: the handler
+/// keeps the check until it has created or failed, and the next one sees what became of it.
 struct IdempotencyCheck {
   std::optional<store::IdempotencyRecord> record;  ///< to be stored with what is made; `resource` to be filled in
   std::optional<std::string> earlier;
+  std::optional<KeyLocks::Held> held;
 };
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash);
 
