@@ -16,6 +16,7 @@
 #include "server/recordings/recorder.h"
 #include "server/store/blob_store.h"
 #include "server/store/store.h"
+#include "server/store/trash.h"
 #include "server/streams/stream_hub.h"
 
 namespace semblante::api {
@@ -47,6 +48,7 @@ struct Context {
   ApiConfig config;
   NetMetrics net_metrics;
   std::shared_ptr<recordings::Recorder> recorder = nullptr;
+  std::shared_ptr<const store::Trash> trash = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
   std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
 };

@@ -1,7 +1,6 @@
 #include "server/recordings/recorder.h"
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -9,11 +8,11 @@
 
 #include "server/log/guard.h"
 #include "server/log/log.h"
+#include "server/store/data_files.h"
 
 namespace semblante::recordings {
 namespace {
 
-constexpr std::string_view extension = ".srec";
 constexpr std::size_t page = 200;
 
 void take_over(store::RecordingRecord& record, const RecordingProgress& progress) {
@@ -49,14 +48,12 @@ Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, std::files
 Recorder::~Recorder() { close(); }
 
 Status Recorder::repair() {
-  std::set<std::string> known;
   std::string after;
   while (true) {
     const auto records = store_.recordings("", after, page);
     if (!records || records->empty()) break;
     after = records->back().id;
     for (auto record : *records) {
-      known.insert(record.id + std::string(extension));
       if (record.state == store::RecordingState::recording) {
         if (const auto progress = repair_recording(path_of(record.id))) {
           take_over(record, *progress);
@@ -75,18 +72,10 @@ Status Recorder::repair() {
       total_bytes_ += record.bytes;
     }
   }
-  std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, error)) {
-    std::error_code ignored;
-    if (!known.contains(file.path().filename().string())) std::filesystem::remove(file.path(), ignored);
-  }
-  if (error) return Error{ErrorCode::io, folder_.string(), error.message()};
   return Unit{};
 }
 
-std::filesystem::path Recorder::path_of(std::string_view id) const {
-  return folder_ / std::string(id).append(extension);
-}
+std::filesystem::path Recorder::path_of(std::string_view id) const { return folder_ / store::recording_file_name(id); }
 
 std::optional<Error> Recorder::refusal() const {
   const auto full = [](std::string message) { return Error{ErrorCode::too_large, "", std::move(message)}; };
@@ -118,7 +107,8 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   running->writer = std::move(*writer);
   take_over(record, running->writer->durable());
   if (key) key->resource = record.id;
-  // The file comes first: a fact never speaks of one that is not there. One without a fact is swept at the next start.
+  // The file comes first: a fact never speaks of one that is not there. The next start moves one without a fact
+  // into the trash.
   const auto path = path_of(record.id);
   std::error_code ignored;
   try {

@@ -65,7 +65,7 @@ struct RecorderCounts {
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that a process left running are cut off after their last whole chunk and
-  /// finished; files nobody knows are removed. Errors: io.
+  /// finished. Errors: io.
   static Result<std::shared_ptr<Recorder>> open(store::Store& store, std::filesystem::path folder,
                                                 RecorderLimits limits = {});
   ~Recorder() override;

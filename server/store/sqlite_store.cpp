@@ -169,6 +169,11 @@ class SqliteStore : public Store {
     return all_hashes(db_);
   }
 
+  std::vector<std::string> users_of(std::string_view sha256) override {
+    const std::lock_guard lock(mutex_);
+    return users_of_hash(db_, sha256);
+  }
+
   void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
@@ -454,6 +459,17 @@ class SqliteStore : public Store {
     return IdempotencyRecord{statement.text(0), statement.text(1), statement.text(2)};
   }
 
+  DatabaseIdentity identity() override {
+    const std::lock_guard lock(mutex_);
+    return read_identity();
+  }
+
+  DatabaseIdentity count_start() override {
+    const std::lock_guard lock(mutex_);
+    db_.execute("UPDATE identity SET starts = starts + 1");
+    return read_identity();
+  }
+
   bool healthy() override {
     const std::lock_guard lock(mutex_);
     Statement statement(db_, "SELECT count(*) FROM streams");
@@ -461,6 +477,12 @@ class SqliteStore : public Store {
   }
 
  private:
+  DatabaseIdentity read_identity() {
+    Statement statement(db_, "SELECT id, starts FROM identity");
+    if (!statement.step()) return {};
+    return {statement.text(0), static_cast<std::uint64_t>(statement.integer(1))};
+  }
+
   void insert_key(const std::optional<IdempotencyRecord>& key) {
     if (!key) return;
     // Keys are for retries: a day is long for one.
