@@ -8,8 +8,9 @@ export default defineConfig({
   test: {
     include: ['../tests/browser/**/*.test.ts'],
     environment: 'node',
-    testTimeout: 300_000,
-    hookTimeout: 120_000,
+    // Each wait has a limit of its own (support/patience.ts).
+    testTimeout: 3_600_000,
+    hookTimeout: 3_600_000,
     fileParallelism: false,
   },
 });

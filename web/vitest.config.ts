@@ -8,5 +8,8 @@ export default defineConfig({
   test: {
     include: ['test/**/*.test.ts', '../tests/unit/ts/**/*.test.ts'],
     environment: 'node',
+    // Only a hang lasts so long, on however busy a machine.
+    testTimeout: 600_000,
+    hookTimeout: 600_000,
   },
 });

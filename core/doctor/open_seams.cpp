@@ -9,6 +9,7 @@
 
 #include "core/doctor/part_checks.h"
 #include "core/doctor/words.h"
+#include "core/types/seeded_hash.h"
 
 namespace semblante {
 namespace {
@@ -50,7 +51,7 @@ class Cells {
 
   const Surface& surface_;
   double size_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>, SeededHash> cells_;
 };
 
 struct Border {

@@ -7,32 +7,29 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/import/json.h"
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
+#include "core/types/printable.h"
 
 namespace semblante {
 namespace {
 
 constexpr std::size_t max_name_bytes = 200;
 
-void read_displacements(const import::JsonCursor& members, const nlohmann::json& tree, std::optional<Error>& fault,
-                        std::vector<Displacement>& out) {
-  members.must_be_object();
-  if (fault) return;
-  for (const auto& member : tree.items()) {
-    const import::JsonCursor cursor = members[member.key().c_str()];
-    const auto id = parse_feature_point(member.key());
+void read_displacements(const JsonCursor& displacements, std::vector<Displacement>& out) {
+  for (const auto& [name, cursor] : displacements.members()) {
+    const auto id = parse_feature_point(name);
     if (!id) {
-      cursor.fail(ErrorCode::invalid_argument,
-                  import::shown(member.key()) + " is not a feature point of MPEG-4 (2.1 to 11.6)");
+      cursor.fail(ErrorCode::invalid_argument, import::shown(name) + " is not a feature point of MPEG-4 (2.1 to 11.6)");
     }
     const glm::dvec3 value = import::read_vector(cursor);
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(value[axis]) <= most_set_units) continue;
       cursor.fail(ErrorCode::out_of_range, "moves by more than 102400 units");
     }
-    if (fault) return;
+    if (cursor.failed()) return;
     const glm::vec3 units(value);
     if (units != glm::vec3(0.0F)) out.push_back({*id, units});
   }
@@ -51,22 +48,20 @@ double as_short_as_may_be(float value) {
 }  // namespace
 
 Result<NamedSet> parse_displacement_set(std::string_view json) {
-  const auto tree = import::parse_json(json, {.max_depth = 16, .max_values = 10'000});
+  const auto tree = read_json_object(json, {.max_depth = 16, .max_values = 10'000});
   if (!tree) return tree.error();
   std::optional<Error> fault;
-  const import::JsonCursor root(*tree, fault);
-  root.must_be_object();
-  if (fault) return *fault;
+  const JsonCursor root(*tree, fault);
   NamedSet set;
   set.name = root.text_or("name", "");
-  if (set.name.size() > max_name_bytes || set.name != import::printable(set.name))
-    root["name"].fail(ErrorCode::invalid_argument, "must be at most 200 bytes of printable text");
+  if (set.name.size() > max_name_bytes || set.name != printable(set.name))
+    root.member("name").fail(ErrorCode::invalid_argument, "must be at most 200 bytes of printable text");
   const auto kind = parse_set_kind(root.text_or("kind", "expression"));
-  if (!kind) root["kind"].fail(ErrorCode::invalid_argument, "must be \"viseme\" or \"expression\"");
-  const import::JsonCursor displacements = root["displacements"];
+  if (!kind) root.member("kind").fail(ErrorCode::invalid_argument, "must be \"viseme\" or \"expression\"");
+  const JsonCursor displacements = root.member("displacements");
   if (fault) return *fault;
   set.kind = *kind;
-  read_displacements(displacements, (*tree)["displacements"], fault, set.displacements);
+  read_displacements(displacements, set.displacements);
   if (fault) return *fault;
   return set;
 }

@@ -2,27 +2,33 @@
 
 #include <algorithm>
 
-#include "core/import/json.h"
+#include <nlohmann/json.hpp>
+
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 
 namespace semblante {
+namespace {
+
+constexpr JsonLimits limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 10'000};
+
+}  // namespace
 
 Result<std::vector<std::pair<FeaturePointId, glm::dvec3>>> parse_displacements(std::string_view json) {
-  const auto tree = import::parse_json(json);
+  const auto tree = read_json_object(json, limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
-  const import::JsonCursor root(*tree, fault);
-  root.must_be_object();
-  if (fault) return *fault;
+  const JsonCursor root(*tree, fault);
   std::vector<std::pair<FeaturePointId, glm::dvec3>> displacements;
-  for (const auto& member : tree->items()) {
-    const auto id = parse_feature_point(member.key());
+  for (const auto& [name, displacement] : root.members()) {
+    const auto id = parse_feature_point(name);
     if (!id) {
-      return Error{ErrorCode::invalid_argument, std::string("/").append(import::pointer_segment(member.key())),
-                   import::shown(member.key()) + " is not a feature point of MPEG-4 (2.1 to 11.6)"};
+      return Error{ErrorCode::invalid_argument, displacement.pointer(),
+                   import::shown(name) + " is not a feature point of MPEG-4 (2.1 to 11.6)"};
     }
-    displacements.emplace_back(*id, import::read_vector(root[member.key().c_str()]));
+    displacements.emplace_back(*id, import::read_vector(displacement));
     if (fault) return *fault;
   }
   if (displacements.empty()) return Error{ErrorCode::empty, "", "no feature point is moved"};

@@ -5,27 +5,28 @@
 #include <limits>
 
 #include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
 
-#include "core/import/json.h"
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 
 namespace semblante {
 namespace {
 
-using import::JsonCursor;
-
 /// 84 points with a page of remarks each are far below this.
-constexpr std::size_t max_bytes = std::size_t{4} << 20;
+constexpr JsonLimits limits = {.max_bytes = std::size_t{4} << 20U, .max_depth = 64, .max_values = 500'000};
 
 MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
   MarkedPoint marked{id, std::nullopt, std::nullopt};
   point.must_be_object();
   if (point.has("vertex")) {
-    marked.vertex = static_cast<std::uint32_t>(point["vertex"].integer(std::numeric_limits<std::uint32_t>::max()));
+    marked.vertex =
+        static_cast<std::uint32_t>(point.member("vertex").integer(0, std::numeric_limits<std::uint32_t>::max()));
   }
-  if (point.has("position")) marked.position = import::read_vector(point["position"]);
-  if (point.has("proposed")) marked.proposed = point["proposed"].boolean();
+  if (point.has("position")) marked.position = import::read_vector(point.member("position"));
+  if (point.has("proposed")) marked.proposed = point.member("proposed").boolean();
   if (!marked.vertex && !marked.position) point.fail(ErrorCode::missing, "has neither a vertex nor a position");
   return marked;
 }
@@ -51,32 +52,27 @@ glm::dmat3 read_axes(const JsonCursor& rows) {
 }  // namespace
 
 Result<FeaturePointsFile> parse_feature_points(std::string_view json) {
-  if (json.size() > max_bytes) {
-    return Error{ErrorCode::too_large, "",
-                 "the feature point file has more than " + std::to_string(max_bytes) + " bytes"};
-  }
-  const auto tree = import::parse_json(json);
+  const auto tree = read_json_object(json, limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);
-  root.must_be_object();
-  const JsonCursor points = root["points"];
+  const JsonCursor points = root.member("points");
   points.must_be_object();
   if (fault) return *fault;
   if (root.integer_or("vertex_index_base", 0) != 0) {
-    root["vertex_index_base"].fail(ErrorCode::unsupported, "must be 0: vertices count from 0");
+    root.member("vertex_index_base").fail(ErrorCode::unsupported, "must be 0: vertices count from 0");
   }
   FeaturePointsFile file;
-  for (const auto& member : (*tree)["points"].items()) {
-    const auto id = parse_feature_point(member.key());
+  for (const auto& [name, point] : points.members()) {
+    const auto id = parse_feature_point(name);
     if (!id) {
-      return Error{ErrorCode::invalid_argument, "/points/" + import::pointer_segment(member.key()),
-                   import::shown(member.key()) + " is not a feature point of MPEG-4 (2.1 to 11.6)"};
+      return Error{ErrorCode::invalid_argument, point.pointer(),
+                   import::shown(name) + " is not a feature point of MPEG-4 (2.1 to 11.6)"};
     }
-    file.points.push_back(read_point(*id, points[member.key().c_str()]));
+    file.points.push_back(read_point(*id, point));
     if (fault) return *fault;
   }
-  if (root.has("to_mpeg4_axes")) file.to_mpeg4_axes = read_axes(root["to_mpeg4_axes"]);
+  if (root.has("to_mpeg4_axes")) file.to_mpeg4_axes = read_axes(root.member("to_mpeg4_axes"));
   if (!fault && file.points.empty()) points.fail(ErrorCode::empty, "has no points");
   if (fault) return *fault;
   std::sort(file.points.begin(), file.points.end(),

@@ -93,20 +93,21 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
     bytes = binary_;
   } else {
     if (!loaded_[index]) {
-      auto loaded = resource(where["uri"].text());
+      auto loaded = resource(where.member("uri").text());
       if (!loaded) {
-        where["uri"].fail(loaded.error().code, loaded.error().message);
+        where.member("uri").fail(loaded.error().code, loaded.error().message);
         return {};
       }
       loaded_[index] = std::move(*loaded);
     }
     bytes = *loaded_[index];
   }
-  const std::uint64_t announced = where["byteLength"].integer();
+  const std::uint64_t announced = where.member("byteLength").integer();
   if (failed()) return {};
   if (announced > bytes.size()) {
-    where["byteLength"].fail(ErrorCode::truncated, "is " + std::to_string(announced) + ", there are " +
-                                                       std::to_string(bytes.size()) + " bytes");
+    where.member("byteLength")
+        .fail(ErrorCode::truncated,
+              "is " + std::to_string(announced) + ", there are " + std::to_string(bytes.size()) + " bytes");
     return {};
   }
   return bytes.first(announced);
@@ -115,7 +116,7 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
 std::span<const std::uint8_t> GltfDocument::slice(const JsonCursor& where) {
   const std::size_t buffer_index = where.required_index("buffer", count("buffers"));
   const std::uint64_t offset = where.integer_or("byteOffset", 0);
-  const std::uint64_t length = where["byteLength"].integer();
+  const std::uint64_t length = where.member("byteLength").integer();
   if (failed()) return {};
   const auto bytes = buffer(buffer_index);
   if (failed()) return {};
@@ -132,13 +133,13 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
   const JsonCursor where = item("bufferViews", index);
   if (failed()) return {};
   constexpr const char* meshopt = "EXT_meshopt_compression";
-  if (!where.has("extensions") || !where["extensions"].has(meshopt)) return slice(where);
-  const JsonCursor compressed = where["extensions"][meshopt];
+  if (!where.has("extensions") || !where.member("extensions").has(meshopt)) return slice(where);
+  const JsonCursor compressed = where.member("extensions").member(meshopt);
   if (decoded_views_.empty()) decoded_views_.resize(count("bufferViews"));
   if (!decoded_views_[index]) {
     const MeshoptLayout layout = read_meshopt_layout(compressed);
     if (where.integer_or("byteStride", layout.stride) != layout.stride)
-      compressed["byteStride"].fail(ErrorCode::mismatch, "is not the byteStride of its buffer view");
+      compressed.member("byteStride").fail(ErrorCode::mismatch, "is not the byteStride of its buffer view");
     const auto bytes = slice(compressed);
     if (failed()) return {};
     auto decoded =
@@ -151,12 +152,21 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
     decoded_views_[index] = std::move(*decoded);
   }
   const std::span<const std::uint8_t> bytes = *decoded_views_[index];
-  if (const std::uint64_t length = where["byteLength"].integer(); !failed() && length > bytes.size()) {
-    where["byteLength"].fail(
-        ErrorCode::out_of_range,
-        "is " + std::to_string(length) + ", its meshopt data decodes to " + std::to_string(bytes.size()) + " bytes");
+  if (const std::uint64_t length = where.member("byteLength").integer(); !failed() && length > bytes.size()) {
+    where.member("byteLength")
+        .fail(ErrorCode::out_of_range, "is " + std::to_string(length) + ", its meshopt data decodes to " +
+                                           std::to_string(bytes.size()) + " bytes");
   }
   return failed() ? std::span<const std::uint8_t>{} : bytes;
+}
+
+std::span<const std::uint8_t> GltfDocument::draco_view(std::size_t index, const JsonCursor& where) {
+  constexpr std::size_t max_times = 8;
+  const auto bytes = view(index);
+  draco_bytes_ += bytes.size();
+  if (draco_bytes_ <= max_times * (binary_.size() + resource_bytes_)) return bytes;
+  where.fail(ErrorCode::too_large, "names the same Draco data again and again");
+  return {};
 }
 
 GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t count, std::size_t element_size) {
@@ -168,9 +178,10 @@ GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t c
   if (failed()) return {};
   constexpr std::uint64_t max_stride = 65536;
   if (stride < element_size || stride > max_stride) {
-    item("bufferViews", view_index)["byteStride"].fail(
-        ErrorCode::out_of_range,
-        "is " + std::to_string(stride) + ", elements have " + std::to_string(element_size) + " bytes");
+    item("bufferViews", view_index)
+        .member("byteStride")
+        .fail(ErrorCode::out_of_range,
+              "is " + std::to_string(stride) + ", elements have " + std::to_string(element_size) + " bytes");
     return {};
   }
   // count, stride and offset are all far below 2^63 here: no overflow.
@@ -184,8 +195,8 @@ GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t c
 }
 
 std::size_t GltfDocument::accessor_count(std::size_t accessor, std::size_t max) {
-  const JsonCursor where = item("accessors", accessor)["count"];
-  const std::uint64_t announced = where.integer(~std::uint64_t{0});
+  const JsonCursor where = item("accessors", accessor).member("count");
+  const std::uint64_t announced = where.integer(0, ~std::uint64_t{0});
   if (announced > max) {
     where.fail(ErrorCode::too_large,
                "is " + std::to_string(announced) + ", at most " + std::to_string(max) + " are allowed");
@@ -195,17 +206,17 @@ std::size_t GltfDocument::accessor_count(std::size_t accessor, std::size_t max) 
 
 template <class Put>
 void GltfDocument::for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put) {
-  const JsonCursor sparse = accessor["sparse"];
-  const std::uint64_t replaced = sparse["count"].integer(count);
-  const JsonCursor index_place = sparse["indices"];
-  const std::uint64_t type = index_place["componentType"].integer();
+  const JsonCursor sparse = accessor.member("sparse");
+  const std::uint64_t replaced = sparse.member("count").integer(0, count);
+  const JsonCursor index_place = sparse.member("indices");
+  const std::uint64_t type = index_place.member("componentType").integer();
   if (failed()) return;
   if (!is_index_type(type)) {
-    index_place["componentType"].fail(ErrorCode::malformed, "must be an unsigned type");
+    index_place.member("componentType").fail(ErrorCode::malformed, "must be an unsigned type");
     return;
   }
   const Layout indices = layout(index_place, replaced, size_of_component(type));
-  const Layout values = layout(sparse["values"], replaced, element_size);
+  const Layout values = layout(sparse.member("values"), replaced, element_size);
   if (failed()) return;
   for (std::size_t i = 0; i < replaced; ++i) {
     const std::uint32_t index = to_index(indices.bytes.data() + i * indices.stride, type);
@@ -220,24 +231,24 @@ void GltfDocument::for_each_sparse(const JsonCursor& accessor, std::size_t count
 
 GltfDocument::Elements GltfDocument::elements(const JsonCursor& where, std::size_t components, std::size_t count) {
   Elements elements;
-  elements.type = where["componentType"].integer();
+  elements.type = where.member("componentType").integer();
   elements.normalized = where.boolean_or("normalized", false);
   elements.components = components;
   const std::size_t component_size = size_of_component(elements.type);
-  const std::string shape = where["type"].text();
-  const std::uint64_t announced = where["count"].integer(~std::uint64_t{0});
+  const std::string shape = where.member("type").text();
+  const std::uint64_t announced = where.member("count").integer(0, ~std::uint64_t{0});
   if (failed()) return {};
-  if (component_size == 0) where["componentType"].fail(ErrorCode::malformed, "is not a component type");
+  if (component_size == 0) where.member("componentType").fail(ErrorCode::malformed, "is not a component type");
   if (components_of(shape) != components) {
-    where["type"].fail(ErrorCode::malformed, "must have " + std::to_string(components) + " components");
+    where.member("type").fail(ErrorCode::malformed, "must have " + std::to_string(components) + " components");
   }
   if (announced > limits_.max_vertices) {
-    where["count"].fail(ErrorCode::too_large, "is " + std::to_string(announced) + ", at most " +
-                                                  std::to_string(limits_.max_vertices) + " are allowed");
+    where.member("count").fail(ErrorCode::too_large, "is " + std::to_string(announced) + ", at most " +
+                                                         std::to_string(limits_.max_vertices) + " are allowed");
   }
   if (announced != count) {
-    where["count"].fail(ErrorCode::mismatch,
-                        "is " + std::to_string(announced) + ", it must be " + std::to_string(count));
+    where.member("count").fail(ErrorCode::mismatch,
+                               "is " + std::to_string(announced) + ", it must be " + std::to_string(count));
   }
   if (failed()) return {};
   elements.size = components * component_size;
@@ -280,7 +291,7 @@ std::vector<GltfDocument::Row> GltfDocument::rows(std::size_t accessor, std::siz
   const JsonCursor where = item("accessors", accessor);
   const Elements source = elements(where, 3, count);
   if (failed()) return {};
-  const std::uint64_t replaced = where.has("sparse") ? where["sparse"]["count"].integer(count) : 0;
+  const std::uint64_t replaced = where.has("sparse") ? where.member("sparse").member("count").integer(0, count) : 0;
   const std::size_t cost = (source.has_view ? count : 0) + static_cast<std::size_t>(replaced) + 1;
   if (failed() || cost > budget) {
     budget = 0;
@@ -316,12 +327,12 @@ std::vector<GltfDocument::Row> GltfDocument::rows(std::size_t accessor, std::siz
 
 std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor, std::size_t end, std::size_t max_count) {
   const JsonCursor where = item("accessors", accessor);
-  const std::uint64_t type = where["componentType"].integer();
-  const std::string shape = where["type"].text();
+  const std::uint64_t type = where.member("componentType").integer();
+  const std::string shape = where.member("type").text();
   const std::size_t count = accessor_count(accessor, max_count);
   if (failed()) return {};
-  if (!is_index_type(type)) where["componentType"].fail(ErrorCode::malformed, "must be an unsigned type");
-  if (shape != "SCALAR") where["type"].fail(ErrorCode::malformed, "must be SCALAR");
+  if (!is_index_type(type)) where.member("componentType").fail(ErrorCode::malformed, "must be an unsigned type");
+  if (shape != "SCALAR") where.member("type").fail(ErrorCode::malformed, "must be SCALAR");
   if (failed()) return {};
   const std::size_t element_size = size_of_component(type);
   const bool has_view = where.has("bufferView");

@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/import/gltf_container.h"
-#include "core/import/json.h"
 #include "core/import/limits.h"
+#include "core/json/json_cursor.h"
 
 namespace semblante::import {
 
@@ -30,10 +32,13 @@ class GltfDocument {
   [[nodiscard]] std::size_t count(const char* array) { return root().size_of(array); }
 
   /// Element `index` of a top-level array; a fault if it is not there.
-  [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root()[array].element(index); }
+  [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root().member(array).element(index); }
 
   /// The bytes of a buffer view, decoded where EXT_meshopt_compression has compressed them.
   std::span<const std::uint8_t> view(std::size_t index);
+  /// The bytes of a buffer view that are about to be decoded by Draco. A file may name one view many times; all
+  /// together at most eight times its bytes are decoded, else `where` holds the fault too_large.
+  std::span<const std::uint8_t> draco_view(std::size_t index, const JsonCursor& where);
   /// The bytes a "uri" member stands for: a data: URI, or a file of the same zip.
   Result<std::vector<std::uint8_t>> resource(const std::string& uri);
 
@@ -85,6 +90,7 @@ class GltfDocument {
   ResourceReader resources_;
   ImportLimits limits_;
   std::optional<Error> fault_;
+  std::size_t draco_bytes_ = 0;                                   ///< decoded so far
   std::size_t resource_bytes_ = 0;                                ///< decoded so far, bounded by limits_.max_file_bytes
   std::vector<std::optional<std::vector<std::uint8_t>>> loaded_;  ///< by buffer
   std::vector<std::optional<std::vector<std::uint8_t>>> decoded_views_;  ///< by buffer view

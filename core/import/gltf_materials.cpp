@@ -24,19 +24,19 @@ class MaterialReader {
     material.metallic = 1.0F;
     source.must_be_object();
     if (source.has("pbrMetallicRoughness")) {
-      const JsonCursor pbr = source["pbrMetallicRoughness"];
+      const JsonCursor pbr = source.member("pbrMetallicRoughness");
       material.base_color = color(pbr, "baseColorFactor");
       material.metallic = unit(pbr, "metallicFactor");
       material.roughness = unit(pbr, "roughnessFactor");
       material.base_color_image = image_of(pbr, "baseColorTexture", &uv);
-    } else if (source.has("extensions") && source["extensions"].has("KHR_materials_pbrSpecularGlossiness")) {
-      const JsonCursor old = source["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+    } else if (source.has("extensions") && source.member("extensions").has("KHR_materials_pbrSpecularGlossiness")) {
+      const JsonCursor old = source.member("extensions").member("KHR_materials_pbrSpecularGlossiness");
       material.base_color = color(old, "diffuseFactor");
       material.base_color_image = image_of(old, "diffuseTexture", &uv);
       material.metallic = 0.0F;
       material.roughness = 1.0F - unit(old, "glossinessFactor");
     }
-    if (source.has("extensions") && source["extensions"].has("KHR_materials_unlit")) {
+    if (source.has("extensions") && source.member("extensions").has("KHR_materials_unlit")) {
       material.metallic = 0.0F;
       material.roughness = 1.0F;
     }
@@ -67,7 +67,7 @@ class MaterialReader {
   static glm::vec4 color(const JsonCursor& object, const char* key) {
     glm::vec4 value(1.0F);
     if (!object.has(key)) return value;
-    const JsonCursor array = object[key];
+    const JsonCursor array = object.member(key);
     if (array.size() != 4) array.fail(ErrorCode::malformed, "must have 4 numbers");
     for (std::size_t i = 0; i < std::min<std::size_t>(array.size(), 4); ++i) {
       value[static_cast<int>(i)] = static_cast<float>(std::clamp(array.element(i).number(), 0.0, 1.0));
@@ -79,7 +79,7 @@ class MaterialReader {
     const auto pair = [&transform](const char* key, double otherwise) {
       glm::dvec2 value(otherwise);
       if (transform.has(key)) {
-        for (std::size_t i = 0; i < 2; ++i) value[static_cast<int>(i)] = transform[key].element(i).number();
+        for (std::size_t i = 0; i < 2; ++i) value[static_cast<int>(i)] = transform.member(key).element(i).number();
       }
       return value;
     };
@@ -96,13 +96,13 @@ class MaterialReader {
 
   int image_of(const JsonCursor& object, const char* key, UvSource* uv) {
     if (!object.has(key)) return -1;
-    const JsonCursor info = object[key];
+    const JsonCursor info = object.member(key);
     const std::size_t texture_index = info.required_index("index", document_.count("textures"));
     if (document_.failed()) return -1;
     if (uv != nullptr) {
       uv->set = static_cast<std::size_t>(info.integer_or("texCoord", 0));
-      if (info.has("extensions") && info["extensions"].has("KHR_texture_transform")) {
-        read_transform(info["extensions"]["KHR_texture_transform"], *uv);
+      if (info.has("extensions") && info.member("extensions").has("KHR_texture_transform")) {
+        read_transform(info.member("extensions").member("KHR_texture_transform"), *uv);
       }
     }
     const JsonCursor texture = document_.item("textures", texture_index);
@@ -126,7 +126,7 @@ class MaterialReader {
       const auto view = document_.view(*view_index);
       if (within_limit(view.size(), source)) bytes.assign(view.begin(), view.end());
     } else {
-      auto loaded = document_.resource(source["uri"].text());
+      auto loaded = document_.resource(source.member("uri").text());
       if (document_.failed()) return -1;
       if (!loaded) {
         // A head without its texture is still a head.
@@ -165,8 +165,9 @@ class MaterialReader {
 std::vector<UvSource> read_materials(GltfDocument& document, ModelBuilder& builder) {
   const std::size_t count = document.count("materials");
   if (count > max_materials) {
-    document.root()["materials"].fail(ErrorCode::too_large,
-                                      "more than " + std::to_string(max_materials) + " materials");
+    document.root()
+        .member("materials")
+        .fail(ErrorCode::too_large, "more than " + std::to_string(max_materials) + " materials");
     return {};
   }
   MaterialReader reader(document, builder);

@@ -72,15 +72,15 @@ void apply_filter(const MeshoptLayout& layout, std::uint8_t* bytes) {
 
 MeshoptLayout read_meshopt_layout(const JsonCursor& extension) {
   MeshoptLayout layout;
-  layout.count = extension["count"].integer(std::uint64_t{1} << 32U);
-  layout.stride = extension["byteStride"].integer(256);
-  const std::string mode = extension["mode"].text();
+  layout.count = extension.member("count").integer(0, std::uint64_t{1} << 32U);
+  layout.stride = extension.member("byteStride").integer(0, 256);
+  const std::string mode = extension.member("mode").text();
   if (mode == "TRIANGLES") {
     layout.mode = Mode::triangles;
   } else if (mode == "INDICES") {
     layout.mode = Mode::indices;
   } else if (mode != "ATTRIBUTES") {
-    extension["mode"].fail(ErrorCode::unsupported, "is none of ATTRIBUTES, TRIANGLES and INDICES");
+    extension.member("mode").fail(ErrorCode::unsupported, "is none of ATTRIBUTES, TRIANGLES and INDICES");
   }
   const std::string filter = extension.text_or("filter", "NONE");
   if (filter == "OCTAHEDRAL") {
@@ -90,7 +90,7 @@ MeshoptLayout read_meshopt_layout(const JsonCursor& extension) {
   } else if (filter == "EXPONENTIAL") {
     layout.filter = Filter::exponential;
   } else if (filter != "NONE") {
-    extension["filter"].fail(ErrorCode::unsupported, "is none of NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL");
+    extension.member("filter").fail(ErrorCode::unsupported, "is none of NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL");
   }
   return layout;
 }

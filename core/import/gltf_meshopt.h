@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/import/json.h"
+#include "core/json/json_cursor.h"
 #include "core/types/result.h"
 
 namespace semblante::import {

@@ -1,6 +1,7 @@
 #include "core/import/gltf_morph_targets.h"
 
 #include "core/import/text.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {
@@ -13,7 +14,7 @@ constexpr std::size_t max_examples = 4096;
 std::vector<std::string> MorphTargets::names_of(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t most) {
   for (const JsonCursor* const owner : {&mesh, &primitive}) {
     if (!owner->has("extras")) continue;
-    auto names = (*owner)["extras"].texts("targetNames", most);
+    auto names = owner->member("extras").texts("targetNames", most);
     if (!names.empty()) return names;
   }
   return {};
@@ -31,16 +32,17 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
   const std::size_t target_count = primitive.size_of("targets");
   if (target_count == 0 || document_.failed()) return;
   if (target_count > max_examples || by_name_.size() > max_examples) {
-    primitive["targets"].fail(ErrorCode::too_large, "more than " + std::to_string(max_examples) + " morph targets");
+    primitive.member("targets").fail(ErrorCode::too_large,
+                                     "more than " + std::to_string(max_examples) + " morph targets");
     return;
   }
   const std::vector<std::string> names = names_of(mesh, primitive, target_count);
   for (std::size_t i = 0; i < target_count && !document_.failed(); ++i) {
-    const JsonCursor target = primitive["targets"].element(i);
+    const JsonCursor target = primitive.member("targets").element(i);
     const auto accessor = target.index("POSITION", document_.count("accessors"));
     if (document_.failed()) return;
     if (!accessor) continue;
-    if (document_.item("accessors", *accessor)["count"].integer(~std::uint64_t{0}) != count) {
+    if (document_.item("accessors", *accessor).member("count").integer(0, ~std::uint64_t{0}) != count) {
       // Draco may have merged vertices that a target still tells apart.
       builder_.warn(target.pointer() + " has another number of vertices than its primitive and is left out");
       continue;

@@ -12,6 +12,8 @@
 #include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/json/read_json.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {
@@ -35,12 +37,12 @@ void check_asset(GltfDocument& document) {
   const JsonCursor root = document.root();
   root.must_be_object();
   if (document.failed()) return;
-  const JsonCursor version = root["asset"]["version"];
+  const JsonCursor version = root.member("asset").member("version");
   if (const std::string text = version.text(); !document.failed() && !text.starts_with("2.")) {
     version.fail(ErrorCode::unsupported, "is " + shown(text) + ", only glTF 2 is read");
   }
   for (std::size_t i = 0; i < root.size_of("extensionsRequired"); ++i) {
-    const JsonCursor name = root["extensionsRequired"].element(i);
+    const JsonCursor name = root.member("extensionsRequired").element(i);
     if (const std::string text = name.text(); !document.failed() && !is_known_extension(text)) {
       name.fail(ErrorCode::unsupported, "requires " + shown(text) + ", which is not read");
     }
@@ -51,13 +53,15 @@ void check_asset(GltfDocument& document) {
 class PrimitiveData {
  public:
   PrimitiveData(GltfDocument& document, JsonCursor primitive, const ImportLimits& limits)
-      : document_(document), primitive_(std::move(primitive)), attributes_(primitive_["attributes"]) {
+      : document_(document), primitive_(std::move(primitive)), attributes_(primitive_.member("attributes")) {
     constexpr const char* name = "KHR_draco_mesh_compression";
-    if (!primitive_.has("extensions") || !primitive_["extensions"].has(name) || document_.failed()) return;
-    draco_place_ = primitive_["extensions"][name];
+    if (!primitive_.has("extensions") || !primitive_.member("extensions").has(name) || document_.failed()) return;
+    draco_place_ = primitive_.member("extensions").member(name);
     const std::size_t view = draco_place_->required_index("bufferView", document_.count("bufferViews"));
     if (document_.failed()) return;
-    auto decoded = DracoMesh::decode(document_.view(view), limits);
+    const auto bytes = document_.draco_view(view, *draco_place_);
+    if (document_.failed()) return;
+    auto decoded = DracoMesh::decode(bytes, limits);
     if (!decoded) {
       draco_place_->fail(decoded.error().code, decoded.error().message);
     } else {
@@ -80,8 +84,8 @@ class PrimitiveData {
     if (!accessor) return {};
     if (!draco_ || !in_draco(attribute)) return document_.floats(*accessor, components, count);
     const bool normalized = document_.item("accessors", *accessor).boolean_or("normalized", false);
-    const JsonCursor id = (*draco_place_)["attributes"][attribute];
-    auto values = draco_->floats(static_cast<std::uint32_t>(id.integer(0xFFFFFFFFU)), components, normalized);
+    const JsonCursor id = draco_place_->member("attributes").member(attribute);
+    auto values = draco_->floats(static_cast<std::uint32_t>(id.integer(0, 0xFFFFFFFFU)), components, normalized);
     if (values && !document_.failed()) return std::move(*values);
     if (!values) id.fail(values.error().code, values.error().message);
     return {};
@@ -105,7 +109,7 @@ class PrimitiveData {
     return attributes_.index(attribute, document_.count("accessors"));
   }
   [[nodiscard]] bool in_draco(const char* attribute) const {
-    return draco_place_->has("attributes") && (*draco_place_)["attributes"].has(attribute);
+    return draco_place_->has("attributes") && draco_place_->member("attributes").has(attribute);
   }
 
   GltfDocument& document_;
@@ -143,7 +147,7 @@ class GltfReader {
       builder_.warn("mesh " + std::to_string(index) + " " + shown(name) + " stands in " +
                     std::to_string(placement->node_count) + " nodes; only the first is kept");
     }
-    const JsonCursor primitives = mesh["primitives"];
+    const JsonCursor primitives = mesh.member("primitives");
     for (std::size_t i = 0; !document_.failed() && i < primitives.size(); ++i) {
       read_primitive(mesh, primitives.element(i), name, placement);
     }
@@ -236,7 +240,7 @@ class GltfReader {
 
   void add_triangles(const JsonCursor& primitive, const PrimitiveData& data, const Range& range) {
     const std::uint64_t mode = data.mode();
-    if (mode > triangle_fan) primitive["mode"].fail(ErrorCode::out_of_range, "is no glTF mode");
+    if (mode > triangle_fan) primitive.member("mode").fail(ErrorCode::out_of_range, "is no glTF mode");
     if (document_.failed()) return;
     if (mode < triangles) {
       builder_.warn(primitive.pointer() + " has points or lines: its vertices are numbered, nothing is drawn");
@@ -280,7 +284,7 @@ class GltfReader {
 
 Result<Model> read_document(std::string_view text, std::span<const std::uint8_t> binary,
                             const ResourceReader& resources, const ImportLimits& limits, const char* format) {
-  auto tree = parse_json(text);
+  auto tree = read_json(text);
   if (!tree) return tree.error();
   GltfDocument document(std::move(*tree), binary, resources, limits);
   return GltfReader(document, limits).read(format);

@@ -1,5 +1,8 @@
 #include "core/import/gltf_scene.h"
 
+#include <map>
+#include <memory>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -23,25 +26,25 @@ std::array<double, size> numbers(const JsonCursor& array) {
 glm::dmat4 local_transform(const JsonCursor& node) {
   glm::dmat4 transform(1.0);
   if (node.has("matrix")) {
-    const auto m = numbers<16>(node["matrix"]);
+    const auto m = numbers<16>(node.member("matrix"));
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row) transform[column][row] = m[static_cast<std::size_t>(column * 4 + row)];
     }
     return transform;
   }
   if (node.has("translation")) {
-    const auto t = numbers<3>(node["translation"]);
+    const auto t = numbers<3>(node.member("translation"));
     transform = glm::translate(transform, glm::dvec3(t[0], t[1], t[2]));
   }
   if (node.has("rotation")) {
-    const auto r = numbers<4>(node["rotation"]);
+    const auto r = numbers<4>(node.member("rotation"));
     const glm::dquat rotation(r[3], r[0], r[1], r[2]);
     const double length = glm::length(rotation);
-    if (length < 1e-6) node["rotation"].fail(ErrorCode::invalid_argument, "is no rotation");
+    if (length < 1e-6) node.member("rotation").fail(ErrorCode::invalid_argument, "is no rotation");
     if (length > 0.0) transform *= glm::mat4_cast(rotation / length);
   }
   if (node.has("scale")) {
-    const auto s = numbers<3>(node["scale"]);
+    const auto s = numbers<3>(node.member("scale"));
     transform = glm::scale(transform, glm::dvec3(s[0], s[1], s[2]));
   }
   return transform;
@@ -53,7 +56,7 @@ std::vector<std::size_t> root_nodes(GltfDocument& document, std::size_t node_cou
   for (std::size_t i = 0; i < node_count; ++i) {
     const JsonCursor node = document.item("nodes", i);
     for (std::size_t c = 0; c < node.size_of("children"); ++c) {
-      const std::uint64_t child = node["children"].element(c).integer(node_count - 1);
+      const std::uint64_t child = node.member("children").element(c).integer(0, node_count - 1);
       if (!document.failed()) is_child[child] = true;
     }
   }
@@ -70,19 +73,30 @@ std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_co
   const JsonCursor scene = document.item("scenes", document.root().index("scene", scene_count).value_or(0));
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < scene.size_of("nodes"); ++i) {
-    nodes.push_back(scene["nodes"].element(i).integer(node_count - 1));
+    nodes.push_back(scene.member("nodes").element(i).integer(0, node_count - 1));
   }
   return nodes;
 }
 
-void pose_by_skin(GltfDocument& document, MeshPlacement& placement, std::span<const std::optional<glm::dmat4>> world) {
-  std::vector<glm::dmat4> joints = joint_matrices(document, *placement.skin, world);
-  if (joints.empty()) return;  // a skin that hangs on nothing: the node's own transform is the best there is
-  if (const auto common = common_matrix(joints)) {
-    placement.to_world = *common;
-    placement.is_identity = *common == glm::dmat4(1.0);
-  } else {
-    placement.joints = std::move(joints);
+/// What a skin does with the meshes that wear it.
+struct SkinPose {
+  std::optional<glm::dmat4> common;                       ///< one matrix for all vertices
+  std::shared_ptr<const std::vector<glm::dmat4>> joints;  ///< else one by joint
+};
+
+SkinPose pose_of(GltfDocument& document, std::size_t skin, std::span<const std::optional<glm::dmat4>> world) {
+  std::vector<glm::dmat4> joints = joint_matrices(document, skin, world);
+  if (joints.empty()) return {};  // a skin that hangs on nothing: the node's own transform is the best there is
+  if (const auto common = common_matrix(joints)) return {common, nullptr};
+  return {std::nullopt, std::make_shared<const std::vector<glm::dmat4>>(std::move(joints))};
+}
+
+void apply(const SkinPose& pose, MeshPlacement& placement) {
+  if (pose.common) {
+    placement.to_world = *pose.common;
+    placement.is_identity = *pose.common == glm::dmat4(1.0);
+  } else if (pose.joints) {
+    placement.joints = pose.joints;
     placement.is_identity = false;
   }
 }
@@ -122,11 +136,15 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
       }
     }
     for (std::size_t c = node.size_of("children"); c-- > 0;) {
-      pending.push_back({node["children"].element(c).integer(node_count - 1), to_world});
+      pending.push_back({node.member("children").element(c).integer(0, node_count - 1), to_world});
     }
   }
+  std::map<std::size_t, SkinPose> poses;  // each once, however many meshes wear it
   for (auto& placement : placements) {
-    if (placement && placement->skin && !document.failed()) pose_by_skin(document, *placement, world);
+    if (!placement || !placement->skin || document.failed()) continue;
+    const auto [pose, is_new] = poses.try_emplace(*placement->skin);
+    if (is_new) pose->second = pose_of(document, *placement->skin, world);
+    apply(pose->second, *placement);
   }
   return placements;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct MeshPlacement {
   std::size_t node_count = 1;  ///< nodes that show it
   std::optional<std::size_t> skin;
   /// Of a skin whose pose is not its bind pose: each vertex stands where its joints put it, and to_world says nothing.
-  std::vector<glm::dmat4> joints;
+  /// Shared by all meshes of the skin; null for others.
+  std::shared_ptr<const std::vector<glm::dmat4>> joints;
 };
 
 /// Per mesh of the document; nullopt for a mesh the scene does not show. A document without nodes shows all of them as

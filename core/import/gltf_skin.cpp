@@ -25,7 +25,7 @@ bool nearly_equal(const glm::dmat4& a, const glm::dmat4& b) {
 std::vector<glm::dmat4> joint_matrices(GltfDocument& document, std::size_t skin,
                                        std::span<const std::optional<glm::dmat4>> world) {
   const JsonCursor source = document.item("skins", skin);
-  const JsonCursor joints = source["joints"];
+  const JsonCursor joints = source.member("joints");
   const std::size_t count = joints.size();
   constexpr std::size_t max_joints = 65536;
   if (count > max_joints) joints.fail(ErrorCode::too_large, "has too many joints");
@@ -34,7 +34,7 @@ std::vector<glm::dmat4> joint_matrices(GltfDocument& document, std::size_t skin,
   if (accessor && !document.failed()) inverse_bind = document.floats(*accessor, 16, count);
   std::vector<glm::dmat4> matrices;
   for (std::size_t i = 0; i < count && !document.failed(); ++i) {
-    const std::uint64_t node = joints.element(i).integer(world.empty() ? 0 : world.size() - 1);
+    const std::uint64_t node = joints.element(i).integer(0, world.empty() ? 0 : world.size() - 1);
     if (document.failed()) break;
     if (node >= world.size() || !world[node]) return {};
     glm::dmat4 inverse(1.0);

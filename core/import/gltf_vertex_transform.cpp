@@ -26,7 +26,7 @@ VertexTransform::VertexTransform(const MeshPlacement* placement) {
 void VertexTransform::add_joints(const std::vector<float>& joints, const std::vector<float>& weights) {
   std::vector<Influence> set(std::min(joints.size(), weights.size()));
   for (std::size_t i = 0; i < set.size(); ++i) {
-    if (joints[i] >= 0.0F && joints[i] < static_cast<float>(joints_.size()) && weights[i] > 0.0F) {
+    if (joints[i] >= 0.0F && joints[i] < static_cast<float>(joints_->size()) && weights[i] > 0.0F) {
       set[i] = {static_cast<std::uint32_t>(joints[i]), weights[i]};
     }
   }
@@ -34,13 +34,13 @@ void VertexTransform::add_joints(const std::vector<float>& joints, const std::ve
 }
 
 glm::dmat4 VertexTransform::matrix(std::size_t vertex) const {
-  if (joints_.empty()) return to_world_;
+  if (joints_ == nullptr) return to_world_;
   glm::dmat4 sum(0.0);
   double total = 0.0;
   for (const std::vector<Influence>& set : sets_) {
     for (std::size_t i = 4 * vertex; i < 4 * vertex + 4 && i < set.size(); ++i) {
       if (set[i].weight == 0.0F) continue;
-      sum += static_cast<double>(set[i].weight) * joints_[set[i].joint];
+      sum += static_cast<double>(set[i].weight) * (*joints_)[set[i].joint];
       total += static_cast<double>(set[i].weight);
     }
   }
@@ -48,7 +48,7 @@ glm::dmat4 VertexTransform::matrix(std::size_t vertex) const {
 }
 
 bool VertexTransform::mirrors() const {
-  return moves() && glm::determinant(glm::dmat3(joints_.empty() ? to_world_ : joints_.front())) < 0.0;
+  return moves() && glm::determinant(glm::dmat3(joints_ == nullptr ? to_world_ : joints_->front())) < 0.0;
 }
 
 glm::vec3 VertexTransform::position(std::size_t vertex, const glm::vec3& value) const {

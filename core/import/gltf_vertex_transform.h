@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -16,7 +17,7 @@ class VertexTransform {
   explicit VertexTransform(const MeshPlacement* placement);
 
   [[nodiscard]] bool moves() const { return !is_identity_; }
-  [[nodiscard]] bool wants_joints() const { return !joints_.empty(); }
+  [[nodiscard]] bool wants_joints() const { return joints_ != nullptr; }
   /// One more set of four joints and weights a vertex (#V by 4 each). Joints out of range are left out.
   void add_joints(const std::vector<float>& joints, const std::vector<float>& weights);
   /// Whether it turns the surface inside out.
@@ -38,8 +39,8 @@ class VertexTransform {
 
   bool is_identity_ = true;
   glm::dmat4 to_world_{1.0};
-  std::vector<glm::dmat4> joints_;
-  std::vector<std::vector<Influence>> sets_;  ///< each #V by 4
+  std::shared_ptr<const std::vector<glm::dmat4>> joints_;  ///< null: to_world_ moves all
+  std::vector<std::vector<Influence>> sets_;               ///< each #V by 4
 };
 
 }  // namespace semblante::import

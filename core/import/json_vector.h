@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/import/json.h"
+#include "core/json/json_cursor.h"
 
 namespace semblante::import {
 

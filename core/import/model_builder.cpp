@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/import/text.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {

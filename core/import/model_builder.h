@@ -25,7 +25,7 @@ class ModelBuilder {
 
   Model model;
 
-  /// Triangles added from now on belong to a primitive of this name (printable(), see text.h) and material (-1: none).
+  /// Triangles added from now on belong to a primitive of this name (printable()) and material (-1: none).
   void begin_primitive(const std::string& name, int material);
   void add_triangle(const Corner& a, const Corner& b, const Corner& c);
   void warn(std::string message);

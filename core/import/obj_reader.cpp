@@ -10,6 +10,7 @@
 #include "core/import/obj_materials.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {

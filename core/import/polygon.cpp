@@ -1,5 +1,6 @@
 #include "core/import/polygon.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <glm/geometric.hpp>
@@ -47,18 +48,26 @@ std::span<const std::array<std::uint32_t, 3>> Triangulator::split(std::span<cons
 }
 
 bool Triangulator::clip_ears(std::span<const glm::vec3> corners, const glm::dvec3& normal) {
+  std::uint64_t left = std::min<std::uint64_t>(tests_left_, tests_per_corner * corners.size());
+  tests_left_ -= left;
+  const bool is_whole = clip_ears(corners, normal, left);
+  tests_left_ += left;
+  return is_whole;
+}
+
+bool Triangulator::clip_ears(std::span<const glm::vec3> corners, const glm::dvec3& normal, std::uint64_t& left) {
   ring_.resize(corners.size());
   for (std::uint32_t i = 0; i < ring_.size(); ++i) ring_[i] = i;
   while (ring_.size() > 3) {
     bool clipped = false;
     for (std::size_t i = 0; i < ring_.size() && !clipped; ++i) {
-      if (tests_left_ <= ring_.size()) return false;
-      --tests_left_;
+      if (left <= ring_.size()) return false;
+      --left;
       const std::uint32_t before = ring_[(i + ring_.size() - 1) % ring_.size()];
       const std::uint32_t tip = ring_[i];
       const std::uint32_t after = ring_[(i + 1) % ring_.size()];
       if (glm::dot(area_vector(corners[before], corners[tip], corners[after]), normal) <= 0.0) continue;
-      tests_left_ -= ring_.size();
+      left -= ring_.size();
       bool empty = true;
       for (const std::uint32_t other : ring_) {
         if (other == before || other == tip || other == after) continue;

@@ -19,11 +19,15 @@ class Triangulator {
   std::span<const std::array<std::uint32_t, 3>> split(std::span<const glm::vec3> corners);
 
  private:
+  /// False when there is no ear left, or the work would be too much.
   bool clip_ears(std::span<const glm::vec3> corners, const glm::dvec3& normal);
+  bool clip_ears(std::span<const glm::vec3> corners, const glm::dvec3& normal, std::uint64_t& left);
 
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> ring_;
-  /// Ear clipping is cubic at worst. A file may spend this much on it in all; what is left over gets fans.
+  /// Ear clipping is cubic at worst. A polygon may spend 1000 tests a corner on it, enough for any of 1000 corners that
+  /// can be clipped by its square, and a file 200 million in all; what would take more gets a fan.
+  static constexpr std::uint64_t tests_per_corner = 1000;
   std::uint64_t tests_left_ = 200'000'000;
 };
 

@@ -7,6 +7,8 @@
 #include "core/import/byte_reader.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/types/printable.h"
+#include "core/types/seeded_hash.h"
 
 namespace semblante::import {
 namespace {
@@ -30,12 +32,8 @@ class Welder {
  private:
   struct Hash {
     std::size_t operator()(const glm::vec3& p) const {
-      std::uint64_t hash = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        hash = (hash ^ std::bit_cast<std::uint32_t>(p[axis])) * 0x9E3779B97F4A7C15U;
-        hash ^= hash >> 29U;
-      }
-      return hash;
+      return SeededHash::of(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                            std::bit_cast<std::uint32_t>(p.z));
     }
   };
   std::vector<glm::vec3>& positions_;

@@ -23,10 +23,6 @@ std::string_view next_token(std::string_view& rest);
 /// "'abc'", made safe to show: cut at 40 characters, control characters and bytes above 126 as '?'.
 std::string shown(std::string_view token);
 
-/// A name out of a file, made safe to pass on: valid UTF-8 (other bytes become '?'), no control characters, at most 200
-/// bytes.
-std::string printable(std::string_view name);
-
 /// Lines with LF, CRLF or CR ends, numbered from 1.
 class LineReader {
  public:

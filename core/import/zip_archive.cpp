@@ -3,6 +3,7 @@
 #include <zip.h>
 
 #include "core/import/text.h"
+#include "core/types/printable.h"
 
 namespace semblante::import {
 namespace {

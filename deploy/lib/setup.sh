@@ -95,21 +95,21 @@ compile() {
 # stamp_of FILES...: a fingerprint of the contents of files and folders.
 stamp_of() { find "$@" -type f -not -path '*/node_modules/*' -not -path '*/dist/*' -print0 | sort -z | xargs -0 sha256sum | sha256sum; }
 
-# install_web_packages: the studio's npm packages, when their list changed.
-install_web_packages() {
-  local stamp
-  stamp=$(stamp_of "$root/web/package-lock.json")
-  if [ "$(cat "$root/web/node_modules/.stamp" 2>/dev/null)" != "$stamp" ]; then
-    say "Installing the studio's npm packages"
-    (cd "$root/web" && npm ci --no-audit --no-fund --loglevel=error) || fail "npm ci failed: is the npm registry reachable?"
-    printf '%s' "$stamp" >"$root/web/node_modules/.stamp"
+# install_npm_packages FOLDER WHAT: the npm packages of a folder (from the repository's root), when their list changed.
+install_npm_packages() {
+  local folder=$root/$1 stamp
+  stamp=$(stamp_of "$folder/package-lock.json")
+  if [ "$(cat "$folder/node_modules/.stamp" 2>/dev/null)" != "$stamp" ]; then
+    say "Installing the npm packages of $2"
+    (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error) || fail "npm ci failed: is the npm registry reachable?"
+    printf '%s' "$stamp" >"$folder/node_modules/.stamp"
   fi
 }
 
 # build_web DIR: the studio's static files into web/dist, when their sources changed. DIR holds wasm/.
 build_web() {
   local build=$1 stamp
-  install_web_packages
+  install_npm_packages web "the studio"
   stamp=$(stamp_of "$root/web" "$root/protocol/ts" "$root/clients/js" "$build/wasm")
   if [ "$(cat "$root/web/dist/.stamp" 2>/dev/null)" != "$stamp" ]; then
     say "Building the studio"

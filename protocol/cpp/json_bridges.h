@@ -1,12 +1,10 @@
 #pragma once
 
-// For .cpp files only, as json_cursor.h.
-
 #include <cstddef>
 #include <optional>
 
+#include "core/json/json_cursor.h"
 #include "core/kernel/semblante_kernel.h"
-#include "protocol/cpp/json_cursor.h"
 
 namespace semblante {
 

@@ -1,14 +1,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
-#include "protocol/cpp/json_cursor.h"
 #include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 namespace {
+
+/// A frame has 160 values at most: FAPs, ARKit's coefficients and Oculus's weights at once.
+constexpr std::size_t max_message_values = 200'000;
+static_assert(max_message_values > 160 * max_frames_per_message);
+constexpr JsonLimits message_limits = {
+    .max_bytes = max_json_message_bytes, .max_depth = 64, .max_values = max_message_values};
 
 std::uint8_t small(const JsonCursor& at, std::uint8_t most) { return static_cast<std::uint8_t>(at.integer(0, most)); }
 
@@ -83,26 +92,24 @@ FaceValues read_values(const JsonCursor& at) {
   return read_state_of<FaceValues>(at, set, clamped);
 }
 
-/// `read(element)` reads the state of each frame.
-template <class Timed, class Read>
-std::vector<Timed> read_timed(const JsonCursor& at, std::size_t most, const Read& read) {
-  std::vector<Timed> frames;
-  std::uint32_t time = 0;
-  for (const auto& element : at.elements(1, most)) {
-    if (const auto given = element.optional_member("time")) {
-      const auto own = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
-      if (own < time) given->fail(ErrorCode::out_of_range, "times must not fall");
-      time = own;
-    }
-    frames.push_back({time, read(element)});
-    if (at.failed()) break;
-  }
-  return frames;
+/// The time of a frame; `before`, that of the one before it, where it has none of its own.
+std::uint32_t read_time(const JsonCursor& frame, std::uint32_t before) {
+  const auto given = frame.optional_member("time");
+  if (!given) return before;
+  const auto time = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
+  if (time < before) given->fail(ErrorCode::out_of_range, "times must not fall");
+  return time;
 }
 
 std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& steps, std::size_t& clamped) {
-  return read_timed<TimedFrame>(at, max_frames_per_message,
-                                [&](const JsonCursor& element) { return read_frame(element, steps, clamped); });
+  std::vector<TimedFrame> frames;
+  std::uint32_t time = 0;
+  for (const auto& element : at.elements(1, max_frames_per_message)) {
+    time = read_time(element, time);
+    frames.push_back({time, read_frame(element, steps, clamped)});
+    if (at.failed()) break;
+  }
+  return frames;
 }
 
 class FieldReader {
@@ -184,31 +191,45 @@ Message read_by_name(const JsonCursor& root, const QuantizerSteps& steps, const 
 }  // namespace
 
 Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) {
-  const auto tree = parse_json_object(text, max_json_message_bytes);
+  const auto tree = read_json_object(text, message_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
-  Message message = read_by_name(JsonCursor(*tree, "", report), steps, static_cast<const Message*>(nullptr));
+  Message message = read_by_name(JsonCursor(*tree, report), steps, static_cast<const Message*>(nullptr));
   if (report) return *report;
   return message;
 }
 
 Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const QuantizerSteps& steps,
                                                    std::size_t* clamped) {
-  const auto tree = parse_json_object(text, max_json_message_bytes);
+  const auto tree = read_json_object(text, message_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   std::size_t bridged = 0;
-  auto frames = read_frames(JsonCursor(*tree, "", report).member("frames"), steps, bridged);
+  auto frames = read_frames(JsonCursor(*tree, report).member("frames"), steps, bridged);
   if (report) return *report;
   if (clamped != nullptr) *clamped = bridged;
   return frames;
 }
 
 Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits) {
-  const auto tree = parse_json_object(text, limits.bytes);
+  // Frame by frame, since the document of a long file would take ten times its bytes.
+  std::vector<TimedValues> frames;
+  const auto take = [&](std::size_t index, const nlohmann::json& frame) -> Status {
+    if (index == limits.frames)
+      return Error{ErrorCode::too_large, "/frames", "has more than " + std::to_string(limits.frames) + " elements"};
+    JsonCursor::Report report;
+    const JsonCursor at(frame, "/frames/" + std::to_string(index), report);
+    const std::uint32_t time = read_time(at, frames.empty() ? 0 : frames.back().time);
+    frames.push_back({time, read_values(at)});
+    if (report) return *report;
+    return Unit{};
+  };
+  const auto tree = read_json_object(
+      text, {.max_bytes = limits.bytes, .max_depth = 64, .max_values = max_message_values}, {"frames", take});
   if (!tree) return tree.error();
   JsonCursor::Report report;
-  auto frames = read_timed<TimedValues>(JsonCursor(*tree, "", report).member("frames"), limits.frames, read_values);
+  const JsonCursor list = JsonCursor(*tree, report).member("frames");
+  if (frames.empty()) (void)list.elements(1, limits.frames);
   if (report) return *report;
   return frames;
 }

@@ -1,21 +1,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 #include "core/tables/mpeg4.h"
-#include "protocol/cpp/json_cursor.h"
 #include "protocol/cpp/performance_document.h"
 
 namespace semblante {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t max_text_bytes = 1000;
-constexpr std::size_t max_name_bytes = 64;
-constexpr std::size_t max_depth = 5;  // document, cues, cue, keys, key
 
 // ---- one cue
 
@@ -200,176 +198,55 @@ IdleLife read_idle(const JsonCursor& at) {
 
 // ---- the document
 
-/// Builds the members of the document one by one, and of "cues" element by element, so that no more of the tree is ever
-/// in memory than one cue and what is kept of those before.
-class DocumentReader : public nlohmann::json_sax<json> {
- public:
-  bool null() override { return take(json(nullptr)); }
-  bool boolean(bool value) override { return take(json(value)); }
-  bool number_integer(number_integer_t value) override { return take(json(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return take(json(value)); }
-  bool number_float(number_float_t value, const string_t& /*text*/) override { return take(json(value)); }
-  bool string(string_t& value) override { return take(json(std::move(value))); }
-  bool binary(binary_t& /*value*/) override { return fail(ErrorCode::malformed, pointer(), "is not JSON"); }
+/// All but the cues.
+void read_members(const JsonCursor& root, PerformanceScript& script) {
+  refuse_unknown(root, {"format", "version", "name", "note", "duration", "idle", "cues"});
+  if (const auto format = root.member("format"); format.text(64) != performance_format)
+    format.fail(ErrorCode::unsupported, "must be \"" + std::string(performance_format) + "\"");
+  const auto version = root.member("version");
+  if (version.number() != performance_version)
+    version.fail(ErrorCode::unsupported, "this reader knows version " + std::to_string(performance_version));
+  if (const auto name = root.optional_member("name")) script.name = name->text(max_text_bytes);
+  if (const auto note = root.optional_member("note")) (void)note->text(max_text_bytes);
+  script.duration = optional_number(root, "duration");
+  if (const auto idle = root.optional_member("idle")) script.idle = read_idle(*idle);
+  if (const auto cues = root.optional_member("cues")) {
+    (void)cues->size();  // must be an array; it is empty, for its elements were taken one by one
+  } else if (!script.idle) {
+    root.member("cues").fail(ErrorCode::missing, "is required where there is no idle life");
+  }
+}
 
-  bool key(string_t& name) override {
-    if (name.size() > max_name_bytes) return fail(ErrorCode::too_large, pointer(), "has a member of too long a name");
-    if (open_.empty()) {
-      member_ = name;
-      if (!members_seen_.insert(name).second) return fail(ErrorCode::malformed, pointer(), "is there twice");
-      if (members_seen_.size() > most_members)
-        return fail(ErrorCode::too_large, "", "has more members than it can have");
-      return true;
-    }
-    key_ = name;
-    if (open_.back()->contains(name))
-      return fail(ErrorCode::malformed, pointer() + "/" + JsonCursor::escaped(name), "is there twice");
-    return true;
-  }
-  bool start_object(std::size_t /*size*/) override { return start(json::object()); }
-  bool start_array(std::size_t /*size*/) override { return start(json::array()); }
-  bool end_object() override { return end(); }
-  bool end_array() override { return end(); }
-
-  bool parse_error(std::size_t position, const std::string& /*token*/, const json::exception& error) override {
-    // 4xx are numbers too large to be one, everything else is no JSON.
-    if (error.id / 100 == 4) return fail(ErrorCode::not_finite, pointer(), "a number too large to be one");
-    return fail(ErrorCode::malformed, pointer(), "not JSON from byte " + std::to_string(position));
-  }
-
-  Result<PerformanceScript> finish() {
-    if (!fault_) read_members();
-    if (fault_) return *fault_;
-    return std::move(script_);
-  }
-
- private:
-  bool fail(ErrorCode code, std::string where, std::string message) {
-    if (!fault_) fault_ = Error{code, std::move(where), std::move(message)};
-    return false;
-  }
-  [[nodiscard]] bool in_cues() const { return in_cues_; }
-  [[nodiscard]] std::string pointer() const {
-    if (depth_ == 0 || member_.empty()) return "";
-    std::string text = "/" + JsonCursor::escaped(member_);
-    if (in_cues_) text += "/" + std::to_string(script_.cues.size());
-    return text;
-  }
-
-  bool start(json value) {
-    if (++depth_ > max_depth) return fail(ErrorCode::too_large, pointer(), "is nested too deep");
-    if (depth_ == 1) {
-      if (!value.is_object()) return fail(ErrorCode::malformed, "", "must be an object, not an array");
-      return true;
-    }
-    if (depth_ == 2 && member_ == "cues") {
-      if (!value.is_array()) return fail(ErrorCode::malformed, "/cues", "must be an array, not an object");
-      in_cues_ = true;
-      return true;
-    }
-    if (!open_.empty() && !count()) return false;
-    open_.push_back(open_.empty() ? (unit_ = std::move(value), &unit_) : put(std::move(value)));
-    return true;
-  }
-  /// One more value of the unit; lists and objects are values too, since an empty one takes memory as well.
-  bool count() {
-    return ++values_ <= most_values || fail(ErrorCode::too_large, pointer(), "has more values than anything here");
-  }
-  json* put(json value) {
-    json& parent = *open_.back();
-    if (parent.is_array()) return &parent.emplace_back(std::move(value));
-    return &(parent[key_] = std::move(value));
-  }
-  bool take(json value) {
-    if (depth_ == 0) return fail(ErrorCode::malformed, "", "must be an object, not " + std::string(value.type_name()));
-    if (!open_.empty()) {
-      if (!count()) return false;
-      put(std::move(value));
-      return true;
-    }
-    unit_ = std::move(value);
-    return complete();
-  }
-  bool end() {
-    --depth_;
-    if (!open_.empty()) {
-      open_.pop_back();
-      return !open_.empty() || complete();
-    }
-    in_cues_ = false;  // of the cues, or of the document
-    return true;
-  }
-
-  /// A member of the document, or a cue, stands in unit_.
-  bool complete() {
-    values_ = 0;
-    if (!in_cues_) {
-      if (member_ == "cues") return fail(ErrorCode::malformed, "/cues", "must be an array");
-      members_[member_] = std::move(unit_);
-      return true;
-    }
-    const std::size_t number = script_.cues.size();
-    if (number == max_performance_cues)
-      return fail(ErrorCode::too_large, "/cues",
-                  "a performance has at most " + std::to_string(max_performance_cues) + " cues");
-    JsonCursor::Report report;
-    Cue cue = read_cue(JsonCursor(unit_, "/cues/" + std::to_string(number), report));
-    keys_ += cue.keys.size();
-    if (!report && keys_ > max_performance_keys)
-      report = Error{ErrorCode::too_large, pointer() + "/keys",
-                     "more than " + std::to_string(max_performance_keys) + " keys in all"};
-    if (report) {
-      fault_ = std::move(report);
-      return false;
-    }
-    script_.cues.push_back(std::move(cue));
-    return true;
-  }
-
-  void read_members() {
-    JsonCursor::Report report;
-    const JsonCursor root(members_, "", report);
-    refuse_unknown(root, {"format", "version", "name", "note", "duration", "idle"});
-    if (const auto format = root.member("format"); format.text(64) != performance_format)
-      format.fail(ErrorCode::unsupported, "must be \"" + std::string(performance_format) + "\"");
-    const auto version = root.member("version");
-    if (version.number() != performance_version)
-      version.fail(ErrorCode::unsupported, "this reader knows version " + std::to_string(performance_version));
-    if (const auto name = root.optional_member("name")) script_.name = name->text(max_text_bytes);
-    if (const auto note = root.optional_member("note")) (void)note->text(max_text_bytes);
-    script_.duration = optional_number(root, "duration");
-    if (const auto idle = root.optional_member("idle")) script_.idle = read_idle(*idle);
-    if (!members_seen_.contains("cues") && !script_.idle && !report)
-      report = Error{ErrorCode::missing, "/cues", "is required where there is no idle life"};
-    if (report) fault_ = std::move(report);
-  }
-
-  static constexpr std::size_t most_values = 4 * max_performance_keys;  ///< a key is a list of two numbers
-  static constexpr std::size_t most_members = 64;
-
-  PerformanceScript script_;
-  json members_ = json::object();       ///< all but the cues
-  std::set<std::string> members_seen_;  ///< "cues" too
-  std::string member_;                  ///< of the document, being read
-  bool in_cues_ = false;
-  std::size_t depth_ = 0;
-  json unit_;                ///< the member or the cue that is being built
-  std::vector<json*> open_;  ///< its objects and arrays that are not closed yet
-  std::string key_;
-  std::size_t values_ = 0;  ///< of the unit
-  std::size_t keys_ = 0;    ///< of all cues
-  std::optional<Error> fault_;
-};
+/// A key is a list of two numbers; "cues" may have one cue that holds all keys there may be.
+constexpr JsonLimits limits = {
+    .max_bytes = max_performance_bytes, .max_depth = 5, .max_values = 4 * max_performance_keys};
 
 }  // namespace
 
 Result<PerformanceScript> read_performance(std::string_view text) {
-  if (text.size() > max_performance_bytes)
-    return Error{ErrorCode::too_large, "",
-                 "a performance document has at most " + std::to_string(max_performance_bytes) + " bytes"};
-  DocumentReader reader;
-  (void)json::sax_parse(text.begin(), text.end(), &reader);
-  return reader.finish();
+  PerformanceScript script;
+  std::size_t keys = 0;
+  const auto take = [&](std::size_t index, const nlohmann::json& element) -> Status {
+    if (index == max_performance_cues)
+      return Error{ErrorCode::too_large, "/cues",
+                   "a performance has at most " + std::to_string(max_performance_cues) + " cues"};
+    JsonCursor::Report report;
+    const JsonCursor at(element, "/cues/" + std::to_string(index), report);
+    Cue cue = read_cue(at);
+    keys += cue.keys.size();
+    if (!report && keys > max_performance_keys)
+      at.member("keys").fail(ErrorCode::too_large,
+                             "more than " + std::to_string(max_performance_keys) + " keys in all");
+    if (report) return *report;
+    script.cues.push_back(std::move(cue));
+    return Unit{};
+  };
+  const auto tree = read_json_object(text, limits, {"cues", take});
+  if (!tree) return tree.error();
+  JsonCursor::Report report;
+  read_members(JsonCursor(*tree, report), script);
+  if (report) return *report;
+  return script;
 }
 
 }  // namespace semblante

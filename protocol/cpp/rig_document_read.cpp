@@ -3,8 +3,10 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
-#include "protocol/cpp/json_cursor.h"
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/cpp/weights_layout.h"
@@ -12,7 +14,8 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t max_rig_bytes = 16U << 20U;
+/// The longest list has 100,000 parts of a dozen values each.
+constexpr JsonLimits rig_limits = {.max_bytes = 16U << 20U, .max_depth = 64, .max_values = 2'000'000};
 constexpr std::size_t max_text_bytes = 4096;
 constexpr std::size_t max_list = 100'000;  // parts, materials, warnings: a hostile file ends somewhere
 constexpr std::uint64_t max_u32 = std::numeric_limits<std::uint32_t>::max();
@@ -183,10 +186,10 @@ RigDocument::ImageInfo image(const JsonCursor& at) {
 }  // namespace
 
 Result<RigDocument> read_rig(std::string_view text) {
-  const auto tree = parse_json_object(text, max_rig_bytes);
+  const auto tree = read_json_object(text, rig_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
-  const JsonCursor root(*tree, "", report);
+  const JsonCursor root(*tree, report);
 
   RigDocument rig;
   if (root.member("format").text(max_text_bytes) != "semblante.rig") {

@@ -92,6 +92,7 @@ std::size_t kind_of(const ApiConfig& config, const http::Request& head) {
 
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
+  context_.idempotency_keys = std::make_shared<KeyLocks>();
 }
 
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
@@ -133,7 +134,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
   const auto& limits = context_.config.limits;
   switch (route->body) {
     case BodyKind::none:
-      return http::BodyPlan{limits.max_json_bytes, false, false};
+      return http::BodyPlan{limits.max_json_bytes, false, false, route->runs == Runs::at_once};
     case BodyKind::json:
     case BodyKind::merge:
       return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};

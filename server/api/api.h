@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/api/access.h"
+#include "server/api/key_locks.h"
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
 #include "server/metrics/request_counts.h"
@@ -16,6 +17,7 @@
 #include "server/store/blob_store.h"
 #include "server/store/pending_writes.h"
 #include "server/store/store.h"
+#include "server/store/trash.h"
 #include "server/streams/stream_hub.h"
 
 namespace semblante::api {
@@ -48,7 +50,9 @@ struct Context {
   ApiConfig config;
   NetMetrics net_metrics;
   std::shared_ptr<recordings::Recorder> recorder = nullptr;
+  std::shared_ptr<const store::Trash> trash = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
+  std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The

@@ -5,7 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/import/json.h"
+#include "core/json/json_pointer.h"
+#include "core/json/read_json.h"
 #include "server/hash/sha256.h"
 #include "server/http/conditional.h"
 
@@ -14,7 +15,13 @@ namespace {
 
 constexpr std::size_t default_page = 50;
 constexpr std::size_t max_page = 200;
+/// A body is to take no more than some 20 MB of memory; a marked head has a few thousand values.
+constexpr std::size_t max_body_values = 200'000;
 constexpr std::size_t max_file_name_bytes = 200;
+/// A request waits for the one that has its key on a worker thread. The body of either is there already, so the wait is
+/// for one creation, which waits for the disk and for no client: milliseconds, seconds for the largest model. The bound
+/// is for a disk that hangs.
+constexpr std::chrono::seconds longest_key_wait{10};
 
 }  // namespace
 
@@ -33,23 +40,22 @@ store::ModelRecord model_of(Context& context, const http::Request& request) {
   return std::move(*model);
 }
 
-Json body_object(const http::Request& request) {
-  if (request.body.empty()) return Json::object();
-  const auto json = import::parse_json(request.body, {.max_depth = 64, .max_values = 500'000});
+JsonBody body_object(const http::Request& request) {
+  if (request.body.empty()) return JsonBody::object();
+  auto json = read_json(request.body, {.max_bytes = 1U << 20U, .max_depth = 64, .max_values = max_body_values});
   if (!json) {
     const auto& [code, where, message] = json.error();
-    refuse("malformed-request", "the body cannot be read: " + (where.empty() ? "" : where + ": ") + message,
-           where.starts_with('/') ? where : "");
+    refuse("malformed-request", "the body cannot be read: " + (where.empty() ? "" : where + ": ") + message, where);
   }
   if (!json->is_object()) refuse("invalid-field", "the body must be a JSON object");
-  return *json;
+  return *std::move(json);
 }
 
-void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known) {
+void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known) {
   for (const auto& [name, value] : object.items())
     if (std::find(known.begin(), known.end(), name) == known.end())
       refuse("invalid-field", "there is no field \"" + name + "\" here",
-             std::string("/").append(http::pointer_segment(name)));
+             std::string("/").append(pointer_segment(name)));
 }
 
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer) {
@@ -60,7 +66,7 @@ std::string checked_text(std::string_view value, std::size_t max, const std::str
   return std::string(value);
 }
 
-std::string checked_text(const Json& value, std::size_t max, const std::string& pointer) {
+std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer) {
   if (!value.is_string()) refuse("invalid-field", "it must be a text", pointer);
   return checked_text(std::string_view(value.get_ref<const std::string&>()), max, pointer);
 }
@@ -79,11 +85,13 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   for (const auto& [name, value] : request.query) whole.append("&").append(name).append("=").append(value);
   whole.append("\n").append(body_hash);
   store::IdempotencyRecord record{std::string(*key), sha256_hex(whole), {}};
+  auto held = context.idempotency_keys->acquire(*key, longest_key_wait);
+  if (!held) refuse_for_now("another request with this Idempotency-Key is still being served", 1);
   const auto earlier = context.store.idempotency(*key);
-  if (!earlier) return {std::move(record), std::nullopt};
+  if (!earlier) return {std::move(record), std::nullopt, std::move(held)};
   if (earlier->fingerprint != record.fingerprint)
     refuse("idempotency-key-reused", "this key came with another request before");
-  return {std::nullopt, earlier->resource};
+  return {std::nullopt, earlier->resource, std::move(held)};
 }
 
 std::size_t page_size(const http::Request& request) {

@@ -25,23 +25,25 @@ store::ModelRecord model_of(Context& context, const http::Request& request);
 
 /// The body as a JSON object; an absent body is an empty object. Refuses with 400 (`malformed-request`, with the byte,
 /// or with the pointer of a member named twice) or 422 when it is no object.
-Json body_object(const http::Request& request);
+JsonBody body_object(const http::Request& request);
 
 /// Refuses members of `object` that are none of `known`, by pointer.
-void refuse_unknown_members(const Json& object, std::initializer_list<std::string_view> known);
+void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known);
 
 /// A string of 1..max bytes without control characters; `pointer` is where it was.
-std::string checked_text(const Json& value, std::size_t max, const std::string& pointer);
+std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer);
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer);
 
 /// Refuses with 412 when the request's If-Match does not name the tag.
 void check_if_match(const http::Request& request, const std::string& etag);
 
 /// The request's Idempotency-Key. `earlier`: what it made the first time. Refuses a key that is too long, or was used
-/// for a different request.
+/// for a different request. Of requests with one key at the same moment one at a time gets past this: the handler
+/// keeps the check until it has created or failed, and the next one sees what became of it.
 struct IdempotencyCheck {
   std::optional<store::IdempotencyRecord> record;  ///< to be stored with what is made; `resource` to be filled in
   std::optional<std::string> earlier;
+  std::optional<KeyLocks::Held> held;
 };
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash);
 

@@ -103,7 +103,7 @@ NamedSet set_from_body(const http::Request& request) {
   const auto body = body_object(request);
   refuse_unknown_members(
       body, {"name", "kind", "displacements", "id", "built_in", "revision", "created", "updated", "source", "href"});
-  checked_text(body.value("name", Json(nullptr)), 200, "/name");
+  checked_text(body.value("name", JsonBody(nullptr)), 200, "/name");
   auto set = parse_displacement_set(request.body);
   if (!set) refuse("invalid-field", set.error().message, set.error().where);
   return std::move(*set);

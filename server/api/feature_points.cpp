@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_pointer.h"
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
@@ -19,14 +20,14 @@ namespace {
 constexpr std::size_t max_faults = 32;
 
 template <std::size_t N>
-bool is_one_of(const Json& value, const std::array<std::string_view, N>& names) {
+bool is_one_of(const JsonBody& value, const std::array<std::string_view, N>& names) {
   return value.is_string() && std::find(names.begin(), names.end(), value.get<std::string>()) != names.end();
 }
 
 /// Reads one entry of "points"; what is wrong with it goes to `faults`.
-std::optional<store::FeaturePointRecord> read_point(const std::string& id, const Json& value, std::uint32_t vertices,
-                                                    std::vector<http::Fault>& faults) {
-  const auto at = std::string("/points/").append(http::pointer_segment(id));
+std::optional<store::FeaturePointRecord> read_point(const std::string& id, const JsonBody& value,
+                                                    std::uint32_t vertices, std::vector<http::Fault>& faults) {
+  const auto at = std::string("/points/").append(pointer_segment(id));
   const auto fault = [&](const std::string& where, std::string detail) {
     faults.push_back({at + where, std::move(detail)});
     return std::nullopt;
@@ -80,7 +81,7 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
   return point;
 }
 
-std::vector<store::FeaturePointRecord> read_points(const Json& body, std::uint32_t vertices) {
+std::vector<store::FeaturePointRecord> read_points(const JsonBody& body, std::uint32_t vertices) {
   if (!body.contains("points")) refuse("invalid-field", "the field \"points\" is missing", "/points");
   if (!body["points"].is_object()) refuse("invalid-field", "it must be an object", "/points");
   std::vector<http::Fault> faults;
@@ -101,8 +102,8 @@ std::vector<store::FeaturePointRecord> read_points(const Json& body, std::uint32
 
 /// A file of feature points may say how its model stands and how it counts. The server reads models as they stand: what
 /// it would have to turn it refuses, instead of making a face that is wrong without a sign.
-void refuse_other_frames(const Json& body) {
-  static const Json identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+void refuse_other_frames(const JsonBody& body) {
+  static const JsonBody identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   if (body.contains("to_mpeg4_axes") && !body["to_mpeg4_axes"].is_null() && body["to_mpeg4_axes"] != identity)
     refuse("invalid-field",
            "only models that stand in MPEG-4's axes are taken: +X to the face's left, +Y up, +Z out of it",

@@ -14,7 +14,7 @@ namespace semblante::api {
 namespace {
 
 /// Budgets of levels of detail: a list, or "auto" for those worth having for a model of that many vertices.
-std::vector<std::uint32_t> read_budgets(const Json& lods, std::uint32_t vertices) {
+std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vertices) {
   if (lods == "auto") return default_budgets(vertices);
   if (!lods.is_array() || lods.size() > max_levels)
     refuse("invalid-field",
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> read_budgets(const Json& lods, std::uint32_t vertices
   return budgets;
 }
 
-ParametrizationOptions read_options(const Json& body, std::uint32_t vertices) {
+ParametrizationOptions read_options(const JsonBody& body, std::uint32_t vertices) {
   refuse_unknown_members(body, {"metric", "weights", "weight_bits", "lods"});
   ParametrizationOptions options;
   if (body.contains("metric")) {

@@ -107,6 +107,12 @@ void write_recordings(TextWriter& writer, const recordings::RecorderCounts& coun
                 "Recordings that ended because they could not be written.", counts.failed);
 }
 
+void write_trash(TextWriter& writer, const store::Trash::Counts& counts) {
+  writer.single("semblante_trash_files", MetricType::gauge,
+                "Files the database did not know at a start, kept until their time of grace is over.", counts.files);
+  writer.single("semblante_trash_bytes", MetricType::gauge, "Size of these.", counts.bytes);
+}
+
 }  // namespace
 
 http::Response get_metrics(Context& context, http::Request&) {
@@ -120,6 +126,7 @@ http::Response get_metrics(Context& context, http::Request&) {
   write_jobs(writer, context.jobs);
   write_streams(writer, context.hub);
   if (context.recorder) write_recordings(writer, context.recorder->counts());
+  if (context.trash) write_trash(writer, context.trash->counts());
   http::Response response;
   response.headers["Content-Type"] = "text/plain; version=0.0.4; charset=utf-8";
   response.headers["Cache-Control"] = "no-store";

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_pointer.h"
 #include "core/types/rig.h"
 #include "server/api/common.h"
 #include "server/api/new_model.h"
@@ -16,14 +17,14 @@ namespace {
 
 constexpr std::size_t max_name_bytes = 200;
 
-std::vector<store::RoleChange> role_changes(const Json& roles, std::size_t part_count) {
+std::vector<store::RoleChange> role_changes(const JsonBody& roles, std::size_t part_count) {
   if (!roles.is_object()) refuse("invalid-field", "roles is an object of part indices", "/roles");
   std::vector<store::RoleChange> changes;
   for (const auto& [key, value] : roles.items()) {
-    const auto pointer = std::string("/roles/").append(http::pointer_segment(key));
+    const auto pointer = std::string("/roles/").append(pointer_segment(key));
     std::uint32_t part = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), part);
-    if (error != std::errc() || end != key.data() + key.size() || part >= part_count)
+    if (error != std::errc() || end != key.data() + key.size() || part >= part_count || key != std::to_string(part))
       refuse("invalid-field", "the model has the parts 0 to " + std::to_string(part_count) + ", the last excluded",
              pointer);
     std::optional<std::string> role;
@@ -39,18 +40,18 @@ std::vector<store::RoleChange> role_changes(const Json& roles, std::size_t part_
 
 /// A member that may be said, taken back (null), or left as it is.
 template <class T, class Parse>
-void read_wish(const Json& frame, const char* key, const std::string& what, Parse parse, std::optional<T>& wish) {
+void read_wish(const JsonBody& frame, const char* key, const std::string& what, Parse parse, std::optional<T>& wish) {
   if (!frame.contains(key)) return;
-  const Json& value = frame[key];
+  const JsonBody& value = frame[key];
   wish = value.is_string() ? parse(value.get<std::string>()) : std::nullopt;
   if (!wish && !value.is_null()) refuse("invalid-field", "it must be " + what, std::string("/frame/") + key);
 }
 
-FrameWish frame_wish(const Json& frame, const FrameWish& before) {
+FrameWish frame_wish(const JsonBody& frame, const FrameWish& before) {
   if (!frame.is_object()) refuse("invalid-field", "frame is an object of unit, up and front", "/frame");
   for (const auto& [key, value] : frame.items())
     if (key != "unit" && key != "up" && key != "front")
-      refuse("invalid-field", "there is no field \"" + key + "\" in a frame", "/frame/" + http::pointer_segment(key));
+      refuse("invalid-field", "there is no field \"" + key + "\" in a frame", "/frame/" + pointer_segment(key));
   FrameWish wish = before;
   const std::string directions = "one of +X, -X, +Y, -Y, +Z and -Z, or null";
   read_wish(frame, "unit", "one of m, dm, cm, mm and in, or null", parse_length_unit, wish.unit);
@@ -64,7 +65,7 @@ FrameWish frame_wish(const Json& frame, const FrameWish& before) {
 
 /// What the user says of the frame. The unit alone is a word; axes turn everything, which is the work of an import.
 /// Gives that import, if one is needed.
-std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const Json& body) {
+std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const JsonBody& body) {
   const FrameWish wish = frame_wish(body, model.frame_wish);
   // An import that failed or was cancelled has left what was said undone: saying it again tries again.
   const auto last_import = context.store.latest_job(model.id, store::JobKind::import);

@@ -30,9 +30,9 @@ struct ExampleRequest {
   std::string_view expression, neutral;  ///< bytes of files; point into the request's body
 };
 
-double number_or(const Json& options, const char* key, double otherwise, double least, double most) {
+double number_or(const JsonBody& options, const char* key, double otherwise, double least, double most) {
   if (!options.contains(key)) return otherwise;
-  const Json& value = options[key];
+  const JsonBody& value = options[key];
   const double number = value.is_number() ? value.get<double>() : std::nan("");
   if (!(number >= least && number <= most))
     refuse("invalid-field", "it must be a number from " + Json(least).dump() + " to " + Json(most).dump(),
@@ -40,13 +40,13 @@ double number_or(const Json& options, const char* key, double otherwise, double 
   return number;
 }
 
-std::string text_or_empty(const Json& options, const char* key) {
+std::string text_or_empty(const JsonBody& options, const char* key) {
   if (!options.contains(key)) return {};
   return checked_text(options[key], max_name_bytes, std::string("/") + key);
 }
 
 /// The members that all sources have.
-ExampleRequest read_options(const Json& options) {
+ExampleRequest read_options(const JsonBody& options) {
   refuse_unknown_members(options, {"name", "kind", "model", "target", "from", "align", "least", "strength"});
   ExampleRequest example;
   example.wish.name = text_or_empty(options, "name");

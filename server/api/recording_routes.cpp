@@ -18,7 +18,7 @@ using recordings::RecordingStatus;
 
 constexpr std::size_t max_name_bytes = 200;
 
-std::optional<std::uint64_t> checked_duration(const Json& value) {
+std::optional<std::uint64_t> checked_duration(const JsonBody& value) {
   const double ms = value.is_number() ? value.get<double>() : 0.0;
   if (!(ms >= 1.0 && ms <= static_cast<double>(recordings::max_recording_ms)))
     refuse("invalid-field", "must be a number of milliseconds from 1 to 86400000", "/max_duration");

@@ -13,7 +13,10 @@
 // How records look to clients. nlohmann's types stay inside the sources of this folder.
 namespace semblante::api {
 
+/// What is answered: members in the order they are put in. Finding one takes time linear in their number.
 using Json = nlohmann::ordered_json;
+/// What came from outside: found by name in logarithmic time.
+using JsonBody = nlohmann::json;
 
 /// One of the four artefacts that a client fetches to animate a face.
 bool is_of_package(std::string_view name);

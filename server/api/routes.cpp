@@ -8,9 +8,9 @@ namespace {
 constexpr std::string_view json = "application/json";
 
 constexpr auto table = std::to_array<Route>({
-    {"GET", "/healthz", BodyKind::none, json, get_health},
+    {"GET", "/healthz", BodyKind::none, json, get_health, Runs::at_once},
     {"GET", "/readyz", BodyKind::none, json, get_ready},
-    {"GET", "/version", BodyKind::none, json, get_version},
+    {"GET", "/version", BodyKind::none, json, get_version, Runs::at_once},
     {"GET", "/metrics", BodyKind::none, "text/plain", get_metrics},
     {"GET", "/openapi.json", BodyKind::none, json, get_openapi},
     {"GET", "/problems/{slug}", BodyKind::none, json, get_problem},

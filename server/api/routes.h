@@ -21,6 +21,10 @@ enum class BodyKind {
   example,      ///< application/json, or multipart with files, to disk
 };
 
+/// Where a route is handled. `at_once`: on the connection's strand, so that it answers when every worker is busy; its
+/// handler must not wait for a lock, the disk or the store.
+enum class Runs { on_worker, at_once };
+
 using Handler = http::Response (*)(Context& context, http::Request& request);
 
 /// One operation. The table of these is what the server does, and openapi.json must list exactly it.
@@ -30,6 +34,7 @@ struct Route {
   BodyKind body;
   std::string_view produces;  ///< media type of the good answer; "" for none, "*/*" for what the artefact is
   Handler handler;
+  Runs runs = Runs::on_worker;
 };
 
 std::span<const Route> routes();

@@ -28,7 +28,7 @@ http::Response new_set_response(const store::SetRecord& set, int status);
 
 /// What a PATCH of a model says of its expressions: {"joy": "<id of a set>", "a": null}, null for the library's own.
 /// Refuses by pointer: a slot that is none (or at rest), a set that is not there, or one of the other kind.
-std::vector<store::WornSet> worn_from_json(Context& context, const Json& changes);
+std::vector<store::WornSet> worn_from_json(Context& context, const JsonBody& changes);
 
 /// The parametrization that makes a model's package again with the options it was made with, or those it is being made
 /// with; none where there is no package and none to come.

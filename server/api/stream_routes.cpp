@@ -17,7 +17,7 @@ constexpr int most_batch_interval = 1000;
 /// Seconds: in three there is room for the 1024 frames of the longest message.
 constexpr unsigned throttled_retry_after = 3;
 
-std::string checked_slug(const Json& value) {
+std::string checked_slug(const JsonBody& value) {
   auto slug = checked_text(value, max_slug_bytes, "/name");
   const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
   if (!std::all_of(slug.begin(), slug.end(), good) || slug.front() == '-')
@@ -25,13 +25,13 @@ std::string checked_slug(const Json& value) {
   return slug;
 }
 
-double checked_share(const Json& value) {
+double checked_share(const JsonBody& value) {
   const double share = value.is_number() ? value.get<double>() : -1.0;
   if (!(share >= 0.0 && share <= 1.0)) refuse("invalid-field", "must be a number from 0 to 1", "/viseme_share");
   return share;
 }
 
-std::uint32_t checked_interval(const Json& value) {
+std::uint32_t checked_interval(const JsonBody& value) {
   const double interval = value.is_number_integer() ? value.get<double>() : -1.0;
   if (!(interval >= 0.0 && interval <= most_batch_interval))
     refuse("invalid-field", "must be a whole number from 0 to " + std::to_string(most_batch_interval),
@@ -39,7 +39,7 @@ std::uint32_t checked_interval(const Json& value) {
   return static_cast<std::uint32_t>(interval);
 }
 
-double checked_scale(const Json& value) {
+double checked_scale(const JsonBody& value) {
   const double scale = value.is_number() ? value.get<double>() : 0.0;
   if (!is_quantizer_scale(scale)) refuse("invalid-field", "must be 1, 0.5, 0.25 or 0.125", "/quantizer_scale");
   return scale;
@@ -78,8 +78,8 @@ http::Response create_stream(Context& context, http::Request& request) {
   }
   if (body.contains("viseme_share") && !body["viseme_share"].is_null())
     info.viseme_share = checked_share(body["viseme_share"]);
-  info.batch_interval = checked_interval(body.value("batch_interval", Json(usual_batch_interval)));
-  info.quantizer_scale = checked_scale(body.value("quantizer_scale", Json(1.0)));
+  info.batch_interval = checked_interval(body.value("batch_interval", JsonBody(usual_batch_interval)));
+  info.quantizer_scale = checked_scale(body.value("quantizer_scale", JsonBody(1.0)));
   info.created = store::timestamp_now();
   info.source = "none";
 

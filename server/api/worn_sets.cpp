@@ -2,6 +2,7 @@
 
 #include "core/expressions/library.h"
 #include "core/extract/set_file.h"
+#include "core/json/json_pointer.h"
 #include "server/api/common.h"
 #include "server/api/sets.h"
 
@@ -16,8 +17,8 @@ std::optional<SetKind> kind_of_slot(std::string_view slot) {
   return built_in->kind;
 }
 
-store::WornSet worn_from_json(Context& context, const std::string& slot, const Json& value) {
-  const auto pointer = std::string("/expressions/").append(http::pointer_segment(slot));
+store::WornSet worn_from_json(Context& context, const std::string& slot, const JsonBody& value) {
+  const auto pointer = std::string("/expressions/").append(pointer_segment(slot));
   const auto kind = kind_of_slot(slot);
   if (!kind) refuse("invalid-field", "there is no viseme or expression of this name to replace", pointer);
   store::WornSet worn;
@@ -39,7 +40,7 @@ store::WornSet worn_from_json(Context& context, const std::string& slot, const J
 
 }  // namespace
 
-std::vector<store::WornSet> worn_from_json(Context& context, const Json& changes) {
+std::vector<store::WornSet> worn_from_json(Context& context, const JsonBody& changes) {
   if (!changes.is_object())
     refuse("invalid-field", "expressions is an object of visemes and expressions", "/expressions");
   std::vector<store::WornSet> worn;

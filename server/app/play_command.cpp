@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/face_formats.h"
@@ -24,6 +26,8 @@ using nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 constexpr std::chrono::milliseconds look_interval{250};
+constexpr JsonLimits answer_limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 100'000};
+constexpr std::size_t most_warnings = 1000;
 /// Between the last look and the end: what ended earlier than so many ms before its end was ended by somebody.
 constexpr double end_slack = 3000.0;
 
@@ -39,11 +43,13 @@ std::atomic<bool> interrupted{false};
 
 /// What the server says is wrong, in its own words.
 std::string reason_of(const net::ClientResponse& reply) {
-  const auto problem = json::parse(reply.body, nullptr, false);
+  const auto problem = read_json_object(reply.body, answer_limits);
   std::string text = std::to_string(reply.status);
-  if (!problem.is_object()) return text;
-  text = problem.value("detail", text);
-  if (const auto pointer = problem.value("pointer", ""); !pointer.empty()) text = pointer + ": " + text;
+  if (!problem) return text;
+  JsonCursor::Report report;
+  const JsonCursor root(*problem, report);
+  text = root.text_or("detail", text.c_str());
+  if (const auto pointer = root.text_or("pointer", ""); !pointer.empty()) text = pointer + ": " + text;
   return text;
 }
 
@@ -85,11 +91,7 @@ class Playing {
     if (reply.status != 202)
       refuse(options_.file + ": " + reason_of(reply) + (reply.status == 409 ? " (--take-over takes its place)" : ""));
     location_ = reply.location;
-    const auto status = json::parse(reply.body, nullptr, false);
-    note(status);
-    const auto warnings = status.value("warnings", json::array());
-    for (const auto& warning : warnings)
-      if (warning.is_string()) say(warning.get<std::string>());
+    for (const auto& warning : note(reply)) say(warning);
   }
 
   /// Until it has ended, or Ctrl-C stops it.
@@ -99,8 +101,7 @@ class Playing {
       const auto reply = ask("GET", location_);
       if (reply.status == 404) break;
       if (reply.status != 200) refuse(reason_of(reply));
-      const auto status = json::parse(reply.body, nullptr, false);
-      note(status);
+      (void)note(reply);
       if (shows) {
         std::cerr << "\r" << std::fixed << std::setprecision(1) << position_ / 1000.0 << " s";
         if (duration_ > 0.0) std::cerr << " of " << duration_ / 1000.0 << " s";
@@ -126,11 +127,16 @@ class Playing {
     if (!reply) fail("play: --server", reply.error());
     return *std::move(reply);
   }
-  void note(const json& status) {
-    if (!status.is_object()) refuse("the server's answer cannot be read");
-    position_ = status.value("position", 0.0);
-    const auto duration = status.value("duration", json());
-    duration_ = duration.is_number() ? duration.get<double>() : 0.0;
+  /// Keeps where the playing is; the warnings of the answer.
+  std::vector<std::string> note(const net::ClientResponse& reply) {
+    const auto status = read_json_object(reply.body, answer_limits);
+    if (!status) refuse("the server's answer cannot be read: " + status.error().message);
+    JsonCursor::Report report;
+    const JsonCursor root(*status, report);
+    position_ = root.number_or("position", 0.0);
+    duration_ = root.number_or("duration", 0.0);
+    if (report) refuse("the server's answer cannot be read: " + report->where + ": " + report->message);
+    return root.texts("warnings", most_warnings);
   }
   void say(const std::string& warning) const {
     if (!options_.quiet) std::cerr << "warning: " << warning << "\n";

@@ -5,22 +5,25 @@
 #include <fcntl.h>
 #include <iostream>
 #include <unistd.h>
-#include <unordered_set>
 
 #include <arpa/inet.h>
 #include <sys/file.h>
 
 #include "server/api/api.h"
 #include "server/app/command_failure.h"
+#include "server/app/data_folder.h"
 #include "server/app/open_files.h"
 #include "server/app/sample_installer.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
 #include "server/net/server.h"
 #include "server/store/sqlite_store.h"
+#include "server/store/trash_purger.h"
 
 namespace semblante {
 namespace {
+
+constexpr std::chrono::hours purge_interval{1};
 
 [[noreturn]] void fail_input(const std::string& message) {
   throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
@@ -149,10 +152,14 @@ void run_serve(const ServeOptions& options) {
   auto blobs = store::BlobStore::open(options.data);
   if (!blobs) fail("serve: --data", blobs.error());
   store::DiskReserve reserve(options.data / "reserve");
-  auto store = open_store(options.data / "semblante.sqlite", reserve);
-  const auto hashes = (*store)->referenced_hashes();
-  if (const auto swept = blobs->sweep({hashes.begin(), hashes.end()}); swept > 0)
-    log::info(std::to_string(swept) + " unused blobs removed");
+  const auto trash = std::make_shared<store::Trash>(options.data, std::chrono::seconds(options.trash_grace));
+  keep_log_of_lost_database(options.data, *trash);
+  auto store = open_store(options.data / store::database_file_name, reserve);
+  bring_files_in_line(options.data, **store, *trash);
+  const store::TrashPurger purger(*trash, purge_interval, [](const store::Trash::Counts& removed) {
+    log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
+              " bytes) removed from the trash: their time of grace is over");
+  });
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});
   make_folders(pending, *blobs, reserve);
@@ -168,7 +175,8 @@ void run_serve(const ServeOptions& options) {
   recorder_limits.max_bytes = options.max_recording_bytes;
   recorder_limits.max_total_bytes = options.max_recordings_bytes;
   recorder_limits.disk_reserve = options.disk_reserve;
-  auto recorder = recordings::Recorder::open(**store, pending, options.data / "recordings", recorder_limits);
+  auto recorder =
+      recordings::Recorder::open(**store, pending, options.data / store::recordings_folder_name, recorder_limits);
   if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
@@ -186,7 +194,7 @@ void run_serve(const ServeOptions& options) {
   api_config.access = {options.allowed_hosts, options.allowed_origins};
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
-  api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder});
+  api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder, trash});
 
   net::ServerConfig net_config;
   net_config.address = address;

@@ -25,7 +25,8 @@ struct ServeOptions {
   std::uint64_t max_recording_bytes = std::uint64_t{256} << 20U;
   std::uint64_t max_recordings_bytes = std::uint64_t{16} << 30U;
   std::uint64_t disk_reserve = std::uint64_t{256} << 20U;
-  std::uint64_t max_connections = 0;  ///< 0: what the process may open, but for a reserve
+  std::uint64_t trash_grace = std::uint64_t{7} * 24 * 60 * 60;  ///< seconds
+  std::uint64_t max_connections = 0;                            ///< 0: what the process may open, but for a reserve
   std::uint64_t max_stream_connections = 16384;
   std::uint64_t worker_memory = std::uint64_t{4} << 30U;
   std::uint64_t worker_cpu_seconds = 300;

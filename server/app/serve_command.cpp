@@ -1,3 +1,4 @@
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -50,6 +51,14 @@ void add_serve_command(CLI::App& app) {
   add_size("--max-recordings-bytes", options->max_recordings_bytes, "Size of all recordings at which none goes on",
            "MAX_RECORDINGS_BYTES");
   add_size("--disk-reserve", options->disk_reserve, "Free bytes of the disk that recordings leave", "DISK_RESERVE");
+  const std::map<std::string, std::uint64_t> time_units = {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
+  constexpr std::uint64_t max_grace = std::uint64_t{10} * 365 * 86400;
+  add("--trash-grace", options->trash_grace,
+      "How long files that the database does not know stay in the data folder's trash, seconds (or 36h, 7d); 0: until "
+      "the next start",
+      "TRASH_GRACE")
+      ->transform(CLI::AsNumberWithUnit(time_units, CLI::AsNumberWithUnit::DEFAULT, "TIME"))
+      ->check(CLI::Range(std::uint64_t{0}, max_grace));
   add("--max-connections", options->max_connections,
       "Connections served at a time; 0: as many as the process may have files open (its hard limit), but 512",
       "MAX_CONNECTIONS")

@@ -11,11 +11,12 @@
 
 namespace semblante::http {
 
-/// What to do with the body of a request whose header has arrived.
+/// What to do with a request whose header has arrived: what its body may be, and where it is handled.
 struct BodyPlan {
   std::uint64_t max_bytes = 0;  ///< more is answered 413
   bool to_file = false;         ///< written to a temporary file while it arrives, instead of memory
   bool required = false;        ///< no Content-Length and not chunked is answered 411
+  bool immediate = false;       ///< handle() runs on the connection's strand, not on a worker: it must not block
 };
 
 /// What the network layer (net/) asks of the layers above. One object serves all connections.
@@ -25,7 +26,7 @@ class Application {
   /// On the connection's strand, when the header is there and the body is not: must not block. An answer here refuses
   /// the request without reading its body.
   virtual std::variant<BodyPlan, Response> plan(const Request& head) = 0;
-  /// On a worker thread, with the body: may take its time.
+  /// With the body, on a worker thread: may take its time, unless the plan was `immediate`.
   virtual Response handle(Request& request) = 0;
   /// On the connection's strand, for a request that asks for a WebSocket: must not block.
   virtual std::variant<std::shared_ptr<WebSocketPeer>, Response> open_websocket(const Request& head) = 0;

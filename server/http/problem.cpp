@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
+
 namespace semblante::http {
 namespace {
 
@@ -99,19 +102,6 @@ nlohmann::ordered_json document(const Problem& problem) {
 
 }  // namespace
 
-std::string pointer_segment(std::string_view name) {
-  std::string segment;
-  for (const char c : name) {
-    if (c == '~')
-      segment.append("~0");
-    else if (c == '/')
-      segment.append("~1");
-    else
-      segment.push_back(c);
-  }
-  return segment;
-}
-
 std::vector<ProblemKind> problem_kinds() { return {kinds.begin(), kinds.end()}; }
 
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer) {
@@ -130,18 +120,22 @@ std::string to_json(const Problem& problem) {
 }
 
 Problem problem_from_json(std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return make_problem("internal", "the reason was not recorded");
+  const auto json = read_json_object(text, {.max_bytes = 1U << 20U, .max_depth = 8, .max_values = 10'000});
+  if (!json) return make_problem("internal", "the reason was not recorded");
+  JsonCursor::Report report;
+  const JsonCursor root(*json, report);
   Problem problem;
-  const auto type = json.value("type", std::string("/problems/internal"));
+  const auto type = root.text_or("type", "/problems/internal");
   problem.slug = type.substr(type.rfind('/') + 1);
-  problem.title = json.value("title", std::string());
-  problem.status = json.value("status", 500);
-  problem.detail = json.value("detail", std::string());
-  problem.pointer = json.value("pointer", std::string());
-  if (json.contains("errors"))
-    for (const auto& fault : json["errors"])
-      problem.faults.push_back({fault.value("pointer", std::string()), fault.value("detail", std::string())});
+  problem.title = root.text_or("title", "");
+  problem.status = static_cast<int>(root.has("status") ? root.member("status").integer(100, 599) : 500);
+  problem.detail = root.text_or("detail", "");
+  problem.pointer = root.text_or("pointer", "");
+  for (std::size_t i = 0; i < root.size_of("errors"); ++i) {
+    const JsonCursor fault = root.member("errors").element(i);
+    problem.faults.push_back({fault.text_or("pointer", ""), fault.text_or("detail", "")});
+  }
+  if (report) return make_problem("internal", "the reason was not recorded");
   return problem;
 }
 

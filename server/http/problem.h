@@ -28,9 +28,6 @@ struct Problem {
 };
 inline bool operator==(const Fault& a, const Fault& b) { return a.pointer == b.pointer && a.detail == b.detail; }
 
-/// A member's name as one segment of a JSON pointer: "~" and "/" escaped (RFC 6901).
-std::string pointer_segment(std::string_view name);
-
 /// The problem with this stable slug; status and title come from the table of slugs (README.md). The slug must be
 /// known.
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer = {});

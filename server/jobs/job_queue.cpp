@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "server/log/guard.h"
 #include "server/log/log.h"
 
 namespace semblante::jobs {
@@ -34,7 +35,8 @@ void JobQueue::start() {
     job.stage.clear();
     record({job, job});
   }
-  for (unsigned i = 0; i < config_.concurrency; ++i) threads_.emplace_back([this] { work(); });
+  for (unsigned i = 0; i < config_.concurrency; ++i)
+    threads_.emplace_back([this] { log::keep_running("a job queue thread", [this] { work(); }); });
 }
 
 void JobQueue::stop() {
@@ -165,11 +167,7 @@ void JobQueue::conclude(const JobRecord& job) {
   }
   publish(job);
   if (!on_finished_) return;
-  try {
-    on_finished_(job);
-  } catch (const std::exception& fault) {
-    log::error("after the end of job " + job.id + ": " + fault.what());
-  }
+  log::guarded("after the end of job " + job.id, [&] { on_finished_(job); });
 }
 
 bool JobQueue::is_busy(const std::string& model) const {
@@ -220,8 +218,8 @@ std::optional<JobQueue::Unrecorded> JobQueue::attempt(Running& running) {
     return Unrecorded{shown, std::move(*ended)};
   } catch (const store::StoreError& fault) {
     return after_store_error(running, attempt, fault);
-  } catch (const std::exception& fault) {
-    log::error("job " + running.job.id + ": " + fault.what());
+  } catch (...) {
+    log::caught("job " + running.job.id);
     return ending(running.job, JobState::failed, http::make_problem("internal", "a fault of the program"));
   }
 }

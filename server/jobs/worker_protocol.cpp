@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/read_json.h"
 #include "server/store/frame_json.h"
 #include "server/store/record_json.h"
 
@@ -59,6 +60,14 @@ WorkerResult result_from(const json& value) {
   return result;
 }
 
+/// Answers copy `taken` in its own order; searching ordered members is linear, so they must be few.
+Status check_taken(const std::string& taken) {
+  if (taken.empty()) return Unit{};
+  const auto document = read_json_object(taken, {.max_bytes = 1U << 20U, .max_depth = 8, .max_values = 2'000});
+  if (!document) return document.error();
+  return Unit{};
+}
+
 std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 }  // namespace
@@ -113,8 +122,10 @@ std::string to_json(const WorkerRequest& request) {
 }
 
 Result<WorkerRequest> worker_request_from_json(std::string_view text) {
+  const auto document = read_json_object(text);
+  if (!document) return document.error();
   try {
-    const auto value = json::parse(text);
+    const auto& value = *document;
     WorkerRequest request;
     const auto kind = store::parse_job_kind(value.at("kind").get<std::string>());
     if (!kind) return Error{ErrorCode::malformed, "/kind", "there is no such job"};
@@ -153,12 +164,15 @@ std::string to_json_line(const WorkerLine& line) {
 }
 
 Result<WorkerLine> worker_line_from_json(std::string_view text) {
+  const auto document = read_json_object(text);
+  if (!document) return document.error();
   try {
-    const auto value = json::parse(text);
+    const auto& value = *document;
     WorkerLine line;
     if (value.contains("done")) {
       line.kind = WorkerLine::Kind::done;
       line.result = result_from(value["done"]);
+      if (const auto status = check_taken(line.result.taken); !status) return status.error();
     } else if (value.contains("problem")) {
       line.kind = WorkerLine::Kind::problem;
       line.problem = http::problem_from_json(dump(value["problem"]));

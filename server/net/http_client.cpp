@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::chrono::seconds patience{30};
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
+constexpr std::size_t most_unparsed = std::size_t{32} << 10U;
 
 }  // namespace
 
@@ -67,12 +68,17 @@ Result<ClientResponse> ask(const ServerAddress& server, const ClientRequest& req
 
   // Asynchronous, since the stream's clock runs for nothing else.
   beast::tcp_stream stream(io);
-  beast::flat_buffer buffer;
+  // Also bounds trailers and chunk extensions: Beast keeps them whole, and throws on a field of more than 64 KiB.
+  beast::flat_buffer buffer(most_unparsed);
   beast::http::response_parser<beast::http::string_body> parser;
   parser.body_limit(most_bytes);
   const auto run = [&] {
     io.restart();
-    io.run();
+    try {
+      io.run();
+    } catch (const std::exception&) {  // of Beast, by what the server sent
+      error = beast::http::error::bad_field;
+    }
   };
   const auto note = [&](const boost::system::error_code& result, auto&&...) { error = result; };
   stream.expires_after(patience);

@@ -1,8 +1,8 @@
 #include "server/net/http_session.h"
 
-#include <fcntl.h>
+#include <algorithm>
 #include <optional>
-#include <unistd.h>
+#include <string>
 #include <utility>
 
 #include <boost/asio/as_tuple.hpp>
@@ -11,14 +11,14 @@
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http/buffer_body.hpp>
-#include <boost/beast/http/parser.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/beast/http/error.hpp>
 
+#include "server/http/media_type.h"
 #include "server/http/problem.h"
-#include "server/http/url.h"
+#include "server/log/guard.h"
 #include "server/log/log.h"
+#include "server/net/body_sink.h"
+#include "server/net/request_parser.h"
 #include "server/net/response_writer.h"
 #include "server/net/websocket_session.h"
 
@@ -29,80 +29,39 @@ namespace beast = boost::beast;
 
 namespace {
 
+using boost::system::error_code;
+
 constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
-constexpr std::size_t piece_bytes = 64 * 1024;
+/// Read at once, at most.
+constexpr std::size_t piece_bytes = 16 * 1024;
 
-using Parser = beast::http::request_parser<beast::http::buffer_body>;
-
-std::string_view view(boost::core::string_view text) { return {text.data(), text.size()}; }
-
-/// The header as plain values; nullopt when the target is not a path.
-std::optional<http::Request> plain_request(const Parser::value_type& message) {
-  http::Request request;
-  request.method = std::string(view(message.method_string()));
-  const auto target = http::parse_target(view(message.target()));
-  if (!target) return std::nullopt;
-  request.path = target->path;
-  request.query = target->query;
-  for (const auto& field : message) {
-    const auto value = view(field.value());
-    const auto [at, is_new] = request.headers.try_emplace(std::string(view(field.name_string())), value);
-    if (!is_new) at->second.append(", ").append(value);
+/// What `ask` returns, or the answer 500 when it throws: a fault of ours in one request ends that request alone.
+template <class Ask>
+auto answered(const http::Request& request, Ask ask) -> decltype(ask()) {
+  try {
+    return ask();
+  } catch (...) {
+    log::caught(request.method + " " + request.path);
+    return http::to_response(http::make_problem("internal", "the request could not be served"));
   }
-  return request;
 }
 
-/// Where a body goes while it arrives: memory or a file of its own.
-class BodySink {
- public:
-  BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request)
-      : plan_(plan), request_(request), application_(state.application) {
-    if (!plan.to_file) return;
-    const auto name = "upload-" + std::to_string(::getpid()) + "-" + std::to_string(state.upload_number++);
-    request.body_file = std::make_shared<http::TemporaryFile>(state.config.upload_directory / name);
-    descriptor_ = ::open(request.body_file->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (descriptor_ < 0) open_error_ = errno;
-  }
-  ~BodySink() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  BodySink(const BodySink&) = delete;
-  BodySink& operator=(const BodySink&) = delete;
-
-  /// The problem, if this piece cannot be taken.
-  std::optional<http::Problem> append(std::string_view piece) {
-    request_.body_size += piece.size();
-    if (request_.body_size > plan_.max_bytes) return too_large(plan_);
-    if (!plan_.to_file) {
-      request_.body.append(piece);
-      return std::nullopt;
-    }
-    while (!piece.empty()) {
-      const auto written = descriptor_ < 0 ? -1 : ::write(descriptor_, piece.data(), piece.size());
-      if (written < 0 && descriptor_ >= 0 && errno == EINTR) continue;
-      if (written <= 0) return application_.unwritten_body(descriptor_ < 0 ? open_error_ : errno);
-      piece.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return std::nullopt;
-  }
-
-  static http::Problem too_large(const http::BodyPlan& plan) {
-    return http::make_problem("content-too-large",
-                              "at most " + std::to_string(plan.max_bytes) + " bytes are taken here");
-  }
-
- private:
-  const http::BodyPlan& plan_;
-  http::Request& request_;
-  http::Application& application_;
-  int descriptor_ = -1, open_error_ = 0;
-};
+/// Whether this asks for a WebSocket (RFC 6455 section 4.2.1); other protocols of an Upgrade are ignored.
+bool is_websocket_upgrade(const RequestParser& parser, const http::Request& request) {
+  if (parser.version() != 11 || request.method != "GET" || !parser.upgrade()) return false;
+  const auto protocols = http::split_list(request.header("Upgrade").value_or(""));
+  return std::any_of(protocols.begin(), protocols.end(),
+                     [](const auto& name) { return http::equal_ignoring_case(name, "websocket"); });
+}
 
 /// One connection's state between its coroutine's steps; lives in that coroutine.
 class Session {
  public:
   Session(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state, ConnectionCount count)
-      : stream_(std::move(socket)), state_(std::move(state)), count_(std::move(count)) {}
+      : stream_(std::move(socket)),
+        state_(std::move(state)),
+        count_(std::move(count)),
+        buffer_(state_->config.limits.max_header_bytes) {}
 
   asio::awaitable<void> run() {
     while (!state_->stopping) {
@@ -143,112 +102,104 @@ class Session {
     // Waiting for a request may be long; once it has begun, its header must come at once.
     if (buffer_.size() == 0) {
       stream_.expires_after(limits.idle_timeout);
-      const auto [error, count] = co_await stream_.async_read_some(buffer_.prepare(piece_bytes / 8), use_tuple);
-      if (error) co_return Next::gone;
-      buffer_.commit(count);
+      if (co_await fill()) co_return Next::gone;
     }
-    Parser parser;
-    parser.header_limit(limits.max_header_bytes);
-    parser.body_limit(boost::none);  // counted by BodySink
+    RequestParser parser(limits.max_header_bytes, limits.max_header_fields);
     stream_.expires_after(limits.header_timeout);
-    const auto [error, count] = co_await beast::http::async_read_header(stream_, buffer_, parser, use_tuple);
-    if (error) co_return co_await refuse_header(error);
+    while (!parser.is_header_done())
+      if (const auto error = co_await step(parser)) co_return co_await refuse(parser, error);
     ++state_->requests_total;
     const Busy busy(*state_);
 
-    const auto& message = parser.get();
-    const unsigned version = message.version();
-    auto request = plain_request(message);
-    if (!request || (version != 10 && version != 11)) {
-      http::Request unknown;
-      unknown.method = "GET";
-      const auto problem = request ? http::make_problem("http-version", "the request speaks another version")
-                                   : http::make_problem("malformed-request", "the request target is not a path");
-      co_return co_await answer(unknown, http::to_response(problem), 11, false);
-    }
-    if (beast::websocket::is_upgrade(message)) co_return co_await upgrade(parser, *request);
+    auto& request = parser.request();
+    if (is_websocket_upgrade(parser, request)) co_return co_await upgrade(request);
 
-    auto plan = state_->application.plan(*request);
+    auto plan = answered(request, [&] { return state_->application.plan(request); });
     if (auto* refusal = std::get_if<http::Response>(&plan)) {
       // The body is still to come: only a request without one leaves the connection usable.
-      const bool bodiless = parser.is_done();
-      co_return co_await answer(*request, std::move(*refusal), version, bodiless && message.keep_alive());
+      const bool keep = parser.is_done() && parser.keep_alive();
+      co_return co_await answer(request, std::move(*refusal), parser.version(), keep);
     }
-    if (auto problem = co_await read_body(parser, std::get<http::BodyPlan>(plan), *request)) {
-      if (problem->slug.empty()) co_return Next::gone;
-      co_return co_await answer(*request, http::to_response(*problem), version, false);
+    const auto& body = std::get<http::BodyPlan>(plan);
+    if (const auto unread = co_await read_body(parser, body)) {
+      if (unread->gone()) co_return Next::gone;
+      co_return co_await answer(request, http::to_response(*unread->problem), parser.version(), false);
     }
-    auto response = co_await asio::co_spawn(
-        state_->workers, [this, &request]() -> asio::awaitable<http::Response> { co_return handle(*request); },
-        asio::use_awaitable);
-    co_return co_await answer(*request, std::move(response), version, message.keep_alive());
+    const auto handle = [this, &request] {
+      return answered(request, [&] { return state_->application.handle(request); });
+    };
+    http::Response response;
+    if (body.immediate)
+      response = handle();
+    else
+      response = co_await asio::co_spawn(
+          state_->workers.executor(), [&handle]() -> asio::awaitable<http::Response> { co_return handle(); },
+          asio::use_awaitable);
+    co_return co_await answer(request, std::move(response), parser.version(), parser.keep_alive());
   }
 
-  http::Response handle(http::Request& request) {
-    try {
-      return state_->application.handle(request);
-    } catch (const std::exception& fault) {
-      log::error(request.method + " " + request.path + ": " + fault.what());
-      return http::to_response(http::make_problem("internal", "the request could not be served"));
-    }
+  /// Reads what has come, at least a byte, behind what the buffer holds. The buffer's size bounds what a client can
+  /// make us keep before it is parsed.
+  asio::awaitable<error_code> fill() {
+    const auto room = buffer_.max_size() - buffer_.size();
+    if (room == 0) co_return beast::http::error::buffer_overflow;
+    const auto [error, count] =
+        co_await stream_.async_read_some(buffer_.prepare(std::min(room, piece_bytes)), use_tuple);
+    buffer_.commit(count);
+    co_return error;
   }
 
-  asio::awaitable<Next> refuse_header(const boost::system::error_code& fault) {
-    using E = beast::http::error;
-    if (fault.category() != beast::http::make_error_code(E::bad_value).category() || fault == E::end_of_stream ||
-        fault == E::partial_message)
-      co_return Next::gone;
-    auto problem = http::make_problem("malformed-request", "not an HTTP request: " + fault.message());
-    if (fault == E::header_limit)
-      problem =
-          http::make_problem("header-too-large", "the header has more than " +
-                                                     std::to_string(state_->config.limits.max_header_bytes) + " bytes");
-    if (fault == E::bad_version) problem = http::make_problem("http-version", "the request speaks another version");
+  /// Parses as far as the next piece of the message, or reads more. Beast's own reading does the same, but parses
+  /// inside the I/O loop, where an exception ends the loop and not this coroutine.
+  asio::awaitable<error_code> step(RequestParser& parser) {
+    error_code error = beast::http::error::need_more;
+    if (buffer_.size() >= parser.least_bytes()) buffer_.consume(parser.put(buffer_.data(), error));
+    if (error == beast::http::error::need_more) error = co_await fill();
+    co_return error;
+  }
+
+  [[nodiscard]] std::optional<http::Problem> problem_of(const RequestParser& parser, const error_code& error) const {
+    const auto unread = buffer_.cdata();
+    return parser.problem_of(error, {static_cast<const char*>(unread.data()), unread.size()});
+  }
+
+  asio::awaitable<Next> refuse(const RequestParser& parser, const error_code& error) {
+    const auto problem = problem_of(parser, error);
+    if (!problem) co_return Next::gone;
     http::Request unknown;
     unknown.method = "GET";
-    co_return co_await answer(unknown, http::to_response(problem), 11, false);
+    co_return co_await answer(unknown, http::to_response(*problem), 11, false);
   }
 
-  /// nullopt when the body is in the request; a problem without slug when the client is gone.
-  asio::awaitable<std::optional<http::Problem>> read_body(Parser& parser, const http::BodyPlan& plan,
-                                                          http::Request& request) {
+  /// Why a body was not read to its end.
+  struct Unread {
+    std::optional<http::Problem> problem;  ///< nullopt: the client is gone
+    [[nodiscard]] bool gone() const { return !problem; }
+  };
+
+  /// nullopt when the body is in the request.
+  asio::awaitable<std::optional<Unread>> read_body(RequestParser& parser, const http::BodyPlan& plan) {
+    auto& request = parser.request();
     const auto length = parser.content_length();
-    if (length && *length > plan.max_bytes) co_return BodySink::too_large(plan);
+    if (length && *length > plan.max_bytes) co_return Unread{BodySink::too_large(plan)};
     if (plan.required && !length && !parser.chunked())
-      co_return http::make_problem("length-required", "the request has neither Content-Length nor chunks");
+      co_return Unread{http::make_problem("length-required", "the request has neither Content-Length nor chunks")};
     if (const auto expect = request.header("Expect")) {
       if (!http::equal_ignoring_case(*expect, "100-continue"))
-        co_return http::make_problem("malformed-request", "only Expect: 100-continue is known");
+        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is known")};
       stream_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
       const auto [error, count] =
           co_await asio::async_write(stream_, asio::buffer(go_on.data(), go_on.size()), use_tuple);
-      if (error) co_return gone();
+      if (error) co_return Unread{};
     }
     BodySink sink(plan, *state_, request);
-    std::vector<char> piece(parser.is_done() ? 0 : piece_bytes);
+    parser.set_sink(sink);
     while (!parser.is_done()) {
-      auto& body = parser.get().body();
-      body.data = piece.data();
-      body.size = piece.size();
-      body.more = true;
       stream_.expires_after(state_->config.limits.read_timeout);
-      auto [error, count] = co_await beast::http::async_read_some(stream_, buffer_, parser, use_tuple);
-      if (error && error != beast::http::error::need_buffer) {
-        if (error.category() == beast::http::make_error_code(beast::http::error::bad_chunk).category() &&
-            error != beast::http::error::partial_message && error != beast::http::error::end_of_stream)
-          co_return http::make_problem("malformed-request", "the body cannot be read: " + error.message());
-        co_return gone();
-      }
-      if (auto problem = sink.append({piece.data(), piece.size() - body.size})) co_return problem;
+      if (const auto error = co_await step(parser)) co_return Unread{problem_of(parser, error)};
     }
     co_return std::nullopt;
-  }
-
-  static http::Problem gone() {
-    http::Problem problem;
-    problem.slug.clear();
-    return problem;
   }
 
   /// Beast would answer these in plain text.
@@ -265,18 +216,17 @@ class Session {
     return std::nullopt;
   }
 
-  asio::awaitable<Next> upgrade(Parser& parser, const http::Request& request) {
+  asio::awaitable<Next> upgrade(const http::Request& request) {
     if (auto fault = handshake_fault(request)) co_return co_await answer(request, std::move(*fault), 11, false);
     if (buffer_.size() != 0)
       co_return co_await answer(
           request, http::to_response(http::make_problem("malformed-request", "bytes follow the upgrade request")), 11,
           false);
     // Last of all: a peer has a place in its stream until it is told that its connection is gone.
-    auto opened = state_->application.open_websocket(request);
+    auto opened = answered(request, [&] { return state_->application.open_websocket(request); });
     if (auto* refusal = std::get_if<http::Response>(&opened))
       co_return co_await answer(request, std::move(*refusal), 11, false);
-    beast::http::request<beast::http::empty_body> head(std::move(parser.get().base()));
-    serve_websocket(stream_.release_socket(), std::move(head),
+    serve_websocket(stream_.release_socket(), *request.header("Sec-WebSocket-Key"),
                     std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_, std::move(count_));
     co_return Next::gone;
   }

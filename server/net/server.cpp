@@ -1,13 +1,12 @@
 #include "server/net/server.h"
 
 #include <csignal>
+#include <exception>
 #include <thread>
 #include <vector>
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
-#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
@@ -15,6 +14,7 @@
 #include <boost/asio/write.hpp>
 
 #include "server/http/problem.h"
+#include "server/log/guard.h"
 #include "server/log/log.h"
 #include "server/net/http_session.h"
 #include "server/net/state.h"
@@ -47,33 +47,43 @@ asio::awaitable<void> turn_away(tcp::socket socket) {
   co_await asio::async_write(socket, asio::buffer(text), use_tuple);
 }
 
+/// For co_spawn: an exception that ends a coroutine ends its connection alone.
+void log_fault(const std::exception_ptr& fault) {
+  if (!fault) return;
+  log::guarded("a connection ended by a fault", [&] { std::rethrow_exception(fault); });
+}
+
+/// One connection, accepted and begun. False when that failed.
+asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const std::shared_ptr<SharedState>& state) {
+  auto [error, socket] = co_await acceptor.async_accept(asio::make_strand(state->io), use_tuple);
+  if (error) {
+    if (!state->stopping && error != asio::error::operation_aborted) log::warning("cannot accept: " + error.message());
+    co_return false;
+  }
+  const auto executor = socket.get_executor();
+  if (state->connections_open >= state->config.limits.max_connections) {
+    ++state->connections_total;
+    ++state->connections_refused;
+    asio::co_spawn(executor, turn_away(std::move(socket)), log_fault);
+    co_return true;
+  }
+  asio::co_spawn(executor, serve_connection(std::move(socket), state, ConnectionCount(state)), log_fault);
+  co_return true;
+}
+
 asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, std::shared_ptr<SharedState> state) {
   while (!state->stopping) {
-    auto [error, socket] = co_await acceptor.async_accept(asio::make_strand(state->io), use_tuple);
-    if (error) {
-      if (state->stopping || error == asio::error::operation_aborted) co_return;
-      // Out of descriptors, most likely: wait for some to come back rather than spin.
-      log::warning("cannot accept: " + error.message());
-      asio::steady_timer pause(co_await asio::this_coro::executor, std::chrono::milliseconds(100));
-      co_await pause.async_wait(use_tuple);
-      continue;
+    bool accepted = false;
+    try {
+      accepted = co_await accept_one(acceptor, state);
+    } catch (...) {
+      log::caught("cannot accept");  // without memory, most likely
     }
-    const auto executor = socket.get_executor();
-    if (state->connections_open >= state->config.limits.max_connections) {
-      ++state->connections_total;
-      ++state->connections_refused;
-      asio::co_spawn(executor, turn_away(std::move(socket)), asio::detached);
-      continue;
-    }
-    asio::co_spawn(executor, serve_connection(std::move(socket), state, ConnectionCount(state)),
-                   [](const std::exception_ptr& fault) {
-                     if (!fault) return;
-                     try {
-                       std::rethrow_exception(fault);
-                     } catch (const std::exception& reason) {
-                       log::error(std::string("a connection ended by a fault: ") + reason.what());
-                     }
-                   });
+    if (accepted) continue;
+    if (!acceptor.is_open()) co_return;
+    // Out of descriptors, most likely: wait for some to come back rather than spin.
+    asio::steady_timer pause(co_await asio::this_coro::executor, std::chrono::milliseconds(100));
+    co_await pause.async_wait(use_tuple);
   }
 }
 
@@ -119,7 +129,7 @@ void Server::stop() {
     boost::system::error_code ignored;
     state->acceptor.close(ignored);
     state->signals.cancel(ignored);
-    if (state->on_stopping) state->on_stopping();
+    if (state->on_stopping) log::guarded("stopping", state->on_stopping);
     // Answers under way get the grace, idle connections nothing. Looked at in small steps, so that an idle server
     // stops at once.
     struct Step {
@@ -138,10 +148,11 @@ void Server::stop() {
 
 void Server::run(const std::function<void()>& on_stopping) {
   state_->on_stopping = on_stopping;
-  asio::co_spawn(state_->io, accept_connections(state_->acceptor, state_), asio::detached);
+  asio::co_spawn(state_->io, accept_connections(state_->acceptor, state_), log_fault);
   std::vector<std::thread> threads;
-  for (unsigned i = 1; i < state_->config.io_threads; ++i) threads.emplace_back([this] { state_->io.run(); });
-  state_->io.run();
+  for (unsigned i = 1; i < state_->config.io_threads; ++i)
+    threads.emplace_back([this] { run_guarded(state_->io, "I/O thread"); });
+  run_guarded(state_->io, "I/O thread");
   for (auto& thread : threads) thread.join();
   state_->workers.join();
 }

@@ -14,12 +14,14 @@ namespace semblante::net {
 /// Each limit guards one read or one count; README.md lists what a client sees when it meets one.
 struct ServerLimits {
   std::uint32_t max_connections = 1024;
-  std::uint32_t max_header_bytes = 16 * 1024;
-  std::chrono::seconds idle_timeout{60};    ///< between requests; a WebSocket is pinged at half of it
-  std::chrono::seconds header_timeout{10};  ///< from the first byte of a request to the end of its header
-  std::chrono::seconds read_timeout{30};    ///< between two pieces of a body
-  std::chrono::seconds write_timeout{30};   ///< between two pieces of an answer
-  std::chrono::seconds shutdown_grace{3};   ///< for answers under way when the server stops
+  std::uint32_t max_header_bytes = 16 * 1024;  ///< also of the trailers, of the line before a chunk, of all chunk
+                                               ///< extensions of a body; what a connection keeps unparsed at most
+  std::uint32_t max_header_fields = 128;       ///< and as many query parameters
+  std::chrono::seconds idle_timeout{60};       ///< between requests; a WebSocket is pinged at half of it
+  std::chrono::seconds header_timeout{10};     ///< from the first byte of a request to the end of its header
+  std::chrono::seconds read_timeout{30};       ///< between two pieces of a body
+  std::chrono::seconds write_timeout{30};      ///< between two pieces of an answer
+  std::chrono::seconds shutdown_grace{3};      ///< for answers under way when the server stops
 };
 
 struct ServerConfig {

@@ -8,9 +8,9 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/thread_pool.hpp>
 
 #include "server/net/server.h"
+#include "server/net/worker_pool.h"
 
 namespace semblante::net {
 
@@ -21,7 +21,7 @@ struct SharedState {
   ServerConfig config;
   http::Application& application;
   boost::asio::io_context io;
-  boost::asio::thread_pool workers;
+  WorkerPool workers;
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
       busy{0}, websockets_open{0}, upload_number{0};

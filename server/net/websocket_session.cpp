@@ -1,7 +1,6 @@
 #include "server/net/websocket_session.h"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include "server/log/log.h"
+#include "server/log/guard.h"
 #include "server/net/outbox.h"
 #include "server/net/outbox_stream.h"
 
@@ -29,6 +28,8 @@ constexpr std::chrono::seconds closing_time{5};
 /// A short send queue: what waits in the kernel is stale for a face, and costs memory for each slow client. The kernel
 /// takes it twice, for its own bookkeeping.
 constexpr int send_buffer_bytes = 16 * 1024;
+/// What a close frame has room for (RFC 6455 section 5.5); Beast throws on more.
+constexpr std::size_t longest_reason = 123;
 /// Room for one piece of a message: most of what clients say (hello, ping) fits into the first. An idle connection
 /// keeps no more than that.
 constexpr std::size_t first_piece_bytes = 128;
@@ -37,11 +38,10 @@ constexpr std::size_t largest_piece_bytes = 64 * 1024;
 /// One WebSocket. Lives as long as one of its operations is under way; the strand of its socket guards it.
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
  public:
-  static void start(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade,
-                    std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                    ConnectionCount count) {
+  static void start(asio::ip::tcp::socket socket, std::string_view key, std::shared_ptr<http::WebSocketPeer> peer,
+                    std::shared_ptr<SharedState> state, ConnectionCount count) {
     const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
-    self->accept(std::move(socket), std::move(upgrade));
+    self->accept(std::move(socket), key);
   }
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
@@ -71,7 +71,19 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
  private:
   using Stream = websocket::stream<OutboxStream, false>;
 
-  void accept(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade) {
+  /// The upgrade as Beast wants to see it: checked already, so that none of the client's other fields is needed.
+  static beast::http::request<beast::http::empty_body> upgrade_with(std::string_view key) {
+    using Field = beast::http::field;
+    beast::http::request<beast::http::empty_body> request(beast::http::verb::get, "/", 11);
+    request.set(Field::host, "localhost");
+    request.set(Field::connection, "upgrade");
+    request.set(Field::upgrade, "websocket");
+    request.set(Field::sec_websocket_version, "13");
+    request.set(Field::sec_websocket_key, std::string(key));
+    return request;
+  }
+
+  void accept(asio::ip::tcp::socket socket, std::string_view key) {
     error_code ignored;
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     executor_ = socket.get_executor();
@@ -87,7 +99,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
         [name = std::string(peer_->subprotocol())](websocket::response_type& response) {
           if (!name.empty()) response.set(beast::http::field::sec_websocket_protocol, name);
         }));
-    auto request = std::make_unique<beast::http::request<beast::http::empty_body>>(std::move(upgrade));
+    auto request = std::make_unique<beast::http::request<beast::http::empty_body>>(upgrade_with(key));
     const auto& head = *request;
     ws_->async_accept(
         head, [self = shared_from_this(), request = std::move(request)](error_code error) { self->accepted(error); });
@@ -97,7 +109,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     if (error) return end();
     ++state_->websockets_open;
     open_ = true;
-    peer_->attach(outbox_);
+    if (!told([this] { peer_->attach(outbox_); })) return end();
     read();
   }
 
@@ -120,16 +132,14 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     read();
   }
 
-  /// False when the peer has come to an end by a fault of ours: the others' connections go on.
+  /// False when the peer is gone, or threw: a fault of ours in one connection ends that connection alone.
+  template <class Tell>
+  bool told(Tell tell) {
+    return peer_ && log::guarded("a WebSocket", tell);
+  }
+
   bool receive() {
-    if (!peer_) return false;
-    try {
-      peer_->receive({message_.data(), read_}, ws_->got_binary());
-      return true;
-    } catch (const std::exception& fault) {
-      log::error(std::string("a WebSocket ended by a fault: ") + fault.what());
-      return false;
-    }
+    return told([this] { peer_->receive({message_.data(), read_}, ws_->got_binary()); });
   }
 
   void wait_writable() {
@@ -143,7 +153,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     if (ended_) return;
     const auto flushed = outbox_->flush();
     if (flushed == Outbox::Flushed::some) return wait_writable();
-    if (flushed == Outbox::Flushed::all && open_) peer_->writable();
+    if (flushed == Outbox::Flushed::all && open_ && !told([this] { peer_->writable(); })) end();
   }
 
   void close(const http::CloseReason& reason) {
@@ -154,7 +164,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
       const auto self = weak.lock();
       if (!error && self && !self->ended_) self->ws_->next_layer().close();
     });
-    websocket::close_reason words(reason.text);
+    websocket::close_reason words(std::string_view(reason.text).substr(0, longest_reason));
     words.code = reason.code;
     ws_->async_close(words, [self = shared_from_this()](error_code) {});
   }
@@ -170,7 +180,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
   void leave() {
     if (!peer_) return;
-    peer_->disconnected();
+    told([this] { peer_->disconnected(); });  // also called by the destructor
     peer_ = nullptr;
     if (open_) --state_->websockets_open;
     open_ = false;
@@ -192,11 +202,9 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
 }  // namespace
 
-void serve_websocket(asio::ip::tcp::socket socket, beast::http::request<beast::http::empty_body> upgrade,
-                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                     ConnectionCount connection) {
-  WebSocketConnection::start(std::move(socket), std::move(upgrade), std::move(peer), std::move(state),
-                             std::move(connection));
+void serve_websocket(asio::ip::tcp::socket socket, std::string_view key, std::shared_ptr<http::WebSocketPeer> peer,
+                     std::shared_ptr<SharedState> state, ConnectionCount connection) {
+  WebSocketConnection::start(std::move(socket), key, std::move(peer), std::move(state), std::move(connection));
 }
 
 }  // namespace semblante::net

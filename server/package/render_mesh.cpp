@@ -4,6 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/types/seeded_hash.h"
+
 namespace semblante {
 namespace {
 
@@ -14,10 +16,7 @@ struct Corner {
 
 struct CornerHash {
   std::size_t operator()(const Corner& c) const {
-    std::uint64_t h = c.vertex * 0x9E3779B97F4A7C15ULL;
-    h = (h ^ c.uv) * 0xC2B2AE3D27D4EB4FULL;
-    h = (h ^ c.normal) * 0x165667B19E3779F9ULL;
-    return static_cast<std::size_t>((h ^ (h >> 29U)) + c.material);
+    return SeededHash::of(std::uint64_t{c.vertex} << 32U | c.uv, std::uint64_t{c.normal} << 32U | c.material);
   }
 };
 

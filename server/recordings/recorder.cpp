@@ -1,16 +1,16 @@
 #include "server/recordings/recorder.h"
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
+#include "server/log/guard.h"
 #include "server/log/log.h"
+#include "server/store/data_files.h"
 
 namespace semblante::recordings {
 namespace {
 
-constexpr std::string_view extension = ".srec";
 constexpr std::size_t page = 200;
 
 void take_over(store::RecordingRecord& record, const RecordingProgress& progress) {
@@ -34,21 +34,19 @@ Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, store::Pen
   if (error) return Error{ErrorCode::io, folder.string(), error.message()};
   std::shared_ptr<Recorder> recorder(new Recorder(store, pending, std::move(folder), limits));
   if (auto status = recorder->repair(); !status) return status.error();
-  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  recorder->thread_ = std::thread([&self = *recorder] { log::keep_running("the recorder", [&self] { self.run(); }); });
   return recorder;
 }
 
 Recorder::~Recorder() { close(); }
 
 Status Recorder::repair() {
-  std::set<std::string> known;
   std::string after;
   while (true) {
     const auto records = store_.recordings("", after, page);
     if (!records || records->empty()) break;
     after = records->back().id;
     for (auto record : *records) {
-      known.insert(record.id + std::string(extension));
       if (record.state == store::RecordingState::recording) {
         keep_shown(record);
         pending_.write(this, "recording " + record.id, "the repair of recording " + record.id,
@@ -57,12 +55,6 @@ Status Recorder::repair() {
       total_bytes_ += record.bytes;
     }
   }
-  std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, error)) {
-    std::error_code ignored;
-    if (!known.contains(file.path().filename().string())) std::filesystem::remove(file.path(), ignored);
-  }
-  if (error) return Error{ErrorCode::io, folder_.string(), error.message()};
   return Unit{};
 }
 
@@ -94,9 +86,7 @@ void Recorder::repair(const std::string& id) {
     log::warning("recording " + record.id + " is damaged: " + progress.error().where + ": " + progress.error().message);
 }
 
-std::filesystem::path Recorder::path_of(std::string_view id) const {
-  return folder_ / std::string(id).append(extension);
-}
+std::filesystem::path Recorder::path_of(std::string_view id) const { return folder_ / store::recording_file_name(id); }
 
 std::optional<Error> Recorder::refusal() const {
   const auto full = [](std::string message) { return Error{ErrorCode::too_large, "", std::move(message)}; };
@@ -130,19 +120,19 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   running->writer = std::move(*writer);
   take_over(record, running->writer->durable());
   if (key) key->resource = record.id;
-  // The file comes first: a fact never speaks of one that is not there. One without a fact is swept at the next start.
+  // The file comes first: a fact never speaks of one that is not there. The next start moves one without a fact
+  // into the trash.
   const auto path = path_of(record.id);
+  std::error_code ignored;
   try {
     store_.create_recording(record, key);
   } catch (...) {
-    std::error_code ignored;
     std::filesystem::remove(path, ignored);
     throw;
   }
   const std::lock_guard lock(mutex_);
   if (closing_) {
     // Should the disk not take it: a recording without a file is said to be damaged by the next start.
-    std::error_code ignored;
     std::filesystem::remove(path, ignored);
     store_.remove_recording(record.id);
     return Error{ErrorCode::io, "", "the server stops"};
@@ -280,9 +270,10 @@ void Recorder::run() {
       if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
       const bool flush =
           !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
-      const auto must_end = write(*running, batches, flush);
+      std::string_view must_end = ended::disk_full;  // unless it could be written
+      log::guarded("recording " + running->record.id, [&] { must_end = write(*running, batches, flush); });
       if (!must_end.empty() && (reason.empty() || must_end == ended::disk_full)) reason = must_end;
-      if (!reason.empty()) finish(*running, reason);
+      if (!reason.empty()) log::guarded("recording " + running->record.id, [&] { finish(*running, reason); });
       lock.lock();
       if (!reason.empty()) {
         running->done = true;

@@ -66,8 +66,7 @@ struct RecorderCounts {
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that a process left running are cut off after their last whole chunk and
-  /// finished, on a full disk when it has room; files nobody knows are removed. Errors: io. `store` and `pending`
-  /// outlive it.
+  /// finished, on a full disk when it has room. Errors: io. `store` and `pending` outlive it.
   static Result<std::shared_ptr<Recorder>> open(store::Store& store, store::PendingWrites& pending,
                                                 std::filesystem::path folder, RecorderLimits limits = {});
   ~Recorder() override;

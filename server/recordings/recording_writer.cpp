@@ -122,7 +122,7 @@ Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
     return Error{ErrorCode::mismatch, "byte " + std::to_string(reader->whole_bytes()),
                  reader->torn_reason() + ", and more follows"};
   if (reader->torn_bytes() > 0) {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     const bool cut = descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(reader->whole_bytes())) == 0 &&
                      ::fsync(descriptor) == 0;
     const int error_number = errno;

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <span>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 
 #include "server/hash/sha256.h"
+#include "server/store/data_files.h"
+#include "server/store/descriptor.h"
 
 namespace semblante::store {
 namespace {
@@ -21,21 +21,6 @@ Error io_error(const fs::path& path, int error_number = errno) {
   throw_if_disk_full(path, error_number);
   return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(error_number)};
 }
-
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] bool ok() const { return value_ >= 0; }
-  [[nodiscard]] int get() const { return value_; }
-
- private:
-  int value_;
-};
 
 /// Goes with the object, if it is still there.
 struct RemovedFile {
@@ -48,11 +33,6 @@ struct RemovedFile {
   RemovedFile(const RemovedFile&) = delete;
   RemovedFile& operator=(const RemovedFile&) = delete;
 };
-
-bool sync_folder(const fs::path& folder) {
-  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
-  return descriptor.ok() && ::fsync(descriptor.get()) == 0;
-}
 
 }  // namespace
 
@@ -81,7 +61,7 @@ Status BlobStore::make_folders() const {
 }
 
 fs::path BlobStore::path_of(std::string_view sha256) const {
-  return folder_ / "blobs" / std::string(sha256.substr(0, 2)) / std::string(sha256);
+  return folder_ / data_file_path(DataFileKind::blob, sha256);
 }
 
 Result<Blob> BlobStore::adopt(const fs::path& path) const {
@@ -101,7 +81,7 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
   blob.sha256 = to_hex(hash.finish());
   const auto target = path_of(blob.sha256);
   std::error_code error;
-  if (fs::exists(target, error)) {  // the same content is there already, whole and durable
+  if (is_real_file(target)) {  // the same content is there already, whole and durable
     fs::remove(path, error);
     return blob;
   }
@@ -133,24 +113,13 @@ Result<Blob> BlobStore::put(std::string_view bytes) const {
 std::optional<fs::path> BlobStore::find(std::string_view sha256) const {
   if (!is_sha256_hex(sha256)) return std::nullopt;
   auto path = path_of(sha256);
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  if (!is_real_file(path)) return std::nullopt;
   return path;
 }
 
 void BlobStore::remove(std::string_view sha256) const {
   std::error_code ignored;
   if (is_sha256_hex(sha256)) fs::remove(path_of(sha256), ignored);
-}
-
-std::size_t BlobStore::sweep(const std::unordered_set<std::string>& keep) const {
-  std::size_t removed = 0;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "blobs", error)) {
-    if (!entry.is_regular_file(error) || keep.contains(entry.path().filename().string())) continue;
-    if (fs::remove(entry.path(), error)) ++removed;
-  }
-  return removed;
 }
 
 }  // namespace semblante::store

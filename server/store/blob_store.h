@@ -7,7 +7,6 @@
 #include <shared_mutex>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 
 #include "core/types/result.h"
 #include "server/store/store_error.h"
@@ -21,8 +20,8 @@ struct Blob {
 };
 
 /// Bytes by their SHA-256, in a folder: blobs/ab/abcdef.... A file has its final name only when it is whole and on the
-/// disk (write, fsync, rename, fsync of the folder), so what is there is right, whenever the machine stopped. Any
-/// thread.
+/// disk (write, fsync, rename, fsync of the folder), so what is there is right, whenever the machine stopped. A
+/// symbolic link in the place of a blob is none. Any thread.
 class BlobStore {
  public:
   /// Makes the folders that are missing and removes what an earlier process left half done in `temporary()`. On a full
@@ -42,14 +41,12 @@ class BlobStore {
 
   /// The file of a blob; nullopt when it is not there. `sha256` may be any text.
   [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view sha256) const;
+  /// At once and for good: what its owner has deleted or replaced does not go into the trash.
   void remove(std::string_view sha256) const;
 
   /// Held shared from adopt() until the fact that refers to the blob is committed, and alone from the commit that drops
   /// the last reference until remove(): so nobody removes what another has just found to be there.
   [[nodiscard]] std::shared_mutex& references() const { return *references_; }
-
-  /// Removes all blobs but these; how many went. For the start, before anything is added.
-  std::size_t sweep(const std::unordered_set<std::string>& keep) const;
 
  private:
   explicit BlobStore(std::filesystem::path folder)

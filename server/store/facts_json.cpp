@@ -2,10 +2,26 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/read_json.h"
 #include "server/store/frame_json.h"
 #include "server/store/record_json.h"
 
 namespace semblante::store {
+namespace {
+
+/// What a text says, or nothing where it does not say it.
+template <class T>
+T read_as(std::string_view text) {
+  const auto document = read_json(text);
+  if (!document) return {};
+  try {
+    return document->get<T>();
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 std::string write_facts(const ModelRecord& model) {
   nlohmann::json json;
@@ -21,8 +37,8 @@ std::string write_facts(const ModelRecord& model) {
 }
 
 void read_facts(std::string_view text, ModelRecord& model) {
+  const nlohmann::json json = read_as<nlohmann::json>(text);
   try {
-    const auto json = nlohmann::json::parse(text);
     model.box_min = json.at("min");
     model.box_max = json.at("max");
     model.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -45,23 +61,11 @@ void read_facts(std::string_view text, ModelRecord& model) {
 
 std::string write_proposal(const ProposalRecord& proposal) { return nlohmann::json(proposal).dump(); }
 
-ProposalRecord read_proposal(std::string_view text) {
-  try {
-    return nlohmann::json::parse(text).get<ProposalRecord>();
-  } catch (const nlohmann::json::exception&) {
-    return {};
-  }
-}
+ProposalRecord read_proposal(std::string_view text) { return read_as<ProposalRecord>(text); }
 
 std::string write_levels(const std::vector<LevelRecord>& levels) { return nlohmann::json(levels).dump(); }
 
-std::vector<LevelRecord> read_levels(std::string_view text) {
-  try {
-    return nlohmann::json::parse(text).get<std::vector<LevelRecord>>();
-  } catch (const nlohmann::json::exception&) {
-    return {};
-  }
-}
+std::vector<LevelRecord> read_levels(std::string_view text) { return read_as<std::vector<LevelRecord>>(text); }
 
 std::string write_extraction(const std::optional<ExtractionRecord>& extraction) {
   if (!extraction) return {};
@@ -70,8 +74,10 @@ std::string write_extraction(const std::optional<ExtractionRecord>& extraction) 
 
 std::optional<ExtractionRecord> read_extraction(std::string_view text) {
   if (text.empty()) return std::nullopt;
+  const auto document = read_json(text);
+  if (!document) return std::nullopt;
   try {
-    return nlohmann::json::parse(text).get<ExtractionRecord>();
+    return document->get<ExtractionRecord>();
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
@@ -79,12 +85,6 @@ std::optional<ExtractionRecord> read_extraction(std::string_view text) {
 
 std::string write_lods(const std::vector<std::uint32_t>& lods) { return nlohmann::json(lods).dump(); }
 
-std::vector<std::uint32_t> read_lods(std::string_view text) {
-  try {
-    return nlohmann::json::parse(text).get<std::vector<std::uint32_t>>();
-  } catch (const nlohmann::json::exception&) {
-    return {};
-  }
-}
+std::vector<std::uint32_t> read_lods(std::string_view text) { return read_as<std::vector<std::uint32_t>>(text); }
 
 }  // namespace semblante::store

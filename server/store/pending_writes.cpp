@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "server/log/guard.h"
 #include "server/log/log.h"
 
 namespace semblante::store {
@@ -13,7 +14,8 @@ constexpr std::size_t most_named = 5;
 
 }  // namespace
 
-PendingWrites::PendingWrites(Options options) : options_(std::move(options)), thread_([this] { run(); }) {}
+PendingWrites::PendingWrites(Options options)
+    : options_(std::move(options)), thread_([this] { log::keep_running("the pending writes", [this] { run(); }); }) {}
 
 PendingWrites::~PendingWrites() {
   {

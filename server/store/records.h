@@ -223,6 +223,14 @@ struct IdempotencyRecord {
   bool operator==(const IdempotencyRecord&) const = default;
 };
 
+/// Which database this is, and how old.
+struct DatabaseIdentity {
+  std::string id;            ///< made with the database; a copy has the same
+  std::uint64_t starts = 0;  ///< of servers with it; 0: none has worked with it yet
+
+  bool operator==(const DatabaseIdentity&) const = default;
+};
+
 std::string_view to_string(ModelState state);
 std::string_view to_string(JobKind kind);
 std::optional<JobKind> parse_job_kind(std::string_view text);

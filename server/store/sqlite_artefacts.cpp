@@ -62,6 +62,16 @@ std::vector<std::string> all_hashes(Database& db) {
   return hashes;
 }
 
+std::vector<std::string> users_of_hash(Database& db, std::string_view sha256) {
+  std::vector<std::string> users;
+  Statement statement(db,
+                      "SELECT 'model ' || model FROM artefacts WHERE sha256 = ? "
+                      "UNION SELECT 'job ' || job FROM job_files WHERE sha256 = ?");
+  statement.bind(sha256, sha256);
+  while (statement.step()) users.push_back(statement.text(0));
+  return users;
+}
+
 std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes) {
   std::vector<std::string> orphans;
   for (const auto& hash : hashes) {

@@ -21,6 +21,8 @@ std::vector<ArtefactRecord> list_artefacts(Database& db, std::string_view model)
 
 std::vector<std::string> hashes_of(Database& db, std::string_view model);
 std::vector<std::string> all_hashes(Database& db);
+/// Who refers to a hash, as Store::users_of.
+std::vector<std::string> users_of_hash(Database& db, std::string_view sha256);
 /// Those of `hashes` that no artefact has.
 std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes);
 

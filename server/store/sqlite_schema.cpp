@@ -79,6 +79,12 @@ CREATE TABLE recordings(
 CREATE INDEX recordings_by_stream ON recordings(stream);
 )sql";
 
+/// One row. A file that an earlier version has written into has had a start.
+constexpr const char* with_identity = R"sql(
+CREATE TABLE identity(id TEXT NOT NULL, starts INTEGER NOT NULL) STRICT;
+INSERT INTO identity SELECT lower(hex(randomblob(16))), EXISTS(SELECT 1 FROM sqlite_sequence WHERE seq > 0);
+)sql";
+
 /// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
 /// change.
 constexpr std::array migrations = {
@@ -91,6 +97,7 @@ constexpr std::array migrations = {
     "ALTER TABLE streams ADD COLUMN batch_interval INTEGER NOT NULL DEFAULT 100",
     with_recordings,
     "ALTER TABLE streams ADD COLUMN quantizer_scale REAL NOT NULL DEFAULT 1",
+    with_identity,
 };
 constexpr int schema_version = migrations.size();
 

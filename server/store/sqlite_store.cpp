@@ -24,7 +24,8 @@ class SqliteStore : public Store {
   SqliteStore(const std::string& file, Locking locking) : db_(file) {
     if (locking == Locking::exclusive) db_.execute("PRAGMA locking_mode=EXCLUSIVE");
     db_.execute("PRAGMA journal_mode=WAL");
-    // The write-ahead log keeps its room over restarts, so that a start needs none.
+    // An orderly end leaves the file of the write-ahead log, empty, so that a start on a full disk needs no new one.
+    // The limit is what empties it: a log that is not empty would be applied to any database put in this one's place.
     int persist = 1;
     sqlite3_file_control(db_.get(), nullptr, SQLITE_FCNTL_PERSIST_WAL, &persist);
     db_.execute("PRAGMA journal_size_limit=16777216");
@@ -177,6 +178,11 @@ class SqliteStore : public Store {
   std::vector<std::string> referenced_hashes() override {
     const std::lock_guard lock(mutex_);
     return all_hashes(db_);
+  }
+
+  std::vector<std::string> users_of(std::string_view sha256) override {
+    const std::lock_guard lock(mutex_);
+    return users_of_hash(db_, sha256);
   }
 
   void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) override {
@@ -458,6 +464,17 @@ class SqliteStore : public Store {
     return IdempotencyRecord{statement.text(0), statement.text(1), statement.text(2)};
   }
 
+  DatabaseIdentity identity() override {
+    const std::lock_guard lock(mutex_);
+    return read_identity();
+  }
+
+  DatabaseIdentity count_start() override {
+    const std::lock_guard lock(mutex_);
+    db_.execute("UPDATE identity SET starts = starts + 1");
+    return read_identity();
+  }
+
   bool healthy() override {
     const std::lock_guard lock(mutex_);
     Statement statement(db_, "SELECT count(*) FROM streams");
@@ -470,6 +487,12 @@ class SqliteStore : public Store {
   }
 
  private:
+  DatabaseIdentity read_identity() {
+    Statement statement(db_, "SELECT id, starts FROM identity");
+    if (!statement.step()) return {};
+    return {statement.text(0), static_cast<std::uint64_t>(statement.integer(1))};
+  }
+
   void insert_key(const std::optional<IdempotencyRecord>& key) {
     if (!key) return;
     // Keys are for retries: a day is long for one.

@@ -58,8 +58,10 @@ class Store {
   virtual std::optional<ArtefactRecord> public_artefact(std::string_view sha256) = 0;
   /// Bytes of all artefacts, each content counted once.
   virtual std::uint64_t artefact_bytes() = 0;
-  /// Every hash the facts refer to: what a sweep of the blob folder must keep.
+  /// Every hash the facts refer to: blobs that a start must find or keep.
   virtual std::vector<std::string> referenced_hashes() = 0;
+  /// Who refers to a hash: "model <id>", "job <id>".
+  virtual std::vector<std::string> users_of(std::string_view sha256) = 0;
 
   // ---- jobs
   virtual void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) = 0;
@@ -124,6 +126,10 @@ class Store {
   virtual bool remove_recording(std::string_view id) = 0;
 
   virtual std::optional<IdempotencyRecord> idempotency(std::string_view key) = 0;
+
+  virtual DatabaseIdentity identity() = 0;
+  /// One start more; the identity from now on.
+  virtual DatabaseIdentity count_start() = 0;
 
   /// A cheap question to the disk, for /readyz.
   virtual bool healthy() = 0;

@@ -2,9 +2,20 @@
 
 #include <utility>
 
+#include "server/log/guard.h"
+
 namespace semblante::streams {
 
 using Clock = Stream::Clock;
+
+namespace {
+
+/// After a fault of a stream, until it gets its next turn.
+constexpr std::chrono::milliseconds retry_interval{200};
+
+}  // namespace
+
+BatchSender::BatchSender() : thread_([this] { log::keep_running("the batch sender", [this] { run(); }); }) {}
 
 void BatchSender::wake(std::weak_ptr<Stream> stream, Clock::time_point when) {
   bool is_next = false;
@@ -44,10 +55,11 @@ void BatchSender::run() {
     Turn turn = std::move(ready.front());
     ready.pop_front();
     lock.unlock();
-    if (const auto stream = turn.stream.lock())
-      turn.when = stream->work(turn.when);
-    else
-      turn.when = Clock::time_point::max();
+    const bool worked = log::guarded("sending a batch", [&turn] {
+      const auto stream = turn.stream.lock();
+      turn.when = stream ? stream->work(turn.when) : Clock::time_point::max();
+    });
+    if (!worked) turn.when = now + retry_interval;
     lock.lock();
     if (turn.when == Clock::time_point::max()) continue;
     if (turn.when <= now)

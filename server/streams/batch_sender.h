@@ -16,7 +16,7 @@ namespace semblante::streams {
 /// have something to send, so that a stream with thousands of subscribers holds up no other.
 class BatchSender {
  public:
-  BatchSender() : thread_([this] { run(); }) {}
+  BatchSender();
   ~BatchSender() { stop(); }
   BatchSender(const BatchSender&) = delete;
   BatchSender& operator=(const BatchSender&) = delete;

@@ -11,8 +11,6 @@ namespace semblante::streams {
 namespace {
 
 using Clock = Stream::Clock;
-/// A stream's own source comes back when nobody has published for so long.
-constexpr std::chrono::seconds demo_patience{3};
 
 }  // namespace
 
@@ -134,7 +132,7 @@ void Stream::replace_publisher() {
 std::optional<Source> Stream::active_source() const {
   if (publisher_ != nullptr) return Source::connection;
   if (player_ != 0) return playing_;
-  if (last_was_request_ && Clock::now() - last_live_ < demo_patience) return Source::request;
+  if (last_was_request_ && Clock::now() - last_live_ < limits_.demo_patience) return Source::request;
   if (info_.source == "demo") return Source::demo;
   return std::nullopt;
 }
@@ -176,7 +174,7 @@ Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
   if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
-  if (publisher_ != nullptr || player_ != 0 || Clock::now() - last_live_ < demo_patience) return Unit{};
+  if (publisher_ != nullptr || player_ != 0 || Clock::now() - last_live_ < limits_.demo_patience) return Unit{};
   take(Source::demo, timeline_.place_due(media_time_at(when)), {frame});
   return Unit{};
 }

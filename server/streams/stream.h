@@ -37,6 +37,7 @@ struct StreamLimits {
   std::size_t pending_bytes = 256 * 1024;
   std::chrono::milliseconds stalled{5000};  ///< reading nothing for so long closes with 1013
   std::chrono::milliseconds hello_time{10'000};
+  std::chrono::milliseconds demo_patience{3000};  ///< without live frames: then the stream's own filling comes back
   FloodLimits publisher;  ///< of one connection that publishes, and of all requests of one stream together
   std::size_t playing_bytes = std::size_t{512} << 20U;  ///< of all that plays, in all streams together
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/http/media_type.h"
+#include "server/log/guard.h"
 #include "server/streams/performance_source.h"
 #include "server/streams/stream_connection.h"
 
@@ -16,7 +17,8 @@ constexpr std::uint64_t no_ticket = 0;
 
 }  // namespace
 
-InProcessHub::InProcessHub(StreamLimits limits) : limits_(limits), thread_([this] { run(); }) {}
+InProcessHub::InProcessHub(StreamLimits limits)
+    : limits_(limits), thread_([this] { log::keep_running("the hub", [this] { run(); }); }) {}
 
 InProcessHub::~InProcessHub() {
   {
@@ -220,13 +222,16 @@ void InProcessHub::run() {
         for (const auto& [id, stream] : streams_) all.push_back(stream);
       }
     }
-    for (const auto& stream : all) stream->look_after_connections();
+    for (const auto& stream : all)
+      log::guarded("looking after a stream's connections", [&] { stream->look_after_connections(); });
     if (!all.empty() || Player::Clock::now() >= next_look) next_look += look_interval;
     next = next_look;
     std::vector<std::shared_ptr<Playing>> finished;
     for (const auto& playing : all_playing()) {
       const std::lock_guard lock(playing->mutex);
-      playing->player.play(Player::Clock::now());
+      // A source that fails plays no more: it would fail again at its next frame.
+      if (!log::guarded("playing into a stream", [&] { playing->player.play(Player::Clock::now()); }))
+        log::guarded("stopping what plays", [&] { playing->player.stop(); });
       next = std::min(next, playing->player.next());
       if (playing->player.finished()) finished.push_back(playing);
     }

@@ -10,6 +10,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { assembleFace, compileKernel, Kernel, neutralFrame, type DracoModule, type Face, type FaceFrame } from '@client/index.ts';
 import { standardQuantizers } from '@protocol/index.ts';
 import { buildDir, root, sampleHead, samplePoints } from './support/paths.ts';
+import { patience } from './support/patience.ts';
 import { launch } from './support/studio_page.ts';
 import type { ClipReport } from './pages/play_clip.ts';
 
@@ -62,7 +63,7 @@ beforeAll(async () => {
 
   browser = await launch();
   page = await browser.newPage({ viewport: { width: 800, height: 440 } });
-  page.setDefaultTimeout(90_000);
+  page.setDefaultTimeout(patience);
   page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
   page.on('pageerror', (error) => errors.push(String(error)));
   const bundle = await build({

@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { faces } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -87,13 +88,8 @@ describe('deformation', () => {
     const { model } = (await answer.json()) as { model: { id: string } };
     const state = async (): Promise<string> =>
       ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { state: string }).state;
-    const until = async (wanted: string): Promise<void> => {
-      const deadline = Date.now() + 60_000;
-      while ((await state()) !== wanted) {
-        if (Date.now() > deadline) throw new Error(`the head is not ${wanted} after a minute`);
-        await new Promise((wake) => setTimeout(wake, 200));
-      }
-    };
+    const until = (wanted: string): Promise<void> =>
+      eventually(`the head is ${wanted}`, async () => (await state()) === wanted);
     await until('ready');
     const put = await fetch(`${server.url}/v1/models/${model.id}/feature-points`, {
       method: 'PUT',

@@ -29,14 +29,15 @@ describe('look', () => {
         await studio.waitForStage('ready');
         for (const tab of tabs) {
           await studio.page.locator(`#tab-${tab}`).click();
-          await studio.page.waitForTimeout(800);
-          await studio.keep(`${name}-${dark ? 'dark' : 'light'}-${tab}`);
           // Nothing sticks out sideways, and the page itself does not scroll.
-          const overflow = await studio.page.evaluate(() => [
-            document.documentElement.scrollWidth - innerWidth,
-            document.documentElement.scrollHeight - innerHeight,
-          ]);
-          expect(overflow).toEqual([0, 0]);
+          const overflow = (): Promise<number[]> =>
+            studio.page.evaluate(() => [
+              document.documentElement.scrollWidth - innerWidth,
+              document.documentElement.scrollHeight - innerHeight,
+            ]);
+          await studio.drawn(30);
+          expect(await overflow()).toEqual([0, 0]);
+          await studio.keep(`${name}-${dark ? 'dark' : 'light'}-${tab}`);
         }
         expect(studio.errors).toEqual([]);
         await studio.close();

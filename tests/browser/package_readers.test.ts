@@ -8,6 +8,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { decodeWeights } from '@protocol/weights_format.ts';
 import { readRig } from '@protocol/rig_document.ts';
 import { root } from './support/paths.ts';
+import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch } from './support/studio_page.ts';
 import type { FaceReport } from './pages/read_face.ts';
@@ -120,6 +121,7 @@ describe('face package, read by others', () => {
       logLevel: 'silent',
     });
     const page = await browser.newPage();
+    page.setDefaultTimeout(patience);
     const errors: string[] = [];
     page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
     page.on('pageerror', (error) => errors.push(String(error)));

@@ -2,6 +2,7 @@ import { readFileSync } from 'node:fs';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { parseFap } from '@protocol/fap_file.ts';
+import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -40,15 +41,16 @@ describe('recordings', () => {
     const stop = section.getByRole('button', { name: 'Stop recording Demo' });
     await stop.waitFor();
     await section.getByText(/since .* · [1-9]\d* s · [1-9]\d* frames/).waitFor();
-    await page.waitForTimeout(2000);
+    type Recordings = { recordings: { state: string; frames: number; duration: number; name: string }[] };
+    const recorded = async (): Promise<Recordings['recordings']> =>
+      ((await (await fetch(`${server.url}/v1/streams/demo/recordings`)).json()) as Recordings).recordings;
+    await eventually('something is recorded', async () => (await recorded())[0]!.duration > 1500);
     await section.scrollIntoViewIfNeeded();
     await studio.keep('recording');
     await stop.click();
     const item = section.locator('.recording');
     await item.getByText(/0:\d\d\.\d · \d+ frames · /).waitFor();
-    const { recordings } = (await (await fetch(`${server.url}/v1/streams/demo/recordings`)).json()) as {
-      recordings: { state: string; frames: number; duration: number; name: string }[];
-    };
+    const recordings = await recorded();
     expect(recordings).toHaveLength(1);
     expect(recordings[0]!.state).toBe('finished');
     expect(recordings[0]!.duration).toBeGreaterThan(1500);
@@ -76,7 +78,7 @@ describe('recordings', () => {
     await page.getByLabel('About the stream').getByText('Not at all').waitFor();
     await expect
       .poll(async () => ((await (await fetch(`${server.url}/v1/streams/other`)).json()) as { sequence: number }).sequence, {
-        timeout: 30_000,
+        timeout: patience,
       })
       .toBeGreaterThan(20);
     // The list now is that of the stream which is watched.
@@ -95,7 +97,7 @@ describe('recordings', () => {
         async () =>
           ((await (await fetch(`${server.url}/v1/streams/other`)).json()) as { playing: { name: string } | null }).playing
             ?.name ?? null,
-        { timeout: 30_000 },
+        { timeout: patience },
       )
       .not.toBe('Smile');
     expect(studio.errors).toEqual([]);
@@ -123,12 +125,10 @@ describe('recordings', () => {
     const seek = item.getByRole('slider');
     await seek.fill('100');
     await page.locator('.driver').getByText('0:00.1 of A yawn').waitFor();
-    await page.waitForTimeout(2000);
-    const shut = await studio.picture();
+    const shut = await studio.pictureAtRest();
     await seek.fill('2500');
     await page.locator('.driver').getByText('0:02.5 of A yawn').waitFor();
-    await page.waitForTimeout(2000);
-    expect(await studio.difference(shut, await studio.picture(), faceAlone)).toBeGreaterThan(0.5);
+    await studio.pictureUnlike(shut, faceAlone, 0.5);
 
     for (const [name, width, height] of [['wide', 1440, 900], ['narrow', 390, 844]] as const) {
       await page.setViewportSize({ width, height });

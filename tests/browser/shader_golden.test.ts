@@ -7,6 +7,7 @@ import { compileKernel, Kernel, neutralFrame, type Face, type Pose } from '../..
 import { featurePoints } from '../../protocol/ts/generated/mpeg4.ts';
 import { rigFapus, type RigDocument, type Vec3 } from '../../protocol/ts/index.ts';
 import { buildDir } from './support/paths.ts';
+import { patience } from './support/patience.ts';
 import type { GoldenMesh } from './support/golden_page.ts';
 import { launch } from './support/studio_page.ts';
 
@@ -113,6 +114,7 @@ test('Shader_GoldenFrames_GiveTheGoldenVertices', async () => {
   const browser = await launch();
   try {
     const page = await browser.newPage();
+    page.setDefaultTimeout(patience);
     const errors: string[] = [];
     page.on('console', (message) => void (message.type() === 'error' && errors.push(message.text())));
     page.on('pageerror', (error) => errors.push(String(error)));

@@ -51,7 +51,7 @@ def written(fields, values):
 class StreamClient:
     """One connection to a stream, in the JSON or the binary form."""
 
-    def __init__(self, port, stream, as_json=False, timeout=60):
+    def __init__(self, port, stream, as_json=False, timeout=600):
         self.as_json, self.reader, self.header, self.waiting = as_json, Reader(), None, b""
         self.socket = socket.create_connection(("127.0.0.1", port), timeout)
         key = base64.b64encode(os.urandom(16)).decode()

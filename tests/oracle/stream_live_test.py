@@ -10,14 +10,16 @@ import threading
 from stream_client import StreamClient
 
 FRAMES = 75  # that each form must have had at least, of all that are compared
+PATIENCE = 600  # seconds; only a hang lasts so long, on however busy a machine
 
 
 class Follower(threading.Thread):
-    """Collects from one connection: numbers with what was said of them, and the messages around."""
+    """Collects from one connection: numbers with what was said of them, and the messages around. Goes on until it has
+    `least` frames, and all that are compared have `enough` of each other."""
 
-    def __init__(self, port, form, least=FRAMES, **hello):
+    def __init__(self, port, form, least=FRAMES, enough=lambda: True, **hello):
         super().__init__(daemon=True)
-        self.least, self.next = least, None
+        self.least, self.enough, self.next = least, enough, None
         self.client = StreamClient(port, "demo", as_json=form == "json")
         self.form, self.frames, self.keyframes, self.pongs, self.failure = form, {}, [], [], None
         if form == "packed":
@@ -35,7 +37,7 @@ class Follower(threading.Thread):
     def follow(self):
         for i in range(3):
             self.client.say("ping", id=i + 1, client_time=i + 0.5)
-        while len(self.frames) < self.least or len(self.pongs) < 3:
+        while len(self.frames) < self.least or len(self.pongs) < 3 or not self.enough():
             self.take(self.client.hear())
 
     def take(self, message):
@@ -56,13 +58,17 @@ class Follower(threading.Thread):
 
 def all_of(followers):
     for follower in followers:
-        follower.join(120)
+        follower.join(PATIENCE)
         assert follower.failure is None, follower.failure
-        assert not follower.is_alive(), f"{follower.form}: {len(follower.frames)} frames after 120 s"
+        assert not follower.is_alive(), f"{follower.form}: {len(follower.frames)} frames after {PATIENCE} s"
+
+
+def in_common(followers):
+    return set.intersection(*(set(f.frames) for f in followers))
 
 
 def same_frames(followers, least):
-    common = set.intersection(*(set(f.frames) for f in followers))
+    common = in_common(followers)
     assert len(common) >= least, f"{len(common)} frames in common"
     for number in common:
         said = {f.frames[number] for f in followers}
@@ -72,12 +78,17 @@ def same_frames(followers, least):
 
 def test(port):
     forms = ("packed", "plain", "json")
-    first = [Follower(port, form) for form in forms]
+    first, second = [], []
+
+    def enough():
+        return len(second) == len(forms) and len(in_common(first)) >= FRAMES // 2 and len(in_common(first + second)) >= 10
+
+    first += [Follower(port, form, enough=enough) for form in forms]
     for follower in first:
         follower.start()
     while first[0].is_alive() and len(first[0].frames) < FRAMES // 3:
         first[0].join(0.05)
-    second = [Follower(port, form) for form in forms]  # in the middle of what the first ones get
+    second += [Follower(port, form, enough=enough) for form in forms]  # in the middle of what the first ones get
     for follower in second:
         follower.start()
     all_of(first + second)
@@ -144,4 +155,4 @@ else:
             test(int(line.rsplit(":", 1)[1]))
         finally:
             server.terminate()
-            server.wait(60)
+            server.wait(PATIENCE)

@@ -1,6 +1,7 @@
 #include "clients/gateways/tools/inbound.h"
 
 #include <chrono>
+#include <exception>
 #include <iostream>
 #include <utility>
 
@@ -48,7 +49,11 @@ class Inbound {
       for (int i = 0; i < packets_at_once; ++i) {
         const auto packet = socket.receive();
         if (!packet) break;
-        take(*packet);
+        try {
+          take(*packet);
+        } catch (const std::exception& fault) {
+          refused("", fault.what());
+        }
       }
       publish_waiting();
     }
@@ -74,12 +79,7 @@ class Inbound {
     }
     auto face = decode_(packet, arrival);
     if (!face) {
-      // Once: a stranger's packets must not fill a log.
-      if (counts_.refused++ == 0) {
-        std::cerr << options_.program << ": a packet was refused: " << face.error().where << ": "
-                  << face.error().message << '\n';
-      }
-      return;
+      return refused(face.error().where, face.error().message);
     }
     if (!*face) return;
     counts_.clamped += (*face)->clamped;
@@ -87,6 +87,12 @@ class Inbound {
     counts_.dropped += waiting_ ? 1 : 0;
     waiting_ = {**face, timeline_.place((*face)->seconds, arrival)};
     publish_waiting();
+  }
+
+  void refused(std::string_view where, std::string_view why) {
+    // Once: a stranger's packets must not fill a log.
+    if (counts_.refused++ > 0) return;
+    std::cerr << options_.program << ": a packet was refused: " << where << ": " << why << '\n';
   }
 
   void publish_waiting() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -37,7 +38,7 @@ class Outbound {
     while (!stop_requested()) {
       auto stream = client::StreamClient::connect(url_, options_.stream, wanted());
       if (!stream && stream.error().code == ErrorCode::missing) return std::move(stream).error();
-      std::string why = stream ? follow(*stream) : stream.error().message;
+      std::string why = stream ? why_it_ends(*stream) : stream.error().message;
       if (stop_requested()) {
         if (stream) stream->close();
         break;
@@ -65,6 +66,14 @@ class Outbound {
     options.timeout = connect_time;
     if (epoch_ != 0) options.resume = ResumePoint{epoch_, sequence_};
     return options;
+  }
+
+  std::string why_it_ends(client::StreamClient& stream) {
+    try {
+      return follow(stream);
+    } catch (const std::exception& fault) {  // one connection is given up, not the gateway
+      return fault.what();
+    }
   }
 
   /// Why the connection ended.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+#include <exception>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
@@ -14,6 +14,9 @@
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.h"
+#include "core/json/read_json.h"
+
 namespace semblante::client {
 namespace {
 
@@ -22,8 +25,12 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
 
+/// Bytes of an answer that wait to be parsed.
+constexpr std::size_t most_unparsed = std::size_t{60} << 10U;
+
 Error failed(const Url& url, const char* step, const error_code& problem) {
-  const ErrorCode code = problem == http::error::body_limit || problem == http::error::header_limit
+  const ErrorCode code = problem == http::error::body_limit || problem == http::error::header_limit ||
+                                 problem == http::error::buffer_overflow
                              ? ErrorCode::too_large
                          : problem.category() == http::make_error_code(http::error::end_of_stream).category() &&
                                  problem != http::error::end_of_stream && problem != http::error::partial_message
@@ -84,11 +91,11 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
   co_await http::async_write(stream, message, token);
   // A server may answer and close before it has read all of a body it refuses: the answer is what counts.
   const error_code write_problem = problem;
-  beast::flat_buffer buffer;
+  // Also bounds trailers and chunk extensions: Beast keeps them whole, and throws on a field of more than 64 KiB.
+  beast::flat_buffer buffer(most_unparsed);
   http::response_parser<http::string_body> parser;
   parser.body_limit(limits.max_body);
-  parser.header_limit(
-      static_cast<std::uint32_t>(std::min<std::size_t>(limits.max_header, std::numeric_limits<std::uint32_t>::max())));
+  parser.header_limit(static_cast<std::uint32_t>(std::min(limits.max_header, most_unparsed)));
   parser.skip(request.method == "HEAD");
   co_await http::async_read(stream, buffer, parser, token);
   if (problem) {
@@ -101,15 +108,14 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
 
 /// What a problem document (RFC 9457) says, for people.
 std::string words_of(const HttpResponse& response) {
-  const auto document = nlohmann::json::parse(response.body, nullptr, false);
   std::string words = "the server answered " + std::to_string(response.status);
-  if (document.is_object()) {
-    for (const char* member : {"title", "detail", "pointer"}) {
-      const auto found = document.find(member);
-      if (found != document.end() && found->is_string()) {
-        words += ": " + found->get<std::string>().substr(0, 500);
-      }
-    }
+  const auto document =
+      read_json_object(response.body, {.max_bytes = 1U << 20U, .max_depth = 16, .max_values = 10'000});
+  if (!document) return words;
+  for (const char* member : {"title", "detail", "pointer"}) {
+    JsonCursor::Report report;
+    const std::string text = JsonCursor(*document, report).text_or(member, "");
+    if (!text.empty()) words += ": " + text.substr(0, 500);
   }
   return words;
 }
@@ -126,7 +132,11 @@ Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
   std::optional<Result<HttpResponse>> outcome;
   std::exception_ptr fault;
   asio::co_spawn(io, exchange(url_, limits_, request, outcome), [&](std::exception_ptr f) { fault = std::move(f); });
-  io.run_for(limits_.timeout);
+  try {
+    io.run_for(limits_.timeout);
+  } catch (...) {
+    fault = std::current_exception();
+  }
   if (outcome) {
     return *std::move(outcome);
   }

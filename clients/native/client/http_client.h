@@ -32,9 +32,9 @@ struct HttpResponse {
 };
 
 struct HttpLimits {
-  std::size_t max_body = std::size_t{256} << 20U;  ///< of a response
-  std::size_t max_header = std::size_t{64} << 10U;
-  std::chrono::milliseconds timeout{30'000};  ///< of one whole exchange
+  std::size_t max_body = std::size_t{256} << 20U;   ///< of a response
+  std::size_t max_header = std::size_t{60} << 10U;  ///< at most that; also of trailers and chunk extensions
+  std::chrono::milliseconds timeout{30'000};        ///< of one whole exchange
 };
 
 /// Plain HTTP/1.1, one connection a request, blocking. Trusts nothing a server sends: sizes and times are bounded.

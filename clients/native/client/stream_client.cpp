@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 /// Everything runs inside run_until, on the caller's thread; a read stays pending between calls.
 struct StreamClient::Impl {
   asio::io_context io{1};
-  websocket::stream<beast::tcp_stream> socket{io};
+  websocket::stream<beast::tcp_stream, false> socket{io};  ///< no compression: it is not offered
   beast::flat_buffer buffer;
   std::string where;
   StreamOptions options;
@@ -39,18 +39,24 @@ struct StreamClient::Impl {
   bool reading = false;
   std::optional<error_code> read_result;
   Clock::time_point hello_sent{};
+  std::string fault;  ///< an exception that ended an operation, and with it the connection
 
   /// Lets things happen until `done` or the time is up.
   template <class Done>
   bool run_until(Clock::time_point deadline, Done done) {
     io.restart();
-    while (!done()) {
-      // What is ready is done even when the time is up: who never has time to wait must hear of it, too.
-      if (io.run_one_until(deadline) == 0 && io.poll_one() == 0) {
-        return done();
+    while (!done() && fault.empty()) {
+      try {
+        // What is ready is done even when the time is up: who never has time to wait must hear of it, too.
+        if (io.run_one_until(deadline) == 0 && io.poll_one() == 0) {
+          break;
+        }
+      } catch (const std::exception& thrown) {
+        fault = std::string("unexpected: ") + thrown.what();
+        beast::get_lowest_layer(socket).close();
       }
     }
-    return true;
+    return done();
   }
 
   /// Starts an operation and waits for its end. `start` gets a handler that takes an error_code (and more).
@@ -62,7 +68,7 @@ struct StreamClient::Impl {
       // The handler refers to this frame, so the operation must end with it.
       beast::get_lowest_layer(socket).cancel();
       run_until(Clock::now() + options.timeout, [&] { return result.has_value(); });
-      return Error{ErrorCode::io, where, std::string(step) + ": no answer in time"};
+      return Error{ErrorCode::io, where, std::string(step) + ": " + (fault.empty() ? "no answer in time" : fault)};
     }
     if (*result) {
       return Error{ErrorCode::io, where, std::string(step) + ": " + result->message()};
@@ -87,7 +93,8 @@ struct StreamClient::Impl {
     if (!connected) {
       return connected;
     }
-    beast::get_lowest_layer(socket).socket().set_option(asio::ip::tcp::no_delay(true));
+    error_code ignored;
+    beast::get_lowest_layer(socket).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
     const std::string_view protocol = options.json ? json_subprotocol : binary_subprotocol;
     socket.set_option(websocket::stream_base::decorator([protocol](websocket::request_type& request) {
       request.set(http::field::sec_websocket_protocol, std::string(protocol));
@@ -169,7 +176,11 @@ Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds time
         impl.reading = false;
       });
     }
-    if (!impl.run_until(deadline, [&] { return impl.read_result.has_value(); })) {
+    const bool ended = impl.run_until(deadline, [&] { return impl.read_result.has_value(); });
+    if (!impl.fault.empty()) {
+      return Error{ErrorCode::internal, impl.where, "the stream ended: " + impl.fault};
+    }
+    if (!ended) {
       return std::optional<Message>();
     }
     if (*impl.read_result) {

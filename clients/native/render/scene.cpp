@@ -7,6 +7,7 @@
 #include <stb/stb_image.h>
 
 #include "clients/native/render/eyeballs.h"
+#include "core/types/seeded_hash.h"
 
 namespace semblante::render {
 namespace {
@@ -136,7 +137,7 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
               .subjects = {},
               .warnings = std::move(warnings)};
 
-  std::unordered_map<std::uint64_t, std::uint32_t> drawn;
+  std::unordered_map<std::uint64_t, std::uint32_t, SeededHash> drawn;
   scene.triangles.resize(model.triangles.size());
   Box all;
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/skew_meter.h"
+#include "tests/bench/clock/skew_meter.h"
 
 int main(int argc, char** argv) {
   using namespace semblante;

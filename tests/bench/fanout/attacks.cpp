@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// The server's limits are 10 s; a loaded machine gets more.
-constexpr seconds patience{40};
+/// The server's limits are 10 s; a busy machine gets more.
+constexpr seconds patience{120};
 
 /// A connection that misbehaves, and what it is told.
 class Wrongdoer {

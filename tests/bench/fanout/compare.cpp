@@ -25,6 +25,7 @@ Run measure(SubscriberPool& pool, Timeline& timeline, pid_t server, const Option
   const auto before = processor_time(server);
   const auto begin = now_ns();
   pool.run_for(std::chrono::duration<double>(options.seconds));
+  pool.run_until_delivered();
   const auto after = processor_time(server);
   const double seconds = static_cast<double>(now_ns() - begin) * 1e-9;
 

@@ -17,7 +17,7 @@
 namespace semblante::bench {
 namespace {
 
-constexpr timeval patience{30, 0};
+constexpr timeval patience{120, 0};
 /// Of the 28 thousand ports a source address has, so many are used, which leaves room for those in TIME_WAIT.
 constexpr std::size_t connections_per_source = 12'000;
 

@@ -16,7 +16,7 @@
 namespace semblante::bench {
 namespace {
 
-constexpr int patience_to_end_ms = 20'000;
+constexpr int patience_to_end_ms = 120'000;
 
 /// The next line with an address; empty when the output ends first.
 std::string line_with_address(int output) {

@@ -23,7 +23,7 @@ enum class Ending : std::uint8_t { open, reset, closed, told_1013 };
 
 /// Reads to the end; `open` when nothing comes for a while and there is none.
 Ending ending_of(const Socket& socket) {
-  const timeval while_{1, 0};
+  const timeval while_{10, 0};
   setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &while_, sizeof while_);
   std::string tail;  // the close frame, if it got through, is the last thing there is: 88 0L 03 F5 and words
   char buffer[64 * 1024];
@@ -98,10 +98,10 @@ int stall(const Options& given) {
     watch(options.seconds);
     const Histogram troubled = pool.lateness();
 
-    // The limit is 5 s of reading nothing, then 5 s for the farewell; a loaded machine gets more.
+    // The limit is 5 s of reading nothing, then 5 s for the farewell; a busy machine gets more.
     // Their end of the connection cannot tell: the farewell lies behind what they did not read.
     const auto remaining = [&] { return server.stream_number(stream.path, "subscribers"); };
-    for (int wait = 0; wait < 80 && remaining() > pool.live(); ++wait) watch(0.5);
+    for (int wait = 0; wait < 240 && remaining() > pool.live(); ++wait) watch(0.5);
     const auto left = remaining();
     verdict.expect(left == pool.live(), std::to_string(left - pool.live()) + " stopped readers are still subscribed");
     std::size_t endings[4] = {};

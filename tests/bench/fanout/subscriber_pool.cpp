@@ -131,6 +131,11 @@ void SubscriberPool::run_for(std::chrono::duration<double> time) {
   run_until(Clock::now() + std::chrono::duration_cast<Clock::duration>(time));
 }
 
+void SubscriberPool::run_until_delivered() {
+  const auto end = Clock::now() + std::chrono::minutes(2);
+  while (counts_.delivered == 0 && live_ > 0 && Clock::now() < end) run_for(std::chrono::milliseconds(20));
+}
+
 void SubscriberPool::run_until(Clock::time_point end) {
   std::array<epoll_event, 512> events;
   while (true) {

@@ -41,6 +41,8 @@ class SubscriberPool {
   void leave(std::size_t count);
   void run_until(std::chrono::steady_clock::time_point end);
   void run_for(std::chrono::duration<double> time);
+  /// Until a batch has been delivered since begin_measuring(): a short time says nothing of a busy machine.
+  void run_until_delivered();
 
   /// From now on deliveries and lateness count anew.
   void begin_measuring();

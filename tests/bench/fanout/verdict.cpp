@@ -11,7 +11,8 @@ void Verdict::expect(bool held, const std::string& otherwise) {
   std::printf("  BROKEN: %s\n", otherwise.c_str());
 }
 
-void Verdict::expect_whole(const SubscriberPool& pool, const Timeline& timeline, const std::string& when) {
+void Verdict::expect_whole(SubscriberPool& pool, const Timeline& timeline, const std::string& when) {
+  pool.run_until_delivered();
   const PoolCounts& counts = pool.counts();
   const auto none = [&](std::uint64_t count, const char* what) {
     expect(count == 0, when + ": " + std::to_string(count) + " " + what + "; " + pool.trouble());

@@ -10,8 +10,9 @@ namespace semblante::bench {
 class Verdict {
  public:
   void expect(bool held, const std::string& otherwise);
-  /// Every subscriber there still is has had everything, and its own decoder agrees.
-  void expect_whole(const SubscriberPool& pool, const Timeline& timeline, const std::string& when);
+  /// Every subscriber there still is has had everything since begin_measuring(), which is something, and its own
+  /// decoder agrees.
+  void expect_whole(SubscriberPool& pool, const Timeline& timeline, const std::string& when);
   [[nodiscard]] int status() const { return broken_ ? 1 : 0; }
 
  private:

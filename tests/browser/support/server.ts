@@ -4,6 +4,7 @@ import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { buildDir, sampleHead, webRoot } from './paths.ts';
+import { eventually } from './patience.ts';
 
 export interface RunningServer {
   url: string;
@@ -38,23 +39,20 @@ export async function startServer(): Promise<RunningServer> {
   child.stdout.on('data', (chunk: Buffer) => (output += chunk.toString()));
   child.stderr.on('data', (chunk: Buffer) => (output += chunk.toString()));
   const ended = new Promise<void>((resolve) => child.once('exit', () => resolve()));
-  const deadline = Date.now() + 60_000;
-  for (;;) {
+  await eventually('the server is ready', async () => {
     if (child.exitCode !== null) throw new Error(`the server stopped while starting:\n${output}`);
-    if (Date.now() > deadline) throw new Error(`the server is not ready after a minute:\n${output}`);
     const ready = await fetch(`${url}/readyz`).then(
       (r) => r.ok,
       () => false,
     );
-    const sample =
+    return (
       ready &&
       (await fetch(`${url}/v1/models/sample`).then(
         async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized',
         () => false,
-      ));
-    if (sample) break;
-    await new Promise((wake) => setTimeout(wake, 100));
-  }
+      ))
+    );
+  });
   return {
     url,
     stop: async () => {

@@ -2,9 +2,14 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { chromium as driver, type Browser, type BrowserContext, type Page } from 'playwright-core';
 import { buildDir, chromium } from './paths.ts';
+import { eventually, patience } from './patience.ts';
 
 export function launch(): Promise<Browser> {
-  return driver.launch({ executablePath: chromium, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
+  return driver.launch({
+    executablePath: chromium,
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
+    timeout: patience,
+  });
 }
 
 export interface OpenOptions {
@@ -30,8 +35,7 @@ export class StudioPage {
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: 'reduce',
     });
-    // Software rendering on a busy machine: patience costs nothing where all goes well.
-    context.setDefaultTimeout(90_000);
+    context.setDefaultTimeout(patience);
     const page = await context.newPage();
     const studio = new StudioPage(context, page);
     page.on('console', (message) => {
@@ -43,7 +47,7 @@ export class StudioPage {
       if (request.failure()?.errorText !== 'net::ERR_ABORTED')
         studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
     });
-    await page.goto(url, { waitUntil: 'domcontentloaded', timeout: 90_000 });
+    await page.goto(url, { waitUntil: 'domcontentloaded', timeout: patience });
     return studio;
   }
 
@@ -52,7 +56,6 @@ export class StudioPage {
     await this.page.waitForFunction(
       (wanted) => (window as unknown as Inside).semblante?.scene.state.value.kind === wanted,
       kind,
-      { timeout: 90_000 },
     );
   }
 
@@ -60,13 +63,24 @@ export class StudioPage {
     await this.page.waitForFunction(
       (wanted) => (window as unknown as Inside).semblante?.studio.selected.value?.state === wanted,
       state,
-      { timeout: 90_000 },
     );
   }
 
-  /** Until the face has come to rest under the sliders. */
-  async settle(): Promise<void> {
-    await this.page.waitForTimeout(1500);
+  /** Until the page has come to draw so often, at whatever pace. */
+  async drawn(times: number): Promise<void> {
+    await this.page.evaluate(
+      (count) =>
+        new Promise<void>((done) => {
+          let left = count;
+          const next = (): void => {
+            left -= 1;
+            if (left < 0) done();
+            else requestAnimationFrame(next);
+          };
+          next();
+        }),
+      times,
+    );
   }
 
   /** Drops a file on the page, as a person would from a folder. */
@@ -88,6 +102,36 @@ export class StudioPage {
   /** The picture of the stage alone. */
   async picture(): Promise<Buffer> {
     return this.page.locator('canvas.canvas').screenshot();
+  }
+
+  /** The picture of the stage once nothing has moved in it for a while. */
+  async pictureAtRest(): Promise<Buffer> {
+    let last = await this.picture();
+    await eventually(
+      'the stage comes to rest',
+      async () => {
+        await this.drawn(30);
+        const before = last;
+        last = await this.picture();
+        return last.equals(before);
+      },
+      0,
+    );
+    return last;
+  }
+
+  /** Until the stage differs from an earlier picture of it by more than that within a region; see difference(). */
+  async pictureUnlike(
+    before: Buffer,
+    region: readonly [number, number, number, number],
+    least: number,
+  ): Promise<Buffer> {
+    let picture = before;
+    await eventually(`the picture changes by more than ${least}`, async () => {
+      picture = await this.picture();
+      return (await this.difference(before, picture, region)) > least;
+    });
+    return picture;
   }
 
   /**

@@ -13,6 +13,13 @@ void write(const std::filesystem::path& path, const semblante::test::Bytes& byte
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
+/// Before and after an array of empty objects: once read in the square of their number.
+semblante::test::Bytes many_objects(const std::string& before, const std::string& after) {
+  std::string text = before;
+  for (int i = 0; i < 1200; ++i) text += i == 0 ? "{}" : ",{}";
+  return semblante::test::to_bytes(text + after);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,6 +33,8 @@ int main(int argc, char** argv) {
     write(folder / std::string(to_string(file.format)) / file.name, file.bytes);
   }
   write(folder / "gltf" / "quad", to_bytes(quad_gltf_json()));
+  write(folder / "gltf" / "many_objects", many_objects(R"({"asset":{"version":"2.0"},"extras":[)", "]}"));
+  write(folder / "feature_points" / "many_objects", many_objects(R"({"points":{},"a":[)", "]}"));
   write(folder / "draco" / "sequential", quad_draco_data(false));
   write(folder / "draco" / "edgebreaker", quad_draco_data(true));
   write(folder / "feature_points" / "two",

@@ -16,13 +16,10 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/client/sample_server.h"
+#include "tests/support/wait.h"
 
 namespace semblante::testing {
 namespace {
-
-using std::chrono::seconds;
-
-constexpr seconds patience{120};
 
 std::vector<glm::vec3> read_obj(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -41,7 +38,7 @@ std::vector<glm::vec3> read_obj(const std::filesystem::path& path) {
 std::vector<std::string> follow(const SampleServer& server, const std::string& stream, const std::filesystem::path& out,
                                 int frames) {
   return {SEMBLANTE_CLIENT, server.url(), "--stream",  stream, "--frames", std::to_string(frames),
-          "--out",          out.string(), "--timeout", "60",   "--format", "obj"};
+          "--out",          out.string(), "--timeout", "600",  "--format", "obj"};
 }
 
 /// Each vertex of the package stands for a file vertex at its place (seams: several, which move alike). Draco moves it
@@ -196,7 +193,7 @@ TEST(NativeClient, FollowingTheDemo_DrawsAFaceThatMoves) {
   const std::filesystem::path out = server.folder() / "demo";
   std::vector<std::string> command = {SEMBLANTE_CLIENT, server.url(), "--frames",  "5",   "--fps",    "2.5",
                                       "--out",          out.string(), "--format",  "png", "--format", "table",
-                                      "--size",         "128",        "--timeout", "60"};
+                                      "--size",         "128",        "--timeout", "600"};
   ChildProcess process(command);
   ASSERT_EQ(process.wait(patience), 0);
   std::vector<std::vector<std::uint8_t>> pictures;

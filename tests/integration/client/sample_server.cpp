@@ -1,33 +1,13 @@
 #include "tests/integration/client/sample_server.h"
 
 #include <cstdlib>
-#include <functional>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/wait.h"
+
 namespace semblante::testing {
-namespace {
-
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
-/// Other tests run beside this one on few cores.
-constexpr seconds patience{90};
-
-bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  return true;
-}
-
-}  // namespace
 
 SampleServer::SampleServer() {
   std::string pattern = (std::filesystem::temp_directory_path() / "semblante-client-XXXXXX").string();
@@ -50,7 +30,7 @@ SampleServer::SampleServer() {
 
 SampleServer::~SampleServer() {
   process_->interrupt();
-  EXPECT_EQ(process_->wait(seconds(20)), 0) << "the server stops cleanly";
+  EXPECT_EQ(process_->wait(patience), 0) << "the server stops cleanly";
   std::filesystem::remove_all(folder_);
 }
 
@@ -73,10 +53,15 @@ void SampleServer::post_frames(const std::string& stream, const std::string& fra
   ASSERT_EQ(posted->status, 202) << posted->body;
 }
 
+nlohmann::json SampleServer::stream(const std::string& name) const {
+  const auto answer = http_->get("/v1/streams/" + name);
+  return answer ? nlohmann::json::parse(answer->body, nullptr, false) : nlohmann::json();
+}
+
 void SampleServer::wait_for_subscribers(const std::string& stream, int count) const {
   ASSERT_TRUE(eventually([&] {
-    const auto answer = http_->get("/v1/streams/" + stream);
-    return answer && nlohmann::json::parse(answer->body, nullptr, false).value("subscribers", -1) == count;
+    const auto said = this->stream(stream);
+    return said.is_object() && said.value("subscribers", -1) == count;
   }));
 }
 

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
 #include "clients/native/client/http_client.h"
 #include "tests/integration/client/child_process.h"
 
@@ -28,6 +30,8 @@ class SampleServer {
   void create_stream(const std::string& name, std::optional<double> viseme_share = {}) const;
   /// Posts {"frames": `frames`}.
   void post_frames(const std::string& stream, const std::string& frames) const;
+  /// What the server says of a stream; null when it does not answer.
+  [[nodiscard]] nlohmann::json stream(const std::string& name) const;
   /// Waits until a stream has that many subscribers.
   void wait_for_subscribers(const std::string& stream, int count) const;
 

@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/quantizers.h"
 #include "tests/integration/client/child_process.h"
+#include "tests/support/wait.h"
 #include "tests/unit/gateways/golden_packets.h"
 
 namespace semblante::testing {
@@ -25,8 +25,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using gateways::UdpSocket;
-
-constexpr std::chrono::seconds patience{90};
 
 /// The server without a model: streams need none.
 class BareServer {
@@ -52,7 +50,7 @@ class BareServer {
   void stop() {
     if (!process_) return;
     process_->interrupt();
-    EXPECT_EQ(process_->wait(20s), 0) << "the server stops cleanly";
+    EXPECT_EQ(process_->wait(patience), 0) << "the server stops cleanly";
     process_.reset();
   }
 
@@ -82,15 +80,6 @@ class BareServer {
   std::unique_ptr<ChildProcess> process_;
   client::Url url_;
 };
-
-bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(20ms);
-  }
-  return true;
-}
 
 /// The port in "listening at 127.0.0.1 port 40001 for stream show".
 std::string port_of(const std::string& line) {

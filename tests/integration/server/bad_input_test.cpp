@@ -2,7 +2,8 @@
 // time. Each answer names the field, in a form that can be read, and the server goes on.
 
 #include <chrono>
-#include <thread>
+#include <cstdint>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,11 +99,10 @@ nlohmann::json points_on_grid(const nlohmann::json& head_center) {
 std::string recording_of(int port, const std::string& stream) {
   const auto made = json_of(request(port, "POST", "/v1/streams/" + stream + "/recordings", "{}", json_type));
   const auto target = "/v1/recordings/" + made["id"].get<std::string>();
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (json_of(request(port, "GET", target))["duration"] < 2000 && std::chrono::steady_clock::now() < give_up) {
+  EXPECT_TRUE(testing::eventually([&] {
     request(port, "POST", "/v1/streams/" + stream + "/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+    return json_of(request(port, "GET", target))["duration"] >= 2000;
+  }));
   return made["id"];
 }
 
@@ -198,6 +198,75 @@ TEST_F(BadInput, LongMessages_AreTakenUpToTheLimitOfTheirSubprotocol) {
   binary.send(std::string((1U << 18U) + 1, ' '), true);
   EXPECT_EQ(binary.receive(), std::nullopt);
   EXPECT_EQ(binary.close_code(), 1009);
+}
+
+// ---- what surrounds the pieces of a chunked body ----------------------------------------------------------------
+
+/// The most memory the server has had, bytes.
+std::uint64_t peak_memory(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+  ADD_FAILURE() << "no VmHWM";
+  return 0;
+}
+
+Reply chunked(int port, const std::string& chunks) {
+  return parse_reply(
+      raw_exchange(port, "GET /version HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" + chunks));
+}
+
+void expect_slug(const Reply& reply, int status, const std::string& slug) {
+  EXPECT_EQ(reply.status, status) << reply.body;
+  const auto problem = json::parse(reply.body, nullptr, false);
+  ASSERT_TRUE(problem.is_object()) << reply.body;
+  EXPECT_EQ(problem.value("type", ""), "/problems/" + slug);
+  EXPECT_FALSE(problem.value("detail", "").empty());
+}
+
+TEST_F(BadInput, TrailerOf66000Bytes_IsRefused) {
+  expect_slug(chunked(port(), "0\r\nX: " + std::string(66'000, 'a') + "\r\n\r\n"), 431, "header-too-large");
+}
+
+TEST_F(BadInput, MegabytesOfTrailers_AreRefusedAndNotKept) {
+  std::string trailers = "0\r\n";
+  while (trailers.size() < (std::size_t{48} << 20U)) trailers += "X: " + std::string(60'000, 'a') + "\r\n";
+  const auto before = peak_memory(server_->pid());
+  expect_slug(chunked(port(), trailers + "\r\n"), 431, "header-too-large");
+  EXPECT_LT(peak_memory(server_->pid()) - before, std::uint64_t{8} << 20U);
+}
+
+TEST_F(BadInput, ThousandsOfSmallTrailers_AreRefused) {
+  std::string trailers = "0\r\n";
+  for (int i = 0; i < 20'000; ++i) trailers += "a" + std::to_string(i) + ":b\r\n";
+  expect_slug(chunked(port(), trailers + "\r\n"), 431, "header-too-large");
+}
+
+TEST_F(BadInput, GiantChunkLines_AreRefused) {
+  const std::string chunk = "\r\nx\r\n0\r\n\r\n";
+  expect_slug(chunked(port(), "1;" + std::string(8U << 20U, 'e') + chunk), 400, "malformed-request");
+  expect_slug(chunked(port(), std::string(1U << 20U, '0') + "1" + chunk), 400, "malformed-request");
+  std::string many;
+  for (int i = 0; i < 100; ++i) many += "1;" + std::string(1000, 'e') + "\r\nx\r\n";
+  expect_slug(chunked(port(), many + "0\r\n\r\n"), 400, "malformed-request");
+  expect_slug(chunked(port(), "0;" + std::string(66'000, 'e') + "\r\n\r\n"), 400, "malformed-request");
+}
+
+TEST_F(BadInput, SmallTrailersAndExtensions_AreTaken) {
+  const auto reply = chunked(port(), "3;a=b\r\nabc\r\n1\r\nd\r\n0;last\r\nX: y\r\nZ: w\r\n\r\n");
+  EXPECT_EQ(reply.status, 200) << reply.body;
+}
+
+TEST_F(BadInput, HeaderOfThousandsOfFields_IsRefused) {
+  std::string fields, parameters = "?";
+  for (int i = 0; i < 1200; ++i) {  // well below 16 KiB
+    fields += "a" + std::to_string(i) + ":\r\n";
+    parameters += "&a" + std::to_string(i);
+  }
+  expect_slug(parse_reply(raw_exchange(port(), "GET /version HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n")), 431,
+              "header-too-large");
+  expect_slug(parse_reply(raw_exchange(port(), "GET /version" + parameters + " HTTP/1.1\r\nHost: localhost\r\n\r\n")),
+              431, "header-too-large");
 }
 
 }  // namespace

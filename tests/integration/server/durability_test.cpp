@@ -2,7 +2,6 @@
 // worker.
 
 #include <csignal>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -125,11 +124,10 @@ TEST(Durability, Recording_HoldsWhatItSaidWasDurable) {
       ASSERT_EQ(request(server.port(), "POST", "/v1/streams/talk/frames", body, json_type).status, 202);
     }
     // Some are known to be durable, others may still be on their way.
-    for (int i = 0; i < 600; ++i) {
+    testing::eventually([&] {
       now = json_of(request(server.port(), "GET", "/v1/recordings/" + recording));
-      if (now["frames"] > 0) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+      return now["frames"] > 0;
+    });
     said = now["frames"];
     EXPECT_GT(said, 0U);
     server.end(SIGKILL);

@@ -13,6 +13,7 @@
 #include <sys/mount.h>
 
 #include "tests/integration/server/model_flow.h"
+#include "tests/support/wait.h"
 
 namespace semblante::test {
 namespace {
@@ -35,19 +36,11 @@ class FullDiskTest : public ::testing::Test {
     return request(server_->port(), method, target, body, fields);
   }
   json get(const std::string& target) const { return json_of(ask("GET", target)); }
-  /// Waits a minute at most; the tests' own time is what the server needs.
-  static bool wait_until(const std::function<bool()>& condition) {
-    for (int i = 0; i < 3000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return false;
-  }
   bool wait_until_ready() const {
-    return wait_until([this] { return ask("GET", "/readyz").status == 200; });
+    return testing::eventually([this] { return ask("GET", "/readyz").status == 200; });
   }
   bool wait_until_not_ready() const {
-    return wait_until([this] { return ask("GET", "/readyz").status == 503; });
+    return testing::eventually([this] { return ask("GET", "/readyz").status == 503; });
   }
   void expect_degraded(const std::string& pending) const {
     EXPECT_EQ(ask("GET", "/healthz").status, 200);
@@ -79,7 +72,7 @@ class FullDiskTest : public ::testing::Test {
       EXPECT_EQ(ask("POST", "/v1/streams/talk/frames", R"({"frames":[{"faps":{"3":80}}]})").status, 202);
   }
   void wait_until_durable(const std::string& recording, std::size_t frames) const {
-    EXPECT_TRUE(wait_until([&] { return get("/v1/recordings/" + recording)["frames"] == frames; }));
+    EXPECT_TRUE(testing::eventually([&] { return get("/v1/recordings/" + recording)["frames"] == frames; }));
   }
 
   TemporaryFolder folder_;
@@ -127,7 +120,7 @@ TEST_F(FullDiskTest, UnderAWorkerThatWrites_ItsJobIsDoneWithRoom) {
   start();
   const auto made = json_of(ask("POST", "/v1/models?filename=grid.obj", grid_obj(300), obj_type));
   const std::string job = made["job"]["id"];
-  ASSERT_TRUE(wait_until([&] { return get("/v1/jobs/" + job)["state"] == "running"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get("/v1/jobs/" + job)["state"] == "running"; }));
   disk_.fill();
   ASSERT_TRUE(wait_until_not_ready());
   EXPECT_NE(get("/v1/jobs/" + job)["state"], "done");
@@ -149,7 +142,7 @@ TEST_F(FullDiskTest, DuringARecording_ItEndsWithWhatWasDurable) {
   expect_full(ask("POST", recording + "/stop"), "stop");
   EXPECT_EQ(get(recording + "/frames")["frames"].size(), 10U);
   disk_.free();
-  ASSERT_TRUE(wait_until([&] { return get(recording)["state"] == "finished"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get(recording)["state"] == "finished"; }));
   EXPECT_EQ(get(recording)["ended"], "disk-full");
   EXPECT_EQ(get(recording)["frames"], 10);
   EXPECT_EQ(ask("GET", recording + "/content?format=fap").status, 200);
@@ -166,7 +159,7 @@ TEST_F(FullDiskTest, AtAStop_ItIsRecordedWithRoom) {
   EXPECT_THAT(refused.body, HasSubstr("the recording has ended"));
   expect_degraded("the end of recording " + id);
   disk_.free();
-  ASSERT_TRUE(wait_until([&] { return get("/v1/recordings/" + id)["state"] == "finished"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get("/v1/recordings/" + id)["state"] == "finished"; }));
   EXPECT_EQ(get("/v1/recordings/" + id)["ended"], "stopped");
   EXPECT_EQ(ask("POST", "/v1/recordings/" + id + "/stop").status, 200);
   EXPECT_TRUE(wait_until_ready());
@@ -178,7 +171,7 @@ TEST_F(FullDiskTest, AtACancel_ItIsRecordedWithRoom) {
   const auto second = json_of(ask("POST", "/v1/models?filename=grid.obj", grid_obj(9), obj_type));
   const std::string runs = "/v1/jobs/" + first["job"]["id"].get<std::string>();
   const std::string waits = "/v1/jobs/" + second["job"]["id"].get<std::string>();
-  ASSERT_TRUE(wait_until([&] { return get(runs)["state"] == "running"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get(runs)["state"] == "running"; }));
   ASSERT_EQ(get(waits)["state"], "queued");
   disk_.fill();
   for (const auto& job : {waits, runs}) {
@@ -286,12 +279,7 @@ TEST(RealFullDisk, IsSaid_CanBeEmptied_AndHeals) {
     std::this_thread::sleep_for(std::chrono::seconds(1));  // several probes
     EXPECT_EQ(request(port, "GET", "/readyz").status, 503) << "while it lasts";
     std::filesystem::remove(data / "filler");
-    int ready = 0;
-    for (int i = 0; i < 3000 && ready != 200; ++i) {
-      ready = request(port, "GET", "/readyz").status;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    EXPECT_EQ(ready, 200);
+    EXPECT_TRUE(testing::eventually([&] { return request(port, "GET", "/readyz").status == 200; }));
     EXPECT_EQ(request(port, "GET", "/v1/models/" + id).status, 404);
     EXPECT_EQ(json_of(request(port, "GET", recording))["state"], "finished");
   }
@@ -337,7 +325,7 @@ class FullDiskSampleTest : public FullDiskTest {
   }
   void start_with_sample() { start({"--sample", (folder_.path() / "head.obj").string()}); }
   bool wait_for_sample() const {
-    return wait_until([this] { return get("/v1/models/sample").value("state", "") == "parametrized"; });
+    return testing::eventually([this] { return get("/v1/models/sample").value("state", "") == "parametrized"; });
   }
 };
 
@@ -397,7 +385,7 @@ TEST_F(FullDiskTest, AtTheStart_ServerReadsAndStreams_AndRepairsWithRoom) {
   EXPECT_TRUE(subscriber.receive()) << "live streams need no disk";
   disk_.free();
   EXPECT_EQ(wait_for_job(server_->port(), job)["state"], "done");
-  ASSERT_TRUE(wait_until([&] { return get("/v1/recordings/" + recording)["state"] == "finished"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get("/v1/recordings/" + recording)["state"] == "finished"; }));
   EXPECT_EQ(get("/v1/recordings/" + recording)["ended"], "server-killed");
   EXPECT_EQ(get("/v1/recordings/" + recording)["frames"], 10);
   EXPECT_TRUE(wait_until_ready());
@@ -428,10 +416,10 @@ TEST_F(FullDiskTest, KilledWhileAnEndIsPending_TheNextStartFindsIt) {
   wait_until_durable(recording, 10);
   const auto made = json_of(ask("POST", "/v1/models?filename=grid.obj", grid_obj(300), obj_type));
   const std::string job = made["job"]["id"];
-  ASSERT_TRUE(wait_until([&] { return get("/v1/jobs/" + job)["state"] == "running"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get("/v1/jobs/" + job)["state"] == "running"; }));
   disk_.fill();
   expect_full(ask("POST", "/v1/recordings/" + recording + "/stop"), "stop");
-  ASSERT_TRUE(wait_until([&] { return get("/v1/jobs/" + job)["stage"] == "waiting for disk space"; }));
+  ASSERT_TRUE(testing::eventually([&] { return get("/v1/jobs/" + job)["stage"] == "waiting for disk space"; }));
   server_->end(SIGKILL);
   disk_.free();
   start();

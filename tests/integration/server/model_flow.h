@@ -13,15 +13,14 @@ inline nlohmann::json json_of(const Reply& reply) { return nlohmann::json::parse
 
 /// Follows a job to its end; the last state.
 inline nlohmann::json wait_for_job(int port, const std::string& id) {
-  for (int round = 0; round < 1200; ++round) {
-    auto job = json_of(request(port, "GET", "/v1/jobs/" + id));
-    if (job.value("state", "") != "queued" && job.value("state", "") != "running") return job;
-    struct timespec pause {
-      0, 50'000'000
-    };
-    nanosleep(&pause, nullptr);
-  }
-  return {{"state", "the test waited a minute"}};
+  nlohmann::json job;
+  const bool ended = testing::eventually(
+      [&] {
+        job = json_of(request(port, "GET", "/v1/jobs/" + id));
+        return job.value("state", "") != "queued" && job.value("state", "") != "running";
+      },
+      std::chrono::milliseconds(50));
+  return ended ? job : nlohmann::json{{"state", "the test waited in vain"}};
 }
 
 /// Uploads a grid and waits for its import; the id.

@@ -80,8 +80,7 @@ TEST_F(Play, TakesOverOnlyIfItIsTold_AndTheFirstSaysWhy) {
     "cues":[{"time":0,"blink":"both","duration":200}]})");
   Outcome first;
   std::thread thread([&] { first = play(endless, {"--stream", "stage", "--create"}); });
-  for (int i = 0; i < 500 && stream("stage").value("active_source", json()) != "performance"; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_TRUE(testing::eventually([&] { return stream("stage").value("active_source", json()) == "performance"; }));
   const auto refused = play(brief, {"--stream", "stage"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--take-over"));

@@ -1,5 +1,4 @@
 // Streams are recorded, fetched in every format, looked into, and played again to identical frames.
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,11 +71,8 @@ class Recordings : public ::testing::Test {
     return frames;
   }
   static void wait_until(const std::string& recording, const std::string& state) {
-    for (int i = 0; i < 600; ++i) {
-      if (json_of(get("/v1/recordings/" + recording))["state"] == state) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    FAIL() << "not " << state << " in 30 s";
+    EXPECT_TRUE(testing::eventually([&] { return json_of(get("/v1/recordings/" + recording))["state"] == state; }))
+        << "not " << state;
   }
 
   static inline TemporaryFolder* folder_ = nullptr;
@@ -85,19 +81,19 @@ class Recordings : public ::testing::Test {
 
 TEST_F(Recordings, Facts_AreSaid) {
   const auto id = stream();
-  const auto recording = record(id, {{"name", "A take"}, {"max_duration", 60000}});
+  const auto recording = record(id, {{"name", "A take"}, {"max_duration", 600000}});
   auto now = json_of(get("/v1/recordings/" + recording));
   EXPECT_EQ(now["state"], "recording");
   EXPECT_EQ(now["name"], "A take");
   EXPECT_EQ(now["stream"], id);
-  EXPECT_EQ(now["max_duration"], 60000);
+  EXPECT_EQ(now["max_duration"], 600000);
   EXPECT_TRUE(now["durable_until"].is_null());
   EXPECT_TRUE(now["ended"].is_null());
   post("/v1/streams/" + id + "/frames", {{"frames", irregular_frames()}});
-  for (int i = 0; i < 600 && now["durable_until"] != 300; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  testing::eventually([&] {
     now = json_of(get("/v1/recordings/" + recording));
-  }
+    return now["durable_until"] == 300;
+  });
   EXPECT_EQ(now["durable_until"], 300);
   EXPECT_EQ(now["frames"], 12);
   EXPECT_EQ(json_of(get("/v1/recordings/" + recording + "/frames?at=299"))["frames"][0]["time"], 262)
@@ -163,8 +159,7 @@ TEST_F(Recordings, PlayedAgain_AreTheSameFrames) {
   ASSERT_EQ(playing.status, 202) << playing.body;
   EXPECT_EQ(json_of(playing)["kind"], "recording");
   EXPECT_EQ(json_of(playing)["name"], "Irregular");
-  for (int i = 0; i < 600 && !json_of(get("/v1/streams/" + other))["playing"].is_null(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(testing::eventually([&] { return json_of(get("/v1/streams/" + other))["playing"].is_null(); }));
   EXPECT_EQ(json_of(post("/v1/recordings/" + again + "/stop"))["frames"], 12);
   EXPECT_EQ(frames_of(again), frames_of(recording));
 }
@@ -288,11 +283,10 @@ TEST(RecordingLimits, AreAnsweredAndEndWhatRuns) {
   json now;
   for (int i = 0; i < 4; ++i)  // as many frames as may come at once
     EXPECT_EQ(request(server.port(), "POST", "/v1/streams/talk/frames", body, json_type).status, 202);
-  for (int i = 0; i < 600; ++i) {
+  testing::eventually([&] {
     now = json_of(request(server.port(), "GET", "/v1/recordings/" + made["id"].get<std::string>()));
-    if (now["state"] != "recording") break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+    return now["state"] != "recording";
+  });
   EXPECT_EQ(now["ended"], "max-bytes");
   EXPECT_LE(now["bytes"], 540000);
   EXPECT_GT(now["frames"], 0);

@@ -102,7 +102,7 @@ ServerProcess::ServerProcess(const std::filesystem::path& data, const std::vecto
   ::close(out[1]);
   if (failed != 0) throw std::runtime_error("cannot start the server");
   std::string line;
-  const auto end = Clock::now() + std::chrono::seconds(30);
+  const auto end = Clock::now() + testing::patience;
   while (line.find('\n') == std::string::npos) {
     pollfd wait{out[0], POLLIN, 0};
     std::array<char, 256> piece{};
@@ -126,9 +126,9 @@ ServerProcess::~ServerProcess() {
 int ServerProcess::end(int signal) {
   ::kill(pid_, signal);
   int status = 0;
-  for (int round = 0; ::waitpid(pid_, &status, WNOHANG) == 0; ++round) {
-    if (round == 1500) ::kill(pid_, SIGKILL);
-    ::poll(nullptr, 0, 10);
+  if (!testing::eventually([&] { return ::waitpid(pid_, &status, WNOHANG) != 0; })) {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, &status, 0);
   }
   pid_ = -1;
   return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
@@ -175,7 +175,7 @@ Reply request(int port, const std::string& method, const std::string& target, co
   for (const auto& [name, value] : fields) text += name + ": " + value + "\r\n";
   if (!body.empty() || method == "PUT" || method == "PATCH")
     text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
-  return parse_reply(raw_exchange(port, text + "\r\n" + body, std::chrono::seconds(60)));
+  return parse_reply(raw_exchange(port, text + "\r\n" + body));
 }
 
 WebSocket::WebSocket(int port, const std::string& target, const std::string& subprotocols, const Fields& fields,
@@ -186,7 +186,7 @@ WebSocket::WebSocket(int port, const std::string& target, const std::string& sub
   if (!subprotocols.empty()) text += "Sec-WebSocket-Protocol: " + subprotocols + "\r\n";
   for (const auto& [name, value] : fields) text += name + ": " + value + "\r\n";
   send_all(socket_, text + "\r\n");
-  const auto end = Clock::now() + std::chrono::seconds(10);
+  const auto end = Clock::now() + testing::patience;
   while (buffer_.find("\r\n\r\n") == std::string::npos && read_some(socket_, buffer_, end)) {
   }
   handshake_ = parse_reply(buffer_);

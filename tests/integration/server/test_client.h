@@ -11,6 +11,8 @@
 
 #include <sys/types.h>
 
+#include "tests/support/wait.h"
+
 namespace semblante::test {
 
 /// A folder of its own that goes with the object.
@@ -59,7 +61,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 Reply request(int port, const std::string& method, const std::string& target, const std::string& body = {},
               const Fields& fields = {});
 /// Sends these bytes and reads until the server closes, or the time is over.
-std::string raw_exchange(int port, std::string_view bytes, std::chrono::milliseconds limit = std::chrono::seconds(5));
+std::string raw_exchange(int port, std::string_view bytes, std::chrono::milliseconds limit = testing::patience);
 Reply parse_reply(const std::string& text);
 
 /// A WebSocket client of 200 lines that does as it is told, also what is wrong.
@@ -75,7 +77,7 @@ class WebSocket {
   void send(std::string_view message, bool binary);
   void send_text(std::string_view message) { send(message, false); }
   /// The next message; nullopt when the socket closed or nothing came in time. Answers pings.
-  std::optional<std::string> receive(std::chrono::milliseconds limit = std::chrono::seconds(10));
+  std::optional<std::string> receive(std::chrono::milliseconds limit = testing::patience);
   /// The code of the close frame that came; 0 before one.
   [[nodiscard]] int close_code() const { return close_code_; }
   [[nodiscard]] bool last_was_binary() const { return last_was_binary_; }

@@ -14,6 +14,7 @@
 #include "clients/native/client/frame_player.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
+#include "tests/support/wait.h"
 #include "tests/unit/client/canned_server.h"
 
 namespace semblante::testing {
@@ -26,8 +27,6 @@ using client::FramePlayer;
 using client::StreamClient;
 using client::StreamOptions;
 using Socket = websocket::stream<asio::ip::tcp::socket>;
-
-constexpr std::chrono::milliseconds patience{3000};
 
 /// A server for one connection that says what a test wants it to say.
 class ScriptedServer {

@@ -7,6 +7,7 @@
 #include "clients/gateways/net/pacer.h"
 #include "clients/gateways/net/rate_limit.h"
 #include "clients/gateways/net/udp_socket.h"
+#include "tests/support/wait.h"
 
 namespace semblante::gateways {
 namespace {
@@ -112,7 +113,7 @@ TEST(UdpSocket, APacketSentOnLoopback_Arrives) {
   ASSERT_TRUE(out) << out.error().message;
   const std::vector<std::uint8_t> packet = {1, 2, 3};
   ASSERT_TRUE(out->send(packet));
-  ASSERT_TRUE(in->wait(std::chrono::seconds(20)));
+  ASSERT_TRUE(in->wait(testing::patience));
   const auto received = in->receive();
   ASSERT_TRUE(received);
   EXPECT_TRUE(std::equal(received->begin(), received->end(), packet.begin(), packet.end()));

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <sqlite3.h>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "server/jobs/job_queue.h"
 #include "server/store/sqlite_store.h"
 #include "tests/support/failing_database.h"
+#include "tests/support/wait.h"
 
 namespace semblante::jobs {
 namespace {
@@ -80,19 +80,11 @@ class FullDiskQueueTest : public ::testing::Test {
     for (std::string line; std::getline(file, line);) ++lines;
     return lines;
   }
-  template <class Condition>
-  static bool wait_until(Condition condition) {
-    for (int i = 0; i < 6000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(milliseconds(10));
-    }
-    return false;
-  }
   bool wait_for_end(const std::string& id) {
-    return wait_until([&] { return store::is_final(queue_->find(id)->state); });
+    return testing::eventually([&] { return store::is_final(queue_->find(id)->state); });
   }
   bool wait_until_pending() {
-    return wait_until([&] { return pending_->status().count > 0; });
+    return testing::eventually([&] { return pending_->status().count > 0; });
   }
   std::size_t ended() {
     const std::lock_guard lock(mutex_);
@@ -130,7 +122,7 @@ TEST_F(FullDiskQueueTest, JobThatCannotBegin_WaitsForRoom) {
 TEST_F(FullDiskQueueTest, EndThatCannotBeRecorded_IsNotShown_AndIsRecordedWithRoom) {
   queue_->start();
   queue_->enqueue(add_job("a"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   fail_database_writes(SQLITE_FULL);
   allow_end();
   ASSERT_TRUE(wait_until_pending());
@@ -140,7 +132,7 @@ TEST_F(FullDiskQueueTest, EndThatCannotBeRecorded_IsNotShown_AndIsRecordedWithRo
   EXPECT_EQ(ended(), 0U);
   EXPECT_EQ(pending_->status().what, std::vector<std::string>{"the end of job a"});
   fail_database_writes(SQLITE_OK);
-  ASSERT_TRUE(wait_until([&] { return ended() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return ended() == 1; }));
   EXPECT_EQ(ended_[0].first.state, JobState::failed);
   EXPECT_EQ(ended_[0].second->state, JobState::failed) << "durable before anybody hears of it";
   EXPECT_EQ(store_->model("a")->state, store::ModelState::failed);
@@ -150,7 +142,7 @@ TEST_F(FullDiskQueueTest, EndThatCannotBeRecorded_IsNotShown_AndIsRecordedWithRo
 TEST_F(FullDiskQueueTest, ResultThatCannotBeCommitted_IsMadeAgainWithRoom) {
   queue_->start();
   queue_->enqueue(add_job("a"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   WorkerLine line;
   line.kind = WorkerLine::Kind::done;
   std::ofstream(folder_ / "result") << to_json_line(line);
@@ -187,12 +179,12 @@ TEST_F(FullDiskQueueTest, Cancel_TakesEffect_AndIsRecordedWithRoom) {
   queue_->start();
   queue_->enqueue(add_job("runs"));
   queue_->enqueue(add_job("waits"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   fail_database_writes(SQLITE_FULL);
   EXPECT_EQ(queue_->cancel("waits"), Cancelled::pending);
   EXPECT_EQ(queue_->cancel("runs"), Cancelled::pending);
   EXPECT_EQ(queue_->find("waits")->state, JobState::queued) << "it is not cancelled before this is durable";
-  ASSERT_TRUE(wait_until([&] { return queue_->running() == 0; })) << "its worker is gone";
+  ASSERT_TRUE(testing::eventually([&] { return queue_->running() == 0; })) << "its worker is gone";
   EXPECT_FALSE(store::is_final(queue_->find("runs")->state));
   fail_database_writes(SQLITE_OK);
   ASSERT_TRUE(wait_for_end("runs"));
@@ -218,7 +210,7 @@ TEST_F(FullDiskQueueTest, CancelOfAJobThatWaitsForRoom) {
 TEST_F(FullDiskQueueTest, CancelOfARunningJob_IsDurableWhenItIsAcknowledged) {
   queue_->start();
   queue_->enqueue(add_job("a"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   EXPECT_EQ(queue_->cancel("a"), Cancelled::recorded);
   EXPECT_EQ(queue_->cancel("absent"), Cancelled::none);
   const auto stored = store_->job("a");
@@ -241,7 +233,7 @@ TEST_F(FullDiskQueueTest, RemovalOfAModelThatFails_LeavesNoJobBehind) {
   queue_->start();
   queue_->enqueue(add_job("other"));
   queue_->enqueue(add_job("a"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   fail_database_writes(SQLITE_FULL);
   queue_->cancel_all_of("a");
   EXPECT_THROW(store_->remove_model("a"), store::DiskFull);
@@ -269,13 +261,13 @@ TEST_F(FullDiskQueueTest, StartsOnAFullDisk_AndTakesUpItsJobsWithRoom) {
   for (const std::string id : {"a", "b", "c"}) ASSERT_TRUE(wait_for_end(id)) << id;
   EXPECT_EQ(runs(), 2U);
   EXPECT_EQ(http::problem_from_json(store_->job("c")->problem).slug, "worker-crashed");
-  EXPECT_TRUE(wait_until([&] { return pending_->status().writable; }));
+  EXPECT_TRUE(testing::eventually([&] { return pending_->status().writable; }));
 }
 
 TEST_F(FullDiskQueueTest, StopOnAFullDisk_LeavesTheRestToTheNextStart) {
   queue_->start();
   queue_->enqueue(add_job("a"));
-  ASSERT_TRUE(wait_until([&] { return runs() == 1; }));
+  ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
   fail_database_writes(SQLITE_FULL);
   allow_end();
   ASSERT_TRUE(wait_until_pending());

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "server/store/sqlite_store.h"
+#include "tests/support/wait.h"
 
 namespace semblante::jobs {
 namespace {
@@ -72,7 +73,7 @@ echo $lock >> done)";
   });
   queue.start();
   std::unique_lock lock(mutex);
-  ASSERT_TRUE(ended.wait_for(lock, std::chrono::seconds(60), [&] { return count == jobs.size(); }));
+  ASSERT_TRUE(ended.wait_for(lock, testing::patience, [&] { return count == jobs.size(); }));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "overlap"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "done")) << "the worker did not run at all";
   for (const auto& job : jobs) EXPECT_EQ(queue.find(job.id)->state, store::JobState::failed) << "it gave no result";

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "server/jobs/worker_protocol.h"
+#include "tests/support/wait.h"
 
 namespace semblante::jobs {
 namespace {
@@ -20,7 +21,7 @@ class WorkerProcessTest : public ::testing::Test {
   ~WorkerProcessTest() override { std::filesystem::remove_all(folder_); }
 
   Result<WorkerExit> run(const std::string& script, Wish wish = Wish::go_on,
-                         std::chrono::seconds limit = std::chrono::seconds(20), const std::string& input = "in") {
+                         std::chrono::seconds limit = testing::patience, const std::string& input = "in") {
     return run_worker_process(
         {"/bin/sh", "-c", script}, input, folder_ / "errors", limit,
         [this](std::string_view line) { lines_.emplace_back(line); }, [wish] { return wish; });
@@ -45,12 +46,12 @@ TEST_F(WorkerProcessTest, Lines_ComeWholeAndInOrder) {
 }
 
 TEST_F(WorkerProcessTest, LongInput_ArrivesWhole) {
-  ASSERT_TRUE(run("wc -c", Wish::go_on, std::chrono::seconds(20), std::string(1 << 20, 'x')));
+  ASSERT_TRUE(run("wc -c", Wish::go_on, testing::patience, std::string(1 << 20, 'x')));
   EXPECT_EQ(std::atoi(lines_.at(0).c_str()), 1 << 20);
 }
 
 TEST_F(WorkerProcessTest, WorkerThatReadsNothing_DoesNotHang) {
-  const auto exit = run("exit 0", Wish::go_on, std::chrono::seconds(20), std::string(1 << 20, 'x'));
+  const auto exit = run("exit 0", Wish::go_on, testing::patience, std::string(1 << 20, 'x'));
   ASSERT_TRUE(exit);
   EXPECT_EQ(exit->kind, WorkerExit::Kind::exited);
 }

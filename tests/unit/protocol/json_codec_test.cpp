@@ -29,7 +29,10 @@ TEST(JsonDecode, Decode_NotAMessage_IsRefused) {
   expect_refused(R"({"type":1})", ErrorCode::malformed, "/type");
   expect_refused(R"({"type":"shout"})", ErrorCode::unsupported, "/type");
   expect_refused(std::string(max_json_message_bytes + 1, ' '), ErrorCode::too_large, "");
-  expect_refused(std::string(100000, '['), ErrorCode::malformed, "");
+  std::string zeros;
+  for (int i = 0; i < 64; ++i) zeros += "/0";
+  expect_refused(std::string(100000, '['), ErrorCode::too_large, zeros);
+  expect_refused(R"({"type":"hello","version":1,"version":2})", ErrorCode::malformed, "/version");
 }
 
 TEST(JsonDecode, Decode_InvalidMembers_AreNamedByTheirPointer) {
@@ -38,7 +41,7 @@ TEST(JsonDecode, Decode_InvalidMembers_AreNamedByTheirPointer) {
   expect_refused(R"({"type":"hello","version":1.5})", ErrorCode::malformed, "/version");
   expect_refused(R"({"type":"hello","version":-1})", ErrorCode::out_of_range, "/version");
   expect_refused(R"({"type":"hello","version":65536})", ErrorCode::out_of_range, "/version");
-  expect_refused(R"({"type":"hello","version":1e999})", ErrorCode::not_finite, "");
+  expect_refused(R"({"type":"hello","version":1e999})", ErrorCode::not_finite, "/version");
   expect_refused(R"({"type":"hello","version":1,"role":"listen"})", ErrorCode::invalid_argument, "/role");
   expect_refused(R"({"type":"hello","version":1,"role":0})", ErrorCode::malformed, "/role");
   expect_refused(R"({"type":"hello","version":1,"resume":3})", ErrorCode::malformed, "/resume");

@@ -111,6 +111,14 @@ TEST_F(FullDiskStoreTest, OpensAndReads_OnAFullDisk) {
   EXPECT_TRUE(store_->streams().empty());
 }
 
+TEST_F(FullDiskStoreTest, OrderlyEnd_LeavesAnEmptyLog) {
+  store_->create_stream(stream("kept"), std::nullopt);
+  store_.reset();
+  const auto log = folder_ / "facts.sqlite-wal";
+  ASSERT_TRUE(std::filesystem::exists(log)) << "a full disk may have no room for a new one";
+  EXPECT_EQ(std::filesystem::file_size(log), 0U) << "it would be applied to another database put in this one's place";
+}
+
 TEST_F(FullDiskStoreTest, ANewStore_CannotBeMadeOnAFullDisk) {
   const FullDatabaseDisk full;
   EXPECT_THROW(static_cast<void>(open_sqlite_store(folder_ / "new.sqlite")), DiskFull);

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/wait.h"
+
 namespace semblante::store {
 namespace {
 
@@ -31,11 +33,11 @@ class Disk {
   }
   bool wait_until_tried(std::size_t times) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return tried_ >= times; });
+    return changed_.wait_for(lock, testing::patience, [&] { return tried_ >= times; });
   }
   bool wait_until_taken(std::size_t count) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return taken_.size() >= count; });
+    return changed_.wait_for(lock, testing::patience, [&] { return taken_.size() >= count; });
   }
   std::vector<std::string> taken() {
     const std::lock_guard lock(mutex_);
@@ -58,8 +60,7 @@ PendingWrites::Options fast() {
 }
 
 bool wait_until_writable(const PendingWrites& pending) {
-  for (int i = 0; i < 6000 && !pending.status().writable; ++i) std::this_thread::sleep_for(milliseconds(10));
-  return pending.status().writable;
+  return testing::eventually([&] { return pending.status().writable; });
 }
 
 TEST(PendingWrites, WithRoom_WritesAtOnce) {
@@ -124,7 +125,7 @@ TEST(PendingWrites, OtherFault_IsKeptToo_AndSaidAsAnother) {
   EXPECT_FALSE(pending.status().writable);
   EXPECT_FALSE(pending.status().disk_full);
   broken = false;
-  EXPECT_EQ(done.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
+  EXPECT_EQ(done.get_future().wait_for(testing::patience), std::future_status::ready);
 }
 
 TEST(PendingWrites, Note_StaysUntilAProbeSucceeds) {

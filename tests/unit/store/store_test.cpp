@@ -207,6 +207,7 @@ TEST_F(StoreTest, StoreOfTheFirstVersion_OpensWithItsPointsPlaced) {
   EXPECT_EQ(store_->job("j")->result, "");
   EXPECT_TRUE(store_->put_feature_points("m", {{"2.1", 5, std::nullopt, ProposalRecord{"shape", "low", 0.5}}}, 1));
   EXPECT_TRUE(store_->feature_points("m")[0].proposal);
+  EXPECT_EQ(store_->identity().starts, 1U) << "it has been worked with";
   reopen();
   EXPECT_TRUE(store_->feature_points("m")[0].proposal) << "and opens again";
 }
@@ -421,7 +422,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
                    "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
                    "ALTER TABLE streams DROP COLUMN viseme_share; "
                    "ALTER TABLE streams DROP COLUMN batch_interval; ALTER TABLE streams DROP COLUMN quantizer_scale; "
-                   "DROP TABLE recordings; PRAGMA user_version=2",
+                   "DROP TABLE recordings; DROP TABLE identity; PRAGMA user_version=2",
                    nullptr, nullptr, nullptr),
       SQLITE_OK);
   sqlite3_close(database);
@@ -545,9 +546,44 @@ TEST_F(StoreTest, Blobs_AreNamedByTheirContent) {
     EXPECT_FALSE(blobs->find(name));
   EXPECT_FALSE(blobs->adopt(folder_ / "absent"));
   const auto other = blobs->put("other");
-  EXPECT_EQ(blobs->sweep({other->sha256}), 1U);
+  blobs->remove(blob->sha256);
   EXPECT_FALSE(blobs->find(blob->sha256));
   EXPECT_TRUE(blobs->find(other->sha256));
+}
+
+TEST_F(StoreTest, LinkInThePlaceOfABlob_IsNone_AndIsReplaced) {
+  auto blobs = BlobStore::open(folder_);
+  const auto hash = sha256_hex("abc");
+  std::filesystem::create_directories(folder_ / "blobs" / hash.substr(0, 2));
+  const auto link = folder_ / "blobs" / hash.substr(0, 2) / hash;
+  std::filesystem::create_symlink(folder_ / "facts.sqlite", link);
+  EXPECT_FALSE(blobs->find(hash));
+  ASSERT_TRUE(blobs->put("abc"));
+  EXPECT_EQ(blobs->find(hash), link);
+  EXPECT_EQ(std::filesystem::file_size(link), 3U);
+}
+
+TEST_F(StoreTest, Identity_StaysAndCountsStarts_AndEachDatabaseHasItsOwn) {
+  const auto made = store_->identity();
+  EXPECT_EQ(made.starts, 0U) << "nobody has worked with it";
+  EXPECT_EQ(made.id.size(), 32U);
+  EXPECT_EQ(store_->count_start(), (DatabaseIdentity{made.id, 1}));
+  reopen();
+  EXPECT_EQ(store_->identity(), (DatabaseIdentity{made.id, 1}));
+  const auto other = open_sqlite_store(folder_ / "other.sqlite");
+  EXPECT_NE((*other)->identity().id, made.id);
+}
+
+TEST_F(StoreTest, UsersOfAHash_AreModelsAndJobs) {
+  add("m");
+  add("n");
+  JobRecord job;
+  job.id = "x";
+  job.kind = JobKind::extract;
+  job.extraction.emplace().expression_sha256 = std::string(64, 'a');
+  store_->create_job(job, std::nullopt);
+  EXPECT_EQ(store_->users_of(std::string(64, 'a')), (std::vector<std::string>{"job x", "model m", "model n"}));
+  EXPECT_TRUE(store_->users_of(std::string(64, 'b')).empty());
 }
 
 }  // namespace

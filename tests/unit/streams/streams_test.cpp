@@ -28,6 +28,7 @@ class StreamTest : public ::testing::Test {
   explicit StreamTest() {
     limits_.pending_messages = 4;
     limits_.stalled = milliseconds(0);
+    limits_.demo_patience = std::chrono::minutes(1);
     stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
   }
   std::shared_ptr<FakeClient> connect(StreamRole role) { return std::make_shared<FakeClient>(stream_, role); }
@@ -158,7 +159,7 @@ TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
   const auto begin = send(5000);
   EXPECT_EQ(send(5040), begin + 40);
   EXPECT_EQ(send(5080), begin + 80);
-  EXPECT_LT(send(900'000), begin + 5'000) << "a clock that jumps is set anew";
+  EXPECT_LT(send(900'000), begin + 500'000) << "a clock that jumps is set anew";
 }
 
 TEST_F(StreamTest, Rate_IsLimited) {

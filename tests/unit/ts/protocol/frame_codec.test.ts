@@ -1,4 +1,4 @@
-import { describe, expect, it, vi } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import {
   decodeJson,
   encodeJson,
@@ -13,9 +13,6 @@ import {
   type Message,
 } from '../../../../protocol/ts/index.ts';
 import { fromHex, toHex, vectorJson } from './vectors.ts';
-
-// Thousands of messages on a busy machine take longer than the usual five seconds.
-vi.setConfig({ testTimeout: 60_000 });
 
 interface Vector {
   name: string;

@@ -1,4 +1,4 @@
-import { describe, expect, it, vi } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import {
   decodeJson,
   encodeJson,
@@ -11,8 +11,6 @@ import {
   type Message,
 } from '../../../../protocol/ts/index.ts';
 import { fromHex, toHex, vectorJson } from './vectors.ts';
-
-vi.setConfig({ testTimeout: 60_000 });
 
 interface Vector {
   binary: string;

@@ -1,4 +1,4 @@
-#include "tests/support/skew_meter.h"
+#include "tests/bench/clock/skew_meter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "clients/native/client/live_player.h"
+#include "tests/support/true_clock.h"
 
 namespace semblante::testing {
 namespace {
@@ -18,27 +19,15 @@ using Clock = std::chrono::steady_clock;
 /// A display frame that comes later than this after its time (ms), or a proxy that is, tells of the machine, not of us.
 constexpr double disturbance = 8;
 
-/// The stream's true clock minus ours: both are in this machine, with nothing but loopback between.
-std::optional<double> true_offset(const SkewOptions& options, double& uncertainty) {
-  LiveStream direct(options.server, options.stream);
-  const auto until = Clock::now() + std::chrono::seconds(2);
-  while (Clock::now() < until) {
-    if (!direct.next(milliseconds(50))) return std::nullopt;
-  }
-  uncertainty = direct.clock().uncertainty().value_or(1e9);
-  const double now = LiveStream::now();
-  const auto clock = direct.clock().at(now);
-  return clock ? std::optional(*clock - now) : std::nullopt;
-}
-
 }  // namespace
 
 bool Skew::calm() const { return disturbed * 50 < sorted.size() && worst_proxy < disturbance && truth < 3; }
 
 std::optional<Skew> measure_skew(const SkewOptions& options) {
   Skew skew;
-  const auto offset = true_offset(options, skew.truth);
-  if (!offset) return std::nullopt;
+  const auto clock = measure_true_clock(options.server, options.stream);
+  if (!clock) return std::nullopt;
+  skew.truth = clock->uncertainty;
   ProxyOptions network = options.network;
   network.target_port = static_cast<std::uint16_t>(std::stoi(options.server.port));
   TcpProxy proxy(network);
@@ -80,9 +69,9 @@ std::optional<Skew> measure_skew(const SkewOptions& options) {
       ++skew.disturbed;
       continue;
     }
-    skew.sorted.push_back(std::abs(shown->media_time - (now + *offset - player.playout().delay())));
+    skew.sorted.push_back(std::abs(shown->media_time - (now + clock->offset - player.playout().delay())));
     // Its delay is what it has on average: only how uneven it is counts.
-    skew.plain_sorted.push_back(std::min(plain_offset + now, newest + 2 * interval) - (now + *offset));
+    skew.plain_sorted.push_back(std::min(plain_offset + now, newest + 2 * interval) - (now + clock->offset));
   }
   std::sort(skew.sorted.begin(), skew.sorted.end());
   std::sort(skew.plain_sorted.begin(), skew.plain_sorted.end());

@@ -1,0 +1,44 @@
+#include "core/types/printable.h"
+
+#include <cstddef>
+
+namespace semblante {
+namespace {
+
+/// Bytes of the character `text` begins with; 0 if it is not UTF-8 (overlong forms and surrogates are not).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : '\0'); };
+  const auto follows = [&byte](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first < 0xE0) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first < 0xF0) {
+    const bool overlong = first == 0xE0 && byte(1) < 0xA0;
+    const bool surrogate = first == 0xED && byte(1) >= 0xA0;
+    return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
+  }
+  if (first >= 0xF0 && first < 0xF5) {
+    const bool overlong = first == 0xF0 && byte(1) < 0x90;
+    const bool beyond = first == 0xF4 && byte(1) >= 0x90;
+    return follows(1) && follows(2) && follows(3) && !overlong && !beyond ? 4 : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view name) {
+  constexpr std::size_t max_bytes = 200;
+  std::string text;
+  while (!name.empty()) {
+    const std::size_t size = utf8_length(name);
+    const bool control = size == 1 && (static_cast<unsigned char>(name[0]) < 0x20 || name[0] == 0x7F);
+    const std::string_view character = size == 0 || control ? "?" : name.substr(0, size);
+    if (text.size() + character.size() > max_bytes) break;
+    text.append(character);
+    name.remove_prefix(size == 0 ? 1 : size);
+  }
+  return text;
+}
+
+}  // namespace semblante

@@ -1,0 +1,44 @@
+#include "server/net/body_sink.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <string>
+#include <unistd.h>
+
+namespace semblante::net {
+
+BodySink::BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request)
+    : plan_(plan), request_(request), application_(state.application) {
+  if (!plan.to_file) return;
+  const auto name = "upload-" + std::to_string(::getpid()) + "-" + std::to_string(state.upload_number++);
+  request.body_file = std::make_shared<http::TemporaryFile>(state.config.upload_directory / name);
+  descriptor_ = ::open(request.body_file->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) open_error_ = errno;
+}
+
+BodySink::~BodySink() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::optional<http::Problem> BodySink::append(std::string_view piece) {
+  request_.body_size += piece.size();
+  if (request_.body_size > plan_.max_bytes) return too_large(plan_);
+  if (!plan_.to_file) {
+    request_.body.append(piece);
+    return std::nullopt;
+  }
+  while (!piece.empty()) {
+    if (descriptor_ < 0) return application_.unwritten_body(open_error_);
+    const auto written = ::write(descriptor_, piece.data(), piece.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return application_.unwritten_body(errno);
+    piece.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return std::nullopt;
+}
+
+http::Problem BodySink::too_large(const http::BodyPlan& plan) {
+  return http::make_problem("content-too-large", "at most " + std::to_string(plan.max_bytes) + " bytes are taken here");
+}
+
+}  // namespace semblante::net

@@ -1,0 +1,111 @@
+#include "server/net/request_parser.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include <boost/beast/http/error.hpp>
+
+#include "server/http/url.h"
+
+namespace semblante::net {
+
+namespace {
+
+using E = boost::beast::http::error;
+
+std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+RequestParser::RequestParser(std::uint32_t max_bytes, std::uint32_t max_fields)
+    : max_bytes_(max_bytes), max_fields_(max_fields) {
+  header_limit(max_bytes);
+  body_limit(boost::none);  // counted by the sink
+}
+
+std::size_t RequestParser::least_bytes() const {
+  // "0\r\n\r\n" is the shortest end of a chunked body, so at least as many bytes are always to come. Beast asserts that
+  // it is not asked about fewer once it has seen the last chunk's size.
+  constexpr std::size_t shortest_end = 5;
+  return is_header_done() && chunked() ? shortest_end : 1;
+}
+
+void RequestParser::on_request_impl(boost::beast::http::verb, View method, View target, int version, ErrorCode& error) {
+  request_.method = view(method);
+  version_ = static_cast<unsigned>(version);
+  if (std::count(target.begin(), target.end(), '&') >= max_fields_) {
+    problem_ = header_too_large();
+    error = E::header_limit;
+    return;
+  }
+  auto parsed = http::parse_target(view(target));
+  if (!parsed) {
+    problem_ = http::make_problem("malformed-request", "the request target is not a path");
+    error = E::bad_target;
+    return;
+  }
+  request_.path = std::move(parsed->path);
+  request_.query = std::move(parsed->query);
+}
+
+void RequestParser::on_field_impl(boost::beast::http::field, View name, View value, ErrorCode& error) {
+  if (is_header_done()) return;  // a trailer: nothing here has a use for one
+  if (++fields_ > max_fields_) {
+    problem_ = header_too_large();
+    error = E::header_limit;
+    return;
+  }
+  const auto text = view(value);
+  const auto [at, is_new] = request_.headers.try_emplace(std::string(view(name)), text);
+  if (!is_new) at->second.append(", ").append(text);
+}
+
+void RequestParser::on_header_impl(ErrorCode&) { request_.received = std::chrono::steady_clock::now(); }
+
+std::size_t RequestParser::on_body_impl(View piece, ErrorCode& error) {
+  assert(sink_ != nullptr);
+  problem_ = sink_->append(view(piece));
+  if (problem_) error = E::body_limit;
+  return piece.size();
+}
+
+std::size_t RequestParser::on_chunk_body_impl(std::uint64_t, View piece, ErrorCode& error) {
+  return on_body_impl(piece, error);
+}
+
+void RequestParser::on_chunk_header_impl(std::uint64_t, View extensions, ErrorCode& error) {
+  extension_bytes_ += extensions.size();
+  if (extension_bytes_ <= max_bytes_) return;
+  problem_ = http::make_problem("malformed-request", "the chunk extensions of the body have together more than " +
+                                                         std::to_string(max_bytes_) + " bytes");
+  error = E::bad_chunk_extension;
+}
+
+http::Problem RequestParser::header_too_large() const {
+  return http::make_problem("header-too-large", "the header has more than " + std::to_string(max_bytes_) +
+                                                    " bytes, or more than " + std::to_string(max_fields_) +
+                                                    " fields or query parameters");
+}
+
+std::optional<http::Problem> RequestParser::problem_of(const ErrorCode& error, std::string_view unread) const {
+  if (problem_) return problem_;
+  if (error.category() != boost::beast::http::make_error_code(E::bad_value).category() || error == E::end_of_stream)
+    return std::nullopt;
+  if (error == E::header_limit) return header_too_large();
+  if (error == E::bad_version) return http::make_problem("http-version", "the request speaks another version");
+  if (error == E::buffer_overflow) {
+    // The line before a chunk has ended when trailers follow; it may come behind the line end of the chunk before it.
+    const std::size_t line = unread.starts_with("\r\n") ? 2 : 0;
+    if (unread.find("\r\n", line) == std::string_view::npos)
+      return http::make_problem("malformed-request",
+                                "the line before a chunk has more than " + std::to_string(max_bytes_) + " bytes");
+    return http::make_problem("header-too-large", "the last chunk's extensions and the trailers have more than " +
+                                                      std::to_string(max_bytes_) + " bytes");
+  }
+  return http::make_problem(
+      "malformed-request",
+      (is_header_done() ? "the body cannot be read: " : "not an HTTP request: ") + error.message());
+}
+
+}  // namespace semblante::net

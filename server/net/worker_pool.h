@@ -1,0 +1,53 @@
+#pragma once
+
+// Private to net/.
+
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+
+#include "server/log/guard.h"
+
+namespace semblante::net {
+
+/// Runs the context until it is stopped or has no more work. A handler that throws is logged, and the others go on:
+/// its operation is over, so whatever the handler held (its connection) is released.
+inline void run_guarded(boost::asio::io_context& io, std::string_view who) {
+  while (!log::guarded(who, [&io] { io.run(); })) {
+  }
+}
+
+/// The threads that run the handlers of the application. Like asio::thread_pool, which however ends the process when a
+/// handler throws.
+class WorkerPool {
+ public:
+  explicit WorkerPool(unsigned threads) : io_(static_cast<int>(threads)), work_(io_.get_executor()) {
+    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { run_guarded(io_, "worker thread"); });
+  }
+  ~WorkerPool() {
+    stop();
+    join();
+  }
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  [[nodiscard]] boost::asio::io_context::executor_type executor() { return io_.get_executor(); }
+  /// What has not begun is dropped.
+  void stop() { io_.stop(); }
+  /// Waits for what was given to the pool. One thread at a time.
+  void join() {
+    work_.reset();
+    for (auto& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
+ private:
+  boost::asio::io_context io_;
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace semblante::net

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "server/store/store.h"
+#include "server/store/trash.h"
+
+namespace semblante::store {
+
+/// What became of the files of one kind.
+struct Reconciled {
+  std::uint64_t moved = 0, moved_bytes = 0;  ///< into the trash: the database does not know them
+  std::uint64_t put_back = 0;                ///< out of the trash: the database knows them
+  std::uint64_t failed = 0;                  ///< could not be moved, and are where they were
+  std::string fault;                         ///< of the first that failed
+  std::vector<std::string> missing;          ///< the database knows them and they are nowhere
+};
+
+/// For a start, before anything reads or adds files: moves every file of the kind that is not `known` into the trash,
+/// and those that are known and missing back from it. `data` is the folder of the trash.
+Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKind kind,
+                     const std::unordered_set<std::string>& known);
+
+/// The names a database knows of a kind: every hash it refers to, or the ids of all recordings.
+std::unordered_set<std::string> known_names(Store& store, DataFileKind kind);
+
+}  // namespace semblante::store

@@ -1,0 +1,80 @@
+// Holds what a server sends and takes against its OpenAPI document.
+import Ajv2020 from 'ajv/dist/2020.js';
+import addFormats from 'ajv-formats';
+import yaml from 'js-yaml';
+
+/** A JSON text as a value; a member named twice in one object is an error. YAML 1.2 is a superset of JSON. */
+export const parseStrictly = (text) => yaml.load(text, { schema: yaml.JSON_SCHEMA });
+
+/** Ajv with its strict mode: an unknown keyword or a required member that is not defined is an error. */
+export function strictAjv(options = {}) {
+  const ajv = new Ajv2020({ strict: true, strictRequired: true, allowUnionTypes: true, allErrors: true, ...options });
+  addFormats(ajv);
+  return ajv;
+}
+
+/** A schema of the document that refers to those of schemasOf(). */
+const standalone = (schema) => JSON.parse(JSON.stringify(schema).replaceAll('"#/components/schemas/', '"api#/$defs/'));
+
+/** All schemas of the document as one JSON Schema, of which each is a definition. */
+export const schemasOf = (document) => ({ $id: 'api', $defs: standalone(document.components.schemas) });
+
+const essence = (contentType) => (contentType ?? '').split(';')[0].trim();
+const isJson = (type) => type === 'application/json' || type.endsWith('+json');
+
+/** Validates requests and answers against the document and notes which of its operations were seen to succeed. */
+export class AnswerCheck {
+  #ajv = strictAjv({ strictRequired: false });
+  #document;
+  #validators = new Map();
+  succeeded = new Set();
+
+  constructor(document) {
+    this.#document = document;
+    this.#ajv.addSchema(schemasOf(document));
+  }
+
+  /** Throws unless the document allows this body, which the server has taken. */
+  request(method, path, contentType, body) {
+    const { requestBody } = this.#operation(method, path);
+    if (!requestBody) throw new Error(`${method} ${path} takes no body, the document says`);
+    this.#validate(`${method} ${path} request`, requestBody.content, contentType, body);
+  }
+
+  /** Throws unless the document has this answer: its status, its headers, its media type, and what is in its JSON. */
+  response(method, path, response, body) {
+    const operation = this.#operation(method, path);
+    const what = `${method} ${path} ${response.status}`;
+    const documented = this.#resolve(operation.responses[response.status] ?? operation.responses.default);
+    if (response.ok && !operation.responses[response.status]) throw new Error(`${what} is not in the document`);
+    for (const name of Object.keys(documented.headers ?? {}))
+      if (!response.headers.has(name)) throw new Error(`${what} has no ${name}`);
+    // Part of a JSON text (206) is bytes that no schema describes.
+    if (documented.content) this.#validate(what, documented.content, response.headers.get('Content-Type'), body);
+    else if (body && response.status !== 206) throw new Error(`${what} has a body that is not in the document`);
+    if (response.ok) this.succeeded.add(operation.operationId);
+  }
+
+  #operation(method, path) {
+    const operation = this.#document.paths[path]?.[method.toLowerCase()];
+    if (!operation) throw new Error(`${method} ${path} is not in the document`);
+    return operation;
+  }
+
+  #resolve(node) {
+    if (!node.$ref) return node;
+    return node.$ref.slice(2).split('/').reduce((at, name) => at[name], this.#document);
+  }
+
+  #validate(what, content, contentType, body) {
+    const type = essence(contentType);
+    const media = content?.[type] ?? content?.['*/*'];
+    if (!media) throw new Error(`${what}: ${type || 'no type'} is not in the document`);
+    if (!isJson(type) || !media.schema) return;
+    const key = `${what} ${type}`;
+    if (!this.#validators.has(key)) this.#validators.set(key, this.#ajv.compile(standalone(media.schema)));
+    const validate = this.#validators.get(key);
+    if (!validate(parseStrictly(body)))
+      throw new Error(`${what} is not as documented: ${this.#ajv.errorsText(validate.errors)}\n${body.slice(0, 2000)}`);
+  }
+}

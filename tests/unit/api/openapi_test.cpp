@@ -1,0 +1,139 @@
+// The API document against the table of routes, and every JSON file that is published: what needs no server to be seen.
+
+#include "server/api/openapi.h"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/import/json.h"
+#include "server/api/routes.h"
+
+namespace semblante::api {
+namespace {
+
+using nlohmann::json;
+
+const json& document() {
+  static const json parsed = [] {
+    const auto read = import::parse_json(openapi_document());
+    return read ? *read : json::object();
+  }();
+  return parsed;
+}
+
+const json& operation_of(const Route& route) {
+  std::string method(route.method);
+  for (char& c : method) c = static_cast<char>(std::tolower(c));
+  return document().at("paths").at(std::string(route.pattern)).at(method);
+}
+
+/// The parameters of an operation, references followed.
+std::vector<json> parameters_of(const json& operation) {
+  std::vector<json> list = operation.value("parameters", std::vector<json>());
+  for (json& parameter : list)
+    if (parameter.contains("$ref"))
+      parameter = document().at(json::json_pointer(parameter["$ref"].get<std::string>().substr(1)));
+  return list;
+}
+
+/// The names in braces of a pattern.
+std::vector<std::string> names_in(std::string_view pattern) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; (at = pattern.find('{', at)) != std::string_view::npos; ++at)
+    names.emplace_back(pattern.substr(at + 1, pattern.find('}', at) - at - 1));
+  return names;
+}
+
+TEST(OpenApi, NoObject_NamesAMemberTwice) {
+  const auto read = import::parse_json(openapi_document());
+  ASSERT_TRUE(read) << read.error().where << ": " << read.error().message;
+}
+
+TEST(PublishedJson, NoObject_NamesAMemberTwice) {
+  namespace fs = std::filesystem;
+  std::size_t files = 0;
+  for (const char* const folder : {"protocol", "server", "core", "clients"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SEMBLANTE_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".json") continue;
+      std::ifstream stream(entry.path(), std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+      const auto read = import::parse_json(text);
+      EXPECT_TRUE(read) << entry.path() << ": " << read.error().where << ": " << read.error().message;
+      ++files;
+    }
+  }
+  EXPECT_GT(files, 40U) << "the folders are where they were";
+}
+
+TEST(OpenApi, PathParameters_AreThoseOfThePath) {
+  for (const Route& route : routes()) {
+    std::vector<std::string> declared;
+    for (const json& parameter : parameters_of(operation_of(route))) {
+      if (parameter.at("in") != "path") continue;
+      declared.push_back(parameter.at("name"));
+      EXPECT_EQ(parameter.value("required", false), true) << route.pattern;
+    }
+    EXPECT_THAT(declared, ::testing::UnorderedElementsAreArray(names_in(route.pattern))) << route.pattern;
+  }
+}
+
+TEST(OpenApi, Bodies_AreThoseOfTheRoute) {
+  for (const Route& route : routes()) {
+    SCOPED_TRACE(std::string(route.method) + " " + std::string(route.pattern));
+    const json& operation = operation_of(route);
+    const json& responses = operation.at("responses");
+    if (route.body == BodyKind::none) {
+      EXPECT_FALSE(operation.contains("requestBody"));
+      continue;
+    }
+    // Whatever the body, it can be too large and of a type that is not read.
+    EXPECT_TRUE(responses.contains("413"));
+    EXPECT_TRUE(responses.contains("415"));
+    // Stopping a recording reads its body away and says nothing of it.
+    if (!operation.contains("requestBody")) {
+      EXPECT_EQ(route.pattern, "/v1/recordings/{recording}/stop");
+      continue;
+    }
+    EXPECT_TRUE(responses.contains("400")) << "a body may be malformed";
+    const bool may_be_absent = route.body == BodyKind::json && route.method == "POST";
+    EXPECT_EQ(responses.contains("411"), !may_be_absent) << "a body that must be there";
+    EXPECT_TRUE(may_be_absent || operation["requestBody"].value("required", false));
+  }
+}
+
+TEST(OpenApi, Parameters_HaveTheirAnswers) {
+  const std::map<std::string, std::vector<std::string>> answers = {{"If-Match", {"412"}},
+                                                                   {"If-None-Match", {"304"}},
+                                                                   {"Range", {"206", "416"}},
+                                                                   {"limit", {"400"}},
+                                                                   {"Idempotency-Key", {"400", "409", "422"}}};
+  for (const Route& route : routes()) {
+    SCOPED_TRACE(std::string(route.method) + " " + std::string(route.pattern));
+    const json& responses = operation_of(route).at("responses");
+    std::set<std::string> declared;
+    for (const json& parameter : parameters_of(operation_of(route))) {
+      declared.insert(parameter.at("name"));
+      const auto found = answers.find(parameter.at("name"));
+      if (found == answers.end()) continue;
+      for (const auto& status : found->second) EXPECT_TRUE(responses.contains(status)) << found->first << " " << status;
+    }
+    EXPECT_EQ(responses.contains("304"), declared.contains("If-None-Match"));
+    EXPECT_EQ(responses.contains("206"), declared.contains("Range"));
+  }
+}
+
+TEST(OpenApi, OperationIds_AreThereAndDiffer) {
+  std::set<std::string> ids;
+  for (const Route& route : routes()) EXPECT_TRUE(ids.insert(operation_of(route).at("operationId")).second);
+}
+
+}  // namespace
+}  // namespace semblante::api
