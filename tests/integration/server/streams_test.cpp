@@ -287,8 +287,8 @@ TEST_F(Streams, BadPerformances_NameThePlace) {
   const std::string blink = R"({"time":9,"blink":"both"})";
   refused(with(blink + R"(,{"time":8,"blink":"both"})"), "", 422, "/cues/1/time");
   refused(with(R"({"time":0,"duration":1,"fap":69,"value":1})"), "", 422, "/cues/0/fap");
-  refused(with(R"({"time":0,"duration":1,"fap":3,"value":1e999})"), "", 422, "/cues/0");
-  refused(with(R"({"time":0,"duration":1,"fap":3,"value":NaN})"), "", 422, "/cues/0");
+  refused(with(R"({"time":0,"duration":1,"fap":3,"value":1e999})"), "", 422, "/cues/0/value");
+  refused(with(R"({"time":0,"duration":1,"fap":3,"value":NaN})"), "", 400, "");
   refused("{", "", 400, "");
   refused(with(blink), "?fps=1000", 400, "?fps");
   refused(with(blink), "?loop=yes", 400, "?loop");

@@ -99,9 +99,17 @@ TEST(ImportGrowth, Obj_FacesOfManyCorners) {
       return text + face + "\n";
     });
   };
-  polygon("one round polygon", [](std::size_t) { return 1.0; });
   polygon("a star", [](std::size_t i) { return i % 2 == 0 ? 1.0 : 0.5; });
   polygon("one that crosses itself", [](std::size_t i) { return 0.1 + static_cast<double>(i * 7919 % 100) / 100.0; });
+  expect_linear_text("OBJ: corners on a line", ModelFormat::obj, 400'000, [](std::size_t n) {
+    std::string text = "v 0 1 0\n";
+    std::string face = "f 1";
+    for (std::size_t i = 0; i < n; ++i) {
+      text.append("v ").append(std::to_string(i)).append(" 0 0\n");
+      face.append(" ").append(std::to_string(i + 2));
+    }
+    return text + face + "\n";
+  });
   expect_linear_text("OBJ: one corner again and again", ModelFormat::obj, 400'000, lines(quad + "f 1 2 3", " 4", "\n"));
 }
 
