@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { sampleHead } from './support/paths.ts';
+import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage, type Inside } from './support/studio_page.ts';
 
@@ -142,15 +143,18 @@ describe('fit', () => {
     expect(await page.getByRole('button', { name: 'Apply' }).isDisabled()).toBe(true);
     await page.getByLabel('The face looks').selectOption('-Y');
     await page.getByRole('button', { name: 'Apply' }).click();
+    // The old axes stand until the model is read anew.
+    await axes.getByText('+Z up, -Y to the front').waitFor();
     await axes.getByText('yours').waitFor();
-    expect(await axes.innerText()).toContain('+Z up, -Y to the front');
-    const after = (await size.innerText()).split(/ × | cm/);
-    expect([after[0], after[2], after[1]]).toEqual(before.slice(0, 3));
+    const turned = async (): Promise<unknown> => {
+      const after = (await size.innerText()).split(/ × | cm/);
+      return [after[0], after[2], after[1]];
+    };
+    await expect.poll(turned, { timeout: patience }).toEqual(before.slice(0, 3));
     await studio.pictureUnlike(picture, [0.2, 0.2, 0.6, 0.6], 5);
     await studio.waitForStage('ready');
 
     await page.getByRole('button', { name: 'Guess again' }).click();
-    // The old axes stand until the model is read anew.
     await axes.getByText('+Y up, +Z to the front').waitFor();
     await axes.getByText('guessed').waitFor();
     expect(studio.errors).toEqual([]);

@@ -7,7 +7,8 @@
 
 namespace semblante::testing {
 
-/// The clock of a stream whose server is on this machine, measured over loopback alone. Times in ms.
+/// The clock of a stream whose server is on this machine, by the shortest round trip over loopback: without the
+/// estimate that it is held against. Times in ms.
 struct TrueClock {
   double offset = 0;       ///< the stream's clock minus LiveStream::now()
   double uncertainty = 0;  ///< the offset is off by at most this
