@@ -84,7 +84,7 @@ std::vector<Finding> find_wrong_density(const Subject& head) {
   std::vector<Finding> findings;
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   EdgePathSearch search(head.surface);
-  for (const Opening& opening : openings()) {
+  for (const Opening& opening : openings) {
     const std::vector<SurfacePoint> rim = round_the_rim(opening, points);
     if (rim.empty()) continue;
     Ring ring = walk(head, rim, search);

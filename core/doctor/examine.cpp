@@ -55,7 +55,7 @@ Report errors_first(Report report) {
 Slits slits_of(const FaceFrame& face, const FeaturePointSet& points) {
   Slits slits;
   slits.reach = 0.12 * face.eye_separation.value_or(0.0);
-  for (const Opening& opening : openings())
+  for (const Opening& opening : openings)
     for (const auto names : {opening.upper, opening.lower, opening.corners})
       for (const std::string_view name : names)
         if (const FeaturePoint* const point = find_point(points, name)) slits.places.emplace_back(point->position);

@@ -68,7 +68,7 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<Finding> findings;
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   EdgePathSearch search(head.surface);
-  for (const Opening& opening : openings()) {
+  for (const Opening& opening : openings) {
     std::optional<Crossing> crossing = fused(opening, points);
     if (!crossing) crossing = shortest_crossing(head, opening, points, search);
     if (!crossing || !(crossing->share < shortest_share)) continue;

@@ -75,7 +75,7 @@ std::optional<Finding> tell(const Subject& head, const Opening& opening, Leak le
                             std::span<const std::string_view> from, std::span<const std::string_view> into) {
   if (leak.vertices.count == 0) return std::nullopt;
   const bool up = into.front() == opening.upper.front();
-  const std::string part = opening.is_mouth ? "lip" : opening.name == openings()[1].name ? "left lid" : "right lid";
+  const std::string part = opening.is_mouth ? "lip" : opening.name == openings[1].name ? "left lid" : "right lid";
   Finding finding;
   finding.code = opening.is_mouth ? FindingCode::lips_leak : FindingCode::lids_leak;
   // Eq. 1 to 4 share every vertex among the points round it, across a slit too; it is no fault of the head.
@@ -102,7 +102,7 @@ std::vector<Finding> find_leaks(const Subject& head) {
   std::vector<Finding> findings;
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   EdgePathSearch search(head.surface);
-  for (const Opening& opening : openings()) {
+  for (const Opening& opening : openings) {
     const Ids upper = ids_of(opening.upper_flesh);
     const Ids lower = ids_of(opening.lower_flesh);
     Ids corners = ids_of(opening.corners);

@@ -1,26 +1,15 @@
 #pragma once
 
-#include <array>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/doctor/finding.h"
 #include "core/doctor/subject.h"
+#include "core/tables/openings.h"
 
 namespace semblante {
 
-/// A slit in the face whose rims move apart: the mouth, an eye.
-struct Opening {
-  std::string_view name;                    ///< "lips", "left lids"
-  std::span<const std::string_view> upper;  ///< points on the upper rim; the same place of `lower` is opposite
-  std::span<const std::string_view> lower;  ///< points on the lower rim
-  std::span<const std::string_view> corners;
-  std::span<const std::string_view> upper_flesh;  ///< all points that belong to the upper lip or lid alone
-  std::span<const std::string_view> lower_flesh;
-  bool is_mouth;
-};
-std::span<const Opening> openings();
+using mpeg4::Opening;
+using mpeg4::openings;
 
 /// Rims that the surface joins across the slit: fused, or bridged by a membrane.
 std::vector<Finding> find_joined_rims(const Subject& head);

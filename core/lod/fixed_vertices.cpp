@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/geometry/stitch.h"
+#include "core/tables/openings.h"
 
 namespace semblante {
 namespace {
@@ -31,12 +32,10 @@ constexpr std::array<Contour, 8> contours = {inner_upper_lip, inner_lower_lip, o
 struct Slit {
   std::span<const std::string_view> upper, lower;
 };
-constexpr std::array<std::string_view, 8> upper_lip = {"2.2", "2.6", "2.7", "8.1", "8.5", "8.6", "8.9", "8.10"};
-constexpr std::array<std::string_view, 6> lower_lip = {"2.3", "2.8", "2.9", "8.2", "8.7", "8.8"};
-constexpr std::array<std::string_view, 1> upper_lid_left = {"3.1"}, lower_lid_left = {"3.3"};
-constexpr std::array<std::string_view, 1> upper_lid_right = {"3.2"}, lower_lid_right = {"3.4"};
-constexpr std::array<Slit, 3> slits = {
-    {{upper_lip, lower_lip}, {upper_lid_left, lower_lid_left}, {upper_lid_right, lower_lid_right}}};
+using mpeg4::openings;
+constexpr std::array<Slit, 3> slits = {{{openings[0].upper_flesh, openings[0].lower_flesh},
+                                        {openings[1].upper, openings[1].lower},
+                                        {openings[2].upper, openings[2].lower}}};
 
 /// How far one side must outweigh the other, at both ends of an edge, for the edge to part them.
 constexpr float clear_majority = 0.25F;

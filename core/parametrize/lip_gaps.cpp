@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 
 #include "core/geometry/shortest_path.h"
 #include "core/parametrize/point_lookup.h"
+#include "core/tables/openings.h"
 
 namespace semblante {
 namespace {
@@ -29,9 +32,6 @@ constexpr double least_share = 0.05;
 constexpr double detour_of_mask = 3.0;
 constexpr int rounds = 100;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-constexpr std::array upper_names = {"2.2", "2.6", "2.7", "8.1", "8.5", "8.6", "8.9", "8.10"};
-constexpr std::array lower_names = {"2.3", "2.8", "2.9", "8.2", "8.7", "8.8"};
 
 /// A place of a lip in one column; `moves` says how far it goes up or down with one unit of each facing point.
 struct Place {
@@ -52,10 +52,9 @@ double share_of(const WeightTable<float>& rows, std::size_t vertex, FeaturePoint
   return at != points.end() ? rows.weights_of(vertex)[static_cast<std::size_t>(at - points.begin())] : 0.0;
 }
 
-template <std::size_t N>
-double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, const std::array<const char*, N>& names) {
+double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, std::span<const std::string_view> names) {
   double sum = 0.0;
-  for (const char* const name : names) {
+  for (const std::string_view name : names) {
     const FeaturePointId id = *parse_feature_point(name);
     for (const std::uint32_t corner : t) sum += share_of(rows, corner, id);
   }
@@ -72,8 +71,8 @@ class Lips {
       const auto [least, greatest] =
           std::minmax({model.positions[t[0]].x, model.positions[t[1]].x, model.positions[t[2]].x}, std::less<float>());
       if (least >= to_x || greatest <= from_x) continue;
-      const double upper = sum_of_shares(rig.influence, t, upper_names) / 3.0;
-      const double lower = sum_of_shares(rig.influence, t, lower_names) / 3.0;
+      const double upper = sum_of_shares(rig.influence, t, mpeg4::mouth.upper_flesh) / 3.0;
+      const double lower = sum_of_shares(rig.influence, t, mpeg4::mouth.lower_flesh) / 3.0;
       if (std::max(upper, lower) < least_share || upper == lower) continue;
       add(model, rig, t, upper > lower);
     }
