@@ -11,6 +11,7 @@
 
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/point_lookup.h"
+#include "core/parametrize/rim_sides.h"
 
 namespace semblante {
 namespace {
@@ -27,6 +28,17 @@ std::string join(const std::vector<FeaturePointId>& ids) {
   for (const FeaturePointId id : ids) text += (text.empty() ? "" : ", ") + to_string(id);
   return text;
 }
+
+/// The side of an opening that a point of a lip or lid belongs to. Speaks only where the side is beyond doubt.
+struct OwnSide {
+  const RimSides& sides;
+  bool is_upper;
+
+  [[nodiscard]] bool has(SurfaceVertexId vertex) const { return sides.side(vertex, is_upper) >= RimSides::clear; }
+  [[nodiscard]] bool is_opposite(SurfaceVertexId vertex) const {
+    return sides.side(vertex, is_upper) <= -RimSides::clear;
+  }
+};
 
 class Placement {
  public:
@@ -48,35 +60,38 @@ class Placement {
   }
 
   /// The file vertex at `position`, see place_feature_points.
-  [[nodiscard]] std::optional<std::uint32_t> vertex_at(const glm::dvec3& position) const {
+  [[nodiscard]] std::optional<std::uint32_t> vertex_at(const glm::dvec3& position,
+                                                       const OwnSide* own_side = nullptr) const {
     std::optional<std::uint32_t> best;
-    const auto part_size = [&](std::uint32_t v) {
-      return surface_.members_of(surface_.part_of[surface_.surface_of[v].value()]).size();
-    };
+    const auto is_there = [&](std::uint32_t v) { return is_used(v) && distance(v, position) <= at_place * diagonal_; };
+    const auto part_of = [&](std::uint32_t v) { return surface_.part_of[surface_.surface_of[v].value()]; };
+    const auto part_size = [&](std::uint32_t v) { return surface_.members_of(part_of(v)).size(); };
+    // Where rims touch there is a vertex of either at the same place.
+    bool on_own_side = false;
     for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
-      if (!is_used(v) || distance(v, position) > at_place * diagonal_) continue;
-      if (!best || part_size(v) > part_size(*best)) best = v;
+      if (!is_there(v)) continue;
+      const bool own = own_side != nullptr && own_side->has(surface_.surface_of[v]);
+      if (best && (own < on_own_side || (own == on_own_side && part_size(v) <= part_size(*best)))) continue;
+      best = v;
+      on_own_side = own;
     }
     if (!best) return best;
     // Among those of the chosen part the nearest: `at_place` may span more than one vertex of a fine mesh.
-    const PartId part = surface_.part_of[surface_.surface_of[*best].value()];
+    const PartId part = part_of(*best);
     for (std::uint32_t v = *best + 1; v < model_.positions.size(); ++v) {
-      if (surface_.part_of[surface_.surface_of[v].value()] != part) continue;
-      if (distance(v, position) < distance(*best, position)) best = v;
+      if (!is_there(v) || part_of(v) != part || distance(v, position) >= distance(*best, position)) continue;
+      if (!on_own_side || own_side->has(surface_.surface_of[v])) best = v;
     }
     return best;
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> nearest_vertex(const glm::dvec3& position) const {
-    std::optional<std::uint32_t> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
-      const double here = distance(v, position);
-      if (here >= least || !is_used(v)) continue;
-      least = here;
-      best = v;
-    }
-    return best;
+  /// With a side, a vertex that is beyond doubt on the other one gives way to the nearest that is on its own.
+  [[nodiscard]] std::optional<std::uint32_t> nearest_vertex(const glm::dvec3& position,
+                                                            const OwnSide* own_side = nullptr) const {
+    const auto nearest = nearest_of(position, [](std::uint32_t) { return true; });
+    if (!nearest || own_side == nullptr || !own_side->is_opposite(surface_.surface_of[*nearest])) return nearest;
+    const auto own = nearest_of(position, [&](std::uint32_t v) { return own_side->has(surface_.surface_of[v]); });
+    return own && distance(*own, position) <= may_snap * diagonal_ ? own : nearest;
   }
 
   [[nodiscard]] FeaturePoint at_vertex(FeaturePointId id, std::uint32_t vertex) const {
@@ -87,6 +102,19 @@ class Placement {
   /// A vertex without triangles is no place for a point found by position.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const {
     return !surface_.steps_from(surface_.surface_of[vertex]).empty();
+  }
+
+  template <class Filter>
+  [[nodiscard]] std::optional<std::uint32_t> nearest_of(const glm::dvec3& position, Filter filter) const {
+    std::optional<std::uint32_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+      const double here = distance(v, position);
+      if (here >= least || !is_used(v) || !filter(v)) continue;
+      least = here;
+      best = v;
+    }
+    return best;
   }
 
   const Model& model_;
@@ -180,20 +208,20 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
 
   FeaturePointSet points;
   std::vector<FeaturePointId> snapped;
-  for (const MarkedPoint& point : marked) {
+  const auto place = [&](const MarkedPoint& point, const OwnSide* own_side) -> std::optional<Error> {
     if (point.vertex && !(positions_win && point.position)) {
       points.push_back(placement.at_vertex(point.id, *point.vertex));
-      continue;
+      return std::nullopt;
     }
     const glm::dvec3& position = *point.position;
-    if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position)) {
+    if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position, own_side)) {
       points.push_back(placement.at_vertex(point.id, *vertex));
     } else if (point.vertex) {
       points.push_back(placement.at_vertex(point.id, *point.vertex));  // it agreed with its position well enough
     } else if (may_be_bare(point.id)) {
       points.push_back({point.id, std::nullopt, glm::vec3(position)});
     } else {
-      const std::optional<std::uint32_t> nearest = placement.nearest_vertex(position);
+      const std::optional<std::uint32_t> nearest = placement.nearest_vertex(position, own_side);
       if (!nearest || placement.distance(*nearest, position) > may_snap * placement.diagonal()) {
         return Error{ErrorCode::invalid_argument, pointer_to(point.id) + "/position",
                      "the position of point " + to_string(point.id) + " is not near the surface"};
@@ -201,7 +229,29 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
       points.push_back(placement.at_vertex(point.id, *nearest));
       snapped.push_back(point.id);
     }
+    return std::nullopt;
+  };
+
+  // Points of lips and lids that are found by position come last: the others tell their sides.
+  const auto needs_side = [&](const MarkedPoint& point) {
+    return (!point.vertex || (positions_win && point.position)) && rim_of_point(point.id).opening != nullptr;
+  };
+  for (const MarkedPoint& point : marked) {
+    if (needs_side(point)) continue;
+    if (std::optional<Error> fault = place(point, nullptr)) return std::move(*fault);
   }
+  const std::vector<SurfacePoint> anchors = surface_points(surface, points);
+  for (const mpeg4::Opening& opening : mpeg4::openings) {
+    std::optional<RimSides> sides;
+    for (const MarkedPoint& point : marked) {
+      const RimOfPoint rim = rim_of_point(point.id);
+      if (rim.opening != &opening || !needs_side(point)) continue;
+      if (!sides) sides.emplace(surface, opening, anchors);
+      const OwnSide own_side{*sides, rim.is_upper};
+      if (std::optional<Error> fault = place(point, &own_side)) return std::move(*fault);
+    }
+  }
+  std::sort(snapped.begin(), snapped.end());
   if (!snapped.empty()) warn("no vertex lies at the position of " + join(snapped) + "; the nearest was taken");
 
   std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });

@@ -22,6 +22,8 @@ namespace semblante {
 /// - A position alone: a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
 ///   then the lowest file vertex). Failing that 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
 ///   nearest vertex within 5 % of the diagonal, with a warning.
+/// - A point of a lip or lid by position, where the rims touch: of the vertices at its position one on its own side,
+///   and it does not snap to the other side, as far as the other points tell the sides (RimSides).
 ///
 /// Errors carry `where` = "/points/<id>" (or below it): `out_of_range` vertex, `not_finite` position, `missing` both,
 /// `invalid_argument` for a point given twice, too far from the surface, or on a part it cannot be on (a skin point on

@@ -1,7 +1,10 @@
 #include "tests/support/meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <numbers>
 
 namespace semblante::testing {
@@ -89,6 +92,65 @@ Model make_box(const glm::vec3& low, const glm::vec3& high) {
                                            {2, 4, 6},
                                            {1, 3, 5},
                                            {3, 7, 5}});
+}
+
+namespace {
+
+constexpr int mouth_columns = 6;  ///< either side of the middle
+constexpr int mouth_rows = 4;
+constexpr int mouth_corner = 2;
+constexpr int mouth_depth = 4;
+
+bool is_rim(int column, int row) { return row == 0 && std::abs(column) < mouth_corner; }
+
+}  // namespace
+
+std::uint32_t ClosedMouth::at(int column, int row, bool of_upper) const {
+  const glm::vec3 place(column, row, 0.0F);
+  const auto first = std::find(model.positions.begin(), model.positions.end(), place);
+  // The lower rim's vertex comes right before the upper one's.
+  return static_cast<std::uint32_t>(first - model.positions.begin()) + (of_upper && is_rim(column, row) ? 1U : 0U);
+}
+
+ClosedMouth make_closed_mouth() {
+  ClosedMouth mouth{make_model({}, {})};
+  for (int row = -mouth_rows; row <= mouth_rows; ++row) {
+    for (int column = -mouth_columns; column <= mouth_columns; ++column) {
+      for (int copies = is_rim(column, row) ? 2 : 1; copies > 0; --copies)
+        mouth.model.positions.emplace_back(column, row, 0.0F);
+    }
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mouth.model.triangles.push_back({a, b, c});
+    mouth.model.triangles.push_back({a, c, d});
+  };
+  for (int row = -mouth_rows; row < mouth_rows; ++row) {
+    for (int column = -mouth_columns; column < mouth_columns; ++column) {
+      const bool above = row >= 0;
+      add(mouth.at(column, row, above), mouth.at(column + 1, row, above), mouth.at(column + 1, row + 1, above),
+          mouth.at(column, row + 1, above));
+    }
+  }
+  // Behind the rims: two sheets that share the columns of the corners and the row at the bottom.
+  std::map<std::array<int, 3>, std::uint32_t> behind;
+  const auto at_depth = [&](int column, int depth, bool upper) {
+    if (depth == 0) return mouth.at(column, 0, upper);
+    const bool shared = std::abs(column) == mouth_corner || depth == mouth_depth;
+    const auto [entry, is_new] = behind.try_emplace({column, depth, shared || upper ? 1 : 0},
+                                                    static_cast<std::uint32_t>(mouth.model.positions.size()));
+    if (is_new) mouth.model.positions.emplace_back(column, 0.0F, -depth);
+    return entry->second;
+  };
+  for (const bool upper : {false, true}) {
+    for (int depth = 0; depth < mouth_depth; ++depth) {
+      for (int column = -mouth_corner; column < mouth_corner; ++column) {
+        add(at_depth(column, depth, upper), at_depth(column + 1, depth, upper), at_depth(column + 1, depth + 1, upper),
+            at_depth(column, depth + 1, upper));
+      }
+    }
+  }
+  mouth.model.primitives[0].triangle_count = static_cast<std::uint32_t>(mouth.model.triangles.size());
+  return mouth;
 }
 
 Model shifted(Model model, const glm::vec3& by) {

@@ -31,6 +31,16 @@ Model make_ball(const glm::vec3& center, float radius, std::uint32_t slices = 16
 /// A box of 12 triangles, its faces joined.
 Model make_box(const glm::vec3& low, const glm::vec3& high);
 
+/// A plate of columns -6..6 by rows -4..4 in the plane z = 0 with a mouth that is shut: between the corners at (-2, 0,
+/// 0) and (2, 0, 0) upper and lower rim have a vertex each at the same place. Behind the rims both lips go back to z =
+/// -4 side by side, where they meet.
+struct ClosedMouth {
+  Model model;
+  /// By column and row; of the two at a place on the rims that of the lip asked for.
+  [[nodiscard]] std::uint32_t at(int column, int row, bool of_upper = false) const;
+};
+ClosedMouth make_closed_mouth();
+
 /// The same mesh elsewhere. Two meshes at one place would be stitched where their borders coincide.
 Model shifted(Model model, const glm::vec3& by);
 

@@ -158,5 +158,49 @@ TEST_F(PlaceFeaturePoints, VertexWithoutTriangles_IsNoPlaceForAPosition) {
   EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
 }
 
+/// A mouth that is shut: a vertex of either lip at every place of its rim.
+class PlaceOnAClosedMouth : public ::testing::Test {
+ protected:
+  FeaturePointSet place(std::vector<MarkedPoint> marked) {
+    for (const auto& [name, row] : {std::pair("8.1", 1), std::pair("8.2", -1)})
+      marked.push_back(at_vertex(name, mouth_.at(0, row)));
+    marked.push_back(at_vertex("2.4", mouth_.at(2, 0)));
+    marked.push_back(at_vertex("2.5", mouth_.at(-2, 0)));
+    auto placed = place_feature_points(mouth_.model, build_surface(mouth_.model), marked, nullptr);
+    EXPECT_TRUE(placed);
+    return placed ? *placed : FeaturePointSet();
+  }
+  static VertexId vertex_of(const FeaturePointSet& points, std::string_view name) {
+    for (const FeaturePoint& point : points) {
+      if (point.id == fp(name)) return *point.vertex;
+    }
+    ADD_FAILURE() << name;
+    return VertexId(0);
+  }
+  testing::ClosedMouth mouth_ = testing::make_closed_mouth();
+};
+
+TEST_F(PlaceOnAClosedMouth, AtAPlaceOfBothLips_EachPointGetsItsOwn) {
+  const auto placed = place({at_position("2.2", {0, 0, 0}), at_position("2.3", {0, 0, 0}),
+                             at_position("2.6", {1, 0, 0}), at_position("2.8", {1, 0, 0})});
+  EXPECT_EQ(vertex_of(placed, "2.2"), VertexId(mouth_.at(0, 0, true)));
+  EXPECT_EQ(vertex_of(placed, "2.3"), VertexId(mouth_.at(0, 0, false)));
+  EXPECT_EQ(vertex_of(placed, "2.6"), VertexId(mouth_.at(1, 0, true)));
+  EXPECT_EQ(vertex_of(placed, "2.8"), VertexId(mouth_.at(1, 0, false)));
+}
+
+TEST_F(PlaceOnAClosedMouth, BesideAVertex_SnapsToItsOwnLip) {
+  // Lips pressed past each other: a little below the rim of the upper lip, where the lower lip is nearest.
+  for (const int column : {-1, 0, 1}) mouth_.model.positions[mouth_.at(column, 0, true)].y = -0.1F;
+  const auto placed = place({at_position("2.2", {0, 0.05, 0.02}), at_position("2.3", {0, -0.15, 0.02})});
+  EXPECT_EQ(vertex_of(placed, "2.2").value(), mouth_.at(0, 0) + 1);
+  EXPECT_EQ(vertex_of(placed, "2.3").value(), mouth_.at(0, 0));
+}
+
+TEST_F(PlaceOnAClosedMouth, AtTheOnlyVertexThere_ItStays) {
+  EXPECT_EQ(vertex_of(place({at_position("8.5", {1, -2, 0})}), "8.5"), VertexId(mouth_.at(1, -2)))
+      << "somebody marked that vertex; the doctor tells what is wrong with it";
+}
+
 }  // namespace
 }  // namespace semblante
