@@ -29,7 +29,8 @@ const std::vector<std::uint32_t>& FaceSurface::with_role(PartRole role) const {
   return by_role_[static_cast<std::size_t>(role)];
 }
 
-std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec3& place, const MirrorPlane* on) const {
+std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec3& place, const MirrorPlane* on,
+                                                  const Filter& filter) const {
   std::optional<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t v : with_role(role)) {
@@ -41,6 +42,7 @@ std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec
       squared += off * off;
       if (squared >= least) continue;
     }
+    if (filter && !filter(v)) continue;
     least = squared;
     best = v;
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,9 +28,11 @@ class FaceSurface {
   /// Vertices of all parts with that role, rising. Vertices of no triangle are none.
   [[nodiscard]] const std::vector<std::uint32_t>& with_role(PartRole role) const;
 
-  /// The vertex of that role nearest to `place`; with a plane, one off it counts as farther.
+  using Filter = std::function<bool(std::uint32_t)>;
+  /// The vertex of that role nearest to `place`; with a plane, one off it counts as farther. Only vertices that the
+  /// filter, if there is one, lets through.
   [[nodiscard]] std::optional<std::uint32_t> nearest(PartRole role, const glm::dvec3& place,
-                                                     const MirrorPlane* on = nullptr) const;
+                                                     const MirrorPlane* on = nullptr, const Filter& filter = {}) const;
   /// The farthest vertex along `direction` that a way of rising edges leads to from `start`, no farther than `within`
   /// from it; with a plane, along vertices on it. Steps over ripples of an edge's length.
   [[nodiscard]] std::uint32_t climb(std::uint32_t start, const glm::dvec3& direction, double within,

@@ -15,6 +15,7 @@
 #include "core/propose/proportion_guess.h"
 #include "core/propose/quick_set.h"
 #include "core/propose/relations.h"
+#include "core/propose/rim_choice.h"
 #include "core/propose/shape_rules.h"
 #include "core/tables/mpeg4.h"
 
@@ -64,6 +65,15 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& places, std::size
   return some;
 }
 
+/// What others lean on comes before what leans on it: points beside lips and lids tell their sides, and middles and
+/// corners where the points between them are.
+enum class Turn : std::uint8_t { open_skin, rims, related };
+
+Turn turn_of(FeaturePointId id) {
+  if (has_relation(id)) return Turn::related;
+  return rim_of_point(id).opening != nullptr ? Turn::rims : Turn::open_skin;
+}
+
 class Proposer {
  public:
   Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const FeaturePointSet& known,
@@ -71,17 +81,19 @@ class Proposer {
       : surface_(surface), parts_(parts), frame_(frame), face_(surface, parts, frame), references_(references) {
     for (const FeaturePoint& point : known) {
       settled_[point.id.value()] = frame(glm::dvec3(point.position));
-      if (point.vertex) taken_[surface.surface_of[point.vertex->value()].value()] = point.id;
+      if (!point.vertex) continue;
+      const SurfaceVertexId vertex = surface.surface_of[point.vertex->value()];
+      taken_[vertex.value()] = point.id;
+      anchors_.push_back({point.id, vertex, surface.positions[vertex.value()]});
     }
   }
 
   Proposals run() {
     find_mirror_plane();
     guess();
-    // What relations lean on comes before what leans on it.
-    for (const bool related : {false, true}) {
+    for (const Turn turn : {Turn::open_skin, Turn::rims, Turn::related}) {
       for (std::size_t id = 0; id < feature_point_count; ++id) {
-        if (!settled_[id] && has_relation(id_of(id)) == related) propose(id);
+        if (!settled_[id] && turn_of(id_of(id)) == turn) propose(id);
       }
     }
     std::sort(proposals_.points.begin(), proposals_.points.end(),
@@ -136,11 +148,19 @@ class Proposer {
         return settle(id, {face_.at(*vertex), vertex}, ProposalMethod::shape, error);
       }
     }
-    const auto vertex = face_.nearest(role, place, is_middle(id) ? &plane_ : nullptr);
-    const double off = glm::distance(face_.at(*vertex), place);
+    const auto [vertex, doubt] = nearest_vertex(id, role, place, error);
+    const double off = glm::distance(face_.at(vertex), place);
     if (off > 0.15 + error) return refuse(id, "the model has no surface where it would be");
-    settle(id, {face_.at(*vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
-           std::max(error, 0.5 * off));
+    settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
+           std::max(error, 0.5 * off), doubt);
+  }
+
+  /// Of a role that has vertices.
+  RimVertex nearest_vertex(std::size_t id, PartRole role, const glm::dvec3& place, double error) {
+    const MirrorPlane* const on = is_middle(id) ? &plane_ : nullptr;
+    const RimOfPoint rim = rim_of_point(id_of(id));
+    if (rim.opening == nullptr) return {*face_.nearest(role, place, on), {}};
+    return *rims_.nearest(rim, role, place, error, on);
   }
 
   std::optional<std::uint32_t> find_on_shape(std::size_t id, const glm::dvec3& place) const {
@@ -167,17 +187,23 @@ class Proposer {
 
   void refuse(std::size_t id, std::string reason) { proposals_.not_proposed.push_back({id_of(id), std::move(reason)}); }
 
-  void settle(std::size_t id, const Spot& spot, ProposalMethod method, double error) {
+  void settle(std::size_t id, const Spot& spot, ProposalMethod method, double error, std::string doubt = {}) {
     if (spot.vertex) {
       const auto [other, is_free] = taken_.try_emplace(*spot.vertex, id_of(id));
       if (!is_free) return refuse(id, "the vertex nearest to it is point " + to_string(other->second) + " already");
     }
     settled_[id] = spot.place;
+    // A vertex on a lip or lid that was itself told by its side is no witness of sides.
+    if (spot.vertex && rim_of_point(id_of(id)).opening == nullptr) {
+      anchors_.push_back({id_of(id), SurfaceVertexId(*spot.vertex), surface_.positions[*spot.vertex]});
+    }
     Proposal proposal;
     proposal.point.id = id_of(id);
     proposal.method = method;
     proposal.expected_error = error;
     proposal.confidence = error < surely ? Confidence::high : error < about ? Confidence::medium : Confidence::low;
+    if (!doubt.empty()) proposal.confidence = std::max(proposal.confidence, Confidence::medium);
+    proposal.remark = std::move(doubt);
     if (spot.vertex) {
       proposal.point.vertex = surface_.file_vertex_of[*spot.vertex];
       proposal.point.position = glm::vec3(surface_.positions[*spot.vertex]);
@@ -196,6 +222,8 @@ class Proposer {
   MirrorPlane plane_;
   Places settled_;                                           ///< known, and proposed so far
   std::unordered_map<std::uint32_t, FeaturePointId> taken_;  ///< the point at a surface vertex: at most one is proposed
+  std::vector<SurfacePoint> anchors_;                        ///< the known points, and those proposed on open skin
+  RimChoice rims_{face_, anchors_};
   Places images_;  ///< mirror images of known points whose partner is not known
   std::array<std::optional<Guess>, feature_point_count> guesses_;
   Proposals proposals_;

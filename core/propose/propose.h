@@ -33,6 +33,9 @@ struct Proposal {
   ProposalMethod method = ProposalMethod::proportion;
   Confidence confidence = Confidence::low;
   double expected_error = 0.0;  ///< in ES0: what the distance to a carefully placed point is expected to be
+  /// What else makes it unsure, in words; empty: nothing. A point of a lip or lid whose side the surface does not tell
+  /// has a remark, and never `high` confidence.
+  std::string remark;
 };
 
 struct NotProposed {

@@ -145,6 +145,45 @@ TEST_F(Propose, NeverPutsTwoPointsAtOneVertex) {
   EXPECT_NE(reason->reason.find("8.6"), std::string::npos) << reason->reason;
 }
 
+TEST_F(Propose, IsNotSureOfASideThatTheSurfaceDoesNotTell) {
+  // Lips welded along their rims: the vertices of the lower lip's rim become the nearest ones of the upper lip.
+  Model welded = model_;
+  const auto at = [&](const char* name) {
+    return std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); })->position;
+  };
+  const float reach = 0.25F * glm::distance(at("8.1"), at("8.2"));
+  std::vector<std::uint32_t> rim;
+  for (std::uint32_t v = 0; v < welded.positions.size(); ++v) {
+    const glm::vec3& p = welded.positions[v];
+    const bool between = p.x < at("2.4").x && p.x > at("2.5").x && std::abs(p.y - at("2.2").y) < reach;
+    if (between && p.z > at("2.4").z) rim.push_back(v);
+  }
+  for (Triangle& t : welded.triangles) {
+    for (std::uint32_t& corner : t) {
+      if (std::find(rim.begin(), rim.end(), corner) == rim.end()) continue;
+      corner = *std::min_element(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto column = [&](std::uint32_t v) {
+          return std::abs(welded.positions[v].x - welded.positions[corner].x);
+        };
+        return column(a) < column(b);
+      });
+    }
+  }
+  const Surface surface = build_surface(welded);
+  FeaturePointSet known = some(quick_set);
+  std::erase_if(known, [](const FeaturePoint& p) { return p.id == fp("2.2") || p.id == fp("2.3"); });
+  const auto proposals = propose_feature_points(surface, describe_parts(welded, surface, known), known);
+  ASSERT_TRUE(proposals);
+  int doubted = 0;
+  for (const Proposal& p : proposals->points) {
+    if (p.remark.empty()) continue;
+    ++doubted;
+    EXPECT_NE(p.confidence, Confidence::high) << to_string(p.point.id);
+    EXPECT_NE(p.remark.find("lip"), std::string::npos) << p.remark;
+  }
+  EXPECT_GE(doubted, 2);
+}
+
 TEST_F(Propose, RefusesTooFewPointsAndNamesTheMissing) {
   const FeaturePointSet known = some(std::span(quick_set).first(least_known_points - 1));
   const auto proposals = propose(known);

@@ -1,0 +1,40 @@
+#include "core/propose/rim_choice.h"
+
+#include <glm/geometric.hpp>
+
+namespace semblante {
+
+std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
+                                            const MirrorPlane* on) {
+  const RimSides& sides = sides_of(*rim.opening);
+  const auto side = [&](std::uint32_t v) { return sides.side(SurfaceVertexId(v), rim.is_upper); };
+  const auto off = [&](std::uint32_t v) { return glm::distance(face_.at(v), place); };
+  const std::string both =
+      "the " + std::string(rim.opening->upper_name) + " from the " + std::string(rim.opening->lower_name);
+
+  const auto own = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) > 0.0; });
+  const auto other = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) < 0.0; });
+  const auto apart = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) == 0.0; });
+  // A piece that no point tells the side of, such as a lid behind the fold, is as good as what lies nearest.
+  if (apart && (!own || off(*apart) < off(*own)) && (!other || own || off(*apart) < off(*other)))
+    return RimVertex{*apart, sides.have_anchors() ? "no placed point on this piece tells " + both
+                                                  : "too few points are placed to tell " + both};
+  if (!own) {
+    if (!other) return std::nullopt;
+    return RimVertex{*other, "no surface was found on the side of it that tells " + both};
+  }
+  if (side(*own) >= RimSides::clear) return RimVertex{*own, {}};
+  // Where the other side is about as near, a vertex a little farther off whose side is beyond doubt is better.
+  const bool is_contested = other && off(*other) < off(*own) + error;
+  const auto clear = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) >= RimSides::clear; });
+  if (is_contested && clear && off(*clear) < off(*own) + error) return RimVertex{*clear, {}};
+  return RimVertex{*own, "the surface leads straight across from one to the other here, and does not tell " + both};
+}
+
+const RimSides& RimChoice::sides_of(const mpeg4::Opening& opening) {
+  auto& sides = sides_[static_cast<std::size_t>(&opening - mpeg4::openings.data())];
+  if (!sides) sides = std::make_unique<RimSides>(face_.surface(), opening, anchors_);
+  return *sides;
+}
+
+}  // namespace semblante

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parametrize/rim_sides.h"
+#include "core/propose/face_surface.h"
+#include "core/propose/mirror_plane.h"
+
+namespace semblante {
+
+struct RimVertex {
+  std::uint32_t vertex;
+  std::string doubt;  ///< why its side may be wrong, in words; empty: the side is beyond doubt
+};
+
+/// Picks vertices for points of lips and lids: the nearest one of those on the point's own side along the surface
+/// (RimSides).
+class RimChoice {
+ public:
+  /// Keeps references to both. `anchors` may grow until the first choice about an opening is made.
+  RimChoice(const FaceSurface& face, const std::vector<SurfacePoint>& anchors) : face_(face), anchors_(anchors) {}
+
+  /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. Where the side cannot be
+  /// told, the nearest vertex, with that doubt. Empty where the model has no such role.
+  std::optional<RimVertex> nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
+                                   const MirrorPlane* on);
+
+ private:
+  const RimSides& sides_of(const mpeg4::Opening& opening);
+
+  const FaceSurface& face_;
+  const std::vector<SurfacePoint>& anchors_;
+  std::array<std::unique_ptr<RimSides>, mpeg4::openings.size()> sides_;
+};
+
+}  // namespace semblante
