@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/types/result.h"
+
+namespace semblante::settings {
+
+/// Everything that a user may set of a stream.
+struct StreamSettings {
+  std::string title;                   ///< for people; the stream's id unless set
+  std::string model;                   ///< id of the model it is meant for; empty: none
+  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; without it clients take that of their model
+  std::uint32_t batch_interval = 100;  ///< ms for which frames are gathered into one message; 0: each is sent at once
+  double quantizer_scale = 1.0;        ///< of its steps against the standard ones: one of quantizer_scales
+
+  bool operator==(const StreamSettings&) const = default;
+};
+
+/// Calls visit(name, member) for each setting. The name is that of the JSON member and of the store's column.
+template <class Settings, class Visit>
+void for_each_setting(Settings& settings, Visit&& visit) {
+  visit(std::string_view("title"), settings.title);
+  visit(std::string_view("model"), settings.model);
+  visit(std::string_view("viseme_share"), settings.viseme_share);
+  visit(std::string_view("batch_interval"), settings.batch_interval);
+  visit(std::string_view("quantizer_scale"), settings.quantizer_scale);
+}
+
+/// The settings among the members of `object`; other members are ignored. What is absent has its default, the title
+/// that of the stream's `id`. Errors: the first setting that is wrong, with a JSON pointer. Whether the model exists is
+/// left to the caller.
+Result<StreamSettings> read_stream_settings(const nlohmann::ordered_json& object, std::string_view id);
+
+/// Adds all settings to `object`. No model, and no viseme share, are null.
+void write_stream_settings(nlohmann::ordered_json& object, const StreamSettings& settings);
+
+}  // namespace semblante::settings

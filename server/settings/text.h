@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "core/types/result.h"
+
+namespace semblante::settings {
+
+/// A text that a user wrote must have 1 to `max_bytes` bytes and no control characters. The error's `where` is left to
+/// the caller.
+Status check_text(std::string_view text, std::size_t max_bytes);
+
+}  // namespace semblante::settings
