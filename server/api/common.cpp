@@ -9,6 +9,7 @@
 #include "core/json/read_json.h"
 #include "server/hash/sha256.h"
 #include "server/http/conditional.h"
+#include "server/settings/text.h"
 
 namespace semblante::api {
 namespace {
@@ -51,7 +52,7 @@ JsonBody body_object(const http::Request& request) {
   return *std::move(json);
 }
 
-void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known) {
+void refuse_unknown_members(const JsonBody& object, std::span<const std::string_view> known) {
   for (const auto& [name, value] : object.items())
     if (std::find(known.begin(), known.end(), name) == known.end())
       refuse("invalid-field", "there is no field \"" + name + "\" here",
@@ -59,10 +60,7 @@ void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::s
 }
 
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer) {
-  if (value.empty()) refuse("invalid-field", "it must not be empty", pointer);
-  if (value.size() > max) refuse("invalid-field", "it has more than " + std::to_string(max) + " bytes", pointer);
-  if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }))
-    refuse("invalid-field", "it holds a control character", pointer);
+  if (const auto good = settings::check_text(value, max); !good) refuse("invalid-field", good.error().message, pointer);
   return std::string(value);
 }
 

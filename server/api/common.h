@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -28,7 +30,10 @@ store::ModelRecord model_of(Context& context, const http::Request& request);
 JsonBody body_object(const http::Request& request);
 
 /// Refuses members of `object` that are none of `known`, by pointer.
-void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known);
+void refuse_unknown_members(const JsonBody& object, std::span<const std::string_view> known);
+inline void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known) {
+  refuse_unknown_members(object, std::span(known.begin(), known.size()));
+}
 
 /// A string of 1..max bytes without control characters; `pointer` is where it was.
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer);

@@ -47,7 +47,7 @@ http::Response post_fap(Context& context, http::Request& request) {
   std::vector<std::string> warnings;
   for (const auto& warning : reading->warnings) warnings.push_back(to_sentence(warning));
   auto source = streams::make_fap_source(*frames, reading->file.rate, reading->file.name,
-                                         scaled_quantizers(info->quantizer_scale));
+                                         scaled_quantizers(info->settings.quantizer_scale));
   return play_into(context, stream, std::move(source), options, warnings);
 }
 

@@ -30,7 +30,8 @@ http::Response post_performance(Context& context, http::Request& request) {
   if (!script) refuse_document(script.error());
   auto performance = Performance::compile(*script);
   if (!performance) refuse_document(performance.error());
-  auto source = streams::make_performance_source(std::move(*performance), scaled_quantizers(info->quantizer_scale));
+  auto source =
+      streams::make_performance_source(std::move(*performance), scaled_quantizers(info->settings.quantizer_scale));
   return play_into(context, stream, std::move(source), options);
 }
 

@@ -25,20 +25,6 @@ std::optional<std::uint64_t> checked_duration(const JsonBody& value) {
   return static_cast<std::uint64_t>(ms);
 }
 
-Header header_of(const streams::StreamInfo& info) {
-  Header header;
-  header.stream = info.id;
-  header.title = info.title;
-  header.model = info.model;
-  header.epoch = info.epoch;
-  header.sequence = info.sequence;
-  header.server_time = streams::Stream::server_time_now();
-  const auto steps = scaled_quantizers(info.quantizer_scale);
-  header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
-  header.viseme_share = info.viseme_share;
-  return header;
-}
-
 http::Response created(const RecordingStatus& recording) {
   auto response = json_response(201, represent(recording));
   response.headers["Location"] = "/v1/recordings/" + recording.record.id;
@@ -126,13 +112,13 @@ Json represent(const RecordingStatus& recording) {
 }
 
 http::Response create_recording(Context& context, http::Request& request) {
-  const auto info = context.hub.info(request.params.at("stream"));
-  if (!info) refuse("not-found", "there is no stream " + request.params.at("stream"));
+  auto header = context.hub.header(request.params.at("stream"));
+  if (!header) refuse("not-found", "there is no stream " + request.params.at("stream"));
   const auto body = body_object(request);
   refuse_unknown_members(body, {"name", "max_duration"});
   recordings::RecordingStart start;
-  start.header = header_of(*info);
-  start.name = body.contains("name") ? checked_text(body["name"], max_name_bytes, "/name") : info->title;
+  start.name = body.contains("name") ? checked_text(body["name"], max_name_bytes, "/name") : header->title;
+  start.header = std::move(*header);
   if (body.contains("max_duration") && !body["max_duration"].is_null())
     start.max_duration = checked_duration(body["max_duration"]);
   auto check = check_idempotency(context, request, sha256_hex(request.body));
@@ -202,7 +188,7 @@ http::Response post_play(Context& context, http::Request& request) {
       refuse("invalid-field", "must be a number of milliseconds from 0 to the recording's duration", "/from");
   }
   const auto source = recordings::make_recording_source(*bytes_of(context, *recording), recording->record.name,
-                                                        scaled_quantizers(info->quantizer_scale));
+                                                        scaled_quantizers(info->settings.quantizer_scale));
   if (!source) {
     if (source.error().code == ErrorCode::empty) refuse("conflict", "there is no frame in the recording yet");
     refuse_damaged(source.error());

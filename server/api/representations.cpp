@@ -148,27 +148,24 @@ Json lateness_p99(const metrics::LatenessValues& lateness) {
 }  // namespace
 
 Json represent(const streams::StreamInfo& stream) {
-  return {{"id", stream.id},
-          {"title", stream.title},
-          {"model", stream.model.empty() ? Json(nullptr) : Json(stream.model)},
-          {"created", stream.created},
-          {"epoch", stream.epoch},
-          {"sequence", stream.sequence},
-          {"subscribers", stream.subscribers},
-          {"publishers", stream.publishers},
-          {"source", stream.source},
-          {"active_source", stream.active_source
-                                ? Json(streams::source_names[static_cast<std::size_t>(*stream.active_source)])
-                                : Json(nullptr)},
-          {"batch_interval", stream.batch_interval},
-          {"quantizer_scale", stream.quantizer_scale},
-          {"subscribers_by_coding", by_coding(stream)},
-          {"bytes_sent", stream.counts.bytes_sent},
-          {"messages_coalesced", stream.counts.messages_replaced},
-          {"lateness_p99", lateness_p99(stream.counts.lateness)},
-          {"clamped_values", stream.clamped_values},
-          {"viseme_share", stream.viseme_share ? Json(*stream.viseme_share) : Json(nullptr)},
-          {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}};
+  Json json = {{"id", stream.id}};
+  settings::write_stream_settings(json, stream.settings);
+  json.update({{"created", stream.created},
+               {"epoch", stream.epoch},
+               {"sequence", stream.sequence},
+               {"subscribers", stream.subscribers},
+               {"publishers", stream.publishers},
+               {"source", stream.source},
+               {"active_source", stream.active_source
+                                     ? Json(streams::source_names[static_cast<std::size_t>(*stream.active_source)])
+                                     : Json(nullptr)},
+               {"subscribers_by_coding", by_coding(stream)},
+               {"bytes_sent", stream.counts.bytes_sent},
+               {"messages_coalesced", stream.counts.messages_replaced},
+               {"lateness_p99", lateness_p99(stream.counts.lateness)},
+               {"clamped_values", stream.clamped_values},
+               {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}});
+  return json;
 }
 
 Json represent(const streams::PlayStatus& playing) {

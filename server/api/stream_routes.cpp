@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -6,14 +7,12 @@
 #include "server/api/common.h"
 #include "server/api/routes.h"
 #include "server/hash/sha256.h"
+#include "server/settings/stream_settings.h"
 
 namespace semblante::api {
 namespace {
 
 constexpr std::size_t max_slug_bytes = 64;
-constexpr std::size_t max_title_bytes = 200;
-constexpr std::uint32_t usual_batch_interval = 100;  ///< ms
-constexpr int most_batch_interval = 1000;
 /// Seconds: in three there is room for the 1024 frames of the longest message.
 constexpr unsigned throttled_retry_after = 3;
 
@@ -25,24 +24,17 @@ std::string checked_slug(const JsonBody& value) {
   return slug;
 }
 
-double checked_share(const JsonBody& value) {
-  const double share = value.is_number() ? value.get<double>() : -1.0;
-  if (!(share >= 0.0 && share <= 1.0)) refuse("invalid-field", "must be a number from 0 to 1", "/viseme_share");
-  return share;
-}
-
-std::uint32_t checked_interval(const JsonBody& value) {
-  const double interval = value.is_number_integer() ? value.get<double>() : -1.0;
-  if (!(interval >= 0.0 && interval <= most_batch_interval))
-    refuse("invalid-field", "must be a whole number from 0 to " + std::to_string(most_batch_interval),
-           "/batch_interval");
-  return static_cast<std::uint32_t>(interval);
-}
-
-double checked_scale(const JsonBody& value) {
-  const double scale = value.is_number() ? value.get<double>() : 0.0;
-  if (!is_quantizer_scale(scale)) refuse("invalid-field", "must be 1, 0.5, 0.25 or 0.125", "/quantizer_scale");
-  return scale;
+/// The settings in the body of a request that creates the stream `id`.
+settings::StreamSettings checked_settings(Context& context, const JsonBody& body, const std::string& id) {
+  std::vector<std::string_view> known = {"name"};
+  const settings::StreamSettings any;
+  settings::for_each_setting(any, [&](std::string_view name, const auto&) { known.push_back(name); });
+  refuse_unknown_members(body, known);
+  auto read = settings::read_stream_settings(body, id);
+  if (!read) refuse("invalid-field", read.error().message, read.error().where);
+  if (!read->model.empty() && !context.store.model(read->model))
+    refuse("invalid-field", "there is no model " + read->model, "/model");
+  return std::move(*read);
 }
 
 streams::StreamInfo info_of(Context& context, const http::Request& request) {
@@ -68,18 +60,9 @@ http::Response list_streams(Context& context, http::Request&) {
 
 http::Response create_stream(Context& context, http::Request& request) {
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "title", "model", "viseme_share", "batch_interval", "quantizer_scale"});
   streams::StreamInfo info;
   info.id = body.contains("name") ? checked_slug(body["name"]) : store::random_id();
-  info.title = body.contains("title") ? checked_text(body["title"], max_title_bytes, "/title") : info.id;
-  if (body.contains("model") && !body["model"].is_null()) {
-    info.model = checked_text(body["model"], max_slug_bytes, "/model");
-    if (!context.store.model(info.model)) refuse("invalid-field", "there is no model " + info.model, "/model");
-  }
-  if (body.contains("viseme_share") && !body["viseme_share"].is_null())
-    info.viseme_share = checked_share(body["viseme_share"]);
-  info.batch_interval = checked_interval(body.value("batch_interval", JsonBody(usual_batch_interval)));
-  info.quantizer_scale = checked_scale(body.value("quantizer_scale", JsonBody(1.0)));
+  info.settings = checked_settings(context, body, info.id);
   info.created = store::timestamp_now();
   info.source = "none";
 
@@ -92,10 +75,7 @@ http::Response create_stream(Context& context, http::Request& request) {
     refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_streams) + " streams");
   if (check.record) check.record->resource = info.id;
   // Durable before it is there for others, so that a stream somebody saw is never forgotten.
-  if (context.hub.info(info.id) ||
-      !context.store.create_stream(
-          {info.id, info.title, info.model, info.created, info.viseme_share, info.batch_interval, info.quantizer_scale},
-          check.record))
+  if (context.hub.info(info.id) || !context.store.create_stream({info.id, info.created, info.settings}, check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
   return created(context.hub.info(info.id).value_or(info));
@@ -118,7 +98,8 @@ http::Response delete_stream(Context& context, http::Request& request) {
 http::Response post_frames(Context& context, http::Request& request) {
   const auto info = info_of(context, request);
   std::size_t clamped_coefficients = 0;
-  auto frames = decode_json_frames(request.body, scaled_quantizers(info.quantizer_scale), &clamped_coefficients);
+  auto frames =
+      decode_json_frames(request.body, scaled_quantizers(info.settings.quantizer_scale), &clamped_coefficients);
   if (!frames) {
     const auto& error = frames.error();
     refuse(error.code == ErrorCode::malformed && error.where.empty() ? "malformed-request" : "invalid-frame",

@@ -98,8 +98,9 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
   if (options.demo) {
     streams::StreamInfo demo;
     demo.id = "demo";
-    demo.title = "Demo";
-    demo.model = options.sample.empty() ? "" : std::string(sample_model_id);
+    demo.settings.title = "Demo";
+    demo.settings.model = options.sample.empty() ? "" : std::string(sample_model_id);
+    demo.settings.batch_interval = 0;
     demo.created = store::timestamp_now();
     demo.source = "demo";
     hub.open(demo);
@@ -107,12 +108,8 @@ void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptio
   for (const auto& record : store.streams()) {
     streams::StreamInfo info;
     info.id = record.id;
-    info.title = record.title;
-    info.model = record.model;
     info.created = record.created;
-    info.viseme_share = record.viseme_share;
-    info.batch_interval = record.batch_interval;
-    info.quantizer_scale = record.quantizer_scale;
+    info.settings = record.settings;
     info.source = "none";
     if (!hub.open(info)) log::warning("the stream " + record.id + " is hidden by one of the server's own");
   }

@@ -8,26 +8,27 @@
 namespace semblante::settings {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::json;
+using Written = nlohmann::ordered_json;  ///< members stay in the order of the settings
 
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_model_bytes = 64;
 constexpr int max_batch_interval = 1000;  ///< ms
 
-Status read_text(const Json& value, std::size_t max_bytes, std::string& text) {
+Status read_text(const json& value, std::size_t max_bytes, std::string& text) {
   if (!value.is_string()) return Error{ErrorCode::malformed, "", "it must be a text"};
   text = value.get<std::string>();
   return check_text(text, max_bytes);
 }
 
-Status read_viseme_share(const Json& value, std::optional<double>& share) {
+Status read_viseme_share(const json& value, std::optional<double>& share) {
   const double number = value.is_number() ? value.get<double>() : -1.0;
   if (!(number >= 0.0 && number <= 1.0)) return Error{ErrorCode::out_of_range, "", "must be a number from 0 to 1"};
   share = number;
   return Unit{};
 }
 
-Status read_batch_interval(const Json& value, std::uint32_t& interval) {
+Status read_batch_interval(const json& value, std::uint32_t& interval) {
   const double number = value.is_number_integer() ? value.get<double>() : -1.0;
   if (!(number >= 0.0 && number <= max_batch_interval))
     return Error{ErrorCode::out_of_range, "", "must be a whole number from 0 to " + std::to_string(max_batch_interval)};
@@ -35,13 +36,13 @@ Status read_batch_interval(const Json& value, std::uint32_t& interval) {
   return Unit{};
 }
 
-Status read_quantizer_scale(const Json& value, double& scale) {
+Status read_quantizer_scale(const json& value, double& scale) {
   scale = value.is_number() ? value.get<double>() : 0.0;
   if (!is_quantizer_scale(scale)) return Error{ErrorCode::out_of_range, "", "must be 1, 0.5, 0.25 or 0.125"};
   return Unit{};
 }
 
-Status read_setting(std::string_view name, const Json& value, StreamSettings& settings) {
+Status read_setting(std::string_view name, const json& value, StreamSettings& settings) {
   if (name == "title") return read_text(value, max_title_bytes, settings.title);
   if (name == "model") return value.is_null() ? Unit{} : read_text(value, max_model_bytes, settings.model);
   if (name == "viseme_share") return value.is_null() ? Unit{} : read_viseme_share(value, settings.viseme_share);
@@ -50,14 +51,14 @@ Status read_setting(std::string_view name, const Json& value, StreamSettings& se
   return Error{ErrorCode::internal, "", "this setting cannot be read"};
 }
 
-Json to_json(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json to_json(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
-Json to_json(std::uint32_t number) { return number; }
-Json to_json(double number) { return number; }
+Written to_json(const std::string& text) { return text.empty() ? Written(nullptr) : Written(text); }
+Written to_json(const std::optional<double>& number) { return number ? Written(*number) : Written(nullptr); }
+Written to_json(std::uint32_t number) { return number; }
+Written to_json(double number) { return number; }
 
 }  // namespace
 
-Result<StreamSettings> read_stream_settings(const Json& object, std::string_view id) {
+Result<StreamSettings> read_stream_settings(const json& object, std::string_view id) {
   StreamSettings settings;
   settings.title = id;
   std::optional<Error> wrong;
@@ -71,7 +72,7 @@ Result<StreamSettings> read_stream_settings(const Json& object, std::string_view
   return settings;
 }
 
-void write_stream_settings(Json& object, const StreamSettings& settings) {
+void write_stream_settings(Written& object, const StreamSettings& settings) {
   for_each_setting(settings,
                    [&](std::string_view name, const auto& value) { object[std::string(name)] = to_json(value); });
 }

@@ -35,7 +35,7 @@ void for_each_setting(Settings& settings, Visit&& visit) {
 /// The settings among the members of `object`; other members are ignored. What is absent has its default, the title
 /// that of the stream's `id`. Errors: the first setting that is wrong, with a JSON pointer. Whether the model exists is
 /// left to the caller.
-Result<StreamSettings> read_stream_settings(const nlohmann::ordered_json& object, std::string_view id);
+Result<StreamSettings> read_stream_settings(const nlohmann::json& object, std::string_view id);
 
 /// Adds all settings to `object`. No model, and no viseme share, are null.
 void write_stream_settings(nlohmann::ordered_json& object, const StreamSettings& settings);

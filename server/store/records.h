@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame/frame_guess.h"
+#include "server/settings/stream_settings.h"
 
 namespace semblante::store {
 
@@ -185,10 +186,8 @@ struct JobRecord {
 };
 
 struct StreamRecord {
-  std::string id, title, model, created;
-  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1
-  std::uint32_t batch_interval = 100;  ///< ms
-  double quantizer_scale = 1.0;        ///< of its steps against the standard ones
+  std::string id, created;
+  settings::StreamSettings settings;
 
   bool operator==(const StreamRecord&) const = default;
 };

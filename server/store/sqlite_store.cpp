@@ -10,6 +10,7 @@
 #include "server/store/sqlite_recordings.h"
 #include "server/store/sqlite_schema.h"
 #include "server/store/sqlite_sets.h"
+#include "server/store/sqlite_streams.h"
 
 namespace semblante::store {
 namespace {
@@ -380,13 +381,7 @@ class SqliteStore : public Store {
   bool create_stream(const StreamRecord& stream, const std::optional<IdempotencyRecord>& key) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
-    Statement(db_,
-              "INSERT OR IGNORE INTO streams(id, title, model, created, viseme_share, batch_interval, "
-              "quantizer_scale) VALUES(?,?,?,?,?,?,?)")
-        .bind(stream.id, stream.title, stream.model, stream.created, stream.viseme_share, stream.batch_interval,
-              stream.quantizer_scale)
-        .run();
-    if (db_.changes() == 0) return false;
+    if (!insert_stream(db_, stream)) return false;
     insert_key(key);
     transaction.commit();
     return true;
@@ -394,18 +389,7 @@ class SqliteStore : public Store {
 
   std::vector<StreamRecord> streams() override {
     const std::lock_guard lock(mutex_);
-    std::vector<StreamRecord> list;
-    Statement statement(db_,
-                        "SELECT id, title, model, created, viseme_share, batch_interval, quantizer_scale FROM streams "
-                        "ORDER BY number");
-    while (statement.step()) {
-      StreamRecord stream{statement.text(0), statement.text(1), statement.text(2), statement.text(3), std::nullopt};
-      if (!statement.is_null(4)) stream.viseme_share = statement.real(4);
-      stream.batch_interval = static_cast<std::uint32_t>(statement.integer(5));
-      stream.quantizer_scale = statement.real(6);
-      list.push_back(std::move(stream));
-    }
-    return list;
+    return list_streams(db_);
   }
 
   bool remove_stream(std::string_view id) override {

@@ -7,14 +7,14 @@
 
 namespace semblante::streams {
 
-/// Hears all frames of a stream as subscribers get them: what records.
+/// Is told all frames of a stream as subscribers get them. The recorder is one.
 class BatchListener {
  public:
   virtual ~BatchListener() = default;
-  /// Called with the stream's mutex held, when frames are taken and before they are sent: must only queue. `epoch`
-  /// is the stream's life, `batch` has its sequence number and media time.
+  /// Frames were taken and are not sent yet. Called with the stream's mutex held, so it must only queue them. `epoch`
+  /// names the life of the stream; `batch` has the sequence number and media time of its first frame.
   virtual void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) = 0;
-  /// The stream has ended: no batch of this life follows. As above.
+  /// The stream has ended: no frames of this epoch follow. Called as above.
   virtual void ended(std::string_view stream) = 0;
 };
 

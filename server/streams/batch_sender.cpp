@@ -46,7 +46,7 @@ void BatchSender::run() {
       if (turns_.empty()) {
         changed_.wait(lock);
       } else {
-        // A copy: it is read again after the wait, and the turns may have moved by then.
+        // A copy, because wait_until reads it again after the wait, when the turns may have moved in memory.
         const auto next = turns_.top().when;
         changed_.wait_until(lock, next);
       }

@@ -12,8 +12,9 @@
 
 namespace semblante::streams {
 
-/// The thread that closes batches when they are due and sends them. It works in slices, by turns over all streams that
-/// have something to send, so that a stream with thousands of subscribers holds up no other.
+/// The thread that closes batches when they are due and sends them. It sends one slice of a stream at a time, in turns
+/// over all streams that have something to send, so that a stream with thousands of subscribers delays no other by more
+/// than a slice.
 class BatchSender {
  public:
   BatchSender();
@@ -21,16 +22,16 @@ class BatchSender {
   BatchSender(const BatchSender&) = delete;
   BatchSender& operator=(const BatchSender&) = delete;
 
-  /// The stream wants a Stream::work(when) at that time. Any thread.
+  /// Asks for a call of stream->work(when) at that time. Any thread.
   void wake(std::weak_ptr<Stream> stream, Stream::Clock::time_point when);
-  /// Nothing is sent after this. Not from the thread itself.
+  /// Ends the thread; nothing is sent after it returns. Must not be called by the thread itself.
   void stop();
 
  private:
   struct Turn {
     Stream::Clock::time_point when;
     std::weak_ptr<Stream> stream;
-    bool operator<(const Turn& other) const { return when > other.when; }  ///< the earliest on top
+    bool operator<(const Turn& other) const { return when > other.when; }  ///< so that the earliest is on top
   };
   void run();
 

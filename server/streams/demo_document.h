@@ -4,7 +4,7 @@
 
 namespace semblante::streams {
 
-/// protocol/examples/performances/minute.json.
+/// The text of protocol/examples/performances/minute.json, compiled in.
 std::string_view demo_document();
 
 }  // namespace semblante::streams

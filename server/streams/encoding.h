@@ -1,24 +1,31 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/quantizers.h"
-#include "server/streams/subscriber_list.h"
 
 namespace semblante::streams {
 
-/// A message in binary form, as it goes over a WebSocket.
+/// The forms in which a stream's batches are sent. Each is encoded once, when the first subscriber needs it.
+enum class Coding : std::uint8_t { packed, plain, json };
+inline constexpr std::size_t coding_count = 3;
+inline constexpr std::array<std::string_view, coding_count> coding_names = {"packed", "plain", "json"};
+
+/// Appends a binary message with its WebSocket frame header.
 void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload);
 
-/// One message by itself: not frames in binary form, which say what changed since the one before. `steps`: the
-/// stream's; levels become FAP units in JSON.
+/// Appends one message that can be decoded alone, so no `frames` in binary form: those say what changed since the
+/// message before. `steps` are the stream's quantizer steps, by which JSON gives levels in FAP units.
 void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps);
 
-/// The newest state of `packed`: where a reader of that form begins.
+/// Appends the newest state of `packed`, from which a reader of that form can go on.
 void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding, const QuantizerSteps& steps);
 
 }  // namespace semblante::streams

@@ -10,8 +10,8 @@
 
 namespace semblante::streams {
 
-/// The faces of a .fap file, `rate` of them a second; between two of them values go linearly. `frames`: at least one.
-/// `steps`: of the stream it is played into.
+/// Plays the frames of a .fap file, `rate` a second, with linear interpolation between them. There must be at least one
+/// frame. `steps` are those of the stream it is played into.
 std::shared_ptr<const FrameSource> make_fap_source(std::span<const TimedValues> frames, double rate, std::string name,
                                                    const QuantizerSteps& steps = standard_quantizers());
 

@@ -5,7 +5,7 @@
 namespace semblante::streams {
 namespace {
 
-/// Between two floods; and between two messages about one.
+/// A flood has ended when nothing was left out for so long; and messages about one flood are so far apart.
 constexpr std::chrono::milliseconds pause{1000};
 
 }  // namespace

@@ -8,11 +8,11 @@
 
 namespace semblante::streams {
 
-/// `steps`: of the stream it is played into.
+/// Plays a performance. `steps` are those of the stream it is played into.
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance,
                                                            const QuantizerSteps& steps = standard_quantizers());
 
-/// The minute that the stream `demo` plays: a document of ours, compiled in.
+/// What the stream `demo` plays: the compiled-in document of demo_document.h.
 std::shared_ptr<const FrameSource> demo_source();
 
 }  // namespace semblante::streams

@@ -14,39 +14,39 @@ inline constexpr double least_play_rate = 1.0;  ///< frames a second
 inline constexpr double most_play_rate = 120.0;
 
 struct PlayOptions {
-  double rate = 25.0;  ///< frames a second; of a source with times of its own only what its listeners are told
+  double rate = 25.0;  ///< frames a second; for a source with times of its own only a hint for clients
   bool loop = false;
   double from = 0.0;       ///< ms after the beginning of the source
-  bool take_over = false;  ///< from whoever publishes or plays; else that is refused
+  bool take_over = false;  ///< from another holder of the stream; otherwise that refuses the play
 };
 
-/// Plays one source into one stream, frame k at begin + k / rate: deadlines that do not drift, and media times without
-/// the jitter of the thread that calls. Who comes late plays the frame that is due and not those before it. Of a source
-/// with times of its own every frame is played at begin + its time, late ones too. The caller sees to it that one
-/// thread at a time is in here.
+/// Plays one source into one stream. Frame k is due at begin + k / rate and carries that media time, so deadlines do
+/// not drift and the jitter of the calling thread is not in the media times. When play() is called late it sends the
+/// newest frame that is due and skips those before it. Of a source with times of its own every frame is sent, at begin
+/// + its time, late ones too. Not synchronized.
 class Player {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `ticket`: what Stream::begin_playing gave; 0: the stream's own filling, which gives way to everyone.
+  /// `ticket` is from Stream::begin_playing; 0: it is the stream's own filling, sent by Stream::fill.
   Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
          std::shared_ptr<const FrameSource> source, PlayOptions options, Clock::time_point begin);
 
-  /// When the next frame is due. Clock::time_point::max() when there is none.
+  /// When the next frame is due; Clock::time_point::max() when there is none.
   [[nodiscard]] Clock::time_point next() const { return next_; }
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] const std::string& id() const { return id_; }
 
-  /// Publishes the newest frame due by now, or all that are, at most `most_at_once`. Finished after the last, or when
-  /// the stream has gone to somebody else.
+  /// Sends the newest frame due by now; of a source with times of its own all that are due, at most `most_at_once`.
+  /// Finished after the last frame, or when another source has taken over the stream.
   void play(Clock::time_point now);
 
-  /// Ends it before its time; the face returns to neutral.
+  /// Ends it early; the face returns to neutral.
   void stop();
 
   [[nodiscard]] PlayStatus status(Clock::time_point now) const;
 
-  /// Of a source with times of its own, in one call of play(): the rest is due at once.
+  /// Bound of one call of play() for a source with times of its own; next() is then in the past.
   static constexpr std::size_t most_at_once = 512;
 
  private:
@@ -66,7 +66,7 @@ class Player {
   Clock::time_point next_;
   std::uint64_t frame_ = 0;
   std::unique_ptr<FrameCursor> frames_;  ///< null: at a rate
-  double rounds_ms_ = 0.0;               ///< played in rounds of a loop before this one, less where the first began
+  double rounds_ms_ = 0.0;               ///< length of the loop's earlier rounds, minus options_.from
   bool finished_ = false;
 };
 

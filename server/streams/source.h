@@ -6,15 +6,15 @@
 
 namespace semblante::streams {
 
-/// Who feeds a stream; README.md has the rules between them. `connection` publishes over a WebSocket, `request` is
-/// frames by REST, `performance`, `fap` and `recording` are played, `demo` is a stream's own filling.
+/// What can feed a stream. `connection` publishes over a WebSocket, `request` is frames by REST, `performance`, `fap`
+/// and `recording` are played, `demo` is a stream's own filling. README.md has the rules between them.
 enum class Source { connection, request, performance, fap, recording, demo };
 
 inline constexpr std::array<std::string_view, 6> source_names = {"connection", "request",   "performance",
                                                                  "fap",        "recording", "demo"};
 inline constexpr std::size_t source_count = source_names.size();
 
-/// What of the name FrameSource::kind gives; a performance if it is none of these.
+/// The source for a name of FrameSource::kind; `performance` when it is none of the others.
 constexpr Source played_source(std::string_view kind) {
   for (const auto source : {Source::fap, Source::recording})
     if (kind == source_names[static_cast<std::size_t>(source)]) return source;

@@ -1,21 +1,29 @@
 #include "server/streams/stream.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "protocol/cpp/fap_ranges.h"
 #include "server/streams/batch_listener.h"
-#include "server/streams/stream_connection.h"
+#include "server/streams/batch_sender.h"
+#include "server/streams/encoding.h"
+#include "server/streams/stream_header.h"
 
 namespace semblante::streams {
 namespace {
 
 using Clock = Stream::Clock;
 
+Error has_ended() { return {ErrorCode::missing, "", "the stream has ended"}; }
+Error has_no_frame() { return {ErrorCode::empty, "/frames", "there is no frame in it"}; }
+
+void close_as_slow(StreamClient& client) {
+  client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: come back later"});
+}
+
 }  // namespace
 
-/// Without a sender there is nobody else to send what was taken: done where the mutex has been left. Declared before
-/// the lock.
+/// Sends what was taken when there is no sender to do it. Declared before the lock, so that it runs after the mutex has
+/// been released.
 class Stream::SendAfter {
  public:
   explicit SendAfter(Stream& stream) : stream_(stream) {}
@@ -32,43 +40,62 @@ class Stream::SendAfter {
 };
 
 Stream::Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender> sender)
-    : limits_(limits),
-      steps_(scaled_quantizers(info.quantizer_scale)),
+    : made_(std::move(info)),
+      limits_(limits),
+      steps_(scaled_quantizers(made_.settings.quantizer_scale)),
       sender_(std::move(sender)),
       lateness_(std::make_shared<metrics::LatenessHistogram>(metrics::lateness_bounds)),
-      info_(std::move(info)),
-      requests_(limits.publisher, Clock::now()) {}
+      sources_(made_.source == "demo", limits.publisher, limits.filling_patience, began_),
+      log_({.epoch = made_.epoch,
+            .interval = std::chrono::milliseconds(made_.settings.batch_interval),
+            .steps = steps_,
+            .limits = limits,
+            .began = began_,
+            .lateness = lateness_}) {}
 
-double Stream::server_time_now() {
-  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+http::OutboxLimits Stream::outbox_limits() const {
+  http::OutboxLimits limits;
+  limits.messages = limits_.pending_messages;
+  limits.bytes = limits_.pending_bytes;
+  return limits;
 }
 
-std::uint64_t Stream::media_time_now() const { return media_time_at(Clock::now()); }
-
-std::uint64_t Stream::media_time_at(Clock::time_point when) const {
-  const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(when - began_).count();
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(since, 0));
-}
+// ---- what it says about itself
 
 StreamInfo Stream::info() const {
+  StreamInfo info = made_;
   const std::lock_guard lock(mutex_);
-  StreamInfo info = info_;
+  info.counts = all_counts();
+  info.clamped_values = counts_.clamped_values;
+  info.sequence = log_.taken();
   info.publishers = publisher_ != nullptr ? 1 : 0;
-  info.subscribers = subscribers_.size();
-  for (const auto& subscriber : subscribers_.all())
-    ++info.subscribers_by_coding[static_cast<std::size_t>(subscriber.coding)];
-  info.active_source = active_source();
-  info.counts = counts_;
-  info.counts.lateness = lateness_->values();
+  info.subscribers = fan_out_.size();
+  info.subscribers_by_coding = fan_out_.by_coding();
+  info.active_source = sources_.active(Clock::now());
   return info;
 }
 
 StreamCounts Stream::counts() const {
   const std::lock_guard lock(mutex_);
+  return all_counts();
+}
+
+StreamCounts Stream::all_counts() const {
   StreamCounts counts = counts_;
-  counts.messages_dropped += dropped_;
+  counts.messages_dropped += answers_dropped_;
+  counts.batches = log_.batches();
+  counts.encode_seconds = log_.encode_seconds();
   counts.lateness = lateness_->values();
   return counts;
+}
+
+Header Stream::header() const {
+  const std::lock_guard lock(mutex_);
+  return stream_header(made_, log_.taken());
+}
+
+Header Stream::header_for(bool recovered, StreamCoding coding) const {
+  return connection_header(made_, log_.sequence(), media_time_now(), sources_.rate(), recovered, coding);
 }
 
 void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
@@ -76,107 +103,246 @@ void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
   listener_ = std::move(listener);
 }
 
-Clock::time_point Stream::newest_frame_time() const {
-  const std::lock_guard lock(mutex_);
-  return began_ + std::chrono::milliseconds(timeline_.newest());
-}
+// ---- sources
 
-Result<PublishReceipt> Stream::publish(Source source, std::uint64_t media_time, const std::vector<TimedFrame>& frames,
-                                       const StreamConnection* from) {
-  if (frames.empty()) return Error{ErrorCode::empty, "/frames", "there is no frame in it"};
-  const SendAfter after(*this);
-  const std::lock_guard lock(mutex_);
-  if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
-  if (publisher_ != from)
-    return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
-  if (player_ != 0)
-    return Error{ErrorCode::mismatch, "",
-                 "a " + std::string(source_names[static_cast<std::size_t>(playing_)]) +
-                     " plays into this stream: one source at a time"};
-  const bool request = source == Source::request;
-  if (request && requests_.offer(frames.size(), Clock::now()) != FloodGuard::Verdict::take) {
-    counts_.throttled += frames.size();
-    return Error{ErrorCode::too_large, "/frames", requests_.words()};
-  }
-  const auto now = media_time_now();
-  auto placed = frames;
-  const auto at = request || media_time == 0 ? timeline_.place_now(now, placed)
-                                             : timeline_.place_published(now, media_time, placed);
-  if (!at) return at.error();
-  last_live_ = Clock::now();
-  last_was_request_ = request;
-  return take(source, *at, std::move(placed));
-}
-
-PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames) {
+PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames,
+                            Clock::time_point now) {
   std::size_t clamped = 0;
-  for (auto& frame : frames) clamped += clamp_to_ranges(frame.state, info_.quantizer_scale);
-  info_.clamped_values += clamped;
+  for (auto& frame : frames) clamped += clamp_to_ranges(frame.state, made_.settings.quantizer_scale);
   counts_.clamped_values += clamped;
   counts_.frames += frames.size();
   counts_.frames_by_source[static_cast<std::size_t>(source)] += frames.size();
-  info_.sequence += frames.size();
-  // Before they are gathered: what a client was told is taken must not still be on its way when a recording ends.
-  if (listener_) listener_->taken(info_.id, info_.epoch, {info_.sequence - frames.size() + 1, media_time, frames});
-  gather(media_time, frames);
-  return PublishReceipt{frames.size(), info_.sequence, clamped};
+  // Before they gather: a frame that a client was told is taken must be in a recording that ends now.
+  if (listener_) listener_->taken(made_.id, made_.epoch, {log_.taken() + 1, media_time, frames});
+  if (auto full = log_.add(media_time, frames, now)) fan_out_.push(std::move(full));
+  if (made_.settings.batch_interval == 0 && fan_out_.has_room()) fan_out_.push(log_.close(now, now));
+  want(next_work(now));
+  return PublishReceipt{frames.size(), log_.taken(), clamped};
 }
 
-void Stream::replace_publisher() {
-  if (publisher_ == nullptr) return;
-  publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
-  publisher_ = nullptr;
-  ++counts_.closed_replaced;
+Result<PublishReceipt> Stream::publish_request(const std::vector<TimedFrame>& frames) {
+  if (frames.empty()) return has_no_frame();
+  const SendAfter after(*this);
+  const std::lock_guard lock(mutex_);
+  if (ended_) return has_ended();
+  const auto now = Clock::now();
+  auto placed = frames;
+  auto placement = sources_.place_request(placed, now);
+  if (auto* refusal = std::get_if<SourceArbiter::Refusal>(&placement)) {
+    if (refusal->flood) counts_.throttled += frames.size();
+    return std::move(refusal->error);
+  }
+  return take(Source::request, std::get<std::uint64_t>(placement), std::move(placed), now);
 }
 
-std::optional<Source> Stream::active_source() const {
-  if (publisher_ != nullptr) return Source::connection;
-  if (player_ != 0) return playing_;
-  if (last_was_request_ && Clock::now() - last_live_ < limits_.demo_patience) return Source::request;
-  if (info_.source == "demo") return Source::demo;
+std::optional<SourceArbiter::Refusal> Stream::publish(StreamClient& client, std::uint64_t media_time,
+                                                      const std::vector<TimedFrame>& frames) {
+  using Refusal = SourceArbiter::Refusal;
+  if (frames.empty()) return Refusal{has_no_frame(), std::nullopt};
+  const SendAfter after(*this);
+  const std::lock_guard lock(mutex_);
+  if (ended_) return Refusal{has_ended(), std::nullopt};
+  const auto now = Clock::now();
+  auto placed = frames;
+  auto placement = sources_.place_published(client.notes().ticket, media_time, placed, now);
+  if (auto* refusal = std::get_if<Refusal>(&placement)) {
+    if (refusal->flood) counts_.throttled += frames.size();
+    if (refusal->flood == FloodGuard::Verdict::close) {
+      ++counts_.closed_flooding;
+      publisher_ = nullptr;
+    }
+    return std::move(*refusal);
+  }
+  take(Source::connection, std::get<std::uint64_t>(placement), std::move(placed), now);
   return std::nullopt;
 }
 
-Result<std::uint64_t> Stream::begin_playing(double rate, bool take_over, Source source) {
-  const std::lock_guard lock(mutex_);
-  if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
-  if (!take_over && publisher_ != nullptr)
-    return Error{ErrorCode::mismatch, "", "a connection publishes to this stream: one source at a time"};
-  if (!take_over && player_ != 0)
-    return Error{ErrorCode::mismatch, "", "something plays into this stream already: one source at a time"};
-  replace_publisher();
-  rate_ = rate;
-  playing_ = source;
-  player_ = ++last_ticket_;
-  return player_;
+Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over, StreamClient* publisher) {
+  if (ended_) return has_ended();
+  auto claim = sources_.claim(source, rate, take_over, Clock::now());
+  if (!claim) return std::move(claim).error();
+  if (claim->replaces_publisher) {
+    publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
+    ++counts_.closed_replaced;
+  }
+  publisher_ = publisher;
+  return claim->ticket;
 }
 
-Status Stream::publish_playing(std::uint64_t ticket, Clock::time_point when, const TimedFrame& frame) {
+void Stream::release(StreamClient& publisher) {
+  if (sources_.release(publisher.notes().ticket, Clock::now())) publisher_ = nullptr;
+}
+
+Result<Header> Stream::begin_publishing(StreamClient& client, bool take_over) {
+  const std::lock_guard lock(mutex_);
+  client.notes().said_hello = true;
+  auto ticket = claim(Source::connection, 0.0, take_over, &client);
+  if (!ticket) {
+    if (!ended_) ++counts_.closed_conflict;
+    return std::move(ticket).error();
+  }
+  client.notes().ticket = *ticket;
+  return header_for(false, StreamCoding::plain);
+}
+
+void Stream::end_publishing(StreamClient& client) {
+  const std::lock_guard lock(mutex_);
+  release(client);
+}
+
+Result<Stream::Ticket> Stream::begin_playing(double rate, bool take_over, Source source) {
+  const std::lock_guard lock(mutex_);
+  return claim(source, rate, take_over, nullptr);
+}
+
+Status Stream::publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
-  if (ended_ || ticket == 0 || ticket != player_) return Error{ErrorCode::mismatch, "", "it plays no more"};
-  last_live_ = Clock::now();
-  last_was_request_ = false;
-  take(playing_, timeline_.place_due(media_time_at(when)), {frame});
+  const auto now = Clock::now();
+  const auto source = sources_.active(now);
+  const auto media_time = ended_ ? std::nullopt : sources_.place_played(ticket, when, now);
+  if (!media_time) return Error{ErrorCode::mismatch, "", "it plays no more"};
+  take(*source, *media_time, {frame}, now);
   return Unit{};
 }
 
-void Stream::end_playing(std::uint64_t ticket, bool neutral) {
-  const SendAfter after(*this);
+void Stream::end_playing(Ticket ticket, bool neutral) {
+  if (neutral) static_cast<void>(publish_playing(ticket, Clock::now(), TimedFrame{}).ok());
   const std::lock_guard lock(mutex_);
-  if (ended_ || ticket == 0 || ticket != player_) return;
-  player_ = 0;
-  last_live_ = Clock::now();
-  if (neutral) take(playing_, timeline_.place_due(media_time_now()), {TimedFrame{}});
+  sources_.release(ticket, Clock::now());
 }
 
 Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
-  if (ended_) return Error{ErrorCode::missing, "", "the stream has ended"};
-  if (publisher_ != nullptr || player_ != 0 || Clock::now() - last_live_ < limits_.demo_patience) return Unit{};
-  take(Source::demo, timeline_.place_due(media_time_at(when)), {frame});
+  if (ended_) return has_ended();
+  const auto now = Clock::now();
+  if (const auto media_time = sources_.place_filling(when, now)) take(Source::demo, *media_time, {frame}, now);
   return Unit{};
+}
+
+Clock::time_point Stream::newest_frame_time() const {
+  const std::lock_guard lock(mutex_);
+  return sources_.newest_frame_time();
+}
+
+// ---- connections
+
+bool Stream::admit(const std::shared_ptr<StreamClient>& client) {
+  const std::lock_guard lock(mutex_);
+  if (ended_ || clients_.size() >= limits_.max_connections) {
+    ++counts_.refused;
+    return false;
+  }
+  clients_.add(client, Clock::now());
+  return true;
+}
+
+void Stream::leave(StreamClient& client) {
+  std::shared_ptr<StreamClient> kept;  // let go of after the mutex
+  const std::lock_guard lock(mutex_);
+  release(client);
+  fan_out_.remove(client);
+  kept = clients_.remove(client);
+}
+
+void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) {
+  const std::lock_guard lock(mutex_);
+  client.notes().said_hello = true;
+  if (ended_) return;
+  const bool packed = binary && hello.coding == StreamCoding::packed;
+  const auto coding = packed ? Coding::packed : binary ? Coding::plain : Coding::json;
+  const auto begin = log_.begin(coding, hello.resume);
+  http::WireMessage header;
+  append_encoded(header.bytes,
+                 Message(header_for(begin.recovered, packed ? StreamCoding::packed : StreamCoding::plain)), binary,
+                 steps_);
+  const auto told = sink.send(std::make_shared<const http::WireMessage>(std::move(header)), http::Purpose::answer);
+  if (told == http::Sent::closed) return;
+  if (told == http::Sent::refused) ++counts_.messages_dropped;
+  const auto sent = sink.send(begin.wire, http::Purpose::answer);
+  if (sent == http::Sent::closed) return;
+  if (sent == http::Sent::refused) {
+    // It has read nothing of many answers before its hello. Batches without a beginning are no use to it.
+    ++counts_.closed_slow;
+    close_as_slow(client);
+    return;
+  }
+  fan_out_.add(client, sink, coding, *begin.wire, sent != http::Sent::handed, log_);
+}
+
+void Stream::writable(StreamClient& client) {
+  const std::lock_guard lock(mutex_);
+  fan_out_.writable(client, log_);
+}
+
+void Stream::look_after_connections() {
+  std::vector<std::shared_ptr<StreamClient>> silent;  // let go of after the mutex
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  for (auto* client : fan_out_.remove_stalled(limits_.stalled, now)) {
+    ++counts_.closed_slow;
+    close_as_slow(*client);
+  }
+  silent = clients_.silent(limits_.hello_time, now);
+  for (const auto& client : silent) {
+    if (client->close(Message(StreamError{StreamErrorCode::missing, "", "no hello came in time"}),
+                      {1008, "no hello came in time"}))
+      ++counts_.closed_silent;
+  }
+}
+
+void Stream::end(EndReason reason) {
+  // The slice under way, if there is one, is finished: what follows comes behind it.
+  const std::lock_guard pass(pass_mutex_);
+  const std::lock_guard lock(mutex_);
+  if (ended_) return;
+  const auto now = Clock::now();
+  if (log_.due() != Clock::time_point::max()) fan_out_.push(log_.close(now, now));
+  fan_out_.send_rest(log_);
+  if (listener_) listener_->ended(made_.id);
+  ended_ = true;
+  const bool stops = reason == EndReason::shutdown;
+  for (const auto& client : clients_.all())
+    client->close(Message(End{reason}), {static_cast<std::uint16_t>(stops ? 1001 : 1000),
+                                         stops ? "the server stops" : "the stream has ended"});
+  counts_.closed_ended += clients_.size();
+  fan_out_.remove_all();
+}
+
+// ---- sending
+
+Clock::time_point Stream::next_work(Clock::time_point now) const { return fan_out_.is_idle() ? log_.due() : now; }
+
+void Stream::want(Clock::time_point when) {
+  if (when >= wanted_) return;
+  wanted_ = when;
+  if (sender_) sender_->wake(weak_from_this(), when);
+}
+
+Clock::time_point Stream::work(Clock::time_point asked) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (asked != wanted_) return Clock::time_point::max();
+  }
+  return advance(Clock::now());
+}
+
+Clock::time_point Stream::advance(Clock::time_point now) {
+  const std::lock_guard pass(pass_mutex_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (ended_) return wanted_ = Clock::time_point::max();
+    if (now >= log_.due() && fan_out_.has_room()) fan_out_.push(log_.close(log_.due(), now));
+    if (!fan_out_.next_slice(slice_, log_)) return wanted_ = next_work(now);
+    clients_.begin_slice();
+  }
+  slice_.send(*lateness_);
+  std::vector<std::shared_ptr<StreamClient>> left;  // let go of after the mutex
+  const std::lock_guard lock(mutex_);
+  left = clients_.end_slice();
+  fan_out_.finish_slice(slice_, log_);
+  return wanted_ = next_work(now);
 }
 
 }  // namespace semblante::streams

@@ -11,8 +11,6 @@
 namespace semblante::streams {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 template <class... T>
 struct Overloaded : T... {
   using T::operator()...;
@@ -28,20 +26,12 @@ http::SharedWire encoded(const Message& message, bool binary, const QuantizerSte
 
 }  // namespace
 
-struct StreamConnection::Publishing {
-  explicit Publishing(const FloodLimits& limits) : guard(limits, Clock::now()) {}
-
-  FrameDecoder decoder;
-  FloodGuard guard;
-};
-
-StreamConnection::StreamConnection(std::shared_ptr<Stream> stream, bool binary, bool subprotocol_offered)
+StreamConnection::StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered)
     : stream_(std::move(stream)), binary_(binary), subprotocol_offered_(subprotocol_offered) {}
 
 StreamConnection::~StreamConnection() = default;
 
-// ---- net's side
-// ------------------------------------------------------------------------------------------------------
+// ---- WebSocketPeer
 
 std::string_view StreamConnection::subprotocol() const {
   if (!subprotocol_offered_) return {};
@@ -52,12 +42,7 @@ std::size_t StreamConnection::max_message_bytes() const {
   return binary_ ? max_binary_message_bytes : max_json_message_bytes;
 }
 
-http::OutboxLimits StreamConnection::outbox_limits() const {
-  http::OutboxLimits limits;
-  limits.messages = stream_->limits().pending_messages;
-  limits.bytes = stream_->limits().pending_bytes;
-  return limits;
-}
+http::OutboxLimits StreamConnection::outbox_limits() const { return stream_->outbox_limits(); }
 
 void StreamConnection::attach(std::shared_ptr<http::WebSocketSink> sink) {
   std::unique_ptr<LastWords> last_words;
@@ -78,15 +63,15 @@ void StreamConnection::disconnected() {
 
 void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (closing_) return;
-  // Whatever comes, it is answered and the connection goes on; who never says hello is closed by the clock.
+  // A message that is wrong is answered and the connection goes on. A client that never says hello is closed by the
+  // stream after a while.
   if (binary != binary_) {
     refuse(StreamErrorCode::malformed, "",
            binary_ ? "this subprotocol is binary, a text came" : "this subprotocol is text, bytes came");
     return;
   }
-  // Only what a publisher sends refers to what it sent before.
   FrameDecoder decoder_of_one;
-  auto& decoder = publishing_ ? publishing_->decoder : decoder_of_one;
+  auto& decoder = decoder_ ? *decoder_ : decoder_of_one;
   auto decoded = binary_ ? decoder.decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()))
                          : decode_json(bytes, stream_->steps());
   if (decoded)
@@ -96,31 +81,31 @@ void StreamConnection::receive(std::string_view bytes, bool binary) {
 }
 
 void StreamConnection::handle(Message message) {
-  if (!said_hello() && !std::holds_alternative<Hello>(message)) {
+  if (role_ == Role::unknown && !std::holds_alternative<Hello>(message)) {
     refuse(StreamErrorCode::missing, "", "the first message must be a hello");
     return;
   }
-  std::visit(
-      Overloaded{
-          [&](const Hello& hello) { handle_hello(hello); },
-          [&](const Frames& frames) { handle_frames(frames.media_time, frames.frames); },
-          [&](const Keyframe& key) {
-            handle_frames(key.media_time, {TimedFrame{0, key.state}});
-          },
-          [&](const Ping& ping) {
-            send(Message(Pong{ping.id, ping.client_time, Stream::server_time_now(), stream_->media_time_now()}));
-          },
-          [&](const End&) {
-            stream_->end_publishing(*this);
-            close(Message(End{EndReason::finished}), {1000, "bye"});
-          },
-          [&](const Pong&) {}, [&](const StreamError&) {},
-          [&](const Header&) { refuse(StreamErrorCode::invalid_argument, "", "a header is the server's to send"); }},
-      message);
+  std::visit(Overloaded{[&](const Hello& hello) { handle_hello(hello); },
+                        [&](const Frames& frames) { handle_frames(frames.media_time, frames.frames); },
+                        [&](const Keyframe& key) {
+                          handle_frames(key.media_time, {TimedFrame{0, key.state}});
+                        },
+                        [&](const Ping& ping) {
+                          send(Message(Pong{ping.id, ping.client_time, server_time_now(), stream_->media_time_now()}));
+                        },
+                        [&](const End&) {
+                          stream_->end_publishing(*this);
+                          close(Message(End{EndReason::finished}), {1000, "bye"});
+                        },
+                        [&](const Pong&) {}, [&](const StreamError&) {},
+                        [&](const Header&) {
+                          refuse(StreamErrorCode::invalid_argument, "", "a header is the server's to send");
+                        }},
+             message);
 }
 
 void StreamConnection::handle_hello(const Hello& hello) {
-  if (said_hello()) {
+  if (role_ != Role::unknown) {
     refuse(StreamErrorCode::invalid_argument, "", "the hello was said already");
     return;
   }
@@ -133,12 +118,14 @@ void StreamConnection::handle_hello(const Hello& hello) {
   }
   if (hello.role == StreamRole::subscribe) {
     role_ = Role::subscribes;
-    stream_->subscribe(*this, hello);
+    stream_->subscribe(*this, *sink_, hello, binary_);
     return;
   }
   role_ = Role::publishes;
-  publishing_ = std::make_unique<Publishing>(stream_->limits().publisher);
-  if (!stream_->begin_publishing(*this, hello.take_over)) {
+  decoder_ = std::make_unique<FrameDecoder>();
+  if (const auto header = stream_->begin_publishing(*this, hello.take_over)) {
+    send(Message(*header));
+  } else {
     close(Message(StreamError{StreamErrorCode::conflict, "/role",
                               "somebody else publishes or plays to this stream: one source at a time; `take_over` in "
                               "the hello takes its place"}),
@@ -147,55 +134,47 @@ void StreamConnection::handle_hello(const Hello& hello) {
 }
 
 void StreamConnection::handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames) {
-  if (!publishing_) {
+  if (role_ != Role::publishes) {
     refuse(StreamErrorCode::invalid_argument, "", "this connection subscribes: only a publisher sends frames");
     return;
   }
-  if (!admit(frames.size())) return;
-  if (auto taken = stream_->publish(Source::connection, media_time, frames, this); !taken)
-    send(Message(to_stream_error(taken.error())));
-}
-
-bool StreamConnection::admit(std::size_t frames) {
-  const auto verdict = publishing_->guard.offer(frames, Clock::now());
-  if (verdict == FloodGuard::Verdict::take) return true;
-  stream_->count_throttled(frames);
-  if (verdict == FloodGuard::Verdict::drop) return false;
-  StreamError error{StreamErrorCode::throttled, "/frames", publishing_->guard.words()};
-  if (verdict == FloodGuard::Verdict::drop_and_say) {
-    send(Message(std::move(error)));
-    return false;
+  const auto refusal = stream_->publish(*this, media_time, frames);
+  if (!refusal || refusal->flood == FloodGuard::Verdict::drop) return;
+  if (!refusal->flood) {
+    send(Message(to_stream_error(refusal->error)));
+    return;
   }
-  stream_->dismiss(*this);
-  close(Message(std::move(error)), {1008, "sends too many frames for too long"});
-  return false;
+  const Message throttled(StreamError{StreamErrorCode::throttled, refusal->error.where, refusal->error.message});
+  if (refusal->flood == FloodGuard::Verdict::close)
+    close(throttled, {1008, "sends too many frames for too long"});
+  else
+    send(throttled);
 }
-
-// ---- the stream's side
-// -----------------------------------------------------------------------------------------------
 
 void StreamConnection::send(const Message& message) {
-  // What came before attach() has nobody to send it; there is nothing but close() that does.
-  if (closing_ || sink_ == nullptr) return;
+  if (closing_) return;
   if (sink_->send(encoded(message, binary_, stream_->steps()), http::Purpose::answer) == http::Sent::refused)
-    stream_->count_dropped();
-}
-
-void StreamConnection::close(const std::optional<Message>& last, http::CloseReason reason) {
-  if (closing_.exchange(true)) return;
-  auto words = last ? encoded(*last, binary_, stream_->steps()) : nullptr;
-  {
-    const std::lock_guard lock(mutex_);
-    if (sink_ == nullptr) {
-      last_words_ = std::make_unique<LastWords>(LastWords{std::move(words), std::move(reason)});
-      return;
-    }
-  }
-  sink_->close(std::move(reason), words);
+    stream_->answer_dropped();
 }
 
 void StreamConnection::refuse(StreamErrorCode code, std::string where, std::string message) {
   send(Message(StreamError{code, std::move(where), std::move(message)}));
+}
+
+// ---- StreamClient
+
+bool StreamConnection::close(const Message& last, http::CloseReason reason) {
+  if (closing_.exchange(true)) return false;
+  auto words = encoded(last, binary_, stream_->steps());
+  {
+    const std::lock_guard lock(mutex_);
+    if (sink_ == nullptr) {
+      last_words_ = std::make_unique<LastWords>(LastWords{std::move(words), std::move(reason)});
+      return true;
+    }
+  }
+  sink_->close(std::move(reason), words);
+  return true;
 }
 
 }  // namespace semblante::streams

@@ -12,7 +12,7 @@ namespace semblante::streams {
 namespace {
 
 constexpr std::chrono::milliseconds look_interval{200};
-/// The own filling of a stream: see Player's ticket.
+/// Of a stream's own filling: see Player's constructor.
 constexpr std::uint64_t no_ticket = 0;
 
 }  // namespace
@@ -45,8 +45,8 @@ void InProcessHub::set_listener(std::shared_ptr<BatchListener> listener) {
 bool InProcessHub::open(const StreamInfo& info) {
   const std::lock_guard lock(mutex_);
   if (stopping_ || streams_.contains(info.id)) return false;
-  // Epochs never repeat, over restarts too: sequence numbers of another life must not be taken for this one's.
-  last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
+  // Epochs never repeat, not even over restarts, so that a resume point of an earlier life is never found in this one.
+  last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(server_time_now()));
   StreamInfo full = info;
   full.epoch = last_epoch_;
   const auto stream =
@@ -67,11 +67,11 @@ bool InProcessHub::open(const StreamInfo& info) {
 bool InProcessHub::close(std::string_view id, EndReason reason) {
   const auto stream = find(id);
   if (!stream) return false;
-  // Before it is taken off the list: what its end counts must be in the sum, and the sum must never fall.
+  // Before it is removed, so that what its end counts is in the sum of counts(), and that sum never falls.
   stream->end(reason);
   const std::lock_guard lock(mutex_);
   const auto found = streams_.find(id);
-  if (found == streams_.end() || found->second != stream) return false;  // somebody else closed it meanwhile
+  if (found == streams_.end() || found->second != stream) return false;  // another thread has closed it
   streams_.erase(found);
   std::erase(order_, id);
   for (auto* players : {&playing_, &fillings_}) {
@@ -125,6 +125,12 @@ std::optional<StreamInfo> InProcessHub::info(std::string_view id) const {
   return full_info(id, *stream);
 }
 
+std::optional<Header> InProcessHub::header(std::string_view id) const {
+  const auto stream = find(id);
+  if (!stream) return std::nullopt;
+  return stream->header();
+}
+
 StreamCounts InProcessHub::counts() const {
   const std::lock_guard lock(mutex_);
   StreamCounts sum = gone_;
@@ -135,14 +141,14 @@ StreamCounts InProcessHub::counts() const {
 Result<PublishReceipt> InProcessHub::publish(std::string_view id, const std::vector<TimedFrame>& frames) {
   const auto stream = find(id);
   if (!stream) return Error{ErrorCode::missing, "", "there is no such stream"};
-  return stream->publish(Source::request, 0, frames);
+  return stream->publish_request(frames);
 }
 
 std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> InProcessHub::connect(std::string_view id,
                                                                                   std::string_view offered) {
   const auto stream = find(id);
   if (!stream) return Refusal::no_such_stream;
-  // The first of the client's offers that we speak; JSON, to read and write by hand, when it offers none.
+  // The first of the client's offers that the server speaks; JSON, which people can type, when it offers none.
   bool binary = false;
   bool known = false;
   for (const auto& name : http::split_list(offered)) {
@@ -168,10 +174,10 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   auto ticket = found->second->begin_playing(options.rate, options.take_over, played_source(source->kind()));
   if (!ticket) return std::move(ticket).error();
   const auto now = Player::Clock::now();
-  // Frames that were sent ahead of their time are played out first (most_ahead).
+  // Frames that another source sent in advance are played out first; they end at most most_ahead from now.
   const auto begin = std::max(now, found->second->newest_frame_time());
-  // As epochs, ids never repeat over restarts: nobody stops another's performance by an old address.
-  last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(Stream::server_time_now()));
+  // Like epochs, ids never repeat over restarts, so that an old address never stops another play.
+  last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(server_time_now()));
   const std::size_t own_bytes = source->bytes();
   auto playing = std::make_shared<Playing>(
       Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, begin), own_bytes);

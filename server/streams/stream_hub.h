@@ -21,38 +21,39 @@ namespace semblante::streams {
 
 class BatchListener;
 
-/// Why a connection was not taken.
+/// Why a connection was refused.
 enum class Refusal { no_such_stream, too_many };
 
-/// The live streams of one node. A cluster's hub (frames between nodes) has the same face.
+/// The live streams of one node. The hub of a cluster would implement the same interface.
 class StreamHub {
  public:
   virtual ~StreamHub() = default;
-  /// False when the id is taken.
+  /// Makes a stream; false when the id is taken.
   virtual bool open(const StreamInfo& info) = 0;
-  /// False when there is no such stream. Tells everyone on it.
+  /// Ends a stream and tells its connections why; false when there is no such stream.
   virtual bool close(std::string_view id, EndReason reason) = 0;
   virtual void close_all(EndReason reason) = 0;
   [[nodiscard]] virtual std::vector<StreamInfo> list() const = 0;
   [[nodiscard]] virtual std::optional<StreamInfo> info(std::string_view id) const = 0;
+  /// What a recording that begins now is to know about the stream.
+  [[nodiscard]] virtual std::optional<Header> header(std::string_view id) const = 0;
   [[nodiscard]] virtual StreamCounts counts() const = 0;
-  /// Frames from a request. Errors: missing (no such stream), mismatch (a connection publishes), empty.
+  /// Frames of a request. Errors: `missing` (no such stream), and those of Stream::publish_request.
   virtual Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) = 0;
-  /// Plays a source into a stream, from now on. Frames of it stand in for a publisher's: while it plays, connections
-  /// and requests are refused. What plays is live state: a restart of the server ends it. Errors: missing (no such
-  /// stream); mismatch (somebody publishes or plays, and options.take_over is not set); too_large (with all that plays
-  /// it would take too much memory).
+  /// Plays a source into a stream, beginning now. While it plays, other publishers and requests are refused. What plays
+  /// is not stored: a restart of the server ends it. Errors: `missing` (no such stream); `mismatch` (another source
+  /// holds the stream and options.take_over is not set); `too_large` (all that plays would take too much memory).
   virtual Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
                                   const PlayOptions& options) = 0;
-  /// Ends it; the face returns to neutral. False when it does not play there (any more).
+  /// Ends a play; the face returns to neutral. False when it does not play in that stream, or plays no more.
   virtual bool stop(std::string_view id, std::string_view play_id) = 0;
-  /// A WebSocket to a stream. `offered`: the client's Sec-WebSocket-Protocol, may be empty.
+  /// Makes the peer of a WebSocket to a stream. `offered` is the client's Sec-WebSocket-Protocol, may be empty.
   virtual std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
                                                                               std::string_view offered) = 0;
 };
 
-/// All streams in this process. Its thread plays what is to be played and looks after the connections; its sender
-/// sends. Any thread.
+/// All streams of this process. It has two threads: its own one runs the players and looks after slow connections, that
+/// of the BatchSender sends. Any thread may call it.
 class InProcessHub : public StreamHub {
  public:
   explicit InProcessHub(StreamLimits limits = {});
@@ -60,7 +61,7 @@ class InProcessHub : public StreamHub {
   InProcessHub(const InProcessHub&) = delete;
   InProcessHub& operator=(const InProcessHub&) = delete;
 
-  /// Who hears the batches of all streams, those there are and those to come.
+  /// The listener hears the frames of all streams, present and future.
   void set_listener(std::shared_ptr<BatchListener> listener);
 
   bool open(const StreamInfo& info) override;
@@ -68,6 +69,7 @@ class InProcessHub : public StreamHub {
   void close_all(EndReason reason) override;
   [[nodiscard]] std::vector<StreamInfo> list() const override;
   [[nodiscard]] std::optional<StreamInfo> info(std::string_view id) const override;
+  [[nodiscard]] std::optional<Header> header(std::string_view id) const override;
   [[nodiscard]] StreamCounts counts() const override;
   Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) override;
   Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
@@ -77,12 +79,12 @@ class InProcessHub : public StreamHub {
                                                                       std::string_view offered) override;
 
  private:
-  /// Its mutex is taken before the stream's, never after.
+  /// Its mutex is taken before a stream's, never after.
   struct Playing {
     explicit Playing(Player made, std::size_t source_bytes = 0) : player(std::move(made)), bytes(source_bytes) {}
     std::mutex mutex;
     Player player;
-    const std::size_t bytes;  ///< of its source; none of what all streams share
+    const std::size_t bytes;  ///< of its source; 0 for the demo, which all streams share
   };
 
   [[nodiscard]] std::shared_ptr<Stream> find(std::string_view id) const;
@@ -98,14 +100,14 @@ class InProcessHub : public StreamHub {
   std::condition_variable changed_;
   std::shared_ptr<BatchListener> listener_;
   bool stopping_ = false;
-  bool more_to_play_ = false;  ///< the thread has to look again when the next frame is due
+  bool more_to_play_ = false;  ///< tells the thread that a player was added
   std::uint64_t last_epoch_ = 0;
   std::vector<std::string> order_;  ///< ids by creation
   std::map<std::string, std::shared_ptr<Stream>, std::less<>> streams_;
   std::map<std::string, std::shared_ptr<Playing>, std::less<>> playing_;   ///< by stream
-  std::map<std::string, std::shared_ptr<Playing>, std::less<>> fillings_;  ///< by stream: what it plays when left alone
+  std::map<std::string, std::shared_ptr<Playing>, std::less<>> fillings_;  ///< by stream: its own filling
   std::uint64_t last_play_ = 0;
-  StreamCounts gone_;  ///< counts of streams that have ended
+  StreamCounts gone_;  ///< sum of the counts of streams that have ended
   std::thread thread_;
 };
 

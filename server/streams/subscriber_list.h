@@ -6,35 +6,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "server/http/websocket_peer.h"
+#include "server/streams/encoding.h"
 
 namespace semblante::streams {
 
-class StreamConnection;
+class StreamClient;
 
-/// The forms in which a stream's batches are sent. Each is made once, when somebody wants it.
-enum class Coding : std::uint8_t { packed, plain, json };
-inline constexpr std::size_t coding_count = 3;
-inline constexpr std::array<std::string_view, coding_count> coding_names = {"packed", "plain", "json"};
-
-/// One who listens, as the thread that sends sees it.
+/// One subscriber, as the fan-out sees it.
 struct Subscriber {
   static constexpr std::size_t nowhere = SIZE_MAX;
 
-  StreamConnection* connection = nullptr;
+  StreamClient* client = nullptr;
   http::WebSocketSink* sink = nullptr;
-  std::size_t* slot = nullptr;   ///< where it is told its place in the list
-  std::uint64_t next_batch = 0;  ///< the first it has not been sent
+  std::size_t* slot = nullptr;   ///< where its index in the list is written
+  std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
   Coding coding = Coding::plain;
-  bool behind = false;  ///< gets no batch before it gets a new join point
+  bool behind = false;  ///< gets no batch before it has got the newest state
   bool waits = false;   ///< something may wait in its outbox
 };
 
-/// Who listens to a stream, side by side in memory, and how far the pass over them has come that sends a batch. They
-/// come and go while it is under way: everyone who was there when it began and still is gets visited, once. Not
+/// The subscribers of a stream, side by side in memory, and the cursor of the pass over them that sends a batch.
+/// Subscribers may come and go during a pass: everyone who is there from its beginning to its end is visited once. Not
 /// synchronized.
 class SubscriberList {
  public:
@@ -51,7 +46,7 @@ class SubscriberList {
   void remove(std::size_t slot) {
     assert(slot < items_.size());
     *items_[slot].slot = Subscriber::nowhere;
-    // Those before the cursor stay before it, those behind stay behind.
+    // Those that the pass has visited stay before the cursor, the others stay behind it.
     if (slot < cursor_) {
       --cursor_;
       if (slot != cursor_) place(items_[cursor_], slot);
@@ -63,7 +58,7 @@ class SubscriberList {
 
   void begin_pass() { cursor_ = 0; }
   [[nodiscard]] bool pass_done() const { return cursor_ >= items_.size(); }
-  /// The next few of this pass. Valid until somebody comes or goes.
+  /// The next subscribers of this pass, at most `most`. Valid until add() or remove().
   std::span<Subscriber> next(std::size_t most) {
     const auto count = std::min(most, items_.size() - cursor_);
     const auto part = std::span(items_).subspan(cursor_, count);

@@ -7,7 +7,7 @@
 namespace semblante::streams {
 namespace {
 
-/// The first frame that is too long after the others' beginning.
+/// An error for the first frame that is too long after the beginning of its message.
 Status check_length(const std::vector<TimedFrame>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (frames[i].time > most_ahead)
@@ -17,6 +17,15 @@ Status check_length(const std::vector<TimedFrame>& frames) {
 }
 
 }  // namespace
+
+std::uint64_t media_time_at(std::chrono::steady_clock::time_point began, std::chrono::steady_clock::time_point when) {
+  const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(when - began).count();
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(since, 0));
+}
+
+double server_time_now() {
+  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
 
 Result<std::uint64_t> Timeline::place_now(std::uint64_t now, const std::vector<TimedFrame>& frames) {
   assert(!frames.empty());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -8,33 +9,40 @@
 
 namespace semblante::streams {
 
-/// Nobody's frames lie farther ahead of the stream's clock than this, ms: so long at most does a new source wait until
-/// what the one before it has sent already has been played.
+/// No frame may lie farther ahead of the stream's clock than this, ms. It is the longest time for which the frames of a
+/// new source wait until those that the source before it sent in advance have been played.
 inline constexpr std::uint64_t most_ahead = 10'000;
-/// A publisher whose clock falls behind the stream's by more is set anew, ms.
+/// The offset of a publisher's clock is measured anew when its frames fall behind the stream's clock by more, ms.
 inline constexpr std::uint64_t most_behind = 1'000;
 
-/// Where the frames of all sources come to lie on one stream's clock, in whole ms. Whoever sends, and whatever their
-/// clocks say: no frame is before the one before it. Not for several threads.
+/// The stream's clock: whole ms since it began, 0 before.
+std::uint64_t media_time_at(std::chrono::steady_clock::time_point began, std::chrono::steady_clock::time_point when);
+
+/// ms since 1970-01-01 UTC.
+double server_time_now();
+
+/// Gives the frames of all sources their media times on one stream's clock, in whole ms. Media time never falls from
+/// one frame to the next, whatever the clocks of the sources say. Not synchronized.
 class Timeline {
  public:
-  /// Of the newest frame; 0 before the first.
+  /// Media time of the newest frame; 0 before the first.
   [[nodiscard]] std::uint64_t newest() const { return newest_; }
 
-  /// The next publisher has a clock of its own.
+  /// The next publisher has another clock, whose offset is not known.
   void forget_publisher() { offset_known_ = false; }
 
-  /// Frames without a time of their own happen now, or after the newest if that is ahead. Their spacing is kept. The
-  /// time of their message. Errors: `out_of_range` at /frames/N/time if they last longer than most_ahead, `too_large`
-  /// if they would end farther ahead because of those that came before: later there is room.
+  /// Places frames without a clock of their own: now, or at the newest frame if that is ahead. Their spacing is kept.
+  /// Returns the media time of their message. Errors: `out_of_range` at /frames/N/time if they last longer than
+  /// most_ahead; `too_large` if they would end farther ahead because of earlier frames: later there is room.
   Result<std::uint64_t> place_now(std::uint64_t now, const std::vector<TimedFrame>& frames);
 
-  /// Frames of a publisher's own clock: their spacing is kept, but for what would fall before the newest, which gets
-  /// its time. The publisher's clock is set anew, so that this message begins now, when it is too far ahead or behind.
-  /// The time of their message; times of the frames are changed as needed. Errors: `out_of_range` as place_now.
+  /// Places frames with times of a publisher's clock. Their spacing is kept, but a frame that would fall before the
+  /// newest one gets that one's time. When the message would be too far ahead or behind, the offset of the publisher's
+  /// clock is set so that it begins now. Returns the media time of the message and changes the frames' times as needed.
+  /// Errors: `out_of_range` as place_now.
   Result<std::uint64_t> place_published(std::uint64_t now, std::uint64_t media_time, std::vector<TimedFrame>& frames);
 
-  /// One frame that is due at `when`.
+  /// Places one frame that is due at `when`: then, or at the newest frame's time if that is later.
   std::uint64_t place_due(std::uint64_t when);
 
  private:

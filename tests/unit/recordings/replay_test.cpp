@@ -74,6 +74,7 @@ class Replay : public ::testing::Test {
     streams::StreamInfo info;
     info.id = "s";
     info.epoch = 9;
+    info.settings.batch_interval = 0;
     return std::make_shared<streams::Stream>(info, streams::StreamLimits{});
   }();
   Player::Clock::time_point begin_ = Player::Clock::now() + std::chrono::milliseconds(5'123);

@@ -61,8 +61,19 @@ class StoreTest : public ::testing::Test {
   std::unique_ptr<Store> store_;
 };
 
+TEST_F(StoreTest, Streams_ComeBackWithEverySetting_InTheirOrder) {
+  const StreamRecord set{"talk", "then", {"Talk", "head", 0.25, 40, 0.125}};
+  const StreamRecord usual{"a", "later", {}};
+  for (const auto& stream : {set, usual}) EXPECT_TRUE(store_->create_stream(stream, std::nullopt));
+  EXPECT_FALSE(store_->create_stream({"talk", "again", {}}, std::nullopt)) << "the id is taken";
+  reopen();
+  EXPECT_EQ(store_->streams(), (std::vector<StreamRecord>{set, usual}));
+  EXPECT_TRUE(store_->remove_stream("talk"));
+  EXPECT_EQ(store_->streams(), std::vector<StreamRecord>{usual});
+}
+
 TEST_F(StoreTest, Recordings_StayWhenTheirStreamGoes) {
-  EXPECT_TRUE(store_->create_stream({"talk", "Talk", "", timestamp_now(), {}}, std::nullopt));
+  EXPECT_TRUE(store_->create_stream({"talk", timestamp_now(), {}}, std::nullopt));
   const auto made = [](const std::string& id, const std::string& stream) {
     RecordingRecord recording;
     recording.id = id;

@@ -26,14 +26,11 @@ TimedFrame frame_with(std::int16_t level) {
 class BatchingTest : public ::testing::Test {
  protected:
   std::shared_ptr<Stream> make_stream(std::uint32_t interval, const std::shared_ptr<BatchSender>& sender = nullptr) {
-    StreamInfo info;
-    info.id = "s";
-    info.source = "none";
-    info.epoch = 7;
-    info.batch_interval = interval;
+    auto info = unbatched_stream();
+    info.settings.batch_interval = interval;
     return std::make_shared<Stream>(info, limits_, sender);
   }
-  void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish(Source::request, 0, {frame_with(level)})); }
+  void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish_request({frame_with(level)})); }
   /// As the sender does when the time has come.
   void minute_is_over() const {
     const auto later = Clock::now() + std::chrono::minutes(2);
@@ -88,7 +85,7 @@ TEST_F(BatchingTest, TooManyForOneMessage_AreTwo) {
   const FakeClient client(stream_, StreamRole::subscribe);
   client.take_all();
   std::vector<TimedFrame> many(max_frames_per_message);
-  ASSERT_TRUE(stream_->publish(Source::request, 0, many));
+  ASSERT_TRUE(stream_->publish_request(many));
   EXPECT_TRUE(client.take_all().empty());
   publish(1);
   EXPECT_EQ(client.take_all().size(), 1U) << "the first goes when the next does not fit";
@@ -232,7 +229,7 @@ TEST_F(BatchingTest, ComingGoingAndFallingBehind_WhileTheSenderSends_BreaksNobod
     for (std::uint64_t sequence = 1; !stop; ++sequence) {
       TimedFrame frame;
       frame.state.level[48] = static_cast<std::int16_t>(sequence % 1000);
-      ASSERT_TRUE(stream_->publish(Source::request, 0, {frame}));
+      ASSERT_TRUE(stream_->publish_request({frame}));
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   });
@@ -290,17 +287,17 @@ TEST(BatchSender, ServesManyStreamsAndForgetsThoseThatAreGone) {
   for (int i = 0; i < 20; ++i) {
     StreamInfo info;
     info.id = std::to_string(i);
-    info.batch_interval = i % 2 == 0 ? 0 : 5;
+    info.settings.batch_interval = i % 2 == 0 ? 0 : 5;
     streams.push_back(std::make_shared<Stream>(info, StreamLimits{}, sender));
     clients.push_back(std::make_unique<FakeClient>(streams.back(), StreamRole::subscribe));
     clients.back()->take_all();
   }
-  for (const auto& stream : streams) ASSERT_TRUE(stream->publish(Source::request, 0, {frame_with(1)}));
+  for (const auto& stream : streams) ASSERT_TRUE(stream->publish_request({frame_with(1)}));
   {
     StreamInfo info;
-    info.batch_interval = 20;
+    info.settings.batch_interval = 20;
     const auto gone = std::make_shared<Stream>(info, StreamLimits{}, sender);
-    ASSERT_TRUE(gone->publish(Source::request, 0, {frame_with(1)}));
+    ASSERT_TRUE(gone->publish_request({frame_with(1)}));
   }
   for (const auto& client : clients) {
     std::size_t got = 0;

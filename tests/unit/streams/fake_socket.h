@@ -6,12 +6,24 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
+#include "server/streams/stream.h"
 #include "server/streams/stream_connection.h"
+#include "tests/unit/streams/unframed.h"
 
 namespace semblante::streams {
 
-/// A client's end of a connection without a socket: reads at once, or only when it is told to. It takes the bytes apart
-/// again as RFC 6455 section 5.2 has them.
+/// What a stream "s" is made from that sends each batch at once.
+inline StreamInfo unbatched_stream() {
+  StreamInfo info;
+  info.id = "s";
+  info.source = "none";
+  info.settings.title = "S";
+  info.settings.batch_interval = 0;
+  info.epoch = 7;
+  return info;
+}
+
+/// A client's end of a connection without a socket: reads at once, or only when it is told to.
 class FakeSocket : public http::WebSocketSink {
  public:
   explicit FakeSocket(http::OutboxLimits limits) : limits_(limits) {}
@@ -94,23 +106,7 @@ class FakeSocket : public http::WebSocketSink {
  private:
   void arrive(const http::WireMessage& message) {
     last_wire_ = &message;
-    std::string_view rest = message.bytes;
-    while (!rest.empty()) {
-      const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(rest.at(i)); };
-      EXPECT_TRUE(byte(0) == 0x81 || byte(0) == 0x82) << "a whole message in one frame";
-      std::size_t header = 2;
-      std::size_t size = byte(1);
-      ASSERT_LT(size, 128U) << "a server does not mask";
-      if (size >= 126) {
-        const std::size_t bytes = size == 126 ? 2 : 8;
-        size = 0;
-        for (std::size_t i = 0; i < bytes; ++i) size = size << 8U | byte(2 + i);
-        header += bytes;
-      }
-      ASSERT_GE(rest.size(), header + size);
-      arrived_.emplace_back(rest.substr(header, size));
-      rest.remove_prefix(header + size);
-    }
+    for (auto& payload : unframed(message.bytes)) arrived_.push_back(std::move(payload));
   }
 
   const http::OutboxLimits limits_;

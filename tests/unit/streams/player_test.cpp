@@ -38,8 +38,7 @@ class Ramp : public FrameSource {
 
 class PlayerTest : public ::testing::Test {
  protected:
-  PlayerTest()
-      : stream_(std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, StreamLimits{})) {
+  PlayerTest() : stream_(std::make_shared<Stream>(unbatched_stream(), StreamLimits{})) {
     subscriber_ = connect(StreamRole::subscribe);
     take_frames();
   }
@@ -111,12 +110,12 @@ TEST_F(PlayerTest, Loop_BeginsAgainAndTheTimePlayedRunsOn) {
 
 TEST_F(PlayerTest, OneSourceAtATime) {
   auto playing = player(1000.0, {});
-  EXPECT_FALSE(stream_->publish(Source::request, 0, {TimedFrame{}}));
+  EXPECT_FALSE(stream_->publish_request({TimedFrame{}}));
   EXPECT_FALSE(stream_->begin_playing(25.0, false));
   EXPECT_TRUE(connect(StreamRole::publish)->socket->closed()) << "no publisher beside it";
   playing.stop();
   EXPECT_EQ(take_frames().back().frames[0].state, FaceFrame{}) << "back to rest";
-  EXPECT_TRUE(stream_->publish(Source::request, 0, {TimedFrame{}}));
+  EXPECT_TRUE(stream_->publish_request({TimedFrame{}}));
 }
 
 TEST_F(PlayerTest, TakeOver_TellsThePublisherAndStopsWhatPlayed) {
@@ -144,9 +143,8 @@ TEST_F(PlayerTest, Header_TellsTheRate) {
 
 TEST(HubPlaying, PlaysToTheEndByItself) {
   InProcessHub hub;
-  StreamInfo info;
+  auto info = unbatched_stream();
   info.id = "a";
-  info.source = "none";
   ASSERT_TRUE(hub.open(info));
   PlayOptions options;
   options.rate = 100.0;
@@ -164,8 +162,7 @@ TEST(HubPlaying, WhatPlaysTogether_FitsIntoTheMemoryItMayTake) {
   StreamLimits limits;
   limits.playing_bytes = 2500;
   InProcessHub hub(limits);
-  StreamInfo info;
-  info.source = "none";
+  auto info = unbatched_stream();
   for (const char* id : {"a", "b", "c"}) {
     info.id = id;
     ASSERT_TRUE(hub.open(info));
@@ -189,9 +186,8 @@ TEST(HubPlaying, WhatPlaysTogether_FitsIntoTheMemoryItMayTake) {
 
 TEST(HubPlaying, StoppedAndClosedStreamsPlayNoMore) {
   InProcessHub hub;
-  StreamInfo info;
+  auto info = unbatched_stream();
   info.id = "a";
-  info.source = "none";
   ASSERT_TRUE(hub.open(info));
   const auto playing = hub.play("a", std::make_shared<Ramp>(0.0), {});
   ASSERT_TRUE(playing);

@@ -51,7 +51,7 @@ class Feeder {
         client_->connection->receive(encode_json(Frames{0, clock, frames}), false);
         break;
       case Source::request:
-        static_cast<void>(stream_->publish(source_, 0, frames).ok());
+        static_cast<void>(stream_->publish_request(frames).ok());
         break;
       case Source::demo:
         static_cast<void>(stream_->fill(Stream::Clock::now(), frames[0]).ok());
@@ -73,12 +73,10 @@ class Feeder {
 class Sources : public ::testing::Test {
  protected:
   Sources() {
-    StreamInfo info;
-    info.id = "s";
+    auto info = unbatched_stream();
     info.source = "demo";
-    info.epoch = 7;
     StreamLimits limits;
-    limits.demo_patience = std::chrono::minutes(1);
+    limits.filling_patience = std::chrono::minutes(1);
     stream_ = std::make_shared<Stream>(info, limits);
     subscriber_ = std::make_unique<FakeClient>(stream_, StreamRole::subscribe);
     see();
@@ -210,7 +208,7 @@ TEST_F(Sources, RandomSequences_NoGapAndNoWayBackInTime) {
 TEST(Floods, PublisherIsToldOnceASecondThenClosed) {
   StreamLimits limits;
   limits.publisher = {0, 20, milliseconds(0)};  // so that no time that passes here earns anything
-  const auto stream = std::make_shared<Stream>(StreamInfo{}, limits);
+  const auto stream = std::make_shared<Stream>(unbatched_stream(), limits);
   FakeClient publisher(stream, StreamRole::publish);
   publisher.take_all();
   const auto send = [&](std::size_t count) {
@@ -235,7 +233,7 @@ TEST(Floods, PublisherIsToldOnceASecondThenClosed) {
 TEST(Floods, ThousandsOfMessages_GetOneAnswer) {
   StreamLimits limits;
   limits.publisher = {1, 1, std::chrono::hours(1)};
-  const auto stream = std::make_shared<Stream>(StreamInfo{}, limits);
+  const auto stream = std::make_shared<Stream>(unbatched_stream(), limits);
   FakeClient publisher(stream, StreamRole::publish);
   publisher.take_all();
   const auto begin = std::chrono::steady_clock::now();
@@ -249,9 +247,9 @@ TEST(Floods, ThousandsOfMessages_GetOneAnswer) {
 TEST(Floods, RequestsOfAStreamShareOneLimit) {
   StreamLimits limits;
   limits.publisher = {0, 5, milliseconds(0)};
-  const auto stream = std::make_shared<Stream>(StreamInfo{}, limits);
-  for (int i = 0; i < 5; ++i) EXPECT_TRUE(stream->publish(Source::request, 0, {TimedFrame{}}));
-  const auto refused = stream->publish(Source::request, 0, std::vector<TimedFrame>(5));
+  const auto stream = std::make_shared<Stream>(unbatched_stream(), limits);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(stream->publish_request({TimedFrame{}}));
+  const auto refused = stream->publish_request(std::vector<TimedFrame>(5));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::too_large);
   EXPECT_EQ(stream->info().sequence, 5U);

@@ -28,11 +28,11 @@ class StreamTest : public ::testing::Test {
   explicit StreamTest() {
     limits_.pending_messages = 4;
     limits_.stalled = milliseconds(0);
-    limits_.demo_patience = std::chrono::minutes(1);
-    stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
+    limits_.filling_patience = std::chrono::minutes(1);
+    stream_ = std::make_shared<Stream>(unbatched_stream(), limits_);
   }
   std::shared_ptr<FakeClient> connect(StreamRole role) { return std::make_shared<FakeClient>(stream_, role); }
-  void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish(Source::request, 0, {frame_with(level)})); }
+  void publish(std::int16_t level) { ASSERT_TRUE(stream_->publish_request({frame_with(level)})); }
 
   StreamLimits limits_;
   std::shared_ptr<Stream> stream_;
@@ -93,6 +93,26 @@ TEST_F(StreamTest, Listener_HearsEveryBatchAndTheEnd) {
   EXPECT_EQ(heard->ends, 1);
 }
 
+TEST_F(StreamTest, HeaderOfRecordings_SaysAllThatSubscribersAreToldOfTheStream) {
+  auto info = unbatched_stream();
+  info.settings = {"Talk", "head", 0.25, 0, 0.5};
+  stream_ = std::make_shared<Stream>(info, limits_);
+  publish(1);
+  const auto subscriber = connect(StreamRole::subscribe);
+  auto told = std::get<Header>(subscriber->take_all().at(0));
+  const auto recorded = stream_->header();
+  EXPECT_EQ(recorded.title, "Talk");
+  EXPECT_EQ(recorded.model, "head");
+  EXPECT_EQ(recorded.viseme_share, 0.25);
+  EXPECT_EQ(recorded.quantizers.size(), 66U);
+  EXPECT_EQ(recorded.sequence, 1U);
+  // What is about the connection, or the moment.
+  told.media_time = recorded.media_time;
+  told.server_time = recorded.server_time;
+  told.coding = recorded.coding;
+  EXPECT_EQ(told, recorded);
+}
+
 TEST_F(StreamTest, Stalled_IsClosedAsSlow) {
   const auto stalled = connect(StreamRole::subscribe);
   const auto quick = connect(StreamRole::subscribe);
@@ -116,7 +136,7 @@ TEST_F(StreamTest, PublisherLeaves_AnotherMayFollow) {
   EXPECT_FALSE(first->socket->closed());
   const auto second = connect(StreamRole::publish);
   EXPECT_EQ(second->socket->closed()->code, 1008);
-  EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
+  EXPECT_FALSE(stream_->publish_request({frame_with(1)}));
   first->leave();
   EXPECT_FALSE(connect(StreamRole::publish)->socket->closed());
 }
@@ -165,7 +185,7 @@ TEST_F(StreamTest, PublishersClock_KeepsItsSpacing) {
 TEST_F(StreamTest, Rate_IsLimited) {
   limits_.publisher.frames_burst = 3;
   limits_.publisher.frames_per_second = 0;
-  stream_ = std::make_shared<Stream>(StreamInfo{"s", "S", "", "", "none", 7, 0, 0, 0, {}, {}}, limits_);
+  stream_ = std::make_shared<Stream>(unbatched_stream(), limits_);
   const auto publisher = connect(StreamRole::publish);
   publisher->take_all();
   publisher->connection->receive(encode_json(Frames{1, 0, {frame_with(1), frame_with(2)}}), false);
@@ -180,7 +200,7 @@ TEST_F(StreamTest, Ended_TakesNobody) {
   stream_->end(EndReason::deleted);
   EXPECT_EQ(subscriber->socket->closed()->code, 1000);
   EXPECT_FALSE(stream_->admit(std::make_shared<StreamConnection>(stream_, true, true)));
-  EXPECT_FALSE(stream_->publish(Source::request, 0, {frame_with(1)}));
+  EXPECT_FALSE(stream_->publish_request({frame_with(1)}));
 }
 
 TEST_F(StreamTest, ValuesBeyondTheirRange_AreClampedAndCounted_WhateverTheSource) {
@@ -190,7 +210,7 @@ TEST_F(StreamTest, ValuesBeyondTheirRange_AreClampedAndCounted_WhateverTheSource
   TimedFrame frame = frame_with(-1080);
   frame.state.level[4] = 601;
   frame.state.level[26] = -32767;
-  const auto receipt = stream_->publish(Source::request, 0, {frame, frame_with(1081), frame_with(1080)});
+  const auto receipt = stream_->publish_request({frame, frame_with(1081), frame_with(1080)});
   ASSERT_TRUE(receipt);
   EXPECT_EQ(receipt->clamped, 3U);
   const auto publisher = connect(StreamRole::publish);
@@ -235,9 +255,8 @@ TEST(FapSource, GivesTheFramesOfTheFile_AndValuesBetweenThem) {
 
 TEST(Hub, Streams_OpenOnceAndEndOnce) {
   InProcessHub hub;
-  StreamInfo info;
+  auto info = unbatched_stream();
   info.id = "a";
-  info.source = "none";
   EXPECT_TRUE(hub.open(info));
   EXPECT_FALSE(hub.open(info));
   const auto epoch = hub.info("a")->epoch;

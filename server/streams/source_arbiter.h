@@ -1,0 +1,94 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/types/result.h"
+#include "protocol/cpp/face_frame.h"
+#include "server/streams/flood_guard.h"
+#include "server/streams/source.h"
+#include "server/streams/timeline.h"
+
+namespace semblante::streams {
+
+/// Decides who may feed a stream, and what media time each frame gets. One source at a time may *hold* the stream: a
+/// connection that publishes, or what plays. Requests and the stream's own filling feed it only while nobody holds it.
+/// A state machine: events with their time in, decisions out. Not synchronized.
+class SourceArbiter {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// Names one hold; never used twice. 0: no hold.
+  using Ticket = std::uint64_t;
+
+  struct Claim {
+    Ticket ticket = 0;
+    bool replaces_publisher = false;  ///< a connection held the stream until now: it must be told and closed
+  };
+  struct Refusal {
+    Error error;
+    /// Set when there were too many frames in too short a time: `close` (the publisher, which holds the stream no
+    /// more), `drop_and_say` or `drop` (say nothing; `error` is empty).
+    std::optional<FloodGuard::Verdict> flood;
+  };
+  /// The media time of the first frame in ms, or why the frames are not taken.
+  using Placement = std::variant<std::uint64_t, Refusal>;
+
+  /// `began`: where the stream's clock is 0. `limits` hold for each publisher, and for all requests together. The
+  /// stream's own filling comes back after `filling_patience` of silence.
+  SourceArbiter(bool has_filling, FloodLimits limits, std::chrono::milliseconds filling_patience,
+                Clock::time_point began);
+
+  /// Makes `source`, which is neither request nor demo, the holder. `rate`: frames a second, 0 when unknown. Errors:
+  /// `mismatch` when there is a holder and `take_over` is not set.
+  Result<Claim> claim(Source source, double rate, bool take_over, Clock::time_point now);
+  /// Ends a hold; false when it had ended before.
+  bool release(Ticket ticket, Clock::time_point now);
+
+  /// Frames of a publisher. `media_time` is by its own clock, 0: now. May change the frames' times, so that media time
+  /// never falls. Errors: `mismatch` (it holds the stream no more), `out_of_range` (the frames last too long),
+  /// `too_large` (too many frames, see Refusal::flood, or too far ahead of the stream's clock).
+  Placement place_published(Ticket ticket, std::uint64_t media_time, std::vector<TimedFrame>& frames,
+                            Clock::time_point now);
+  /// Frames of a request. Errors as above; `mismatch` when there is a holder.
+  Placement place_request(std::vector<TimedFrame>& frames, Clock::time_point now);
+  /// One frame of what plays, due at `when`. Nothing when it holds the stream no more.
+  std::optional<std::uint64_t> place_played(Ticket ticket, Clock::time_point when, Clock::time_point now);
+  /// One frame of the stream's own filling. Nothing while another source feeds the stream, or did a moment ago.
+  std::optional<std::uint64_t> place_filling(Clock::time_point when, Clock::time_point now);
+
+  [[nodiscard]] bool is_held_by(Source source) const { return holder_ && holder_->source == source; }
+  /// What feeds the stream now; requests count for some seconds after the last one.
+  [[nodiscard]] std::optional<Source> active(Clock::time_point now) const;
+  /// Frames a second of what feeds the stream, 0: unknown.
+  [[nodiscard]] double rate() const;
+  /// When the newest frame is to be seen. No later frame is seen before.
+  [[nodiscard]] Clock::time_point newest_frame_time() const;
+
+ private:
+  struct Holder {
+    Ticket ticket;
+    Source source;
+    double rate;
+    FloodGuard guard;
+  };
+  [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const {
+    return streams::media_time_at(began_, when);
+  }
+  void heard(bool request, Clock::time_point now);
+
+  bool has_filling_;
+  std::chrono::milliseconds filling_patience_;
+  FloodLimits limits_;
+  Clock::time_point began_;
+  std::optional<Holder> holder_;
+  Ticket last_ticket_ = 0;
+  Timeline timeline_;
+  FloodGuard requests_;
+  std::optional<Clock::time_point> last_heard_;  ///< when a source other than the filling fed the stream
+  bool last_was_request_ = false;
+};
+
+}  // namespace semblante::streams

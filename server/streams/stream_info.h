@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "server/settings/stream_settings.h"
+#include "server/streams/encoding.h"
+#include "server/streams/source.h"
+#include "server/streams/stream_counts.h"
+
+namespace semblante::streams {
+
+/// What is being played into a stream. Times in ms.
+struct PlayStatus {
+  std::string id, kind, name;
+  double duration = 0.0;  ///< 0: without end
+  double position = 0.0;
+  double rate = 0.0;  ///< frames a second
+  bool loop = false;
+};
+
+/// What a stream says about itself. A stream is made from the first four members.
+struct StreamInfo {
+  std::string id, created;
+  std::string source;  ///< "demo" or "none": what feeds it when nobody else does
+  settings::StreamSettings settings;
+  std::uint64_t epoch = 0;     ///< of this life of the stream; given by the hub
+  std::uint64_t sequence = 0;  ///< of the newest frame taken
+  std::size_t subscribers = 0, publishers = 0;
+  std::optional<PlayStatus> playing;      ///< filled in by the hub
+  std::uint64_t clamped_values = 0;       ///< that were beyond the range of their FAP
+  std::optional<Source> active_source{};  ///< what feeds it now; requests: within the last seconds
+  std::array<std::size_t, coding_count> subscribers_by_coding{};
+  StreamCounts counts{};
+};
+
+/// What became of frames that a request brought.
+struct PublishReceipt {
+  std::size_t accepted = 0;
+  std::uint64_t sequence = 0;  ///< of the last frame
+  std::size_t clamped = 0;     ///< values that were beyond the range of their FAP
+};
+
+}  // namespace semblante::streams
