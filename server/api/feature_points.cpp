@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json/json_pointer.h"
+#include "core/parametrize/rim_sides.h"
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
@@ -18,6 +19,7 @@ namespace semblante::api {
 namespace {
 
 constexpr std::size_t max_faults = 32;
+constexpr std::size_t max_remark = 500;  ///< of a proposal, bytes
 
 template <std::size_t N>
 bool is_one_of(const JsonBody& value, const std::array<std::string_view, N>& names) {
@@ -77,6 +79,11 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
         return fault("/expected_error", "it must be a number, in ES0, not below 0");
       proposal.expected_error = error.get<double>();
     }
+    if (value.contains("remark")) {
+      if (!value["remark"].is_string() || value["remark"].get_ref<const std::string&>().size() > max_remark)
+        return fault("/remark", "it must be a text of at most " + std::to_string(max_remark) + " bytes");
+      proposal.remark = value["remark"].get<std::string>();
+    }
   }
   return point;
 }
@@ -118,7 +125,10 @@ http::Response represent_points(Context& context, const store::ModelRecord& mode
   for (const auto& point : context.store.feature_points(model.id)) {
     auto& item = json["points"][point.id];
     auto vertex = point.vertex;
-    if (!vertex && point.position) vertex = positions.at(*point.position);
+    // Of touching lips either could be meant: who sends the answer back must not settle it by chance.
+    const bool on_rim = rim_of_point(*parse_feature_point(point.id)).opening != nullptr;
+    if (!vertex && point.position)
+      vertex = on_rim ? positions.only_one_at(*point.position) : positions.at(*point.position);
     item["vertex"] = vertex ? Json(*vertex) : Json(nullptr);
     if (point.position)
       item["position"] = *point.position;
@@ -131,6 +141,7 @@ http::Response represent_points(Context& context, const store::ModelRecord& mode
       if (!point.proposal->method.empty()) item["method"] = point.proposal->method;
       if (!point.proposal->confidence.empty()) item["confidence"] = point.proposal->confidence;
       if (point.proposal->expected_error > 0.0) item["expected_error"] = point.proposal->expected_error;
+      if (!point.proposal->remark.empty()) item["remark"] = point.proposal->remark;
     }
   }
   auto response = json_response(200, json);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parametrize/rim_sides.h"
 #include "core/tables/mpeg4.h"
 #include "core/types/feature_point_id.h"
 
@@ -44,6 +45,11 @@ void fill_by_mirror(std::vector<store::FeaturePointRecord>& points, const Vertex
     if (points[i].vertex) {
       mirrored.vertex = positions.nearest(*position, reach);
       if (!mirrored.vertex) continue;
+      // Where lips or lids touch, the nearest vertex may be of the other one, which positions alone do not tell.
+      if (rim_of_point(FeaturePointId(partner)).opening != nullptr) {
+        mirrored.vertex = positions.only_one_at(*position);
+        if (!mirrored.vertex) mirrored.position = position;
+      }
     } else {
       mirrored.position = position;
     }

@@ -20,14 +20,29 @@ std::optional<std::array<double, 3>> VertexPositions::of(std::uint32_t vertex) c
   return std::array<double, 3>{xyz_[first], xyz_[first + 1], xyz_[first + 2]};
 }
 
+double VertexPositions::square_of_way(std::size_t first, const std::array<double, 3>& position) const {
+  const double x = xyz_[first] - position[0];
+  const double y = xyz_[first + 1] - position[1];
+  const double z = xyz_[first + 2] - position[2];
+  return x * x + y * y + z * z;
+}
+
+std::optional<std::uint32_t> VertexPositions::only_one_at(const std::array<double, 3>& position) const {
+  const double most = diagonal_ * at_place * diagonal_ * at_place;
+  std::optional<std::uint32_t> found;
+  for (std::size_t i = 0; i + 3 <= xyz_.size(); i += 3) {
+    if (square_of_way(i, position) > most) continue;
+    if (found) return std::nullopt;
+    found = static_cast<std::uint32_t>(i / 3);
+  }
+  return found;
+}
+
 std::optional<std::uint32_t> VertexPositions::nearest(const std::array<double, 3>& position, double share) const {
   std::optional<std::uint32_t> best;
   double least = diagonal_ * share * diagonal_ * share;
   for (std::size_t i = 0; i + 3 <= xyz_.size(); i += 3) {
-    const double x = xyz_[i] - position[0];
-    const double y = xyz_[i + 1] - position[1];
-    const double z = xyz_[i + 2] - position[2];
-    const double square = x * x + y * y + z * z;
+    const double square = square_of_way(i, position);
     if (square > least || (best && square == least)) continue;
     least = square;
     best = static_cast<std::uint32_t>(i / 3);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,12 +23,19 @@ class VertexPositions {
   [[nodiscard]] std::optional<std::array<double, 3>> of(std::uint32_t vertex) const;
   /// The vertex at a position, within 1e-4 of the box diagonal; the nearest, of several the lowest.
   [[nodiscard]] std::optional<std::uint32_t> at(const std::array<double, 3>& position) const {
-    return nearest(position, 1e-4);
+    return nearest(position, at_place);
   }
+  /// The same where there is no other: touching lips and lids have a vertex of either at one place.
+  [[nodiscard]] std::optional<std::uint32_t> only_one_at(const std::array<double, 3>& position) const;
   /// The nearest vertex within a share of the box diagonal.
   [[nodiscard]] std::optional<std::uint32_t> nearest(const std::array<double, 3>& position, double share) const;
 
  private:
+  static constexpr double at_place = 1e-4;  ///< of the box diagonal, as for positions in place_feature_points
+
+  /// To the vertex whose x is at `first`.
+  [[nodiscard]] double square_of_way(std::size_t first, const std::array<double, 3>& position) const;
+
   std::unique_ptr<MappedFile> file_;
   std::span<const float> xyz_;
   double diagonal_ = 0.0;

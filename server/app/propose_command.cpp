@@ -41,6 +41,7 @@ Json document(const FeaturePointSet& placed, const Proposals& proposals, const g
     json["method"] = proposal_method_names[static_cast<std::size_t>(proposal.method)];
     json["confidence"] = confidence_names[static_cast<std::size_t>(proposal.confidence)];
     json["expected_error"] = proposal.expected_error;
+    if (!proposal.remark.empty()) json["remark"] = proposal.remark;
     by_id[proposal.point.id.value()] = std::move(json);
   }
   Json result = {{"to_mpeg4_axes", Json::array()}, {"points", Json::object()}, {"not_proposed", Json::object()}};

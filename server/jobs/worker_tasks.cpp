@@ -289,9 +289,10 @@ Result<WorkerResult> run_propose(const WorkerRequest& request, const Progress& p
       record.vertex = proposal.point.vertex->value();
     else
       record.position = {position.x, position.y, position.z};
-    record.proposal = store::ProposalRecord{
-        std::string(proposal_method_names[static_cast<std::size_t>(proposal.method)]),
-        std::string(confidence_names[static_cast<std::size_t>(proposal.confidence)]), proposal.expected_error};
+    record.proposal =
+        store::ProposalRecord{std::string(proposal_method_names[static_cast<std::size_t>(proposal.method)]),
+                              std::string(confidence_names[static_cast<std::size_t>(proposal.confidence)]),
+                              proposal.expected_error, proposal.remark};
     result.proposals.push_back(std::move(record));
   }
   for (const auto& point : proposals->not_proposed) result.not_proposed.emplace_back(to_string(point.id), point.reason);

@@ -96,12 +96,14 @@ void from_json(const nlohmann::json& json, LevelRecord& level) {
 void to_json(nlohmann::json& json, const ProposalRecord& proposal) {
   json = {
       {"method", proposal.method}, {"confidence", proposal.confidence}, {"expected_error", proposal.expected_error}};
+  if (!proposal.remark.empty()) json["remark"] = proposal.remark;
 }
 
 void from_json(const nlohmann::json& json, ProposalRecord& proposal) {
   json.at("method").get_to(proposal.method);
   json.at("confidence").get_to(proposal.confidence);
   json.at("expected_error").get_to(proposal.expected_error);
+  proposal.remark = json.value("remark", std::string());
 }
 
 void to_json(nlohmann::json& json, const FeaturePointRecord& point) {

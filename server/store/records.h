@@ -137,6 +137,7 @@ struct ProposalRecord {
   std::string method;           ///< as proposal_method_names; empty: not known
   std::string confidence;       ///< as confidence_names; empty: not known
   double expected_error = 0.0;  ///< in ES0; 0: not known
+  std::string remark = {};      ///< what else makes it unsure, in words; mostly empty
 
   bool operator==(const ProposalRecord&) const = default;
 };

@@ -41,7 +41,7 @@ describe('point draft', () => {
   });
 
   test('Draft_Proposal_IsOneUntilConfirmedOrMoved', () => {
-    const proposal = { method: 'mirror', confidence: 'high', expectedError: 0.05 } as const;
+    const proposal = { method: 'mirror', confidence: 'high', expectedError: 0.05, remark: 'joined lips' } as const;
     const draft = new PointDraft();
     draft.reset([
       ['2.1', at(5)],
@@ -57,6 +57,7 @@ describe('point draft', () => {
       method: 'mirror',
       confidence: 'high',
       expected_error: 0.05,
+      remark: 'joined lips',
     });
     draft.confirm(['8.3', '2.1']);
     draft.place('8.4', at(9));

@@ -178,6 +178,9 @@ TEST_F(ProposalRoutes, BadRequests_NameTheFault) {
   expect_problem(put(with("method", "guess")), 422, "invalid-feature-point", "/points/2.1/method");
   expect_problem(put(with("confidence", 3)), 422, "invalid-feature-point", "/points/2.1/confidence");
   expect_problem(put(with("expected_error", -1)), 422, "invalid-feature-point", "/points/2.1/expected_error");
+  expect_problem(put(with("remark", 3)), 422, "invalid-feature-point", "/points/2.1/remark");
+  expect_problem(put(with("remark", std::string(501, 'x'))), 422, "invalid-feature-point", "/points/2.1/remark");
+  EXPECT_EQ(json_of(put(with("remark", "joined lips")))["points"]["2.1"]["remark"], "joined lips");
   json placed = with("method", "by hand");
   placed["points"]["2.1"]["proposed"] = false;
   EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";

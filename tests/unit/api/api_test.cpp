@@ -29,6 +29,19 @@ TEST(Mirror, Partners_AreNearestVerticesAcrossTheMarkedMiddle) {
   EXPECT_EQ(points[4], (store::FeaturePointRecord{"3.6", std::nullopt, {{11.5, 1.0, 2.0}}}));
 }
 
+TEST(Mirror, PartnerOnALip_GetsAVertexOnlyWhereNoOtherCouldBeMeant) {
+  // 2.6 is marked at x = 1. At x = -1 both lips have a vertex; near x = -2, where the image of 8.5 is, one alone has.
+  const std::vector<float> xyz = {1, 0, 0, -1, 0, 0, -1, 0, 0, 2, 0, 0, -2, 0, 0, 3, 0, 0, -3.01F, 0, 0};
+  const VertexPositions positions(xyz, 10.0);
+  std::vector<store::FeaturePointRecord> points = {
+      {"2.6", 0, std::nullopt}, {"8.5", 3, std::nullopt}, {"8.7", 5, std::nullopt}};
+  fill_by_mirror(points, positions);
+  ASSERT_EQ(points.size(), 6U);
+  EXPECT_EQ(points[1], (store::FeaturePointRecord{"2.7", std::nullopt, {{-1.0, 0.0, 0.0}}})) << "either lip's";
+  EXPECT_EQ(points[3], (store::FeaturePointRecord{"8.6", 4, std::nullopt}));
+  EXPECT_EQ(points[5], (store::FeaturePointRecord{"8.8", std::nullopt, {{-3.0, 0.0, 0.0}}})) << "not exactly there";
+}
+
 TEST(Mirror, PartnerTooFar_IsLeftOut) {
   const std::vector<float> xyz = {0, 0, 0, 1, 0, 0};
   std::vector<store::FeaturePointRecord> points = {{"2.4", 1, std::nullopt}};
@@ -42,6 +55,8 @@ TEST(Vertices, At_TakesTheLowestOfEquals) {
   EXPECT_EQ(positions.at({1.0, 2.0, 3.0}), 1U);
   EXPECT_FALSE(positions.at({1.0, 2.0, 3.1}));
   EXPECT_FALSE(positions.of(3));
+  EXPECT_FALSE(positions.only_one_at({1.0, 2.0, 3.0}));
+  EXPECT_EQ(positions.only_one_at({5.0, 5.0, 5.0}), 0U);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST_F(StoreTest, Proposals_FillWhatIsNotPlacedAndReplaceEarlierOnes) {
   const FeaturePointRecord placed = {"2.1", 5, std::nullopt};
   const FeaturePointRecord earlier = {"2.2", 6, std::nullopt, ProposalRecord{"shape", "low", 0.25}};
   ASSERT_TRUE(store_->put_feature_points("m", {placed, earlier}, 0));
-  const ProposalRecord how{"mirror", "high", 0.03125};
+  const ProposalRecord how{"mirror", "high", 0.03125, "joined lips"};
   const std::vector<FeaturePointRecord> proposals = {
       {"2.1", 7, std::nullopt, how}, {"11.1", 8, std::nullopt, how}, {"7.1", std::nullopt, {{0.0, 1.0, 2.0}}, how}};
   job.state = JobState::done;

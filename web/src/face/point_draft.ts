@@ -8,6 +8,8 @@ export interface PointProposal {
   confidence: Confidence | null;
   /** Share of ES0, or null where it is not known. */
   expectedError: number | null;
+  /** What else makes it unsure, in words. */
+  remark?: string;
 }
 
 export interface PlacedPoint {
@@ -149,14 +151,16 @@ export interface PointBody {
   method?: string;
   confidence?: Confidence;
   expected_error?: number;
+  remark?: string;
 }
 
 /** As the REST interface and files of feature points have it. */
-export function proposalBody({ method, confidence, expectedError }: PointProposal): PointBody {
+export function proposalBody({ method, confidence, expectedError, remark }: PointProposal): PointBody {
   const body: PointBody = { proposed: true };
   if (method !== null) body.method = method;
   if (confidence !== null) body.confidence = confidence;
   if (expectedError !== null) body.expected_error = expectedError;
+  if (remark !== undefined) body.remark = remark;
   return body;
 }
 

@@ -189,6 +189,8 @@ export interface FeaturePointValue {
   confidence?: 'high' | 'medium' | 'low';
   /** Share of ES0. */
   expected_error?: number;
+  /** What else makes it unsure, in words. */
+  remark?: string;
 }
 
 export interface FeaturePointSet {

@@ -247,11 +247,9 @@ export class PointsModel {
       const vertex = value.vertex ?? null;
       const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
       if (!position) continue;
-      const { method = null, confidence = null, expected_error: expectedError = null } = value;
-      placed.push([
-        id,
-        { vertex, position, ...(value.proposed ? { proposal: { method, confidence, expectedError } } : {}) },
-      ]);
+      const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
+      const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
+      placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
     }
     this.draft.reset(placed);
     // Someone who has gone beyond the quick set, or has proposals to look over, needs the whole list.

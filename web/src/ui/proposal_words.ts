@@ -9,10 +9,11 @@ const methods: Record<string, string> = {
 export const confidenceWords: Record<Confidence, string> = { high: 'sure', medium: 'fairly sure', low: 'unsure' };
 
 /** "Proposed from the shape of the head: fairly sure, about 9 % of the distance of the eyes off at most." */
-export function proposalWords({ method, confidence, expectedError }: PointProposal): string {
+export function proposalWords({ method, confidence, expectedError, remark }: PointProposal): string {
   const how = method === null ? '' : ` ${methods[method] ?? method}`;
   const sure = confidence === null ? '' : `: ${confidenceWords[confidence]}`;
   const off =
     expectedError === null ? '' : `, expected within ${Math.ceil(expectedError * 100)} % of the distance of the eyes`;
-  return `Proposed${how}${sure}${off}.`;
+  const look = remark === undefined ? '' : ` Look closely: ${remark}.`;
+  return `Proposed${how}${sure}${off}.${look}`;
 }
