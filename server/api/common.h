@@ -26,7 +26,7 @@ struct Refused {
 store::ModelRecord model_of(Context& context, const http::Request& request);
 
 /// The body as a JSON object; an absent body is an empty object. Refuses with 400 (`malformed-request`, with the byte,
-/// or with the pointer of a member named twice) or 422 when it is no object.
+/// or with the pointer of a member named twice or of a value over a limit) or 422 when it is no object.
 JsonBody body_object(const http::Request& request);
 
 /// Refuses members of `object` that are none of `known`, by pointer.
