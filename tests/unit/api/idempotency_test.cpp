@@ -37,13 +37,13 @@ class IdempotencyTest : public ::testing::Test {
     blobs_ = std::make_unique<store::BlobStore>(*store::BlobStore::open(folder_));
     jobs::JobConfig jobs;
     jobs.max_queued = 100'000;
-    jobs_ = std::make_unique<jobs::JobQueue>(*store_, *blobs_, jobs);  // not started: jobs stay queued
+    jobs_ = std::make_unique<jobs::JobQueue>(*store_, *blobs_, pending_, jobs);  // not started: jobs stay queued
     recordings::RecorderLimits limits;
     limits.disk_reserve = 0;
-    recorder_ = *recordings::Recorder::open(*store_, folder_ / "recordings", limits);
+    recorder_ = *recordings::Recorder::open(*store_, pending_, folder_ / "recordings", limits);
     ApiConfig config;
     config.limits.max_models = config.limits.max_streams = config.limits.max_expressions = 100'000;
-    api_ = std::make_unique<Api>(Context{*store_, *blobs_, *jobs_, hub_, config, {}, recorder_});
+    api_ = std::make_unique<Api>(Context{*store_, *blobs_, pending_, *jobs_, hub_, config, {}, recorder_});
     add_model();
     EXPECT_EQ(handle("POST", "/v1/streams", R"({"name":"recorded"})", "").status, 201);
   }
@@ -137,6 +137,7 @@ class IdempotencyTest : public ::testing::Test {
   std::filesystem::path folder_;
   std::unique_ptr<store::Store> store_;
   std::unique_ptr<store::BlobStore> blobs_;
+  store::PendingWrites pending_{{}};
   std::unique_ptr<jobs::JobQueue> jobs_;
   streams::InProcessHub hub_;
   std::shared_ptr<recordings::Recorder> recorder_;
@@ -191,7 +192,7 @@ TEST_F(IdempotencyTest, LastPlace_IsForAllOfTheKey) {
   ApiConfig config;
   for (int round = 0; round < rounds; ++round) {
     config.limits.max_streams = hub_.list().size() + 1;
-    api_ = std::make_unique<Api>(Context{*store_, *blobs_, *jobs_, hub_, config, {}, recorder_});
+    api_ = std::make_unique<Api>(Context{*store_, *blobs_, pending_, *jobs_, hub_, config, {}, recorder_});
     const auto answers = at_once([&](int) { return handle("POST", "/v1/streams", "{}", std::to_string(round)); });
     for (const auto& answer : answers) {
       ASSERT_EQ(answer.status, 201) << answer.body << answer.fault;

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/import/json.h"
+#include "core/json/read_json.h"
 #include "server/api/routes.h"
 
 namespace semblante::api {
@@ -23,7 +23,7 @@ using nlohmann::json;
 
 const json& document() {
   static const json parsed = [] {
-    const auto read = import::parse_json(openapi_document());
+    const auto read = read_json(openapi_document());
     return read ? *read : json::object();
   }();
   return parsed;
@@ -53,7 +53,7 @@ std::vector<std::string> names_in(std::string_view pattern) {
 }
 
 TEST(OpenApi, NoObject_NamesAMemberTwice) {
-  const auto read = import::parse_json(openapi_document());
+  const auto read = read_json(openapi_document());
   ASSERT_TRUE(read) << read.error().where << ": " << read.error().message;
 }
 
@@ -65,7 +65,7 @@ TEST(PublishedJson, NoObject_NamesAMemberTwice) {
       if (entry.path().extension() != ".json") continue;
       std::ifstream stream(entry.path(), std::ios::binary);
       const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-      const auto read = import::parse_json(text);
+      const auto read = read_json(text);
       EXPECT_TRUE(read) << entry.path() << ": " << read.error().where << ": " << read.error().message;
       ++files;
     }
