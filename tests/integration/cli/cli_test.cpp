@@ -74,8 +74,10 @@ TEST_F(Sheet, Propose_WritesAllPointsMarked_AndAgainFromThePlacedOnes) {
   const json all = json::parse(read_text(work.path("all.json")));
   EXPECT_EQ(all["points"]["8.1"]["vertex"], 49);
   EXPECT_FALSE(all["points"]["8.1"].contains("proposed"));
-  ASSERT_TRUE(all["points"].contains("8.2"));
-  EXPECT_EQ(all["points"]["8.2"]["proposed"], true);
+  ASSERT_TRUE(all["points"].contains("5.1"));
+  EXPECT_EQ(all["points"]["5.1"]["proposed"], true);
+  // A sheet without a mouth: all that is near the lower lip's place is as near to the upper lip along the surface.
+  EXPECT_EQ(all["not_proposed"]["8.2"], "the model has no surface where it would be");
   EXPECT_EQ(all["not_proposed"]["6.1"], "the model has no tongue");
   // The file can be given again; what was proposed in it is proposed anew.
   const Outcome again = run_semblante({"propose", model, "--points", work.path("all.json")});
