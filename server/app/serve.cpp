@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <iostream>
+#include <thread>
 #include <unistd.h>
 
 #include <arpa/inet.h>
@@ -24,6 +25,7 @@ namespace semblante {
 namespace {
 
 constexpr std::chrono::hours purge_interval{1};
+constexpr std::chrono::seconds lock_patience{5};
 
 [[noreturn]] void fail_input(const std::string& message) {
   throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
@@ -47,12 +49,17 @@ std::string checked_address(std::string address) {
 }
 
 /// Two servers on one data folder would undo each other's work: the second is refused. Held until the process ends.
+/// Waits a moment first: a worker that a killed server had just begun holds the lock until the kernel has ended it.
 void lock_data(const std::filesystem::path& data) {
   const auto file = data / "lock";
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (descriptor < 0) fail_input("--data: " + data.string() + " cannot be written: " + std::strerror(errno));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-    fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
+  const auto deadline = std::chrono::steady_clock::now() + lock_patience;
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() > deadline)
+      fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 /// On a full disk with the reserve freed. A data folder that is not there yet cannot be made on one.
