@@ -21,6 +21,13 @@ std::string render_packed_typescript(const nlohmann::ordered_json& packed);
 /// Two tables of SPEC.md.
 std::string packed_table_list(const nlohmann::ordered_json& packed);
 std::string packed_reference_list(const nlohmann::ordered_json& packed);
+/// Tables of SPEC.md that core/tables gives.
+std::string fap_table();
+std::string fap_group_table();
+std::string feature_point_group_table();
+std::string feature_point_table();
+std::string fapu_table();
+std::string select_table();
 /// SPEC.md with the text between each pair of `<!-- generated: NAME -->` and `<!-- end -->` made anew.
 std::string render_spec(const nlohmann::ordered_json& schema, const nlohmann::ordered_json& packed,
                         const std::string& spec);

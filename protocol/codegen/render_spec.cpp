@@ -2,7 +2,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "core/tables/mpeg4.h"
 #include "protocol/codegen/render.h"
 #include "protocol/codegen/schema.h"
 
@@ -75,27 +74,6 @@ std::string limit_table(const Json& schema) {
   return out;
 }
 
-std::string group_table() {
-  std::string out = "| bit | FAPs | group |\n|---|---|---|\n";
-  for (const auto& group : mpeg4::fap_groups) {
-    if (group.number == 1) continue;
-    out += "| " + std::to_string(group.number) + " | " + std::to_string(group.first_fap) + " to " +
-           std::to_string(group.last_fap) + " | " + std::string(group.name) + " |\n";
-  }
-  return out;
-}
-
-std::string quantizer_table() {
-  std::string out = "| FAP | name | unit | step |\n|---|---|---|---|\n";
-  for (const auto& fap : mpeg4::faps) {
-    if (fap.number < 3) continue;
-    out += "| " + std::to_string(fap.number) + " | `" + std::string(fap.name) + "` | " +
-           std::string(mpeg4::unit_names[static_cast<std::size_t>(fap.unit)]) + " | " +
-           std::to_string(fap.quantizer_step) + " |\n";
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string render_spec(const Json& schema, const Json& packed, const std::string& spec) {
@@ -103,8 +81,12 @@ std::string render_spec(const Json& schema, const Json& packed, const std::strin
       {"messages", [&] { return message_tables(schema); }},
       {"enums", [&] { return enum_tables(schema); }},
       {"limits", [&] { return limit_table(schema); }},
-      {"groups", [] { return group_table(); }},
-      {"quantizers", [] { return quantizer_table(); }},
+      {"faps", fap_table},
+      {"feature point groups", feature_point_group_table},
+      {"feature points", feature_point_table},
+      {"fapus", fapu_table},
+      {"selects", select_table},
+      {"groups", fap_group_table},
       {"packed tables", [&] { return packed_table_list(packed); }},
       {"packed references", [&] { return packed_reference_list(packed); }},
   };

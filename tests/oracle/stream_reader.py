@@ -21,7 +21,7 @@ STRUCTS = {s["name"]: s for s in SCHEMA["structs"]}
 LIMITS = SCHEMA["limits"]
 GREATEST = 2**53 - 1
 
-# The tables of section 5 that no JSON file has, from the document itself.
+# The tables that no JSON file of protocol/ has, from the document itself.
 SPEC = (PROTOCOL / "SPEC.md").read_text()
 
 
@@ -31,7 +31,7 @@ def table(name):
 
 
 GROUPS = {int(bit): range(int(faps.split(" to ")[0]), int(faps.split(" to ")[1]) + 1) for bit, faps, _ in table("groups")}
-STANDARD_STEPS = [float(row[3]) for row in table("quantizers")]
+STANDARD_STEPS = [float(row[7]) for row in table("faps") if int(row[0]) >= 3]
 
 Face = namedtuple("Face", "viseme expression levels")  # (select1, select2, blend), (select1, intensity1, select2, intensity2),
 NEUTRAL = Face((0, 0, 0), (0, 0, 0, 0), (0,) * 69)  # level of FAP i at i
