@@ -16,8 +16,7 @@ Header stream_header(const StreamInfo& stream, std::uint64_t sequence) {
   header.epoch = stream.epoch;
   header.sequence = sequence;
   header.server_time = server_time_now();
-  const auto steps = scaled_quantizers(stream.settings.quantizer_scale);
-  header.quantizers.assign(steps.begin() + first_low_level_fap, steps.end());
+  header.quantizers = header_quantizers(stream.settings.quantizer_scale);
   header.viseme_share = stream.settings.viseme_share;
   return header;
 }

@@ -3,7 +3,7 @@
 import json
 import sys
 
-from stream_reader import PROTOCOL, Reader, Refused
+from stream_reader import PROTOCOL, STANDARD_STEPS, Reader, Refused
 
 FOLDER = PROTOCOL / "vectors/v1"
 failures = checks = 0
@@ -42,6 +42,8 @@ def refuses(read, case):
 reader, as_json = Reader(), Reader()
 for message in vectors("messages.json")["messages"]:
     same(reader, as_json, message, message["name"])
+    if message["name"].startswith("header with the standard steps"):
+        check(reader.steps == STANDARD_STEPS, f"{message['name']}: {reader.steps}")
 
 appended = vectors("appended_fields.json")
 named = {}

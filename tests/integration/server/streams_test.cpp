@@ -71,7 +71,7 @@ TEST_F(Streams, DemoInJson_IsHeaderKeyframeFrames) {
   socket.send_text(hello("subscribe"));
   const auto header = next(socket);
   EXPECT_EQ(header["type"], "header");
-  EXPECT_EQ(header["quantizers"].size(), 66U);
+  EXPECT_EQ(header["quantizers"], json::array()) << "the standard steps are not sent";
   EXPECT_EQ(header["fps_hint"], 25.0);
   const auto keyframe = next(socket);
   EXPECT_EQ(keyframe["type"], "keyframe");
@@ -124,7 +124,11 @@ TEST_F(Streams, FinerSteps_KeepWhatStandardOnesRound) {
     const auto stream = fine ? std::string("/v1/streams/fine") : create("coarse");
     WebSocket text(port(), stream, "semblante.v1.json");
     text.send_text(hello("subscribe"));
-    EXPECT_EQ(next(text)["quantizers"][0], fine ? 0.5 : 4.0);
+    const auto steps = next(text)["quantizers"];
+    ASSERT_EQ(steps.size(), fine ? 66U : 0U) << "the standard steps are not sent";
+    if (fine) {
+      EXPECT_EQ(steps[0], 0.5);
+    }
     EXPECT_EQ(next(text)["type"], "keyframe");
     WebSocket binary(port(), stream, "semblante.v1");
     FrameDecoder decoder;

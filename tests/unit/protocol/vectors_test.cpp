@@ -10,6 +10,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/quantizers.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 
@@ -50,6 +51,21 @@ TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
     EXPECT_EQ(encoder.encode(*from_text), bytes) << name;
     EXPECT_EQ(json::parse(encode_json(*from_text)), vector.at("json")) << name;
   }
+}
+
+TEST(Vectors, StandardSteps_LeftOutOrWrittenOut_AreTheSame) {
+  const json vectors = json::parse(read("messages.json"));
+  std::size_t headers = 0;
+  for (const json& vector : vectors.at("messages")) {
+    const std::string name = vector.at("name");
+    if (name.find("header with the standard steps") != 0) continue;
+    const auto message = FrameDecoder().decode(from_hex(vector.at("binary")));
+    ASSERT_TRUE(message.ok()) << name;
+    EXPECT_EQ(std::get<Header>(*message).quantizers.empty(), headers == 0) << name;
+    EXPECT_EQ(quantizers_of(std::get<Header>(*message)), standard_quantizers()) << name;
+    ++headers;
+  }
+  EXPECT_EQ(headers, 2U);
 }
 
 TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {

@@ -215,6 +215,16 @@ describe('JSON', () => {
   });
 });
 
+describe('quantizersOf', () => {
+  it('QuantizersOf_StandardSteps_AreTheSameLeftOutOrWrittenOut', () => {
+    const headers = vectors
+      .filter(({ name }) => name.startsWith('header with the standard steps'))
+      .map(({ binary }) => new FrameDecoder().decode(fromHex(binary)) as Header);
+    expect(headers.map(({ quantizers }) => quantizers.length)).toEqual([0, 66]);
+    for (const header of headers) expect(quantizersOf(header)).toEqual(standardQuantizers);
+  });
+});
+
 describe('quantize', () => {
   it('Quantize_RoundsHalvesAwayFromZero', () => {
     expect([2, -2, 1.9, 32767.4].map((value) => quantize(value, value > 100 ? 1 : 4))).toEqual([1, -1, 0, 32767]);
