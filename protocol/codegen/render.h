@@ -1,14 +1,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/codegen/generator.h"
+
 namespace semblante::codegen {
 
-/// Reads messages.json or packed_tables.json of protocol/schema. Throws std::exception on any fault: this runs at
-/// development time only.
-nlohmann::ordered_json read_schema(const std::string& path);
+/// All that is generated here, from protocol/schema, core/tables and the text of SPEC.md.
+std::vector<GeneratedFile> protocol_files(const std::string& source_folder);
 
 /// protocol/cpp/generated/messages.h: structs, enums and `visit_fields`, from which the codecs are templates.
 std::string render_cpp(const nlohmann::ordered_json& schema);

@@ -1,10 +1,6 @@
 #include "protocol/codegen/schema.h"
 
 #include <cctype>
-#include <fstream>
-#include <stdexcept>
-
-#include "protocol/codegen/render.h"
 
 namespace semblante::codegen {
 
@@ -23,12 +19,6 @@ std::string documentation(const Json& field) {
   std::string doc = text(field, "doc");
   if (unit.empty()) return doc;
   return doc.empty() ? unit : unit + "; " + doc;
-}
-
-Json read_schema(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  return Json::parse(file);
 }
 
 }  // namespace semblante::codegen

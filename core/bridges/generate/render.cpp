@@ -1,6 +1,5 @@
 #include "core/bridges/generate/render.h"
 
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -42,9 +41,7 @@ std::map<int, double> mirrored(const std::map<int, double>& faps) {
 }  // namespace
 
 ArkitData read_arkit_data(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot open " + file);
-  const json source = json::parse(in);
+  const json source = codegen::read_json(file);
   ArkitData data;
   data.rotations = source.at("rotations").get<std::vector<std::string>>();
   for (const char* const name : setting_names) data.settings[name] = source.at(name).get<double>();
@@ -131,6 +128,12 @@ std::string render_typescript(const ArkitData& data) {
   }
   out << "];\n";
   return out.str();
+}
+
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder) {
+  const ArkitData data = read_arkit_data(source_folder + "/core/bridges/data/arkit.json");
+  return {{"core/bridges/generated/arkit_tables.h", render_cpp(data)},
+          {"protocol/ts/generated/arkit.ts", render_typescript(data)}};
 }
 
 }  // namespace semblante::bridges

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/codegen/generator.h"
+
 namespace semblante::bridges {
 
 /// A blend shape as authored, mirrored where it says so.
@@ -29,5 +31,8 @@ ArkitData read_arkit_data(const std::string& file);
 std::string render_cpp(const ArkitData& data);
 /// protocol/ts/generated/arkit.ts
 std::string render_typescript(const ArkitData& data);
+
+/// All of them, from core/bridges/data.
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);
 
 }  // namespace semblante::bridges

@@ -1,7 +1,6 @@
 #include "core/expressions/generate/render.h"
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,16 +13,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 using Displacements = std::map<FeaturePointId, Vec3>;
-
-json read_json(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot open " + path);
-  try {
-    return json::parse(file);
-  } catch (const json::exception& fault) {
-    throw std::runtime_error(path + ": " + fault.what());
-  }
-}
 
 FeaturePointId mirror_of(FeaturePointId point) { return FeaturePointId(mpeg4::feature_points[point.value()].mirror); }
 
@@ -49,7 +38,7 @@ void add(Displacements& to, const Displacements& what, double amount) {
 
 std::map<std::string, Displacements> read_actions(const std::string& path) {
   std::map<std::string, Displacements> actions;
-  const json file = read_json(path);
+  const json file = codegen::read_json(path);
   for (const json& action : file.at("actions")) {
     const std::string name = action.at("name");
     if (!actions.insert({name, read_displacements(action.at("displacements"))}).second) {
@@ -96,7 +85,7 @@ template <class Infos>
 std::vector<NamedSet> read_list(const std::string& path, const char* key, const Infos& infos,
                                 const std::map<std::string, Displacements>& actions) {
   std::vector<NamedSet> sets;
-  const json file = read_json(path);
+  const json file = codegen::read_json(path);
   try {
     for (const json& entry : file.at(key)) {
       sets.push_back(read_set(entry, actions));
@@ -177,6 +166,12 @@ std::string render_typescript(const Sets& sets) {
   list("visemeSets", sets.visemes);
   list("expressionSets", sets.expressions);
   return out.str();
+}
+
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder) {
+  const Sets sets = read_sets(source_folder + "/core/expressions/data");
+  return {{"core/expressions/generated/displacement_sets.h", render_header(sets)},
+          {"protocol/ts/generated/displacement_sets.ts", render_typescript(sets)}};
 }
 
 }  // namespace semblante::expressions

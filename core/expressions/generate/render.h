@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/codegen/generator.h"
 #include "core/types/feature_point_id.h"
 
 namespace semblante::expressions {
@@ -31,5 +32,8 @@ Sets read_sets(const std::string& data_folder);
 std::string render_header(const Sets& sets);
 /// protocol/ts/generated/displacement_sets.ts
 std::string render_typescript(const Sets& sets);
+
+/// All of them, from core/expressions/data.
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);
 
 }  // namespace semblante::expressions

@@ -1,7 +1,6 @@
 #include "core/tables/generate/render.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -13,16 +12,6 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* notice =
     "Generated from core/tables/data by semblante-codegen-tables; change the data, not this.";
-
-json read_json(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot open " + path);
-  try {
-    return json::parse(file);
-  } catch (const json::exception& fault) {
-    throw std::runtime_error(path + ": " + fault.what());
-  }
-}
 
 /// Dense index of a feature point: its place in the list.
 int index_of(const TableData& data, const std::string& id) {
@@ -63,8 +52,8 @@ std::string joined(const json& words) {
 }  // namespace
 
 TableData read_table_data(const std::string& data_folder) {
-  return {read_json(data_folder + "/faps.json"), read_json(data_folder + "/feature-points.json"),
-          read_json(data_folder + "/fapus.json"), read_json(data_folder + "/high-level.json")};
+  return {codegen::read_json(data_folder + "/faps.json"), codegen::read_json(data_folder + "/feature-points.json"),
+          codegen::read_json(data_folder + "/fapus.json"), codegen::read_json(data_folder + "/high-level.json")};
 }
 
 std::string render_c_header(const TableData& data) {
@@ -293,6 +282,13 @@ export interface Expression {
   std::string text = out.str();
   text.pop_back();  // one newline at the end
   return text;
+}
+
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder) {
+  const TableData data = read_table_data(source_folder + "/core/tables/data");
+  return {{"core/tables/generated/mpeg4_tables.h", render_c_header(data)},
+          {"core/tables/generated/mpeg4_entries.h", render_cpp_header(data)},
+          {"protocol/ts/generated/mpeg4.ts", render_typescript(data)}};
 }
 
 }  // namespace semblante::tables

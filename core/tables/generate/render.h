@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "core/codegen/generator.h"
 
 namespace semblante::tables {
 
@@ -20,5 +23,8 @@ std::string render_c_header(const TableData& data);
 std::string render_cpp_header(const TableData& data);
 /// protocol/ts/generated/mpeg4.ts: the same for the web.
 std::string render_typescript(const TableData& data);
+
+/// All of them, from core/tables/data.
+std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);
 
 }  // namespace semblante::tables

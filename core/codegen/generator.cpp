@@ -1,0 +1,58 @@
+#include "core/codegen/generator.h"
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace semblante::codegen {
+namespace {
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+}  // namespace
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+nlohmann::ordered_json read_json(const std::string& path) {
+  try {
+    return nlohmann::ordered_json::parse(read_text(path));
+  } catch (const nlohmann::ordered_json::exception& fault) {
+    throw std::runtime_error(path + ": " + fault.what());
+  }
+}
+
+int run_generator(int argc, char** argv, Generator generate) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s SOURCE_FOLDER\n", argv[0]);
+    return 2;
+  }
+  try {
+    const std::string source_folder = argv[1];
+    for (const GeneratedFile& file : generate(source_folder)) write_text(source_folder + "/" + file.path, file.text);
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], fault.what());
+    return 1;
+  }
+  return 0;
+}
+
+std::vector<std::string> out_of_date(const std::string& source_folder, Generator generate) {
+  std::vector<std::string> paths;
+  for (const GeneratedFile& file : generate(source_folder)) {
+    if (read_text(source_folder + "/" + file.path) != file.text) paths.push_back(file.path);
+  }
+  return paths;
+}
+
+}  // namespace semblante::codegen
