@@ -9,7 +9,7 @@ import {
   type Material,
 } from 'three';
 import type { Pose } from '@client/index.ts';
-import { rigidMotion } from '@protocol/index.ts';
+import { rigidMotion } from '@protocol/weights_format.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
 /** Texels across the entry texture: entry k lies at (k mod width, k div width). */
