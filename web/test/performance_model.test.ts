@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { ApiError } from '../src/net/problem.ts';
-import type { Playing, PlayWish, Problem, StreamInfo } from '../src/net/types.ts';
+import type { AbsentFap, FapPlaying, Playing, PlayOptions, Problem, StreamInfo } from '../src/net/types.ts';
 import { LiveModel } from '../src/ui/live_model.ts';
 import { PerformanceModel } from '../src/ui/performance_model.ts';
 import type { Studio } from '../src/ui/studio.ts';
@@ -9,9 +9,22 @@ import { neutralFrame } from '@client/index.ts';
 const stream = (id: string, more: Partial<StreamInfo> = {}): StreamInfo => ({
   id,
   title: `Stream ${id}`,
+  model: null,
+  created: '2026-01-01T00:00:00Z',
+  epoch: 1,
+  sequence: 0,
   subscribers: 0,
   publishers: 0,
   source: 'none',
+  active_source: null,
+  batch_interval: 100,
+  quantizer_scale: 1,
+  subscribers_by_coding: { packed: 0, plain: 0, json: 0 },
+  bytes_sent: 0,
+  messages_coalesced: 0,
+  lateness_p99: null,
+  clamped_values: 0,
+  viseme_share: null,
   playing: null,
   ...more,
 });
@@ -30,7 +43,7 @@ const playing = (more: Partial<Playing> = {}): Playing => ({
 /** A server with these streams; what was asked of it is written down. */
 class FakeServer {
   streams: StreamInfo[] = [];
-  readonly asked: { stream: string; wish: PlayWish }[] = [];
+  readonly asked: { stream: string; options: PlayOptions }[] = [];
   readonly stopped: string[] = [];
   refuse: Problem | null = null;
   readonly faps: string[] = [];
@@ -42,17 +55,17 @@ class FakeServer {
     this.streams.push(made);
     return Promise.resolve(made);
   };
-  readonly playPerformance = (id: string, _document: Blob, wish: PlayWish): Promise<Playing> => {
-    this.asked.push({ stream: id, wish });
+  readonly playPerformance = (id: string, _document: Blob, options: PlayOptions): Promise<Playing> => {
+    this.asked.push({ stream: id, options });
     if (this.refuse) return Promise.reject(new ApiError(this.refuse));
     this.made += 1;
-    const now = playing({ id: `p${this.made}`, loop: wish.loop, position: wish.from });
+    const now = playing({ id: `p${this.made}`, loop: options.loop, position: options.from });
     this.streams = this.streams.map((one) => (one.id === id ? { ...one, playing: now } : one));
     return Promise.resolve(now);
   };
-  readonly playFap = async (id: string, file: Blob, wish: PlayWish, absent: 'zero' | 'keep'): Promise<Playing> => {
+  readonly playFap = async (id: string, file: Blob, options: PlayOptions, absent: AbsentFap): Promise<FapPlaying> => {
     this.faps.push(absent);
-    return { ...(await this.playPerformance(id, file, wish)), warnings: ['line 2: 69 flags'] };
+    return { ...(await this.playPerformance(id, file, options)), warnings: ['line 2: 69 flags'] };
   };
   readonly stopPlaying = (id: string, what: string): Promise<void> => {
     this.stopped.push(what);
@@ -93,7 +106,7 @@ describe('performance model', () => {
   test('Play_NoOwnStream_MakesOneAndFollowsIt', async () => {
     const { server, live, model } = await setUp([stream('demo', { source: 'demo' })]);
     await model.play();
-    expect(server.asked).toEqual([{ stream: 'made', wish: { loop: false, from: 0, takeOver: false } }]);
+    expect(server.asked).toEqual([{ stream: 'made', options: { loop: false, from: 0, take_over: false } }]);
     expect(server.streams.at(-1)?.title).toBe('Ada, performing');
     expect(live.following.value).toBe('made');
     expect(live.driving.value).toBe(true);
@@ -144,7 +157,7 @@ describe('performance model', () => {
     await model.play();
     expect(model.mine).toBe(true);
     await model.play({ from: 2000 });
-    expect(server.asked[1]?.wish).toEqual({ loop: false, from: 2000, takeOver: true });
+    expect(server.asked[1]?.options).toEqual({ loop: false, from: 2000, take_over: true });
   });
 
   test('Play_BusyStream_SaysWhoAndTakesOverWhenAsked', async () => {
@@ -153,12 +166,12 @@ describe('performance model', () => {
     expect(model.mine).toBe(false);
     server.refuse = { type: '/problems/conflict', title: 'Conflict', status: 409, detail: 'something plays' };
     await model.play();
-    expect(server.asked[0]?.wish.takeOver).toBe(false);
+    expect(server.asked[0]?.options.take_over).toBe(false);
     expect(model.refusal.value?.holder).toContain('Aria');
     server.refuse = null;
-    await model.play({ takeOver: true });
+    await model.play({ take_over: true });
     expect(model.refusal.value).toBeNull();
-    expect(server.asked[1]?.wish.takeOver).toBe(true);
+    expect(server.asked[1]?.options.take_over).toBe(true);
   });
 
   test('Play_SomebodySends_SaysSo', async () => {

@@ -122,7 +122,7 @@ export class PointDraft {
   toBody(): { points: Record<string, PointBody> } {
     const points: Record<string, PointBody> = {};
     for (const [id, { vertex, position, proposal }] of this.current)
-      points[id] = { ...(vertex === null ? {} : { vertex }), position, ...(proposal ? proposalBody(proposal) : {}) };
+      points[id] = { ...(vertex === null ? {} : { vertex }), position: [...position], ...(proposal ? proposalBody(proposal) : {}) };
     return { points };
   }
 
@@ -146,7 +146,7 @@ export class PointDraft {
 
 export interface PointBody {
   vertex?: number;
-  position?: readonly number[];
+  position?: [number, number, number];
   proposed?: true;
   method?: string;
   confidence?: Confidence;

@@ -3,21 +3,29 @@ import { decodeJson } from '@protocol/json_codec.ts';
 import { requestBlob, requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf, upload } from './upload.ts';
 import type {
+  AbsentFap,
+  FapPlaying,
+  FeaturePointsBody,
   FeaturePointSet,
   FitReport,
   FrameWish,
   Job,
   Model,
   ModelAndJob,
+  ModelEdit,
   ModelPage,
   ParametrizationOptions,
   PartRole,
   Playing,
-  PlayWish,
+  PlayOptions,
+  RecordedFrames,
   Recording,
   RecordingFormat,
+  RecordingPage,
+  RecordingPlay,
   StreamInfo,
   StreamOptions,
+  StreamPage,
   VersionInfo,
 } from './types.ts';
 
@@ -33,7 +41,7 @@ export class Api {
     let after: string | null = null;
     do {
       const query: string = after === null ? '' : `&after=${segment(after)}`;
-      const page: ModelPage = (await requestJson<ModelPage>(`${this.base}/v1/models?limit=100${query}`)).value;
+      const { value: page } = await requestJson<ModelPage>(`${this.base}/v1/models?limit=100${query}`);
       models.push(...page.models);
       after = page.next;
     } while (after !== null);
@@ -51,22 +59,23 @@ export class Api {
   }
 
   async renameModel(id: string, name: string): Promise<Model> {
-    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { name } }))
-      .value;
+    return (await this.patchModel(id, { name })).value;
   }
 
   /** `null` takes a role back to what is guessed. */
   async setRoles(id: string, roles: Record<number, PartRole | null>): Promise<Model> {
-    return (await requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json: { roles } }))
-      .value;
+    return (await this.patchModel(id, { roles })).value;
   }
 
   /** The model as it is then, and the job that turns it where its axes change. */
   async setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
-    const url = `${this.base}/v1/models/${segment(id)}`;
-    const { value: model, location } = await requestJson<Model>(url, { method: 'PATCH', json: { frame } });
+    const { value: model, location } = await this.patchModel(id, { frame });
     const job = location === null ? null : (await requestJson<Job>(`${this.base}${location}`)).value;
     return { model, job };
+  }
+
+  private patchModel(id: string, json: ModelEdit): Promise<Answer<Model>> {
+    return requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json });
   }
 
   /** What the fit doctor found. */
@@ -98,7 +107,7 @@ export class Api {
   /** Replaces the whole set. `etag` of the set it was made from guards against overwriting someone else's work. */
   putFeaturePoints(
     id: string,
-    body: unknown,
+    body: FeaturePointsBody,
     options: { etag?: string | null; mirror?: boolean } = {},
   ): Promise<Answer<FeaturePointSet>> {
     const query = options.mirror ? '?fill=mirror' : '';
@@ -135,11 +144,11 @@ export class Api {
   }
 
   async listStreams(): Promise<StreamInfo[]> {
-    return (await requestJson<{ streams: StreamInfo[] }>(`${this.base}/v1/streams`)).value.streams;
+    return (await requestJson<StreamPage>(`${this.base}/v1/streams`)).value.streams;
   }
 
   async createStream(title: string, model: string | null, options: StreamOptions = {}): Promise<StreamInfo> {
-    const json = model === null ? { title, ...options } : { title, model, ...options };
+    const json: StreamOptions = model === null ? { title, ...options } : { title, model, ...options };
     return (await requestJson<StreamInfo>(`${this.base}/v1/streams`, { method: 'POST', json })).value;
   }
 
@@ -148,15 +157,15 @@ export class Api {
   }
 
   /** Plays a performance document into a stream, from now on. */
-  async playPerformance(stream: string, document: Blob, wish: PlayWish): Promise<Playing> {
-    const url = `${this.base}/v1/streams/${segment(stream)}/performances?${playQuery(wish)}`;
+  async playPerformance(stream: string, document: Blob, options: PlayOptions): Promise<Playing> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/performances?${playQuery(options)}`;
     return (await requestJson<Playing>(url, { method: 'POST', body: document, contentType: 'application/json' })).value;
   }
 
   /** Plays a .fap file into a stream, from now on. */
-  async playFap(stream: string, file: Blob, wish: PlayWish, absent: 'zero' | 'keep'): Promise<Playing> {
-    const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(wish)}&absent=${absent}`;
-    return (await requestJson<Playing>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
+  async playFap(stream: string, file: Blob, options: PlayOptions, absent: AbsentFap): Promise<FapPlaying> {
+    const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(options)}&absent=${absent}`;
+    return (await requestJson<FapPlaying>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
   }
 
   /** Ends what plays; the face returns to neutral. */
@@ -171,9 +180,7 @@ export class Api {
     let after: string | null = null;
     do {
       const query: string = after === null ? '' : `&after=${segment(after)}`;
-      const page: { recordings: Recording[]; next: string | null } = (
-        await requestJson<{ recordings: Recording[]; next: string | null }>(`${this.base}${url}?limit=200${query}`)
-      ).value;
+      const { value: page } = await requestJson<RecordingPage>(`${this.base}${url}?limit=200${query}`);
       recordings.push(...page.recordings);
       after = page.next;
     } while (after !== null);
@@ -204,16 +211,16 @@ export class Api {
   /** The face at a time, ms after the first frame. */
   async recordedFrame(id: string, at: number): Promise<FaceFrame> {
     const url = `${this.base}/v1/recordings/${segment(id)}/frames?at=${Math.round(at)}`;
-    const { frames } = (await requestJson<{ frames: unknown[] }>(url)).value;
+    const { frames } = (await requestJson<RecordedFrames>(url)).value;
     const message = decodeJson(JSON.stringify({ type: 'frames', sequence: 0, media_time: 0, frames }));
     if (message.type !== 'frames') throw new TypeError('not frames');
     return message.frames[0]!.state;
   }
 
   /** Plays a recording into a stream, from now on. */
-  async playRecording(stream: string, recording: string, wish: PlayWish): Promise<Playing> {
+  async playRecording(stream: string, recording: string, options: PlayOptions): Promise<Playing> {
     const url = `${this.base}/v1/streams/${segment(stream)}/plays`;
-    const json = { recording, from: wish.from, loop: wish.loop, take_over: wish.takeOver };
+    const json: RecordingPlay = { recording, ...options };
     return (await requestJson<Playing>(url, { method: 'POST', json })).value;
   }
 
@@ -226,5 +233,5 @@ export class Api {
   }
 }
 
-const playQuery = ({ loop, from, takeOver }: PlayWish): string =>
-  new URLSearchParams({ loop: String(loop), from: String(from), take_over: String(takeOver) }).toString();
+const playQuery = ({ loop, from, take_over }: PlayOptions): string =>
+  new URLSearchParams({ loop: String(loop), from: String(from), take_over: String(take_over) }).toString();

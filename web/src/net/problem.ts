@@ -1,4 +1,10 @@
-import type { FieldProblem, Problem } from './types.ts';
+import type { Problem } from './types.ts';
+
+/** One place that a problem names; without a pointer it concerns the whole request. */
+export interface FieldProblem {
+  pointer?: string;
+  detail: string;
+}
 
 /** A request that did not come back with what was asked for. `problem.status` is 0 when there was no answer at all. */
 export class ApiError extends Error {

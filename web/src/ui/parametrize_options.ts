@@ -1,6 +1,5 @@
-import type { DistanceMetric, WeightMethod } from '../net/types.ts';
 import { h, setText } from './dom.ts';
-import type { Parametrizer } from './parametrizer.ts';
+import type { ChosenOptions, Parametrizer } from './parametrizer.ts';
 
 interface Choice {
   value: string;
@@ -39,10 +38,10 @@ export class ParametrizeOptions {
     on: { change: () => this.setLevels('own') },
   });
   private readonly weights = this.field('Weights', weightChoices, (value) =>
-    this.parametrizer.set({ weights: value as WeightMethod }),
+    this.parametrizer.set({ weights: value as ChosenOptions['weights'] }),
   );
   private readonly metric = this.field('Distances', metricChoices, (value) =>
-    this.parametrizer.set({ metric: value as DistanceMetric }),
+    this.parametrizer.set({ metric: value as ChosenOptions['metric'] }),
   );
   private readonly levels = this.field('Levels', levelChoices, (value) => this.setLevels(value));
 
@@ -57,7 +56,7 @@ export class ParametrizeOptions {
       this.budgets,
     );
     parametrizer.options.watch((options) => {
-      const levels = options.lods === undefined ? 'auto' : options.lods.length === 0 ? 'none' : 'own';
+      const levels = options.lods === 'auto' ? 'auto' : options.lods.length === 0 ? 'none' : 'own';
       const titles = [this.weights.show(options.weights), this.metric.show(options.metric)];
       this.levels.show(levels);
       this.budgets.hidden = levels !== 'own';
@@ -67,7 +66,7 @@ export class ParametrizeOptions {
 
   private setLevels(value: string): void {
     const own = (this.budgets.value.match(/\d+/g) ?? []).map(Number).sort((a, b) => b - a);
-    this.parametrizer.set({ lods: value === 'auto' ? undefined : value === 'none' ? [] : own });
+    this.parametrizer.set({ lods: value === 'auto' ? 'auto' : value === 'none' ? [] : own });
   }
 
   private field(

@@ -5,16 +5,19 @@ import type { PointsModel } from './points_model.ts';
 import { Signal } from './signal.ts';
 import { needsCare, type Studio } from './studio.ts';
 
+/** Each is sent: the server's defaults are those of the paper, without levels of detail. */
+export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>>;
+
 /** Starts parametrizations with the options that are set; says what came of it. */
 export class Parametrizer {
-  readonly options = new Signal<ParametrizationOptions>({ weights: 'smooth', metric: 'edge' });
+  readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', lods: 'auto' });
 
   constructor(
     private readonly studio: Studio,
     private readonly points: PointsModel,
   ) {}
 
-  set(change: Partial<ParametrizationOptions>): void {
+  set(change: Partial<ChosenOptions>): void {
     this.options.set({ ...this.options.value, ...change });
   }
 

@@ -1,5 +1,5 @@
 import { problemOf } from '../net/problem.ts';
-import type { Playing, PlayWish, Problem, StreamInfo } from '../net/types.ts';
+import type { AbsentFap, FapPlaying, Playing, PlayOptions, Problem, StreamInfo } from '../net/types.ts';
 import { excerptAt, type ExcerptLine } from './document_place.ts';
 import type { LiveModel } from './live_model.ts';
 import { Signal } from './signal.ts';
@@ -30,7 +30,7 @@ export class PerformanceModel {
   readonly refusal = new Signal<Refusal | null>(null);
   readonly busy = new Signal(false);
   /** What a FAP is that a frame of a .fap file leaves out. */
-  readonly absent = new Signal<'zero' | 'keep'>('zero');
+  readonly absent = new Signal<AbsentFap>('zero');
   /** What the server found peculiar in the .fap file it plays. */
   readonly warnings = new Signal<readonly string[]>([]);
   loop = false;
@@ -83,7 +83,7 @@ export class PerformanceModel {
     this.script.set(script);
   }
 
-  async play(wish: Partial<PlayWish> = {}): Promise<void> {
+  async play(options: Partial<PlayOptions> = {}): Promise<void> {
     const script = this.script.value;
     if (!script || this.busy.value) return;
     this.refusal.set(null);
@@ -92,10 +92,10 @@ export class PerformanceModel {
       const stream = await this.openTarget();
       if (stream === null) return;
       // What was started here gives way to itself without being asked.
-      const whole = { loop: this.loop, from: this.from, takeOver: this.mine, ...wish };
+      const whole = { loop: this.loop, from: this.from, take_over: this.mine, ...options };
       const { api } = this.studio;
       const body = new Blob([script.text]);
-      const playing = await (script.kind === 'fap'
+      const playing: Playing & Partial<FapPlaying> = await (script.kind === 'fap'
         ? api.playFap(stream, body, whole, this.absent.value)
         : api.playPerformance(stream, body, whole));
       this.own = playing.id;

@@ -210,7 +210,7 @@ export class PerformancePanel {
           holder
             ? h(
                 'button',
-                { type: 'button', on: { click: () => void this.model.play({ takeOver: true }) } },
+                { type: 'button', on: { click: () => void this.model.play({ take_over: true }) } },
                 'Take over',
               )
             : null,

@@ -2,7 +2,7 @@ import { featurePoints } from '@protocol/generated/mpeg4.ts';
 import { PointDraft, proposalBody, type PlacedPoint } from '../face/point_draft.ts';
 import { leastKnownPoints, quickSet } from '../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../net/problem.ts';
-import type { FeaturePointSet, Model } from '../net/types.ts';
+import type { FeaturePointsBody, FeaturePointSet, Model } from '../net/types.ts';
 import { Signal } from './signal.ts';
 import type { Studio } from './studio.ts';
 
@@ -15,7 +15,6 @@ export class PointsModel {
   readonly busy = new Signal(false);
   /** Reasons by feature point id; "" holds what concerns no point. */
   problems: ReadonlyMap<string, readonly string[]> = new Map();
-  warnings: readonly string[] = [];
   /** Whether a person is led through the quick set, point by point. */
   readonly guided = new Signal(true);
   /** Why a point could not be proposed, by id; of the last proposals. */
@@ -140,10 +139,10 @@ export class PointsModel {
     if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
     this.busy.set(true);
     await studio.attempt('No points were proposed', async () => {
-      const job = await studio.propose(model, this.etag);
-      if (job === null || this.model?.id !== model.id) return;
+      const result = await studio.propose(model, this.etag);
+      if (result === null || this.model?.id !== model.id) return;
       const answer = await studio.api.getFeaturePoints(model.id);
-      this.notProposed = new Map(Object.entries(job.result?.not_proposed ?? {}));
+      this.notProposed = new Map(Object.entries(result.not_proposed));
       this.guidedByUser = false;
       this.take(answer.value, answer.etag);
       await studio.reload(model.id);
@@ -164,9 +163,9 @@ export class PointsModel {
 
   /** A file in the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server reads it. */
   async importFile(file: File): Promise<boolean> {
-    let body: unknown;
+    let body: FeaturePointsBody;
     try {
-      body = JSON.parse(await file.text());
+      body = JSON.parse(await file.text()) as FeaturePointsBody;
     } catch (error) {
       this.setProblems({ '': [`${file.name} is not JSON: ${error instanceof Error ? error.message : ''}`] });
       return false;
@@ -214,7 +213,7 @@ export class PointsModel {
     this.touch();
   }
 
-  private async put(body: unknown, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
+  private async put(body: FeaturePointsBody, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
     const model = this.model;
     if (!model) return false;
     this.busy.set(true);
@@ -224,11 +223,7 @@ export class PointsModel {
         mirror: options.mirror,
       });
       this.clearProblems();
-      if (answer.value?.points) this.take(answer.value, answer.etag);
-      else {
-        const now = await this.studio.api.getFeaturePoints(model.id);
-        this.take(now.value, now.etag);
-      }
+      this.take(answer.value, answer.etag);
       await this.studio.reload(model.id);
       return true;
     } catch (error) {
@@ -244,7 +239,7 @@ export class PointsModel {
   private take(set: FeaturePointSet, etag: string | null): void {
     const placed: [string, PlacedPoint][] = [];
     for (const [id, value] of Object.entries(set.points)) {
-      const vertex = value.vertex ?? null;
+      const { vertex } = value;
       const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
       if (!position) continue;
       const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
@@ -257,7 +252,6 @@ export class PointsModel {
       const quick = new Set(quickSet.map(({ id }) => id));
       this.guided.set(placed.every(([id, point]) => quick.has(id) && !point.proposal));
     }
-    this.warnings = set.warnings ?? [];
     this.etag = etag;
     this.touch();
   }
@@ -271,7 +265,6 @@ export class PointsModel {
 
   private clearProblems(): void {
     this.problems = new Map();
-    this.warnings = [];
   }
 
   private setProblems(problems: Record<string, string[]>): void {

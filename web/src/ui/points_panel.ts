@@ -102,7 +102,7 @@ export class PointsPanel {
   }
 
   private draw(): void {
-    const { draft, problems, warnings } = this.points;
+    const { draft, problems } = this.points;
     const size = draft.points.size;
     const proposed = draft.proposed.length;
     setText(
@@ -121,7 +121,6 @@ export class PointsPanel {
       this.notices,
       general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), text)),
       wrong.length > 0 ? this.refusal(wrong) : null,
-      warnings.slice(0, 4).map((text) => h('p', { class: 'notice' }, icon('warning', 16), text)),
     );
     const model = this.studio.selected.value;
     const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');

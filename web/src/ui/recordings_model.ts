@@ -100,7 +100,7 @@ export class RecordingsModel {
       if (stream === null) return;
       this.target.set(stream);
       try {
-        await this.studio.api.playRecording(stream, recording.id, { loop: false, from: 0, takeOver });
+        await this.studio.api.playRecording(stream, recording.id, { loop: false, from: 0, take_over: takeOver });
         this.look.set(null);
       } catch (error) {
         const problem = problemOf(error);
@@ -155,8 +155,8 @@ export class RecordingsModel {
   }
 
   private taken(id: string): boolean {
-    const source = this.live.streams.value?.find((stream) => stream.id === id)?.active_source;
-    return source !== null && source !== undefined;
+    const stream = this.live.streams.value?.find((one) => one.id === id);
+    return stream !== undefined && stream.active_source !== null;
   }
 
   private async work(what: string, failed: string, action: () => Promise<void>): Promise<void> {

@@ -3,7 +3,7 @@ import type { Model } from '../net/types.ts';
 import { ask } from './dialog.ts';
 import { h, replace } from './dom.ts';
 import { findingBadge } from './finding_badge.ts';
-import { formatBytes, formatCount } from './format.ts';
+import { sizeWords } from './head_size.ts';
 import { icon } from './icons.ts';
 import type { Activity, Studio } from './studio.ts';
 
@@ -113,11 +113,7 @@ export class Shelf {
   private item(model: Model, activity: Activity | undefined): HTMLElement {
     const selected = this.studio.selected.value?.id === model.id;
     const picture = this.thumbnails.get(model.id);
-    const facts = model.counts
-      ? `${formatCount(model.counts.vertices)} vertices`
-      : model.source
-        ? formatBytes(model.source.bytes)
-        : '';
+    const facts = sizeWords(model);
     return h(
       'li',
       { class: `head${selected ? ' selected' : ''}`, 'data-model': model.id },

@@ -3,20 +3,20 @@ import type { StreamInfo } from '../net/types.ts';
 import { h, setText } from './dom.ts';
 import type { LiveModel } from './live_model.ts';
 
-const sourceWords = {
+const sourceWords: Record<NonNullable<StreamInfo['active_source']>, string> = {
   connection: 'A publisher',
   request: 'Frames by REST',
   performance: 'A performance',
   fap: 'A .fap file',
   recording: 'A recording',
   demo: 'The server’s demo',
-} as const;
+};
 
 const codingWords: Record<StreamCoding, string> = { plain: 'Plain', packed: 'Packed' };
 
 /** Who feeds a stream now. */
 export function fedBy({ active_source: source, playing }: StreamInfo): string {
-  if (source === null || source === undefined) return 'Nobody';
+  if (source === null) return 'Nobody';
   return playing?.name ? `${sourceWords[source]}: ${playing.name}` : sourceWords[source];
 }
 
@@ -46,9 +46,9 @@ export class StreamFacts {
     setText(this.fed, fedBy(stream));
     setText(this.watching, String(stream.subscribers));
     const { batch_interval: batch, viseme_share: share } = stream;
-    setText(this.batch, batch === undefined ? '–' : batch === 0 ? 'Not at all' : `${batch} ms`);
+    setText(this.batch, batch === 0 ? 'Not at all' : `${batch} ms`);
     const header = this.live.status.value.kind === 'open' ? this.live.subscriber.value?.client.header : null;
     setText(this.coding, header ? codingWords[header.coding] : '–');
-    setText(this.share, typeof share === 'number' ? `${Math.round(share * 100)} %` : 'As the head has it');
+    setText(this.share, share === null ? 'As the head has it' : `${Math.round(share * 100)} %`);
   }
 }

@@ -1,7 +1,7 @@
 import type { Api } from '../net/api.ts';
 import { followJob } from '../net/jobs.ts';
 import { ApiError, problemOf } from '../net/problem.ts';
-import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem } from '../net/types.ts';
+import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult } from '../net/types.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
@@ -85,7 +85,7 @@ export class Studio {
       this.replaceModel(model);
       this.setActivity(key, null);
       this.select(model.id);
-      await this.follow(job, 'Reading the file');
+      await this.follow(model.id, job, 'Reading the file');
       const finished = await this.reload(model.id);
       if (finished?.state === 'failed' && finished.problem)
         this.toasts.problem(`${file.name} could not be read`, finished.problem);
@@ -115,7 +115,7 @@ export class Studio {
       const { model: now, job } = await this.api.setFrame(model.id, wish);
       this.replaceModel(now);
       if (!job) return;
-      await this.follow(job, 'Turning the head');
+      await this.follow(model.id, job, 'Turning the head');
       await this.reload(model.id);
     });
   }
@@ -136,19 +136,20 @@ export class Studio {
   /** Computes weights and package. Resolves with whether the face can now move; throws ApiError where points are refused. */
   async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
     const job = await this.api.parametrize(model.id, options);
-    const last = await this.follow(job, 'Parametrizing');
+    const last = await this.follow(model.id, job, 'Parametrizing');
     await this.reload(model.id);
     if (last.state === 'failed')
       throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
     return last.state === 'done';
   }
 
-  /** Has missing feature points proposed. Resolves with the ended job, or null when it was cancelled; throws ApiError. */
-  async propose(model: Model, etag: string | null): Promise<Job | null> {
-    const last = await this.follow(await this.api.proposePoints(model.id, etag), 'Proposing points');
+  /** Has missing feature points proposed. Resolves with the result, or null when it was cancelled; throws ApiError. */
+  async propose(model: Model, etag: string | null): Promise<ProposalsResult | null> {
+    const job = await this.api.proposePoints(model.id, etag);
+    const last = await this.follow(model.id, job, 'Proposing points');
     if (last.state === 'failed')
       throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The proposals failed', status: 500 });
-    return last.state === 'done' ? last : null;
+    return last.state === 'done' && last.result !== null && 'proposed' in last.result ? last.result : null;
   }
 
   async reload(id: string): Promise<Model | null> {
@@ -173,18 +174,19 @@ export class Studio {
     }
   }
 
-  private async follow(job: Job, title: string): Promise<Job> {
+  /** Follows a job of a model to its end, and shows it as the model's activity. */
+  private async follow(model: string, job: Job, title: string): Promise<Job> {
     const cancel = (): void => void this.attempt('The work was not stopped', () => this.api.cancelJob(job.id));
     try {
       return await followJob(this.api, job, (now) =>
-        this.setActivity(now.model, {
+        this.setActivity(model, {
           title: now.stage ? stageTitle(now.stage) : title,
           progress: now.state === 'queued' ? null : now.progress,
           cancel,
         }),
       );
     } finally {
-      this.setActivity(job.model, null);
+      this.setActivity(model, null);
     }
   }
 
@@ -221,4 +223,4 @@ export class Studio {
 
 /** Whether the fit doctor found more than what is merely worth knowing. */
 export const needsCare = ({ findings }: Model): boolean =>
-  findings !== null && findings !== undefined && findings.errors + findings.warnings > 0;
+  findings !== null && findings.errors + findings.warnings > 0;
