@@ -93,19 +93,4 @@ describe('clip player', () => {
     player.pause();
     expect(player.step(0.1)).toBeNull();
   });
-
-  test('Shown_FromPlayUntilAnotherTakesTheFace', () => {
-    const player = new ClipPlayer();
-    player.load(clip());
-    expect([player.shown, player.step(0.016)]).toEqual([false, null]);
-    player.play();
-    player.pause();
-    expect(player.shown).toBe(true);
-    player.release();
-    expect(player.shown).toBe(false);
-    player.load(clip(), true); // read otherwise while another moves the face
-    expect([player.shown, player.step(0.016)]).toEqual([false, null]);
-    player.seek(40);
-    expect(player.step(0.016)?.from.time).toBe(40);
-  });
 });

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { ApiError } from '../src/net/problem.ts';
 import type { AbsentFap, FapPlaying, Playing, PlayOptions, Problem, StreamInfo } from '../src/net/types.ts';
+import { FaceDriver } from '../src/ui/face_driver.ts';
 import { LiveModel } from '../src/ui/live_model.ts';
 import { PerformanceModel } from '../src/ui/performance_model.ts';
 import type { Studio } from '../src/ui/studio.ts';
@@ -79,7 +80,7 @@ class FakeLive extends LiveModel {
   override subscribe(id: string): void {
     this.following.set(id);
     this.status.set({ kind: 'open' });
-    this.driving.set(true);
+    this.driver.byStream();
   }
 }
 
@@ -95,7 +96,9 @@ async function setUp(streams: StreamInfo[]) {
     },
   } as unknown as Studio;
   const clock = { now: 1000 };
-  const live = new FakeLive(studio, neutralFrame());
+  const frame = neutralFrame();
+  const driver = new FaceDriver(frame);
+  const live = new FakeLive(studio, frame, driver);
   const model = new PerformanceModel(studio, live, () => clock.now);
   await live.refresh();
   model.choose({ kind: 'performance', title: 'hello.json', text: '{"cues": [\n{"viseme": "q"}]}' });
@@ -109,7 +112,7 @@ describe('performance model', () => {
     expect(server.asked).toEqual([{ stream: 'made', options: { loop: false, from: 0, take_over: false } }]);
     expect(server.streams.at(-1)?.title).toBe('Ada, performing');
     expect(live.following.value).toBe('made');
-    expect(live.driving.value).toBe(true);
+    expect(live.driver.source.value).toBe('stream');
     expect(model.playing.value?.name).toBe('Hello');
   });
 

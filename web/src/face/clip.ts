@@ -71,7 +71,6 @@ export class ClipPlayer {
   private current: Clip | null = null;
   private lap = 0;
   private on = false;
-  private onFace = false;
   private changed = false;
 
   /** `onEnd` is called when it stops by itself. */
@@ -85,11 +84,6 @@ export class ClipPlayer {
     return this.on;
   }
 
-  /** The face shows the clip, moving or paused: from play or seek until `release`. */
-  get shown(): boolean {
-    return this.onFace;
-  }
-
   /** Another clip, or the same one read otherwise: that keeps its place. */
   load(clip: Clip | null, keepPlace = false): void {
     this.current = clip;
@@ -97,16 +91,14 @@ export class ClipPlayer {
       this.position = 0;
       this.lap = 0;
       this.on = false;
-      this.onFace = false;
     }
-    this.changed = this.onFace;
+    this.changed = keepPlace;
   }
 
   play(): void {
     if (!this.current) return;
     if (this.position >= this.current.duration) this.position = 0;
     this.on = true;
-    this.onFace = true;
     this.changed = true;
   }
 
@@ -115,16 +107,9 @@ export class ClipPlayer {
     this.changed = false;
   }
 
-  /** Somebody else moves the face from now on. */
-  release(): void {
-    this.pause();
-    this.onFace = false;
-  }
-
   seek(position: number): void {
     if (!this.current) return;
     this.position = Math.min(this.current.duration, Math.max(0, position));
-    this.onFace = true;
     this.changed = true;
   }
 

@@ -6,6 +6,7 @@ import { excerptAt } from './document_place.ts';
 import { h, redraw, replace, setText } from './dom.ts';
 import { exampleSelect } from './example_select.ts';
 import { excerptBox } from './excerpt_box.ts';
+import type { FaceDriver } from './face_driver.ts';
 import { fapWarningText } from './fap_words.ts';
 import { fapWarnings } from './fap_warnings.ts';
 import { chooseFile } from './file_button.ts';
@@ -26,15 +27,13 @@ export class ClipPanel {
   private absent: Absent = 'zero';
   private held = false;
   private shownPlaying = false;
+  private readonly player: ClipPlayer;
 
-  constructor(
-    private readonly player: ClipPlayer,
-    /** The face is to show the clip now. */
-    private readonly takeFace: () => void,
-  ) {
+  constructor(private readonly driver: FaceDriver) {
+    const player = (this.player = driver.clip);
     this.seek.addEventListener('input', () => {
       this.held = true;
-      takeFace();
+      driver.byClip();
       player.seek(Number(this.seek.value));
       this.showClock();
     });
@@ -56,23 +55,16 @@ export class ClipPanel {
       ),
       this.body,
     );
+    driver.source.watch((source) => {
+      // Drawn anew only when it loses the face: the slider stays in the hand that takes the face by it.
+      if (source !== 'clip' && this.shown.value !== null) this.draw();
+      else this.tell();
+    });
   }
 
   async takeFile(file: File): Promise<void> {
     this.take(file.name, await file.text());
     this.element.scrollIntoView({ block: 'nearest' });
-  }
-
-  /** Somebody else moves the face. */
-  release(): void {
-    if (!this.player.shown) return;
-    this.player.release();
-    this.draw();
-  }
-
-  /** Shows again where it stands, on another head. */
-  showAgain(): void {
-    if (this.player.shown) this.player.seek(this.player.position);
   }
 
   /** Called a few times a second. */
@@ -92,13 +84,13 @@ export class ClipPanel {
       if (!(error instanceof ProtocolError)) throw error;
       this.file = null;
       this.player.load(null);
-      this.tell();
+      this.driver.release('clip');
       this.refuse(name, error, text);
     }
   }
 
   private play(): void {
-    this.takeFace();
+    this.driver.byClip();
     this.player.play();
     this.draw();
   }
@@ -120,9 +112,9 @@ export class ClipPanel {
   }
 
   private tell(): void {
-    const { file, player } = this;
+    const { file, player, driver } = this;
     const words = player.playing ? `Playing ${file?.name ?? ''}` : `${file?.name ?? ''}, paused`;
-    this.shown.set(file && player.shown ? words : null);
+    this.shown.set(file && driver.source.value === 'clip' ? words : null);
   }
 
   private draw(): void {

@@ -1,25 +1,37 @@
 import { h, replace } from './dom.ts';
 import { icon } from './icons.ts';
+import type { FaceDriver } from './face_driver.ts';
 import type { LiveModel } from './live_model.ts';
+import type { RecordingsModel } from './recordings_model.ts';
 import type { SceneView } from './scene.ts';
 import type { Signal } from './signal.ts';
 import type { Tab } from './studio.ts';
 
-/** Says on the stage who moves the face, and lets the stream take over again. */
-export function makeDriverChip(
-  live: LiveModel,
-  scene: SceneView,
-  tab: Signal<Tab>,
-  /** What a file that plays on this page shows, in words. */
-  clip: Signal<string | null>,
-  defaultStream: { id: string; title: string },
-): HTMLElement {
+export interface DriverChipParts {
+  driver: FaceDriver;
+  live: LiveModel;
+  /** What the face shows of a file that plays on this page, in words. */
+  clip: Signal<string | null>;
+  recordings: RecordingsModel;
+  scene: SceneView;
+  tab: Signal<Tab>;
+  /** Played where no stream is followed. */
+  demo: { id: string; title: string };
+}
+
+/** Says on the stage what moves the face, and lets the stream take over again. */
+export function makeDriverChip({ driver, live, clip, recordings, scene, tab, demo }: DriverChipParts): HTMLElement {
+  /** What the face shows of a file or a recording; null: the frame set by hand. */
+  const shown = (): string | null => {
+    if (driver.source.value === 'recording') return recordings.looksAt;
+    return driver.source.value === 'clip' ? clip.value : null;
+  };
   const chip = h('div', { class: 'driver', role: 'status' });
   const draw = (): void => {
     const status = live.status.value;
     chip.hidden = scene.performer.value === null || tab.value === 'points' || tab.value === 'fit';
     if (chip.hidden) return;
-    if (live.driving.value && status.kind !== 'off') {
+    if (driver.source.value === 'stream' && status.kind !== 'off') {
       const words =
         status.kind === 'open'
           ? `Live: ${status.title ?? ''}`
@@ -37,7 +49,7 @@ export function makeDriverChip(
             class: 'quiet square small',
             'aria-label': 'Pause the stream',
             title: 'Pause',
-            on: { click: () => live.driving.set(false) },
+            on: { click: () => driver.release('stream') },
           },
           icon('pause', 15),
         ),
@@ -45,13 +57,14 @@ export function makeDriverChip(
       return;
     }
     const resume = (): void => {
-      if (live.following.value === null) live.subscribe(defaultStream.id, defaultStream.title);
-      else live.driving.set(true);
+      if (live.following.value === null) live.subscribe(demo.id, demo.title);
+      else driver.byStream();
     };
+    const words = shown();
     replace(
       chip,
-      h('span', { class: `lamp ${clip.value === null ? 'lamp-hand' : 'lamp-open'}` }),
-      h('span', { class: 'driver-text' }, clip.value ?? 'By hand'),
+      h('span', { class: `lamp ${words === null ? 'lamp-hand' : 'lamp-open'}` }),
+      h('span', { class: 'driver-text' }, words ?? 'By hand'),
       h(
         'button',
         { type: 'button', class: 'quiet small', on: { click: resume } },
@@ -60,11 +73,7 @@ export function makeDriverChip(
       ),
     );
   };
-  live.status.watch(draw);
-  live.driving.watch(draw);
-  live.following.watch(draw);
-  scene.performer.watch(draw);
-  tab.watch(draw);
-  clip.watch(draw);
+  const watched = [driver.source, live.status, live.following, clip, recordings.look, scene.performer, tab];
+  for (const signal of watched) signal.watch(draw);
   return chip;
 }

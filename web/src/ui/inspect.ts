@@ -4,6 +4,7 @@ import { setExpression, setVisemes } from '../face/frame.ts';
 import { joinSeams, smoothNormals } from '../face/mesh.ts';
 import { makeTangentTable } from '../face/tangent_table.ts';
 import { readDeformed } from '../view/deform_probe.ts';
+import type { FaceDriver } from './face_driver.ts';
 import type { SceneView } from './scene.ts';
 import type { Studio } from './studio.ts';
 
@@ -15,15 +16,16 @@ interface Edit {
 }
 
 /** What the tests and a developer's console see of the page as `window.semblante`. Nothing on the page uses it. */
-export function exposeInspection(scene: SceneView, studio: Studio): void {
+export function exposeInspection(scene: SceneView, studio: Studio, driver: FaceDriver): void {
   Object.assign(window, {
-    semblante: { scene, studio, compareDeformation: (edit: Edit) => compareDeformation(scene, edit) },
+    semblante: { scene, studio, driver, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
   });
 }
 
 /** One frame through the shader and through the kernel: differences of positions (in diagonals) and normals (degrees). */
 function compareDeformation(
   scene: SceneView,
+  driver: FaceDriver,
   edit: Edit,
 ): { worstPosition: number; worstNormal: number; meanAgainstTriangles: number; moved: number } {
   const performer = scene.performer.value;
@@ -33,7 +35,7 @@ function compareDeformation(
   setVisemes(frame, edit.viseme ?? 0, 0, 1);
   if (edit.expression) setExpression(frame, edit.expression, 63);
   for (const [number, level] of Object.entries(edit.faps ?? {})) frame.levels[Number(number)] = level;
-  scene.live = false;
+  driver.byHand();
   performer.follow(frame);
   for (let i = 0; i < 100; i += 1) performer.step(0.05, false);
 

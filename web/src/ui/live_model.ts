@@ -2,6 +2,7 @@ import { problemOf } from '../net/problem.ts';
 import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveStats } from '../net/live.ts';
 import type { Problem, StreamInfo, StreamOptions } from '../net/types.ts';
 import type { FaceFrame } from '@client/index.ts';
+import type { FaceDriver } from './face_driver.ts';
 import { Signal } from './signal.ts';
 import type { Studio } from './studio.ts';
 
@@ -17,8 +18,6 @@ export class LiveModel {
   readonly status = new Signal<LinkStatus>(off);
   readonly sending = new Signal<string | null>(null);
   readonly sendStatus = new Signal<LinkStatus>(off);
-  /** Whether the face shows the stream (or what is done by hand, while the stream goes on underneath). */
-  readonly driving = new Signal(false);
   readonly subscriber = new Signal<LiveSubscriber | null>(null);
   private publisher: LivePublisher | null = null;
 
@@ -26,6 +25,7 @@ export class LiveModel {
     private readonly studio: Studio,
     /** What is done by hand: sent while sending is on. */
     private readonly frame: FaceFrame,
+    readonly driver: FaceDriver,
   ) {}
 
   get stats(): LiveStats {
@@ -45,7 +45,7 @@ export class LiveModel {
   subscribe(id: string, title: string): void {
     this.subscriber.value?.close();
     this.following.set(id);
-    this.driving.set(true);
+    this.driver.byStream();
     const subscriber = new LiveSubscriber(this.studio.api.streamUrl(id), title, (status) => {
       if (this.subscriber.value === subscriber) this.status.set(status);
     });
@@ -73,7 +73,7 @@ export class LiveModel {
       id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
       if (id === null) return null;
     }
-    if (this.following.value === id && this.status.value.kind !== 'ended') this.driving.set(true);
+    if (this.following.value === id && this.status.value.kind !== 'ended') this.driver.byStream();
     else this.subscribe(id, this.titleOf(id));
     await this.opened();
     return id;
@@ -91,7 +91,7 @@ export class LiveModel {
     this.subscriber.set(null);
     this.following.set(null);
     this.status.set(off);
-    this.driving.set(false);
+    this.driver.release('stream');
     void this.refresh();
   }
 

@@ -1,6 +1,6 @@
-import type { FaceFrame } from '@client/index.ts';
 import { problemOf } from '../net/problem.ts';
 import type { Problem, Recording, RecordingFormat } from '../net/types.ts';
+import type { FaceDriver } from './face_driver.ts';
 import { formatTime } from './format.ts';
 import type { LiveModel } from './live_model.ts';
 import { Signal } from './signal.ts';
@@ -38,10 +38,12 @@ export class RecordingsModel {
   constructor(
     private readonly studio: Studio,
     private readonly live: LiveModel,
-    /** Shows a face that holds. */
-    private readonly show: (frame: FaceFrame) => void,
+    private readonly driver: FaceDriver,
     private readonly save: (blob: Blob, name: string) => void,
   ) {
+    driver.onTake((source) => {
+      if (source !== 'recording') this.look.set(null);
+    });
     live.following.watch((id) => {
       if (id === null) return;
       this.stream.set(id);
@@ -101,7 +103,7 @@ export class RecordingsModel {
       this.target.set(stream);
       try {
         await this.studio.api.playRecording(stream, recording.id, { loop: false, from: 0, take_over: takeOver });
-        this.look.set(null);
+        this.driver.byStream();
       } catch (error) {
         const problem = problemOf(error);
         // Other conflicts are of the recording itself, and are not helped by taking over.
@@ -139,7 +141,7 @@ export class RecordingsModel {
       for (let shown: Look | null = null; this.look.value && shown !== this.look.value; ) {
         shown = this.look.value;
         const frame = await this.studio.api.recordedFrame(shown.id, shown.at);
-        if (this.look.value) this.show(frame);
+        if (this.look.value) this.driver.byRecording(frame);
       }
     });
     this.looking = false;

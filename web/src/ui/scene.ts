@@ -1,6 +1,4 @@
 import { Vector3 } from 'three';
-import type { ClipPlayer } from '../face/clip.ts';
-import type { IdleLife } from '../face/idle_life.ts';
 import type { LoadedFace } from '../face/loaded_face.ts';
 import { Performer } from '../face/performer.ts';
 import type { Model } from '../net/types.ts';
@@ -58,14 +56,8 @@ export class SceneView {
     this.stage.onFrame((delta) => this.step(delta));
   }
 
-  /** A file that plays here, over what is done by hand. */
-  clip: ClipPlayer | null = null;
-  /** Under what is done by hand; null: none. */
-  idle: IdleLife | null = null;
-  /** The face holds a moment that somebody looks at: idle life stays away. */
-  held = false;
-  /** Whether the face follows the stream, or what is done by hand. */
-  live = false;
+  /** Moves the performer on by a displayed frame, seconds; returns whether its pose changed. */
+  animate: (deltaSeconds: number) => boolean = () => false;
 
   /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
   async open(model: Model | null): Promise<void> {
@@ -175,11 +167,7 @@ export class SceneView {
     const { face } = this;
     const performer = this.performer.value;
     if (!face || !performer || !face.object.visible) return false;
-    const { clip, held, idle, live } = this;
-    const moment = live ? null : (clip?.step(delta) ?? null);
-    if (idle && !live && !held && !clip?.shown) performer.enliven(idle.step(delta), idle.steps);
-    if (moment) performer.showBetween(moment.from.state, moment.to.state, moment.t, clip?.clip?.steps);
-    else if (!performer.step(delta, this.live)) return false;
+    if (!this.animate(delta)) return false;
     this.pose(face, performer);
     return true;
   }

@@ -29,10 +29,10 @@ export class Shelf {
     'aria-label': 'Model files',
   });
 
-  constructor(
-    private readonly studio: Studio,
-    private readonly thumbnails: ReadonlyMap<string, string>,
-  ) {
+  /** Pictures of heads as data URLs, by id of the model. */
+  readonly thumbnails = new Map<string, string>();
+
+  constructor(private readonly studio: Studio) {
     this.input.addEventListener('change', () => {
       if (this.input.files) void studio.upload([...this.input.files]);
       this.input.value = '';
@@ -246,29 +246,4 @@ export function bar(activity: Activity): HTMLElement {
     },
     fill,
   );
-}
-
-/** Files may be dropped anywhere on the page. */
-export function acceptDrops(page: HTMLElement, take: (files: File[]) => void): void {
-  let depth = 0;
-  const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
-  const set = (value: number): void => {
-    depth = Math.max(0, value);
-    page.classList.toggle('dropping', depth > 0);
-  };
-  page.addEventListener('dragenter', (event) => {
-    if (carriesFiles(event)) set(depth + 1);
-  });
-  page.addEventListener('dragleave', (event) => {
-    if (carriesFiles(event)) set(depth - 1);
-  });
-  page.addEventListener('dragover', (event) => {
-    if (carriesFiles(event)) event.preventDefault();
-  });
-  page.addEventListener('drop', (event) => {
-    if (!carriesFiles(event)) return;
-    event.preventDefault();
-    set(0);
-    take([...(event.dataTransfer?.files ?? [])]);
-  });
 }
