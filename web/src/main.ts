@@ -2,38 +2,38 @@ import './ui/styles/index.css';
 import { neutralFrame } from '@client/index.ts';
 import { dracoDecoder } from './face/draco.ts';
 import { kernelModule } from './face/kernel_module.ts';
-import { loadFace } from './face/package.ts';
+import { loadStageFace } from './face/package.ts';
 import { Api } from './net/api.ts';
-import { AnimatePanel } from './ui/animate_panel.ts';
-import { ClipPanel } from './ui/clip_panel.ts';
-import { h } from './ui/dom.ts';
-import { makeDriverChip } from './ui/driver_chip.ts';
-import { FaceDriver } from './ui/face_driver.ts';
-import { routeDrops } from './ui/file_drop.ts';
-import { pointOutFindings } from './ui/fit_highlight.ts';
-import { FitModel } from './ui/fit_model.ts';
-import { FitPanel } from './ui/fit_panel.ts';
-import { exposeInspection } from './ui/inspect.ts';
-import { makeLayout } from './ui/layout.ts';
-import { LevelsPanel } from './ui/levels_panel.ts';
-import { LiveModel } from './ui/live_model.ts';
-import { LivePanel } from './ui/live_panel.ts';
-import { Parametrizer } from './ui/parametrizer.ts';
-import { PerformanceModel } from './ui/performance_model.ts';
-import { PerformancePanel } from './ui/performance_panel.ts';
-import { PointsModel } from './ui/points_model.ts';
-import { PointsPanel } from './ui/points_panel.ts';
-import { startPolling } from './ui/polling.ts';
-import { RecordingsModel } from './ui/recordings_model.ts';
-import { RecordingsPanel } from './ui/recordings_panel.ts';
-import { saveFile } from './ui/save_file.ts';
-import { SceneView } from './ui/scene.ts';
-import { Shelf } from './ui/shelf.ts';
-import { StagePanel } from './ui/stage_panel.ts';
-import { Studio } from './ui/studio.ts';
-import { themeButton } from './ui/theme.ts';
-import { takeThumbnails } from './ui/thumbnails.ts';
-import { Toasts } from './ui/toast.ts';
+import { AnimatePanel } from './ui/animate/animate_panel.ts';
+import { ClipPanel } from './ui/animate/clip_panel.ts';
+import { h } from './ui/shared/dom.ts';
+import { makeDriverChip } from './ui/page/driver_chip.ts';
+import { FaceDriver } from './ui/stage/face_driver.ts';
+import { routeDrops } from './ui/page/file_drop.ts';
+import { pointOutFindings } from './ui/fit/fit_highlight.ts';
+import { FitModel } from './ui/fit/fit_model.ts';
+import { FitPanel } from './ui/fit/fit_panel.ts';
+import { exposeInspection } from './ui/page/inspect.ts';
+import { makeLayout } from './ui/page/layout.ts';
+import { LevelsPanel } from './ui/animate/levels_panel.ts';
+import { LiveModel } from './ui/live/live_model.ts';
+import { LivePanel } from './ui/live/live_panel.ts';
+import { Parametrizer } from './ui/points/parametrizer.ts';
+import { PerformanceModel } from './ui/live/performance_model.ts';
+import { PerformancePanel } from './ui/live/performance_panel.ts';
+import { PointsModel } from './ui/points/points_model.ts';
+import { PointsPanel } from './ui/points/points_panel.ts';
+import { startPolling } from './ui/page/polling.ts';
+import { RecordingsModel } from './ui/recordings/recordings_model.ts';
+import { RecordingsPanel } from './ui/recordings/recordings_panel.ts';
+import { saveFile } from './ui/shared/save_file.ts';
+import { SceneView } from './ui/stage/scene.ts';
+import { Shelf } from './ui/heads/shelf.ts';
+import { StagePanel } from './ui/page/stage_panel.ts';
+import { Studio } from './ui/shared/studio.ts';
+import { themeButton } from './ui/page/theme.ts';
+import { takeThumbnails } from './ui/heads/thumbnails.ts';
+import { Toasts } from './ui/shared/toast.ts';
 
 const demo = { id: 'demo', title: 'Demo' };
 
@@ -111,7 +111,7 @@ function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
   };
   return new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
-    face: (model, level, signal) => loadFace(sources, model.id, level, signal),
+    face: (model, level, signal) => loadStageFace(sources, model.id, level, signal),
   });
 }
 

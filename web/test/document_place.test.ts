@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { excerptAt } from '../src/ui/document_place.ts';
+import { excerptAt } from '../src/ui/documents/document_place.ts';
 
 const document = `{"format": "semblante.performance", "version": 1,
  "note": "a } and a , and \\"/cues/1\\" in words",

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { dropPlace } from '../src/ui/drop_place.ts';
+import { dropPlace } from '../src/ui/page/drop_place.ts';
 
 test('Drop_ByTheTab_GoesToTheStreamOrStaysOnThePage', () => {
   expect(dropPlace('a.json', 'live')).toBe('stream');

@@ -3,10 +3,10 @@ import { neutralFrame, type FaceFrame, type StreamClient, type TimedFrame } from
 import { FrameClip } from '../src/face/clip.ts';
 import type { Api } from '../src/net/api.ts';
 import type { Recording } from '../src/net/types.ts';
-import { FaceDriver, type DrivenFace, type MotionSource } from '../src/ui/face_driver.ts';
-import { LiveModel } from '../src/ui/live_model.ts';
-import { RecordingsModel } from '../src/ui/recordings_model.ts';
-import type { Studio } from '../src/ui/studio.ts';
+import { FaceDriver, type DrivenFace, type MotionSource } from '../src/ui/stage/face_driver.ts';
+import { LiveModel } from '../src/ui/live/live_model.ts';
+import { RecordingsModel } from '../src/ui/recordings/recordings_model.ts';
+import type { Studio } from '../src/ui/shared/studio.ts';
 
 const at = (time: number): TimedFrame => ({ time, state: neutralFrame() });
 

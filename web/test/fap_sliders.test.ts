@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fapsWithoutEffect } from '../src/ui/fap_sliders.ts';
+import { fapsWithoutEffect } from '../src/ui/animate/fap_sliders.ts';
 import { neutralPose } from './support/pose.ts';
 
 test('FapsWithoutEffect_AFaceWithoutIrisesOrTongue_NamesTheirs', () => {

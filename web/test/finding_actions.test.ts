@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import type { Finding } from '../src/net/types.ts';
-import { actionFor } from '../src/ui/finding_actions.ts';
-import { badgeOf, countWords, findingTitle, sentence } from '../src/ui/finding_words.ts';
+import { actionFor } from '../src/ui/fit/finding_actions.ts';
+import { badgeOf, countWords, findingTitle, sentence } from '../src/ui/shared/finding_words.ts';
 
 const finding = (
   code: string,

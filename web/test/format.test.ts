@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { formatBytes } from '../src/ui/format.ts';
+import { formatBytes } from '../src/ui/shared/format.ts';
 
 describe('formatBytes', () => {
   test('FormatBytes_BelowAThousand_CountsBytes', () => expect(formatBytes(999)).toBe('999 B'));

@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
 import type { Model, ParametrizationOptions } from '../src/net/types.ts';
-import { Parametrizer } from '../src/ui/parametrizer.ts';
-import type { PointsModel } from '../src/ui/points_model.ts';
-import { Signal } from '../src/ui/signal.ts';
-import type { Studio } from '../src/ui/studio.ts';
+import { Parametrizer } from '../src/ui/points/parametrizer.ts';
+import type { PointsModel } from '../src/ui/points/points_model.ts';
+import { Signal } from '../src/ui/shared/signal.ts';
+import type { Studio } from '../src/ui/shared/studio.ts';
 import { importingModel } from './support/models.ts';
 
 test('Run_NothingChosen_AsksForTheLevelsThatSuitTheHead', async () => {

@@ -1,10 +1,10 @@
 import { describe, expect, test } from 'vitest';
 import { ApiError } from '../src/net/problem.ts';
 import type { AbsentFap, FapPlaying, Playing, PlayOptions, Problem, StreamInfo } from '../src/net/types.ts';
-import { FaceDriver } from '../src/ui/face_driver.ts';
-import { LiveModel } from '../src/ui/live_model.ts';
-import { PerformanceModel } from '../src/ui/performance_model.ts';
-import type { Studio } from '../src/ui/studio.ts';
+import { FaceDriver } from '../src/ui/stage/face_driver.ts';
+import { LiveModel } from '../src/ui/live/live_model.ts';
+import { PerformanceModel } from '../src/ui/live/performance_model.ts';
+import type { Studio } from '../src/ui/shared/studio.ts';
 import { neutralFrame } from '@client/index.ts';
 
 const stream = (id: string, more: Partial<StreamInfo> = {}): StreamInfo => ({

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { PointDraft, type PlacedPoint } from '../src/face/point_draft.ts';
-import { bestView, drawings } from '../src/ui/guide_data.ts';
+import { bestView, drawings } from '../src/ui/points/guide_data.ts';
 import { pointGroups } from '../src/face/feature_points.ts';
 
 const at = (vertex: number | null): PlacedPoint => ({ vertex, position: [vertex ?? 0, 0, 0] });

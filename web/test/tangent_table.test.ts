@@ -1,11 +1,11 @@
 import { describe, expect, test } from 'vitest';
 import { deformNormals } from '../src/face/deform_reference.ts';
-import { joinSeams, smoothNormals, type FaceMesh } from '../src/face/mesh.ts';
+import { joinSeams, smoothNormals, type DrawableMesh } from '../src/face/mesh.ts';
 import { neutralPose } from './support/pose.ts';
 import { makeTangentTable, tangentFrame } from '../src/face/tangent_table.ts';
 
 /** A flat grid of n by n unit squares in the plane z = 0, moved by FP 0 with weight x / n. */
-function ramp(n: number): FaceMesh {
+function ramp(n: number): DrawableMesh {
   const side = n + 1;
   const positions = new Float32Array(side * side * 3);
   const normals = new Float32Array(side * side * 3);

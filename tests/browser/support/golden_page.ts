@@ -1,7 +1,7 @@
 // Runs in the page: the golden face, deformed by the shader alone.
 import { WebGLRenderer } from 'three';
 import type { Pose } from '@client/index.ts';
-import type { FaceMesh } from '../../../web/src/face/mesh.ts';
+import type { DrawableMesh } from '../../../web/src/face/mesh.ts';
 import { setPose } from '../../../web/src/view/deform_material.ts';
 import { readDeformed } from '../../../web/src/view/deform_probe.ts';
 import { FaceView } from '../../../web/src/view/face_view.ts';
@@ -18,7 +18,7 @@ export interface GoldenMesh {
 
 /** For each pose the vertices that the shader makes, #V by 3. */
 function deformAll(given: GoldenMesh, poses: Record<keyof Pose, number[]>[]): number[][] {
-  const mesh: FaceMesh = {
+  const mesh: DrawableMesh = {
     vertexCount: given.rigid.length,
     positions: Float32Array.from(given.positions),
     normals: Float32Array.from(given.normals),

@@ -1,13 +1,13 @@
 import type { Pose } from '@client/index.ts';
 import { eyeOf, rigidMotion, tongueShare } from '@protocol/index.ts';
-import type { FaceMesh } from './mesh.ts';
+import type { DrawableMesh } from './mesh.ts';
 import { tangentFrame, type TangentTable } from './tangent_table.ts';
 
 /**
  * Normals of the deformed face, by the tangent table: what the shader does, on the CPU. Used when the WASM kernel moves
  * the vertices, and by the test that holds the shader to it. `out`: #V by 3, unit length.
  */
-export function deformNormals(mesh: FaceMesh, table: TangentTable, pose: Pose, out: Float32Array): void {
+export function deformNormals(mesh: DrawableMesh, table: TangentTable, pose: Pose, out: Float32Array): void {
   const { normals, rigid, vertexCount } = mesh;
   const { offsets, entries } = table;
   for (let v = 0; v < vertexCount; v += 1) {

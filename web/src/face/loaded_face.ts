@@ -1,5 +1,5 @@
 import type { Kernel } from '@client/index.ts';
-import type { FaceMesh } from './mesh.ts';
+import type { DrawableMesh } from './mesh.ts';
 
 /** glTF's metallic-roughness in the few values a face needs. */
 export interface FaceMaterial {
@@ -17,7 +17,7 @@ export interface FaceMaterial {
 
 /** Everything of one face package, checked and ready to move. */
 export interface LoadedFace {
-  mesh: FaceMesh;
+  mesh: DrawableMesh;
   materials: FaceMaterial[];
   kernel: Kernel;
   /** Bytes of mesh and weights on the wire. */

@@ -1,4 +1,4 @@
-/** Triangles that share a material: indices `start` .. `start + count - 1` of `FaceMesh.indices`. */
+/** Triangles that share a material: indices `start` .. `start + count - 1` of `DrawableMesh.indices`. */
 export interface MaterialGroup {
   start: number;
   count: number;
@@ -9,7 +9,7 @@ export interface MaterialGroup {
  * A parametrized face as the view draws it. Row v of the influence table is entries rowOffsets[v] ..
  * rowOffsets[v + 1] - 1; an entry is the index of a feature point (0..83) and its share of Eq. 7.
  */
-export interface FaceMesh {
+export interface DrawableMesh {
   vertexCount: number;
   /** #V by 3 */
   positions: Float32Array;

@@ -1,6 +1,6 @@
-import { Kernel, loadFace as fetchFace, type DracoModule, type Face, type RigDocument } from '@client/index.ts';
+import { Kernel, loadFace, type DracoModule, type Face, type RigDocument } from '@client/index.ts';
 import type { FaceMaterial, LoadedFace } from './loaded_face.ts';
-import { joinSeams, smoothNormals, type FaceMesh, type MaterialGroup } from './mesh.ts';
+import { joinSeams, smoothNormals, type DrawableMesh, type MaterialGroup } from './mesh.ts';
 import { poseCount } from './performer.ts';
 
 export interface FaceSources {
@@ -16,14 +16,14 @@ export interface FaceSources {
  * Fetches a model's face package, of one level of detail (0 is the full mesh), and makes it ready to draw and to move.
  * Throws when its parts do not fit together.
  */
-export async function loadFace(
+export async function loadStageFace(
   sources: FaceSources,
   model: string,
   level: number,
   signal: AbortSignal,
 ): Promise<LoadedFace> {
   const [draco, module] = await Promise.all([sources.draco(), sources.kernel()]);
-  const face = await fetchFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
+  const face = await loadFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
   const [kernel, materials] = await Promise.all([
     Kernel.create(module, face, { poseCount }),
     loadMaterials(face.rig, (sha256) => sources.image(sha256, signal)),
@@ -32,7 +32,7 @@ export async function loadFace(
 }
 
 /** The package's arrays as the view wants them: normals of unit length, triangles in runs of one material. */
-export function drawableMesh({ mesh, influence, rig }: Face): FaceMesh {
+export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
   const { positions, uvs, triangles } = mesh;
   const normals = mesh.normals ?? smoothNormals(positions, triangles, joinSeams(positions, null));
   normalize(normals);

@@ -1,4 +1,4 @@
-import { joinSeams, type FaceMesh } from './mesh.ts';
+import { joinSeams, type DrawableMesh } from './mesh.ts';
 
 /**
  * The influence table made ready for the shader: for every entry the feature point, its weight (Eq. 7) and the slope of
@@ -31,7 +31,7 @@ export function tangentFrame(x: number, y: number, z: number, out: Float64Array)
   out[5] = -y;
 }
 
-export function makeTangentTable(mesh: FaceMesh): TangentTable {
+export function makeTangentTable(mesh: DrawableMesh): TangentTable {
   const { positions, normals, rowOffsets, rowPoints, rowWeights, vertexCount } = mesh;
   const group = joinSeams(positions, normals);
   const ring = makeRings(mesh.indices, group, vertexCount);

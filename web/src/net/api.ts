@@ -24,7 +24,7 @@ import type {
   RecordingPage,
   RecordingPlay,
   StreamInfo,
-  StreamOptions,
+  NewStream,
   StreamPage,
   VersionInfo,
 } from './types.ts';
@@ -147,8 +147,8 @@ export class Api {
     return (await requestJson<StreamPage>(`${this.base}/v1/streams`)).value.streams;
   }
 
-  async createStream(title: string, model: string | null, options: StreamOptions = {}): Promise<StreamInfo> {
-    const json: StreamOptions = model === null ? { title, ...options } : { title, model, ...options };
+  async createStream(title: string, model: string | null, options: NewStream = {}): Promise<StreamInfo> {
+    const json: NewStream = model === null ? { title, ...options } : { title, model, ...options };
     return (await requestJson<StreamInfo>(`${this.base}/v1/streams`, { method: 'POST', json })).value;
   }
 

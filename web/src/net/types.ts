@@ -1,5 +1,8 @@
 /** Short names for the types of the REST interface; `npm run types` generates them from server/api/openapi.json. */
+import type { PartRole } from '@protocol/rig_document.ts';
 import type { components, operations } from './generated/api.ts';
+
+export type { PartRole };
 
 type Schemas = components['schemas'];
 /** The JSON body that a request of an operation takes. */
@@ -20,7 +23,6 @@ export type ModelPage = JsonAnswer<'listModels', 200>;
 export type ModelEdit = Schemas['ModelEdit'];
 export type ModelAndJob = JsonAnswer<'createModel', 202>;
 export type ModelPart = Schemas['Part'];
-export type PartRole = Schemas['PartRole'];
 export type FacePackage = NonNullable<Model['package']>;
 export type PackageLevel = Schemas['Level'];
 
@@ -48,7 +50,7 @@ export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: nu
 export type StreamInfo = Schemas['Stream'];
 export type StreamPage = JsonAnswer<'listStreams', 200>;
 /** What may be said of a stream when it is made; the server has a default for what is left out. */
-export type StreamOptions = JsonBody<operations['createStream']>;
+export type NewStream = JsonBody<operations['createStream']>;
 export type Playing = Schemas['Playing'];
 export type FapPlaying = JsonAnswer<'playFapFile', 202>;
 export type RecordingPlay = JsonBody<operations['playRecording']>;

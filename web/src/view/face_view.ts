@@ -9,7 +9,7 @@ import {
   type Material,
 } from 'three';
 import { deformNormals } from '../face/deform_reference.ts';
-import type { FaceMesh } from '../face/mesh.ts';
+import type { DrawableMesh } from '../face/mesh.ts';
 import type { Pose } from '@client/index.ts';
 import { makeTangentTable, type TangentTable } from '../face/tangent_table.ts';
 import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
@@ -24,7 +24,7 @@ export class FaceView {
   private readonly depthMaterial = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
 
   constructor(
-    readonly mesh: FaceMesh,
+    readonly mesh: DrawableMesh,
     readonly materials: Material[],
   ) {
     this.table = makeTangentTable(mesh);
@@ -92,7 +92,7 @@ export class FaceView {
   }
 }
 
-function rowAttribute(mesh: FaceMesh, table: TangentTable): Uint32BufferAttribute {
+function rowAttribute(mesh: DrawableMesh, table: TangentTable): Uint32BufferAttribute {
   const rows = new Uint32Array(mesh.vertexCount * 2);
   for (let v = 0; v < mesh.vertexCount; v += 1) {
     rows[v * 2] = table.offsets[v]!;

@@ -1,0 +1,225 @@
+import type { FaceFrame, Pose } from '@client/index.ts';
+import { expressions, visemes } from '@protocol/generated/mpeg4.ts';
+import { maxBlend } from '@protocol/face_frame.ts';
+import {
+  clearFrame,
+  expressionIntensity,
+  isNeutral,
+  mirrorFrame,
+  setExpression,
+  setVisemes,
+  shutEyes,
+} from '../../face/frame.ts';
+import { h } from '../shared/dom.ts';
+import { expressionFace } from './expression_face.ts';
+import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
+import { icon } from '../shared/icons.ts';
+import { capital } from '../shared/names.ts';
+import { Slider } from '../shared/slider.ts';
+import { VisemeGrid } from './viseme_grid.ts';
+
+export interface AnimatePanelOptions {
+  frame: FaceFrame;
+  /** The frame was changed by hand. */
+  onChange: () => void;
+  /** Idle life was switched on or off. */
+  onIdle: (on: boolean) => void;
+}
+
+/** ms that a blink keeps the eyes shut; the face eases there and back. */
+const blinkTime = 160;
+
+/** Drives the face by hand: visemes, expressions and every low-level FAP. */
+export class AnimatePanel {
+  readonly element: HTMLElement;
+  private readonly grid: VisemeGrid;
+  private readonly strength: Slider;
+  private readonly second: HTMLSelectElement;
+  private readonly feelings: { slider: Slider; row: HTMLElement; button: HTMLButtonElement }[] = [];
+  private readonly faps: FapSliders;
+  private readonly resetAll: HTMLButtonElement;
+  private viseme = 0;
+  private blinking = false;
+
+  constructor(private readonly options: AnimatePanelOptions) {
+    this.grid = new VisemeGrid({ onChoose: (viseme) => this.chooseViseme(viseme) });
+    this.strength = new Slider({
+      label: 'Strength',
+      note: '%',
+      min: 0,
+      max: 100,
+      value: 100,
+      onInput: () => this.applyViseme(),
+    });
+    this.second = h(
+      'select',
+      { id: 'second-viseme', on: { change: () => this.applyViseme() } },
+      ...visemes.map((viseme, number) =>
+        h(
+          'option',
+          { value: number },
+          number === 0 ? 'Silence' : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`,
+        ),
+      ),
+    );
+    this.faps = new FapSliders({ frame: options.frame, onChange: () => this.changed() });
+    this.resetAll = h(
+      'button',
+      { type: 'button', class: 'quiet', on: { click: () => this.reset() } },
+      icon('reset', 16),
+      'Neutral face',
+    );
+    const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
+      h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
+    this.element = h(
+      'div',
+      { class: 'panel animate' },
+      h(
+        'div',
+        { class: 'row wrap quick-acts', role: 'group', 'aria-label': 'Whole face' },
+        act('Blink', 'blink', 'Shut the eyes for a moment', () => this.blink()),
+        act('Mirror', 'mirror', 'Exchange left and right', () => this.mirror()),
+        h('span', { class: 'grow' }),
+        this.resetAll,
+      ),
+      this.makeIdle(),
+      h(
+        'section',
+        {},
+        h('header', { class: 'section-head' }, h('h2', {}, 'Visemes')),
+        this.grid.element,
+        h(
+          'div',
+          { class: 'blend' },
+          this.strength.element,
+          h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, 'Blend with'), this.second),
+        ),
+      ),
+      h(
+        'section',
+        {},
+        h(
+          'header',
+          { class: 'section-head' },
+          h('h2', {}, 'Expressions'),
+          h('span', { class: 'muted small' }, 'two at a time'),
+        ),
+        h('div', { class: 'feelings' }, ...this.makeFeelings()),
+      ),
+      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Face parameters')), this.faps.element),
+    );
+    this.refresh();
+  }
+
+  /** The face on the stage from now on, in any pose; null: none. */
+  showFace(pose: Pose | null): void {
+    if (pose) this.faps.hide(fapsWithoutEffect(pose));
+  }
+
+  /** Shows the frame as it is now, after someone else changed it. */
+  refresh(): void {
+    const { frame } = this.options;
+    this.grid.show(frame.viseme.select1 === 0 && frame.viseme.blend === 0 ? 0 : frame.viseme.select1);
+    for (const [i, feeling] of this.feelings.entries()) {
+      const intensity = expressionIntensity(frame, i + 1);
+      // 64 steps against 100: a slider that already stands on the step keeps its place under the finger.
+      if (Math.round((feeling.slider.value / 100) * maxBlend) !== intensity)
+        feeling.slider.set(Math.round((intensity / maxBlend) * 100));
+      feeling.row.classList.toggle('on', intensity > 0);
+      feeling.button.setAttribute('aria-pressed', String(intensity > 0));
+    }
+    this.faps.refresh();
+    this.resetAll.disabled = isNeutral(frame);
+  }
+
+  reset(): void {
+    clearFrame(this.options.frame);
+    this.viseme = 0;
+    this.strength.set(100);
+    this.second.value = '0';
+    this.changed();
+  }
+
+  private makeIdle(): HTMLElement {
+    const box = h('input', { type: 'checkbox', role: 'switch', id: 'idle-life' });
+    box.addEventListener('change', () => this.options.onIdle(box.checked));
+    return h(
+      'label',
+      { class: 'switch-row', for: 'idle-life' },
+      h(
+        'span',
+        { class: 'grow' },
+        h('strong', {}, 'Idle life'),
+        h('small', { class: 'muted' }, 'Blinks and glances under what you set, on this page.'),
+      ),
+      box,
+    );
+  }
+
+  private blink(): void {
+    if (this.blinking) return;
+    this.blinking = true;
+    const open = shutEyes(this.options.frame);
+    this.changed();
+    setTimeout(() => {
+      this.blinking = false;
+      open();
+      this.changed();
+    }, blinkTime);
+  }
+
+  private mirror(): void {
+    mirrorFrame(this.options.frame);
+    this.changed();
+  }
+
+  private chooseViseme(viseme: number): void {
+    this.viseme = this.viseme === viseme ? 0 : viseme;
+    this.applyViseme();
+  }
+
+  private applyViseme(): void {
+    setVisemes(this.options.frame, this.viseme, Number(this.second.value), this.strength.value / 100);
+    this.changed();
+  }
+
+  private makeFeelings(): HTMLElement[] {
+    return expressions.slice(1).map((expression, i) => {
+      const number = i + 1;
+      const slider = new Slider({
+        label: capital(expression.name),
+        note: '%',
+        title: expression.description,
+        min: 0,
+        max: 100,
+        onInput: (value) => this.setFeeling(number, value),
+      });
+      const button = h(
+        'button',
+        {
+          type: 'button',
+          class: 'feeling-button',
+          'data-expression': number,
+          'aria-pressed': 'false',
+          'aria-label': `${capital(expression.name)} on or off`,
+          title: expression.description,
+          on: { click: () => this.setFeeling(number, expressionIntensity(this.options.frame, number) > 0 ? 0 : 100) },
+        },
+        expressionFace(number),
+      );
+      const row = h('div', { class: 'feeling-row' }, button, slider.element);
+      this.feelings.push({ slider, row, button });
+      return row;
+    });
+  }
+
+  private setFeeling(expression: number, percent: number): void {
+    setExpression(this.options.frame, expression, Math.round((percent / 100) * maxBlend));
+    this.changed();
+  }
+
+  private changed(): void {
+    this.refresh();
+    this.options.onChange();
+  }
+}

@@ -1,0 +1,210 @@
+import { ProtocolError } from '@protocol/protocol_error.ts';
+import type { ClipPlayer } from '../../face/clip.ts';
+import { clipOf, readClipFile, type ClipFile } from '../../face/clip_file.ts';
+import { absentChoice, type Absent } from '../documents/absent_choice.ts';
+import { excerptAt } from '../documents/document_place.ts';
+import { h, redraw, replace, setText } from '../shared/dom.ts';
+import { exampleSelect } from '../documents/example_select.ts';
+import { excerptBox } from '../documents/excerpt_box.ts';
+import type { FaceDriver } from '../stage/face_driver.ts';
+import { fapWarningText } from '../documents/fap_words.ts';
+import { fapWarnings } from '../documents/fap_warnings.ts';
+import { chooseFile } from '../shared/file_button.ts';
+import { formatCount, formatTime } from '../shared/format.ts';
+import { icon } from '../shared/icons.ts';
+import { capital } from '../shared/names.ts';
+import { Signal } from '../shared/signal.ts';
+
+/** Plays a performance document or a .fap file on the face on screen; no server takes part. */
+export class ClipPanel {
+  readonly element: HTMLElement;
+  /** What the face shows of a file, in words; null while another moves it. */
+  readonly shown = new Signal<string | null>(null);
+  private readonly body = h('div', { class: 'clip-body' });
+  private readonly clock = h('span', { class: 'number' });
+  private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': 'Position' });
+  private file: { name: string; content: ClipFile } | null = null;
+  private absent: Absent = 'zero';
+  private held = false;
+  private shownPlaying = false;
+  private readonly player: ClipPlayer;
+
+  constructor(private readonly driver: FaceDriver) {
+    const player = (this.player = driver.clip);
+    this.seek.addEventListener('input', () => {
+      this.held = true;
+      driver.byClip();
+      player.seek(Number(this.seek.value));
+      this.showClock();
+    });
+    this.seek.addEventListener('change', () => (this.held = false));
+    this.element = h(
+      'section',
+      { class: 'clip' },
+      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, 'on this page alone')),
+      h(
+        'div',
+        { class: 'script-source' },
+        chooseFile({
+          label: 'Choose a .json or .fap file',
+          note: 'or drop it',
+          accept: '.json,.fap,application/json',
+          take: (file) => void this.takeFile(file),
+        }),
+        exampleSelect((name, text) => this.take(name, text)),
+      ),
+      this.body,
+    );
+    driver.source.watch((source) => {
+      // Drawn anew only when it loses the face: the slider stays in the hand that takes the face by it.
+      if (source !== 'clip' && this.shown.value !== null) this.draw();
+      else this.tell();
+    });
+  }
+
+  async takeFile(file: File): Promise<void> {
+    this.take(file.name, await file.text());
+    this.element.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Called a few times a second. */
+  tick(): void {
+    this.tell();
+    if (!this.file) return;
+    if (this.player.playing !== this.shownPlaying) this.draw();
+    this.showClock();
+  }
+
+  private take(name: string, text: string): void {
+    try {
+      this.file = { name, content: readClipFile(name, text) };
+      this.read(false);
+      this.play();
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.file = null;
+      this.player.load(null);
+      this.driver.release('clip');
+      this.refuse(name, error, text);
+    }
+  }
+
+  private play(): void {
+    this.driver.byClip();
+    this.player.play();
+    this.draw();
+  }
+
+  private read(keepPlace: boolean): void {
+    if (this.file) this.player.load(clipOf(this.file.content, this.absent), keepPlace);
+  }
+
+  private showClock(): void {
+    const { position, clip } = this.player;
+    const duration = clip?.duration ?? 0;
+    const endless = duration === Infinity;
+    setText(this.clock, `${formatTime(position)} / ${endless ? '∞' : formatTime(duration)}`);
+    this.seek.hidden = endless;
+    if (endless) return;
+    this.seek.max = String(Math.max(1, Math.ceil(duration)));
+    if (!this.held) this.seek.value = String(Math.round(position));
+    this.seek.style.setProperty('--to', `${duration > 0 ? (position / duration) * 100 : 0}%`);
+  }
+
+  private tell(): void {
+    const { file, player, driver } = this;
+    const words = player.playing ? `Playing ${file?.name ?? ''}` : `${file?.name ?? ''}, paused`;
+    this.shown.set(file && driver.source.value === 'clip' ? words : null);
+  }
+
+  private draw(): void {
+    this.tell();
+    redraw(this.body, () => this.drawBody());
+  }
+
+  private drawBody(): void {
+    const { player, file } = this;
+    if (!file) return replace(this.body);
+    this.shownPlaying = player.playing;
+    const loop = h('input', { type: 'checkbox', 'data-focus': 'loop', checked: player.loop });
+    loop.addEventListener('change', () => (player.loop = loop.checked));
+    replace(
+      this.body,
+      h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, file.name), this.clock),
+      this.seek,
+      h(
+        'div',
+        { class: 'row' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: player.playing ? '' : 'primary',
+            'data-focus': 'play',
+            on: { click: () => this.toggle() },
+          },
+          icon(player.playing ? 'pause' : 'play', 15),
+          player.playing ? 'Pause' : 'Play',
+        ),
+        player.clip?.duration === Infinity ? null : h('label', { class: 'check' }, loop, 'Loop'),
+        h('span', { class: 'grow' }),
+        h('span', { class: 'muted small' }, sizeOf(file.content)),
+      ),
+      ...this.drawFap(file.content),
+    );
+    this.showClock();
+  }
+
+  private drawFap(content: ClipFile): (HTMLElement | null)[] {
+    if (content.kind !== 'fap') return [];
+    return [
+      absentChoice(this.absent, (absent) => {
+        this.absent = absent;
+        this.read(true);
+        this.draw();
+      }),
+      fapWarnings(content.reading.warnings.map((warning) => `${fapWarningText(warning)}.`)),
+    ];
+  }
+
+  private toggle(): void {
+    if (!this.player.playing) return this.play();
+    this.player.pause();
+    this.draw();
+  }
+
+  private refuse(name: string, error: ProtocolError, text: string): void {
+    replace(
+      this.body,
+      h(
+        'div',
+        { class: 'notice error', role: 'alert' },
+        icon('warning', 16),
+        h(
+          'div',
+          { class: 'grow' },
+          h('strong', {}, `${name}: ${error.message}`),
+          placeOf(error.where),
+          excerptBox(excerptAt(text, error.where)),
+        ),
+      ),
+    );
+  }
+}
+
+function sizeOf(content: ClipFile): string {
+  if (content.kind === 'fap') {
+    const { rate, frames } = content.reading.file;
+    return `${formatCount(frames.length)} frames, ${rate} a second`;
+  }
+  const { cues, idle } = content.script;
+  const count = `${formatCount(cues.length)} ${cues.length === 1 ? 'cue' : 'cues'}`;
+  if (!idle) return count;
+  return cues.length > 0 ? `${count}, idle life` : 'Idle life';
+}
+
+/** A JSON pointer as it is, "line 3, word 2" in words. */
+function placeOf(where: string): HTMLElement | null {
+  if (where === '') return null;
+  return where.startsWith('/') ? h('p', {}, 'At ', h('code', {}, where)) : h('p', {}, capital(where));
+}

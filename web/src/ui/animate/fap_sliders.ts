@@ -1,0 +1,120 @@
+import type { FaceFrame, Pose } from '@client/index.ts';
+import { fapGroups, faps, type Fap } from '@protocol/generated/mpeg4.ts';
+import { fapValue, setFap } from '../../face/frame.ts';
+import { h, setText } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
+import { fapGroupTitles, fapTitle } from '../shared/names.ts';
+import { Slider } from '../shared/slider.ts';
+
+export interface FapSlidersOptions {
+  frame: FaceFrame;
+  onChange: () => void;
+}
+
+/** FAPs that this face cannot show, for want of an iris or a tongue: a slider that does nothing would be a lie. */
+export function fapsWithoutEffect(pose: Pose): ReadonlySet<number> {
+  const without = new Set<number>();
+  if (pose.irises[3] === 0) without.add(29);
+  if (pose.irises[9] === 0) without.add(30);
+  if (pose.tongue[9] === 0) without.add(47);
+  return without;
+}
+
+/** Low-level FAPs in the standard's groups, folded away until opened. */
+export class FapSliders {
+  readonly element = h('div', { class: 'fap-groups' });
+  private readonly sliders = new Map<number, Slider>();
+  private readonly counts = new Map<number, HTMLElement>();
+  private both = true;
+  private without: ReadonlySet<number> = new Set();
+
+  constructor(private readonly options: FapSlidersOptions) {
+    const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
+    this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
+    for (const group of fapGroups)
+      if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
+  }
+
+  /** Hides the sliders of what the face cannot do. */
+  hide(without: ReadonlySet<number>): void {
+    this.without = without;
+    for (const [number, slider] of this.sliders) slider.element.hidden = without.has(number);
+  }
+
+  /** Shows the frame's values. */
+  refresh(): void {
+    for (const [number, slider] of this.sliders) slider.set(fapValue(this.options.frame, number));
+    for (const [group, count] of this.counts) {
+      const moved = faps.filter((fap) => fap.group === group && this.options.frame.levels[fap.number] !== 0).length;
+      setText(count, moved === 0 ? '' : `${moved} moved`);
+    }
+  }
+
+  private makeGroup(group: number, list: readonly Fap[]): HTMLElement {
+    const count = h('span', { class: 'badge quiet-badge' });
+    this.counts.set(group, count);
+    const title = fapGroupTitles[group] ?? `Group ${group}`;
+    const reset = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet square small',
+        'aria-label': `Reset ${title}`,
+        title: `Reset ${title}`,
+        on: {
+          click: (event) => {
+            event.preventDefault();
+            for (const fap of list) this.options.frame.levels[fap.number] = 0;
+            this.changed();
+          },
+        },
+      },
+      icon('reset', 15),
+    );
+    const body = h('div', { class: 'fap-list' });
+    const details = h(
+      'details',
+      { class: 'fap-group', 'data-group': group },
+      h(
+        'summary',
+        {},
+        icon('chevron', 14),
+        h('span', { class: 'grow' }, title),
+        count,
+        h('span', { class: 'muted small' }, String(list.length)),
+        reset,
+      ),
+      body,
+    );
+    // Built when first opened: 66 sliders at once are felt on a phone.
+    details.addEventListener('toggle', () => {
+      if (details.open && body.childElementCount === 0) {
+        for (const fap of list) body.append(this.makeSlider(fap).element);
+        this.hide(this.without);
+        this.refresh();
+      }
+    });
+    return details;
+  }
+
+  private makeSlider(fap: Fap): Slider {
+    const slider = new Slider({
+      label: fapTitle(fap.name, fap.group),
+      note: `FAP ${fap.number}`,
+      title: `${fap.description}. ${fap.name}, unit ${fap.unit ?? ''}`,
+      min: fap.usualMin,
+      max: fap.usualMax,
+      onInput: (value) => {
+        setFap(this.options.frame, fap.number, value, this.both);
+        this.changed();
+      },
+    });
+    this.sliders.set(fap.number, slider);
+    return slider;
+  }
+
+  private changed(): void {
+    this.refresh();
+    this.options.onChange();
+  }
+}

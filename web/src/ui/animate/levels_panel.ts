@@ -1,0 +1,95 @@
+import type { FitReport, LevelError, PackageLevel } from '../../net/types.ts';
+import { h, redraw, replace } from '../shared/dom.ts';
+import type { FitModel } from '../fit/fit_model.ts';
+import { formatBytes, formatCount } from '../shared/format.ts';
+import type { SceneView } from '../stage/scene.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** The levels of detail of the open face: how heavy each is, how far off, and which is on the stage. */
+export class LevelsPanel {
+  readonly element: HTMLElement;
+  private readonly body = h('div', {});
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly fit: FitModel,
+    private readonly scene: SceneView,
+  ) {
+    this.element = h(
+      'section',
+      { class: 'levels-section' },
+      h(
+        'header',
+        { class: 'section-head' },
+        h('h2', {}, 'Levels of detail'),
+        h('span', { class: 'muted small' }, 'for light devices'),
+      ),
+      this.body,
+    );
+    const draw = (): void => redraw(this.body, () => this.draw());
+    studio.selected.watch(draw);
+    fit.report.watch(draw);
+    scene.level.watch(draw);
+  }
+
+  private draw(): void {
+    const model = this.studio.selected.value;
+    const levels = model?.package?.levels ?? [];
+    this.element.hidden = model?.state !== 'parametrized';
+    const state = this.fit.report.value;
+    const told = state.kind === 'ready' ? state.report.levels_of_detail : undefined;
+    replace(
+      this.body,
+      levels.length > 1
+        ? h(
+            'ul',
+            { class: 'levels' },
+            levels.map((level) => this.row(level, told)),
+          )
+        : h('p', { class: 'muted small' }, 'The full mesh alone: it is light already, or no levels were asked for.'),
+      told?.missed.map(({ words }) =>
+        h('p', { class: 'muted small' }, `${words.charAt(0).toUpperCase()}${words.slice(1)}.`),
+      ),
+    );
+  }
+
+  private row(level: PackageLevel, told: FitReport['levels_of_detail']): HTMLElement {
+    const bytes = (level.artefacts['mesh.drc']?.bytes ?? 0) + (level.artefacts.weights?.bytes ?? 0);
+    const error = told?.levels.find(({ lod }) => lod === level.lod);
+    return h(
+      'li',
+      {},
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'level',
+          'data-level': level.lod,
+          'data-focus': `level-${level.lod}`,
+          'aria-pressed': String(this.scene.level.value === level.lod),
+          on: { click: () => this.scene.showLevel(level.lod) },
+        },
+        h('strong', { class: 'grow' }, level.lod === 0 ? 'Full mesh' : `Level ${level.lod}`),
+        h('span', { class: 'number' }, `${formatCount(level.vertices)} vertices · ${formatBytes(bytes)}`),
+        error ? h('small', { class: 'muted' }, errorWords(error)) : null,
+      ),
+    );
+  }
+}
+
+/** "Off by 0.4 % of the distance of the eyes at most, in expressions by 0.9 %". */
+function errorWords({
+  neutral,
+  expressions,
+}: {
+  neutral: LevelError;
+  expressions: Record<string, LevelError>;
+}): string {
+  const worst = (error: LevelError): number => error.of_es0?.max ?? error.max;
+  const unit = neutral.of_es0 ? ' of the distance of the eyes' : ' units';
+  const word = (value: number): string =>
+    neutral.of_es0 ? `${Number((value * 100).toPrecision(2))} %` : String(Number(value.toPrecision(2)));
+  const faces = Object.values(expressions).map(worst);
+  const moved = faces.length > 0 ? `, in expressions by ${word(Math.max(...faces))}` : '';
+  return `Off by ${word(worst(neutral))}${unit} at most${moved}`;
+}

@@ -1,0 +1,39 @@
+import { visemes } from '@protocol/generated/mpeg4.ts';
+import { h } from '../shared/dom.ts';
+
+export interface VisemeGridOptions {
+  onChoose: (viseme: number) => void;
+}
+
+/** 15 buttons, each with its sounds and a word to hear them in. */
+export class VisemeGrid {
+  readonly element = h('div', { class: 'visemes', role: 'group', 'aria-label': 'Visemes' });
+  private readonly buttons: HTMLButtonElement[] = [];
+
+  constructor(options: VisemeGridOptions) {
+    visemes.forEach((viseme, number) => {
+      const sounds = number === 0 ? 'rest' : viseme.phonemes.join(' ');
+      const word = viseme.examples[0] ?? 'silence';
+      const button = h(
+        'button',
+        {
+          type: 'button',
+          class: 'viseme',
+          'data-viseme': number,
+          'aria-pressed': 'false',
+          'aria-label': `Viseme ${number}: ${number === 0 ? 'silence' : `${sounds}, as in ${viseme.examples.join(', ')}`}`,
+          title: viseme.examples.join(', '),
+          on: { click: () => options.onChoose(number) },
+        },
+        h('span', { class: 'sound' }, sounds),
+        h('span', { class: 'word' }, word),
+      );
+      this.buttons.push(button);
+      this.element.append(button);
+    });
+  }
+
+  show(viseme: number | null): void {
+    this.buttons.forEach((button, number) => button.setAttribute('aria-pressed', String(number === viseme)));
+  }
+}

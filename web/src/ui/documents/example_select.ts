@@ -1,0 +1,19 @@
+import { h } from '../shared/dom.ts';
+import { examples } from './examples.ts';
+
+/** A list of the project's own performance documents; one that is chosen is handed over with its name. */
+export function exampleSelect(take: (name: string, text: string) => void): HTMLSelectElement {
+  const select = h(
+    'select',
+    { 'aria-label': 'Example' },
+    h('option', { value: '' }, 'An example…'),
+    ...examples.map(({ title }, i) => h('option', { value: i }, title)),
+  );
+  select.addEventListener('change', () => {
+    const chosen = examples[Number(select.value)];
+    if (select.value === '' || !chosen) return;
+    select.value = '';
+    void chosen.text().then((text) => take(chosen.name, text));
+  });
+  return select;
+}

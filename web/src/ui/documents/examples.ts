@@ -1,0 +1,13 @@
+/** The project's own performance documents, loaded when chosen. */
+export const examples: readonly { name: string; title: string; text: () => Promise<string> }[] = [
+  {
+    name: 'hello.json',
+    title: 'Hello: a greeting with a nod and a wink',
+    text: async () => (await import('../../../../protocol/examples/performances/hello.json?raw')).default,
+  },
+  {
+    name: 'minute.json',
+    title: 'A minute: talks, looks about, feels',
+    text: async () => (await import('../../../../protocol/examples/performances/minute.json?raw')).default,
+  },
+];

@@ -1,0 +1,180 @@
+import { adviceFor } from '../../net/problem.ts';
+import type { Finding, FitReport, Model, Severity } from '../../net/types.ts';
+import { h, replace } from '../shared/dom.ts';
+import { actionFor, type FindingAction } from './finding_actions.ts';
+import { countWords, findingTitle, sentence, severities, severityMeanings } from '../shared/finding_words.ts';
+import type { FitModel } from './fit_model.ts';
+import { formatCount } from '../shared/format.ts';
+import { icon } from '../shared/icons.ts';
+import type { Studio } from '../shared/studio.ts';
+
+export interface DoctorOptions {
+  /** Whether there are as many placed points as proposals are made from. */
+  enoughPoints: () => boolean;
+  onAction: (action: FindingAction, finding: Finding) => void;
+}
+
+/** The findings of the open head, worst first; a click shows where. */
+export class DoctorPanel {
+  readonly element: HTMLElement;
+  private readonly body = h('div', { class: 'doctor' });
+  /** Which groups a person has opened or closed, by severity. */
+  private readonly open = new Map<Severity, boolean>();
+  private rows: { finding: Finding; element: HTMLElement; button: HTMLButtonElement }[] = [];
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly fit: FitModel,
+    private readonly options: DoctorOptions,
+  ) {
+    this.element = h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Fit doctor')), this.body);
+    fit.report.watch(() => this.draw());
+    fit.chosen.watch(() => this.mark());
+    let shown = '';
+    studio.selected.watch((model) => {
+      if (model?.id !== shown) this.open.clear();
+      shown = model?.id ?? '';
+      this.draw();
+    });
+  }
+
+  draw(): void {
+    const state = this.fit.report.value;
+    const model = this.studio.selected.value;
+    this.rows = [];
+    if (state.kind === 'ready' && model) return this.drawReport(state.report, model);
+    if (state.kind === 'failed') {
+      const advice = adviceFor(state.problem);
+      replace(
+        this.body,
+        h(
+          'p',
+          { class: 'notice error', role: 'alert' },
+          icon('warning', 16),
+          h('span', {}, state.problem.detail ?? state.problem.title, advice ? ` ${advice}` : ''),
+        ),
+      );
+      return;
+    }
+    const words =
+      model === null
+        ? 'Choose a head to have it looked at.'
+        : state.kind === 'loading' || model.state === 'importing'
+          ? 'Looking at the head…'
+          : model.state === 'failed'
+            ? 'The file could not be read, so there is nothing to look at.'
+            : 'This head was imported before there was a doctor. Parametrize it again to have it looked at.';
+    replace(this.body, h('p', { class: 'empty' }, words));
+  }
+
+  private drawReport(report: FitReport, model: Model): void {
+    const whole = model.state === 'parametrized';
+    const looked = whole
+      ? 'Mesh, points, parts and weights were looked at when the head was last parametrized.'
+      : 'So far the mesh was looked at. Points, parts and weights follow when the head is parametrized.';
+    if (report.findings.length === 0) {
+      replace(
+        this.body,
+        h('p', { class: 'healthy' }, icon('check', 20), h('span', {}, h('strong', {}, 'Nothing found. '), looked)),
+        remarks(model),
+      );
+      return;
+    }
+    replace(
+      this.body,
+      h('p', { class: 'muted small' }, h('strong', {}, `${countWords(report.summary)}. `), looked),
+      severities.map(({ severity, one, many }) => {
+        const findings = report.findings.filter((finding) => finding.severity === severity);
+        if (findings.length === 0) return null;
+        const worse = report.findings.length > findings.length && severity === 'note';
+        const group = h(
+          'details',
+          { class: 'finding-group', open: this.open.get(severity) ?? !(worse && findings.length > 2) },
+          h(
+            'summary',
+            {},
+            icon('chevron', 14),
+            h('span', { class: `lamp lamp-${severity}`, 'aria-hidden': 'true' }),
+            h('h3', {}, `${findings.length} ${findings.length === 1 ? one : many}`),
+            h('span', { class: 'muted small grow' }, severityMeanings[severity]),
+          ),
+          h(
+            'ul',
+            { class: 'findings' },
+            findings.map((finding) => this.row(finding)),
+          ),
+        );
+        group.addEventListener('toggle', () => this.open.set(severity, group.open));
+        return group;
+      }),
+      remarks(model),
+    );
+    this.mark();
+  }
+
+  private row(finding: Finding): HTMLElement {
+    const { place, measured } = finding;
+    const placed =
+      place.part !== null || place.points.length > 0 || place.vertices.count > 0 || place.position !== null;
+    const action = actionFor(finding, this.options.enoughPoints());
+    const button = h(
+      'button',
+      {
+        type: 'button',
+        class: 'finding-show',
+        'aria-pressed': 'false',
+        title: placed ? 'Show where' : null,
+        on: { click: () => this.fit.choose(this.fit.chosen.value === finding ? null : finding) },
+      },
+      h('strong', {}, findingTitle(finding)),
+      h('span', { class: 'finding-words' }, sentence(finding.words)),
+    );
+    const facts = [
+      place.vertices.count > 0
+        ? `${formatCount(place.vertices.count)} ${place.vertices.count === 1 ? 'vertex' : 'vertices'}`
+        : '',
+      measured ? `${measured.what}: ${figure(measured.value)}, from ${figure(measured.threshold)} on a finding` : '',
+    ].filter((text) => text !== '');
+    const element = h(
+      'li',
+      { class: `finding ${finding.severity}`, 'data-code': finding.code },
+      button,
+      h('p', { class: 'remedy' }, icon('wrench', 15), h('span', {}, sentence(finding.remedy))),
+      facts.length > 0 ? h('p', { class: 'finding-facts small muted' }, facts.join(' · ')) : null,
+      action
+        ? h(
+            'button',
+            { type: 'button', class: 'small', on: { click: () => this.options.onAction(action, finding) } },
+            action.label,
+          )
+        : null,
+    );
+    this.rows.push({ finding, element, button });
+    return element;
+  }
+
+  private mark(): void {
+    for (const { finding, element, button } of this.rows) {
+      const on = this.fit.chosen.value === finding;
+      element.classList.toggle('chosen', on);
+      button.setAttribute('aria-pressed', String(on));
+    }
+  }
+}
+
+/** What reading the file and placing the points had to say. */
+function remarks({ warnings = [] }: Model): HTMLElement | null {
+  if (warnings.length === 0) return null;
+  return h(
+    'div',
+    { class: 'remarks small' },
+    h('h3', {}, 'Said of the file and its points'),
+    h(
+      'ul',
+      {},
+      warnings.map((text) => h('li', {}, sentence(text))),
+    ),
+  );
+}
+
+const figure = (value: number): string => String(Number(value.toPrecision(3)));

@@ -1,0 +1,56 @@
+import { problemOf } from '../../net/problem.ts';
+import type { Finding, FitReport, Model, Problem } from '../../net/types.ts';
+import { Signal } from '../shared/signal.ts';
+import type { Studio } from '../shared/studio.ts';
+
+export type ReportState =
+  { kind: 'none' } | { kind: 'loading' } | { kind: 'ready'; report: FitReport } | { kind: 'failed'; problem: Problem };
+
+/** What the fit doctor says of the open head, and what of it, or which part, is pointed out on the stage. */
+export class FitModel {
+  readonly report = new Signal<ReportState>({ kind: 'none' });
+  readonly chosen = new Signal<Finding | null>(null);
+  /** Index of the part that is pointed out. */
+  readonly part = new Signal<number | null>(null);
+  /** The part under the pointer or the keyboard's focus; it goes before what is chosen. */
+  readonly hoveredPart = new Signal<number | null>(null);
+  private shown = '';
+
+  constructor(private readonly studio: Studio) {
+    studio.selected.watch((model) => void this.open(model));
+  }
+
+  /** Points out a finding, or nothing. */
+  choose(finding: Finding | null): void {
+    this.part.set(null);
+    this.chosen.set(finding);
+  }
+
+  choosePart(part: number | null): void {
+    this.chosen.set(null);
+    this.part.set(part);
+  }
+
+  private async open(model: Model | null): Promise<void> {
+    const has = model !== null && (model.state === 'ready' || model.state === 'parametrized') && !!model.findings;
+    // Every job and every edit that may change the report also changes when the model was updated.
+    const key = has ? `${model.id} ${model.updated}` : '';
+    if (key === this.shown) return;
+    const another = key.split(' ')[0] !== this.shown.split(' ')[0];
+    this.shown = key;
+    if (another) {
+      this.choose(null);
+      this.hoveredPart.set(null);
+    }
+    if (!has) return this.report.set({ kind: 'none' });
+    if (another) this.report.set({ kind: 'loading' });
+    try {
+      const report = await this.studio.api.getReport(model.id);
+      if (this.shown !== key) return;
+      this.choose(null);
+      this.report.set({ kind: 'ready', report });
+    } catch (error) {
+      if (this.shown === key) this.report.set({ kind: 'failed', problem: problemOf(error) });
+    }
+  }
+}

@@ -1,0 +1,183 @@
+import type { Direction, FrameWish, LengthUnit, Model, ModelFrame } from '../../net/types.ts';
+import { h, replace } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
+import type { Studio } from '../shared/studio.ts';
+
+const units: readonly { unit: LengthUnit; name: string }[] = [
+  { unit: 'm', name: 'metres' },
+  { unit: 'dm', name: 'decimetres' },
+  { unit: 'cm', name: 'centimetres' },
+  { unit: 'mm', name: 'millimetres' },
+  { unit: 'in', name: 'inches' },
+];
+const directions: readonly Direction[] = ['+X', '-X', '+Y', '-Y', '+Z', '-Z'];
+
+/** How the open head stands in its file and what its unit is: what was guessed and why, and a form to say it. */
+export class FramePanel {
+  readonly element: HTMLElement;
+  private readonly said = h('div', { class: 'frame-said', 'aria-live': 'polite' });
+  private readonly unit = choice(
+    'frame-unit',
+    'Unit',
+    units.map(({ unit, name }) => [unit, `${unit} (${name})`]),
+  );
+  private readonly up = choice(
+    'frame-up',
+    'Top of the head',
+    directions.map((one) => [one, one]),
+  );
+  private readonly front = choice(
+    'frame-front',
+    'The face looks',
+    directions.map((one) => [one, one]),
+  );
+  private readonly apply = h('button', { type: 'submit', class: 'primary small' }, 'Apply');
+  private readonly guess = h(
+    'button',
+    {
+      type: 'button',
+      class: 'quiet small',
+      on: { click: () => void this.send({ unit: null, up: null, front: null }) },
+    },
+    'Guess again',
+  );
+  private drawn = '';
+
+  constructor(private readonly studio: Studio) {
+    const form = h(
+      'form',
+      { class: 'frame-form' },
+      this.unit.element,
+      this.up.element,
+      this.front.element,
+      h('div', { class: 'row end' }, this.guess, this.apply),
+    );
+    form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      void this.send(this.wish());
+    });
+    form.addEventListener('change', () => this.check());
+    this.element = h(
+      'section',
+      { class: 'frame-section' },
+      h('header', { class: 'section-head' }, h('h2', {}, 'Unit and axes')),
+      this.said,
+      h(
+        'p',
+        { class: 'muted small' },
+        'Directions are those of the file. A change of axes turns the head in the picture.',
+      ),
+      form,
+    );
+    studio.selected.watch((model) => this.draw(model));
+    studio.activities.watch(() => this.check());
+  }
+
+  /** Brings the form under the eyes and the fingers. */
+  reveal(): void {
+    this.element.scrollIntoView({ block: 'center' });
+    this.up.select.focus({ preventScroll: true });
+  }
+
+  private draw(model: Model | null): void {
+    const frame = model?.frame ?? null;
+    this.element.hidden = frame === null;
+    const key = JSON.stringify([model?.id, frame, model?.bounds]);
+    if (!model || !frame || key === this.drawn) return this.check();
+    this.drawn = key;
+    this.unit.select.value = frame.unit;
+    this.up.select.value = frame.axes.up;
+    this.front.select.value = frame.axes.front;
+    this.guess.hidden = !frame.by_user.unit && !frame.by_user.axes;
+    const size = sizeWords(model, frame);
+    replace(
+      this.said,
+      h(
+        'dl',
+        { class: 'frame-facts' },
+        h('dt', {}, 'One unit'),
+        h('dd', {}, `1 ${frame.unit}`, origin(frame.by_user.unit, frame.sure.unit)),
+        h('dt', {}, 'Axes'),
+        h(
+          'dd',
+          {},
+          `${frame.axes.up} up, ${frame.axes.front} to the front`,
+          origin(frame.by_user.axes, frame.sure.axes),
+        ),
+        size === '' ? null : [h('dt', {}, 'So the model is'), h('dd', { class: 'number' }, size)],
+      ),
+      frame.reasons.length > 0
+        ? h(
+            'details',
+            { class: 'reasons', open: !frame.sure.unit || !frame.sure.axes },
+            h('summary', { class: 'small' }, icon('chevron', 14), 'Why'),
+            h(
+              'ul',
+              {},
+              frame.reasons.map((reason) => h('li', { class: 'small' }, reason)),
+            ),
+          )
+        : null,
+    );
+    this.check();
+  }
+
+  /** What the form says that is not said yet. A guess that is not sure may be said as it is. */
+  private wish(): FrameWish {
+    const frame = this.studio.selected.value?.frame;
+    if (!frame) return {};
+    const { by_user: byUser, sure, axes } = frame;
+    const unit = this.unit.select.value as LengthUnit;
+    const up = this.up.select.value as Direction;
+    const front = this.front.select.value as Direction;
+    const unitIsNews = unit !== frame.unit || !(byUser.unit || sure.unit);
+    const axesAreNews = up !== axes.up || front !== axes.front || !(byUser.axes || sure.axes);
+    return { ...(unitIsNews ? { unit } : {}), ...(axesAreNews ? { up, front } : {}) };
+  }
+
+  private check(): void {
+    const model = this.studio.selected.value;
+    const busy = model === null || model.state === 'importing' || this.studio.activities.value.has(model.id);
+    const axis = this.up.select.value.slice(1);
+    const clash = this.front.select.value.endsWith(axis);
+    for (const option of this.front.select.options) option.disabled = option.value.endsWith(axis);
+    this.apply.disabled = busy || clash || Object.keys(this.wish()).length === 0;
+    this.guess.disabled = busy;
+    for (const { select } of [this.unit, this.up, this.front]) select.disabled = busy;
+  }
+
+  private async send(wish: FrameWish): Promise<void> {
+    const model = this.studio.selected.value;
+    if (model) await this.studio.setFrame(model, wish);
+  }
+}
+
+function choice(
+  id: string,
+  label: string,
+  values: readonly (readonly [string, string])[],
+): { element: HTMLElement; select: HTMLSelectElement } {
+  const select = h(
+    'select',
+    { id },
+    values.map(([value, title]) => h('option', { value }, title)),
+  );
+  return {
+    element: h('div', { class: 'frame-field' }, h('label', { for: id, class: 'muted small' }, label), select),
+    select,
+  };
+}
+
+function origin(byUser: boolean, sure: boolean): HTMLElement {
+  const words = byUser ? 'yours' : sure ? 'guessed, sure' : 'guessed, not sure';
+  return h('span', { class: `tag ${byUser ? 'by-hand' : sure ? '' : 'unsure'}` }, words);
+}
+
+/** "24 × 31 × 26 cm", wide, high and deep. */
+function sizeWords(model: Model, frame: ModelFrame): string {
+  if (!model.bounds) return '';
+  const { min, max } = model.bounds;
+  const metres = [0, 1, 2].map((axis) => (max[axis]! - min[axis]!) * frame.metres_per_unit);
+  const [name, scale] = Math.max(...metres) < 1.5 ? (['cm', 100] as const) : (['m', 1] as const);
+  return `${metres.map((value) => Number((value * scale).toPrecision(3))).join(' × ')} ${name}`;
+}

@@ -1,0 +1,231 @@
+import { adviceFor } from '../../net/problem.ts';
+import type { Model } from '../../net/types.ts';
+import { ask } from '../shared/dialog.ts';
+import { h, replace } from '../shared/dom.ts';
+import { findingBadge } from '../shared/finding_badge.ts';
+import { headSize } from './head_size.ts';
+import { icon } from '../shared/icons.ts';
+import { progressBar } from '../shared/progress_bar.ts';
+import type { Activity, Studio } from '../shared/studio.ts';
+
+const accepted = '.glb,.zip,.obj,.ply,.stl';
+const stateWords: Record<Model['state'], string> = {
+  importing: 'Importing',
+  ready: 'Needs points',
+  parametrized: 'Ready to move',
+  failed: 'Failed',
+};
+
+/** The list of heads: upload, choose, rename, delete. */
+export class Shelf {
+  readonly element: HTMLElement;
+  private readonly list = h('ul', { class: 'heads', 'aria-label': 'Heads' });
+  private readonly input = h('input', {
+    type: 'file',
+    accept: accepted,
+    multiple: true,
+    class: 'visually-hidden',
+    id: 'file',
+    tabindex: -1,
+    'aria-label': 'Model files',
+  });
+
+  /** Pictures of heads as data URLs, by id of the model. */
+  readonly thumbnails = new Map<string, string>();
+
+  constructor(private readonly studio: Studio) {
+    this.input.addEventListener('change', () => {
+      if (this.input.files) void studio.upload([...this.input.files]);
+      this.input.value = '';
+    });
+    const choose = (): void => this.input.click();
+    this.element = h(
+      'div',
+      { class: 'panel shelf-panel' },
+      h(
+        'header',
+        { class: 'section-head' },
+        h('h2', {}, 'Heads'),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square',
+            'aria-label': 'Upload a head',
+            title: 'Upload a head',
+            on: { click: choose },
+          },
+          icon('plus'),
+        ),
+      ),
+      this.list,
+      h(
+        'button',
+        { type: 'button', class: 'drop', on: { click: choose } },
+        icon('upload', 22),
+        h('span', {}, h('strong', {}, 'Choose a head'), ' or drop it here'),
+        h('small', {}, 'GLB, glTF (zip), OBJ, PLY, STL'),
+      ),
+      this.input,
+    );
+    const draw = (): void => this.draw();
+    studio.models.watch(draw);
+    studio.selected.watch(draw);
+    studio.activities.watch(draw);
+    studio.shelf.watch(draw);
+  }
+
+  draw(): void {
+    const { studio } = this;
+    const state = studio.shelf.value;
+    const focused = document.activeElement?.closest('[data-model]')?.getAttribute('data-model');
+    if (state.kind === 'loading') {
+      replace(this.list, ...[0, 1, 2].map(() => h('li', { class: 'head skeleton', 'aria-hidden': 'true' })));
+      return;
+    }
+    if (state.kind === 'failed') {
+      const advice = adviceFor(state.problem);
+      replace(
+        this.list,
+        h(
+          'li',
+          { class: 'notice error', role: 'alert' },
+          icon('warning'),
+          h(
+            'div',
+            {},
+            h('strong', {}, state.problem.title),
+            advice ? h('p', {}, advice) : null,
+            h('button', { type: 'button', on: { click: () => void studio.start() } }, 'Try again'),
+          ),
+        ),
+      );
+      return;
+    }
+    const items: HTMLElement[] = [];
+    for (const [key, activity] of studio.activities.value)
+      if (key.startsWith('upload-')) items.push(this.uploadItem(activity));
+    for (const model of studio.models.value) items.push(this.item(model, studio.activities.value.get(model.id)));
+    if (items.length === 0) items.push(h('li', { class: 'empty' }, 'No heads yet.'));
+    replace(this.list, ...items);
+    if (focused) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
+  }
+
+  private item(model: Model, activity: Activity | undefined): HTMLElement {
+    const selected = this.studio.selected.value?.id === model.id;
+    const picture = this.thumbnails.get(model.id);
+    const facts = headSize(model);
+    return h(
+      'li',
+      { class: `head${selected ? ' selected' : ''}`, 'data-model': model.id },
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'open',
+          'aria-current': selected ? 'true' : null,
+          on: { click: () => this.studio.select(model.id) },
+        },
+        h(
+          'span',
+          { class: 'thumb-seat' },
+          h(
+            'span',
+            { class: 'thumb' },
+            picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24),
+          ),
+          activity ? null : findingBadge(model.findings),
+        ),
+        h(
+          'span',
+          { class: 'head-text' },
+          h('strong', {}, model.name || 'Unnamed'),
+          activity
+            ? h('span', { class: 'muted small' }, activity.title)
+            : h(
+                'span',
+                { class: 'muted small' },
+                h('span', { class: `state state-${model.state}` }, stateWords[model.state]),
+                facts ? ` · ${facts}` : '',
+              ),
+        ),
+      ),
+      h(
+        'div',
+        { class: 'head-actions' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': `Rename ${model.name}`,
+            title: 'Rename',
+            on: { click: () => void this.rename(model) },
+          },
+          icon('edit', 16),
+        ),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': `Delete ${model.name}`,
+            title: 'Delete',
+            on: { click: () => void this.remove(model) },
+          },
+          icon('trash', 16),
+        ),
+      ),
+      activity ? progressBar(activity) : null,
+      selected && model.state === 'failed' && model.problem
+        ? h('p', { class: 'head-problem' }, model.problem.detail ?? model.problem.title)
+        : null,
+    );
+  }
+
+  private uploadItem(activity: Activity): HTMLElement {
+    return h(
+      'li',
+      { class: 'head uploading' },
+      h(
+        'div',
+        { class: 'open' },
+        h('span', { class: 'thumb' }, icon('upload', 22)),
+        h(
+          'span',
+          { class: 'head-text' },
+          h('strong', {}, activity.title),
+          h('span', { class: 'muted small' }, `${Math.round((activity.progress ?? 0) * 100)} %`),
+        ),
+      ),
+      activity.cancel
+        ? h(
+            'button',
+            {
+              type: 'button',
+              class: 'quiet square small',
+              'aria-label': 'Cancel upload',
+              on: { click: activity.cancel },
+            },
+            icon('close', 16),
+          )
+        : null,
+      progressBar(activity),
+    );
+  }
+
+  private async rename(model: Model): Promise<void> {
+    const name = await ask({ title: 'Rename head', accept: 'Rename', value: model.name });
+    if (name !== null && name !== '' && name !== model.name) await this.studio.rename(model, name);
+  }
+
+  private async remove(model: Model): Promise<void> {
+    const yes = await ask({
+      title: `Delete ${model.name}?`,
+      text: 'Its feature points and its face package go with it. This cannot be undone.',
+      accept: 'Delete',
+      danger: true,
+    });
+    if (yes !== null) await this.studio.remove(model);
+  }
+}

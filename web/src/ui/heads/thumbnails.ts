@@ -1,0 +1,17 @@
+import type { SceneView } from '../stage/scene.ts';
+import type { Shelf } from './shelf.ts';
+import type { Studio } from '../shared/studio.ts';
+
+const size = 112;
+
+/** Has the shelf show a picture of each head, taken when the head first stands on the stage. */
+export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf): void {
+  scene.state.watch((state) => {
+    const model = studio.selected.value;
+    if (state.kind !== 'ready' || !model || shelf.thumbnails.has(model.id)) return;
+    requestAnimationFrame(() => {
+      shelf.thumbnails.set(model.id, scene.stage.thumbnail(size));
+      shelf.draw();
+    });
+  });
+}

@@ -1,0 +1,134 @@
+import { problemOf } from '../../net/problem.ts';
+import { LivePublisher, LiveSubscriber, type LinkStatus, type LiveStats } from '../../net/live.ts';
+import type { Problem, StreamInfo, NewStream } from '../../net/types.ts';
+import type { FaceFrame } from '@client/index.ts';
+import type { FaceDriver } from '../stage/face_driver.ts';
+import { Signal } from '../shared/signal.ts';
+import type { Studio } from '../shared/studio.ts';
+
+const off: LinkStatus = { kind: 'off' };
+const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
+
+/** The stream the face follows, the one the sliders feed, and the list of all. */
+export class LiveModel {
+  /** null until the first answer. */
+  readonly streams = new Signal<readonly StreamInfo[] | null>(null);
+  readonly problem = new Signal<Problem | null>(null);
+  readonly following = new Signal<string | null>(null);
+  readonly status = new Signal<LinkStatus>(off);
+  readonly sending = new Signal<string | null>(null);
+  readonly sendStatus = new Signal<LinkStatus>(off);
+  readonly subscriber = new Signal<LiveSubscriber | null>(null);
+  private publisher: LivePublisher | null = null;
+
+  constructor(
+    private readonly studio: Studio,
+    /** What is done by hand: sent while sending is on. */
+    private readonly frame: FaceFrame,
+    readonly driver: FaceDriver,
+  ) {}
+
+  get stats(): LiveStats {
+    return this.subscriber.value?.stats ?? noStats;
+  }
+
+  async refresh(): Promise<void> {
+    try {
+      const streams = await this.studio.api.listStreams();
+      this.problem.set(null);
+      if (JSON.stringify(streams) !== JSON.stringify(this.streams.value)) this.streams.set(streams);
+    } catch (error) {
+      this.problem.set(problemOf(error));
+    }
+  }
+
+  subscribe(id: string, title: string): void {
+    this.subscriber.value?.close();
+    this.following.set(id);
+    this.driver.byStream();
+    const subscriber = new LiveSubscriber(this.studio.api.streamUrl(id), title, (status) => {
+      if (this.subscriber.value === subscriber) this.status.set(status);
+    });
+    this.subscriber.set(subscriber);
+    subscriber.open();
+    void this.refresh();
+  }
+
+  /** Streams that one may play into: the demo is for everyone. */
+  get ownStreams(): readonly StreamInfo[] {
+    return (this.streams.value ?? []).filter((stream) => stream.source !== 'demo');
+  }
+
+  titleOf(id: string): string {
+    return this.streams.value?.find((stream) => stream.id === id)?.title || id;
+  }
+
+  /** The stream to play into (empty: one of this head, made where there is none), with the face on screen following it. */
+  async openFor(target: string): Promise<string | null> {
+    let id: string | null = target;
+    if (id === '') {
+      // One such stream of a head is enough: that of another day is taken again while nobody is on it.
+      const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
+      const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
+      id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
+      if (id === null) return null;
+    }
+    if (this.following.value === id && this.status.value.kind !== 'ended') this.driver.byStream();
+    else this.subscribe(id, this.titleOf(id));
+    await this.opened();
+    return id;
+  }
+
+  /** Resolves when what is followed is there to be seen, or after `patience` ms without. */
+  async opened(patience = 2000): Promise<void> {
+    const end = performance.now() + patience;
+    while (this.status.value.kind !== 'open' && performance.now() < end)
+      await new Promise((wake) => setTimeout(wake, 20));
+  }
+
+  unsubscribe(): void {
+    this.subscriber.value?.close();
+    this.subscriber.set(null);
+    this.following.set(null);
+    this.status.set(off);
+    this.driver.release('stream');
+    void this.refresh();
+  }
+
+  async create(title: string, options: NewStream = {}): Promise<string | null> {
+    let id: string | null = null;
+    await this.studio.attempt('The stream was not made', async () => {
+      id = (await this.studio.api.createStream(title, this.studio.selected.value?.id ?? null, options)).id;
+      await this.refresh();
+    });
+    return id;
+  }
+
+  async remove(id: string): Promise<void> {
+    if (this.following.value === id) this.unsubscribe();
+    if (this.sending.value === id) this.send(null);
+    await this.studio.attempt('The stream was not deleted', () => this.studio.api.deleteStream(id));
+    await this.refresh();
+  }
+
+  /** Starts or stops sending what is done by hand. */
+  send(id: string | null): void {
+    this.publisher?.close();
+    this.publisher = null;
+    this.sendStatus.set(off);
+    this.sending.set(id);
+    if (id === null) return;
+    const publisher = new LivePublisher(this.studio.api.streamUrl(id), this.frame, (status) => {
+      if (this.publisher !== publisher) return;
+      this.sendStatus.set(status);
+      if (status.kind === 'ended') this.sending.set(null);
+    });
+    this.publisher = publisher;
+    publisher.open();
+  }
+
+  /** The frame was changed by hand. */
+  touch(): void {
+    this.publisher?.touch();
+  }
+}

@@ -1,0 +1,291 @@
+import type { Player } from '@client/index.ts';
+import type { StreamInfo } from '../../net/types.ts';
+import { ask } from '../shared/dialog.ts';
+import { h, replace, setText } from '../shared/dom.ts';
+import { formatBytes } from '../shared/format.ts';
+import { icon } from '../shared/icons.ts';
+import type { LiveModel } from './live_model.ts';
+import { progressBar } from '../shared/progress_bar.ts';
+import { askForStream } from './stream_dialog.ts';
+import { StreamFacts } from './stream_facts.ts';
+import type { Studio } from '../shared/studio.ts';
+
+const stateWords = {
+  off: 'Not connected',
+  connecting: 'Connecting',
+  open: 'Live',
+  waiting: 'Connecting again',
+  ended: 'Ended',
+} as const;
+
+/** Milliseconds; a face that plays never lags so far. */
+const longestDelay = 2000;
+
+/** How the network is, as far as it explains the delay. */
+function networkWords({ clock, jitter, starved }: Player['stats']): string {
+  if (Number.isNaN(clock.uncertainty)) return '';
+  const words = [
+    `Round trip ${clock.roundTrip.toFixed(0)} ms`,
+    `jitter ${jitter.toFixed(0)} ms`,
+    `clock within ${Math.max(1, clock.uncertainty).toFixed(0)} ms`,
+  ];
+  if (starved > 0) words.push(`frames late ${starved === 1 ? 'once' : `${starved} times`}`);
+  return words.join(' · ');
+}
+
+/** Streams: what there is, what the face follows, how it goes, and sending one's own. */
+export class LivePanel {
+  readonly element: HTMLElement;
+  private readonly list = h('ul', { class: 'streams', 'aria-label': 'Streams' });
+  private readonly status = h('div', { class: 'live-status' });
+  private readonly figures: Record<'rate' | 'bytes' | 'latency' | 'frames', HTMLElement> = {
+    rate: h('dd'),
+    bytes: h('dd'),
+    latency: h('dd'),
+    frames: h('dd'),
+  };
+  private readonly network = h('p', { class: 'muted small', 'aria-label': 'Network' });
+  private readonly publishBox = h('input', { type: 'checkbox', id: 'publish', role: 'switch' });
+  private readonly target = h('select', { 'aria-label': 'Stream to send to' });
+  private readonly publishNote = h('p', { class: 'muted small' });
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly live: LiveModel,
+    performance: HTMLElement,
+    recordings: HTMLElement,
+  ) {
+    const figure = (term: string, value: HTMLElement): HTMLElement => h('div', {}, h('dt', {}, term), value);
+    this.publishBox.addEventListener('change', () => void this.togglePublish());
+    this.target.addEventListener('change', () => {
+      if (this.publishBox.checked) void this.togglePublish();
+    });
+    this.element = h(
+      'div',
+      { class: 'panel live' },
+      h(
+        'section',
+        {},
+        h('header', { class: 'section-head' }, h('h2', {}, 'Now')),
+        this.status,
+        h(
+          'dl',
+          { class: 'figures-grid' },
+          figure('Frames a second', this.figures.rate),
+          figure('On the wire', this.figures.bytes),
+          figure('Delay', this.figures.latency),
+          figure('Frame', this.figures.frames),
+        ),
+        this.network,
+        new StreamFacts(live).element,
+      ),
+      h(
+        'section',
+        {},
+        h(
+          'header',
+          { class: 'section-head' },
+          h('h2', {}, 'Streams'),
+          h(
+            'button',
+            {
+              type: 'button',
+              class: 'quiet square',
+              'aria-label': 'New stream',
+              title: 'New stream',
+              on: { click: () => void this.create() },
+            },
+            icon('plus'),
+          ),
+        ),
+        this.list,
+      ),
+      recordings,
+      performance,
+      h(
+        'section',
+        {},
+        h('header', { class: 'section-head' }, h('h2', {}, 'Send')),
+        h(
+          'label',
+          { class: 'switch-row', for: 'publish' },
+          h(
+            'span',
+            { class: 'grow' },
+            h('strong', {}, 'Send what I do by hand'),
+            h('small', { class: 'muted' }, 'Everyone subscribed sees your sliders move.'),
+          ),
+          this.publishBox,
+        ),
+        h('label', { class: 'field-row' }, h('span', {}, 'To'), this.target),
+        this.publishNote,
+      ),
+    );
+    live.streams.watch(() => this.drawList());
+    live.following.watch(() => this.drawList());
+    live.problem.watch(() => this.drawList());
+    live.status.watch(() => this.drawStatus());
+    live.sending.watch(() => this.drawSending());
+    live.sendStatus.watch(() => this.drawSending());
+  }
+
+  /** Called twice a second. `playhead`: ms of the stream's clock on display. */
+  /** `player`: of the face that is shown, if there is one. */
+  refreshFigures(player: Player | null): void {
+    const playhead = player?.playhead ?? NaN;
+    const { stats } = this.live;
+    const open = this.live.status.value.kind === 'open';
+    setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
+    setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
+    // While the face is moved by hand the playhead rests, and how far the stream is ahead says nothing.
+    const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
+    setText(this.figures.latency, delay !== null && delay < longestDelay ? `${Math.max(0, delay)} ms` : '–');
+    setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
+    setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
+  }
+
+  private drawStatus(): void {
+    const status = this.live.status.value;
+    replace(
+      this.status,
+      h(
+        'div',
+        { class: 'row' },
+        h('span', { class: `lamp lamp-${status.kind}` }),
+        h('strong', { class: 'grow' }, stateWords[status.kind], status.title ? `: ${status.title}` : ''),
+        status.kind !== 'off'
+          ? h('button', { type: 'button', class: 'small', on: { click: () => this.live.unsubscribe() } }, 'Disconnect')
+          : null,
+      ),
+      status.reason
+        ? h(
+            'p',
+            { class: status.kind === 'ended' ? 'notice' : 'notice error', role: 'alert' },
+            icon('warning', 16),
+            status.reason,
+          )
+        : null,
+    );
+    this.drawList();
+  }
+
+  private drawList(): void {
+    const problem = this.live.problem.value;
+    const streams = this.live.streams.value;
+    if (problem) {
+      replace(
+        this.list,
+        h(
+          'li',
+          { class: 'notice error', role: 'alert' },
+          icon('warning', 16),
+          h('div', {}, h('strong', {}, problem.title), h('p', {}, 'The list is tried again every few seconds.')),
+        ),
+      );
+      return;
+    }
+    if (streams === null) {
+      replace(this.list, h('li', {}, progressBar({ title: 'Loading streams', progress: null })));
+      return;
+    }
+    replace(
+      this.list,
+      streams.length === 0
+        ? h('li', { class: 'empty' }, 'No streams yet. Make one with the plus.')
+        : streams.map((stream) => this.item(stream)),
+    );
+    const kept = this.target.value;
+    const own = streams.filter((stream) => stream.source !== 'demo');
+    replace(
+      this.target,
+      own.length === 0
+        ? h('option', { value: '' }, 'Make a new stream')
+        : own.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
+    );
+    if (own.some((stream) => stream.id === kept)) this.target.value = kept;
+    if (this.live.sending.value !== null) this.target.value = this.live.sending.value;
+  }
+
+  private item(stream: StreamInfo): HTMLElement {
+    const on = this.live.following.value === stream.id;
+    const viewers = `${stream.subscribers} watching`;
+    const senders = stream.playing
+      ? `plays ${stream.playing.name || 'without a name'}`
+      : stream.source === 'demo'
+        ? 'plays by itself'
+        : stream.publishers === 0
+          ? 'nobody sends'
+          : `${stream.publishers} sending`;
+    return h(
+      'li',
+      { class: `stream${on ? ' selected' : ''}`, 'data-stream': stream.id },
+      h(
+        'div',
+        { class: 'grow' },
+        h('strong', {}, stream.title || stream.id),
+        h('span', { class: 'muted small' }, `${viewers} · ${senders}`),
+      ),
+      stream.source === 'demo'
+        ? null
+        : h(
+            'button',
+            {
+              type: 'button',
+              class: 'quiet square small',
+              'aria-label': `Delete stream ${stream.title || stream.id}`,
+              title: 'Delete',
+              on: { click: () => void this.remove(stream) },
+            },
+            icon('trash', 16),
+          ),
+      h(
+        'button',
+        {
+          type: 'button',
+          class: on ? 'small' : 'small primary',
+          'aria-pressed': String(on),
+          on: {
+            click: () => (on ? this.live.unsubscribe() : this.live.subscribe(stream.id, stream.title || stream.id)),
+          },
+        },
+        on ? 'Stop' : 'Watch',
+      ),
+    );
+  }
+
+  private drawSending(): void {
+    this.publishBox.checked = this.live.sending.value !== null;
+    const { kind, reason } = this.live.sendStatus.value;
+    const text =
+      this.live.sending.value === null
+        ? (reason ?? '')
+        : kind === 'open'
+          ? 'Sending: move a slider in Animate.'
+          : (reason ?? 'Connecting…');
+    setText(this.publishNote, text);
+    this.publishNote.classList.toggle('error', kind === 'ended' || reason !== undefined);
+  }
+
+  private async create(): Promise<void> {
+    const wish = await askForStream();
+    if (wish?.title) await this.live.create(wish.title, wish.options);
+  }
+
+  private async remove(stream: StreamInfo): Promise<void> {
+    const yes = await ask({
+      title: `Delete ${stream.title || stream.id}?`,
+      text: 'Everyone watching is disconnected.',
+      accept: 'Delete',
+      danger: true,
+    });
+    if (yes !== null) await this.live.remove(stream.id);
+  }
+
+  private async togglePublish(): Promise<void> {
+    if (!this.publishBox.checked) return this.live.send(null);
+    let target: string | null = this.target.value;
+    if (target === '') target = await this.live.create(`${this.studio.selected.value?.name ?? 'Head'}, by hand`);
+    this.live.send(target);
+    this.drawSending();
+  }
+}

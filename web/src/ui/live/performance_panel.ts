@@ -1,0 +1,221 @@
+import { kindOfClip } from '../../face/clip_file.ts';
+import { adviceFor } from '../../net/problem.ts';
+import { absentChoice } from '../documents/absent_choice.ts';
+import { h, redraw, replace, setText } from '../shared/dom.ts';
+import { exampleSelect } from '../documents/example_select.ts';
+import { excerptBox } from '../documents/excerpt_box.ts';
+import { fapWarnings } from '../documents/fap_warnings.ts';
+import { chooseFile } from '../shared/file_button.ts';
+import { formatTime } from '../shared/format.ts';
+import { icon } from '../shared/icons.ts';
+import type { LiveModel } from './live_model.ts';
+import { capital } from '../shared/names.ts';
+import type { PerformanceModel, Refusal } from './performance_model.ts';
+
+/** Plays a performance document or a .fap file into a stream, onto the face on screen and that of everyone who watches. */
+export class PerformancePanel {
+  readonly element: HTMLElement;
+  private readonly script = h('div', { class: 'script' });
+  private readonly transport = h('div', { class: 'transport' });
+  private readonly trouble = h('div', { class: 'script-trouble' });
+  private readonly target = h('select', { 'aria-label': 'Stream to play into' });
+  private readonly from = h('input', {
+    type: 'number',
+    id: 'play-from',
+    class: 'seconds',
+    min: 0,
+    step: 0.1,
+    value: '0',
+    'aria-label': 'Begin at, seconds',
+  });
+  private readonly loop = h('input', { type: 'checkbox', id: 'play-loop' });
+  private readonly clock = h('span', { class: 'number' });
+  private readonly progress = h('input', {
+    type: 'range',
+    class: 'progress',
+    min: 0,
+    max: 1000,
+    step: 1,
+    'aria-label': 'Position',
+  });
+  private held = false;
+
+  constructor(
+    private readonly model: PerformanceModel,
+    live: LiveModel,
+  ) {
+    const example = exampleSelect((title, text) => this.model.choose({ kind: 'performance', title, text }));
+    this.target.addEventListener('change', () => this.model.target.set(this.target.value));
+    this.from.addEventListener('change', () => {
+      this.model.from = Math.max(0, Math.round((Number(this.from.value) || 0) * 1000));
+      this.from.value = String(this.model.from / 1000);
+    });
+    this.loop.addEventListener('change', () => (this.model.loop = this.loop.checked));
+    this.progress.addEventListener('input', () => {
+      this.held = true;
+      this.showClock(Number(this.progress.value));
+    });
+    this.progress.addEventListener('change', () => {
+      this.held = false;
+      if (this.model.mine) void this.model.play({ from: Number(this.progress.value) });
+    });
+    this.element = h(
+      'section',
+      { class: 'performance' },
+      h('header', { class: 'section-head' }, h('h2', {}, 'Performance')),
+      h(
+        'div',
+        { class: 'script-source' },
+        chooseFile({
+          label: 'Choose a .json or .fap file',
+          note: 'or drop it',
+          accept: '.json,.fap,application/json',
+          take: (file) => void this.takeFile(file),
+        }),
+        example,
+      ),
+      this.script,
+      h('label', { class: 'field-row' }, h('span', {}, 'Into'), this.target),
+      h(
+        'div',
+        { class: 'play-options' },
+        h('label', { class: 'field-row', for: 'play-from' }, h('span', {}, 'Begin at'), this.from, h('span', {}, 's')),
+        h('label', { class: 'check', for: 'play-loop' }, this.loop, 'Loop'),
+      ),
+      this.transport,
+      this.trouble,
+    );
+    const draw = (): void => redraw(this.transport, () => this.drawTransport());
+    for (const signal of [model.script, model.absent, model.warnings])
+      signal.watch(() => redraw(this.script, () => this.drawScript()));
+    model.script.watch(draw);
+    model.busy.watch(draw);
+    model.refusal.watch((refusal) => this.drawTrouble(refusal));
+    model.target.watch(() => this.drawTargets());
+    live.streams.watch(() => this.drawTargets());
+    let shown: string | undefined;
+    model.playing.watch((playing) => {
+      // News of the position alone moves the slider, and leaves the buttons where they are under the finger.
+      const key = `${playing?.id ?? ''}:${String(model.mine)}`;
+      if (key !== shown) draw();
+      shown = key;
+    });
+  }
+
+  async takeFile(file: File): Promise<void> {
+    this.model.choose({ kind: kindOfClip(file.name), title: file.name, text: await file.text() });
+  }
+
+  /** Called a few times a second. */
+  tick(): void {
+    this.model.tick();
+    if (this.model.playing.value && !this.held) this.showClock(this.model.position);
+  }
+
+  private showClock(position: number): void {
+    const duration = this.model.playing.value?.duration ?? null;
+    setText(this.clock, `${formatTime(position)} / ${duration === null ? '∞' : formatTime(duration)}`);
+    this.progress.hidden = duration === null;
+    if (duration === null) return;
+    this.progress.max = String(Math.ceil(duration));
+    if (!this.held) this.progress.value = String(Math.round(position));
+    this.progress.style.setProperty('--to', `${duration > 0 ? Math.min(100, (position / duration) * 100) : 0}%`);
+  }
+
+  private drawScript(): void {
+    const { model } = this;
+    const script = model.script.value;
+    replace(
+      this.script,
+      script
+        ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
+        : h('p', { class: 'muted small' }, 'Visemes, expressions, looks and blinks in time. Everyone watching sees it.'),
+      script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
+      fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
+    );
+  }
+
+  private drawTargets(): void {
+    replace(
+      this.target,
+      h('option', { value: '' }, 'Make a new stream'),
+      this.model.ownStreams.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
+    );
+    this.target.value = this.model.target.value;
+  }
+
+  private drawTransport(): void {
+    const { model } = this;
+    const playing = model.playing.value;
+    const restart = playing !== null && model.mine;
+    replace(
+      this.transport,
+      playing
+        ? h(
+            'div',
+            { class: 'row' },
+            h('span', { class: 'lamp lamp-open' }),
+            h('strong', { class: 'grow' }, playing.name || 'Playing'),
+            this.clock,
+          )
+        : null,
+      playing ? this.progress : null,
+      h(
+        'div',
+        { class: 'row' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: playing ? '' : 'primary',
+            'data-focus': 'play',
+            disabled: !model.script.value || model.busy.value,
+            on: { click: () => void model.play() },
+          },
+          icon(restart ? 'reset' : 'play', 15),
+          restart ? 'Play again' : 'Play',
+        ),
+        playing
+          ? h(
+              'button',
+              { type: 'button', 'data-focus': 'stop', on: { click: () => void model.stop() } },
+              icon('stop', 15),
+              'Stop',
+            )
+          : null,
+      ),
+    );
+    this.progress.disabled = !model.mine;
+    if (playing) this.showClock(model.position);
+  }
+
+  private drawTrouble(refusal: Refusal | null): void {
+    if (!refusal) return replace(this.trouble);
+    const { problem, excerpt, holder } = refusal;
+    // What helps a model that is too large does not help a document.
+    const advice = holder === null && problem.status !== 413 ? adviceFor(problem) : null;
+    replace(
+      this.trouble,
+      h(
+        'div',
+        { class: 'notice error', role: 'alert' },
+        icon('warning', 16),
+        h(
+          'div',
+          { class: 'grow' },
+          h('strong', {}, holder ?? capital(problem.detail ?? problem.title)),
+          problem.pointer ? h('p', {}, 'At ', h('code', {}, problem.pointer)) : null,
+          excerptBox(excerpt),
+          advice ? h('p', {}, advice) : null,
+          holder
+            ? h(
+                'button',
+                { type: 'button', on: { click: () => void this.model.play({ take_over: true }) } },
+                'Take over',
+              )
+            : null,
+        ),
+      ),
+    );
+  }
+}

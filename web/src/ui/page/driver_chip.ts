@@ -1,0 +1,79 @@
+import { h, replace } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
+import type { FaceDriver } from '../stage/face_driver.ts';
+import type { LiveModel } from '../live/live_model.ts';
+import type { RecordingsModel } from '../recordings/recordings_model.ts';
+import type { SceneView } from '../stage/scene.ts';
+import type { Signal } from '../shared/signal.ts';
+import type { Tab } from '../shared/studio.ts';
+
+export interface DriverChipParts {
+  driver: FaceDriver;
+  live: LiveModel;
+  /** What the face shows of a file that plays on this page, in words. */
+  clip: Signal<string | null>;
+  recordings: RecordingsModel;
+  scene: SceneView;
+  tab: Signal<Tab>;
+  /** Played where no stream is followed. */
+  demo: { id: string; title: string };
+}
+
+/** Says on the stage what moves the face, and lets the stream take over again. */
+export function makeDriverChip({ driver, live, clip, recordings, scene, tab, demo }: DriverChipParts): HTMLElement {
+  /** What the face shows of a file or a recording; null: the frame set by hand. */
+  const shown = (): string | null => {
+    if (driver.source.value === 'recording') return recordings.looksAt;
+    return driver.source.value === 'clip' ? clip.value : null;
+  };
+  const chip = h('div', { class: 'driver', role: 'status' });
+  const draw = (): void => {
+    const status = live.status.value;
+    chip.hidden = scene.performer.value === null || tab.value === 'points' || tab.value === 'fit';
+    if (chip.hidden) return;
+    if (driver.source.value === 'stream' && status.kind !== 'off') {
+      const words =
+        status.kind === 'open'
+          ? `Live: ${status.title ?? ''}`
+          : status.kind === 'ended'
+            ? (status.reason ?? 'The stream ended')
+            : 'Connecting…';
+      replace(
+        chip,
+        h('span', { class: `lamp lamp-${status.kind}` }),
+        h('span', { class: 'driver-text' }, words),
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'quiet square small',
+            'aria-label': 'Pause the stream',
+            title: 'Pause',
+            on: { click: () => driver.release('stream') },
+          },
+          icon('pause', 15),
+        ),
+      );
+      return;
+    }
+    const resume = (): void => {
+      if (live.following.value === null) live.subscribe(demo.id, demo.title);
+      else driver.byStream();
+    };
+    const words = shown();
+    replace(
+      chip,
+      h('span', { class: `lamp ${words === null ? 'lamp-hand' : 'lamp-open'}` }),
+      h('span', { class: 'driver-text' }, words ?? 'By hand'),
+      h(
+        'button',
+        { type: 'button', class: 'quiet small', on: { click: resume } },
+        icon('play', 14),
+        live.following.value === null ? 'Play the demo' : 'Back to live',
+      ),
+    );
+  };
+  const watched = [driver.source, live.status, live.following, clip, recordings.look, scene.performer, tab];
+  for (const signal of watched) signal.watch(draw);
+  return chip;
+}

@@ -1,0 +1,44 @@
+import type { ClipPanel } from '../animate/clip_panel.ts';
+import { dropPlace, type DropPlace } from './drop_place.ts';
+import type { PerformancePanel } from '../live/performance_panel.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** Takes files that are dropped anywhere on the page to the panel that reads them. */
+export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel): void {
+  acceptDrops(page, (files) => {
+    const going = (place: DropPlace): File[] => files.filter(({ name }) => dropPlace(name, studio.tab.value) === place);
+    const [script, file, heads] = [going('stream').at(-1), going('page').at(-1), going('heads')];
+    if (script) {
+      studio.tab.set('live');
+      void performance.takeFile(script);
+    } else if (file) {
+      studio.tab.set('animate');
+      void clip.takeFile(file);
+    }
+    void studio.upload(heads);
+  });
+}
+
+function acceptDrops(page: HTMLElement, take: (files: File[]) => void): void {
+  let depth = 0;
+  const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
+  const set = (value: number): void => {
+    depth = Math.max(0, value);
+    page.classList.toggle('dropping', depth > 0);
+  };
+  page.addEventListener('dragenter', (event) => {
+    if (carriesFiles(event)) set(depth + 1);
+  });
+  page.addEventListener('dragleave', (event) => {
+    if (carriesFiles(event)) set(depth - 1);
+  });
+  page.addEventListener('dragover', (event) => {
+    if (carriesFiles(event)) event.preventDefault();
+  });
+  page.addEventListener('drop', (event) => {
+    if (!carriesFiles(event)) return;
+    event.preventDefault();
+    set(0);
+    take([...(event.dataTransfer?.files ?? [])]);
+  });
+}

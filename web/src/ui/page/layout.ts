@@ -1,0 +1,119 @@
+import { h, replace } from '../shared/dom.ts';
+import { findingBadge } from '../shared/finding_badge.ts';
+import { icon, type IconName } from '../shared/icons.ts';
+import type { Studio, Tab } from '../shared/studio.ts';
+
+export interface Panels {
+  heads: HTMLElement;
+  fit: HTMLElement;
+  points: HTMLElement;
+  animate: HTMLElement;
+  live: HTMLElement;
+}
+
+const tabs: { tab: Tab; title: string; icon: IconName }[] = [
+  { tab: 'heads', title: 'Heads', icon: 'head' },
+  { tab: 'fit', title: 'Fit', icon: 'fit' },
+  { tab: 'points', title: 'Points', icon: 'point' },
+  { tab: 'animate', title: 'Animate', icon: 'sliders' },
+  { tab: 'live', title: 'Live', icon: 'live' },
+];
+
+/** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
+export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, extras: HTMLElement): HTMLElement {
+  const buttons = new Map<Tab, HTMLButtonElement>();
+  const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': 'Work on the head' });
+  for (const { tab, title, icon: name } of tabs) {
+    const button = h(
+      'button',
+      {
+        type: 'button',
+        role: 'tab',
+        id: `tab-${tab}`,
+        'aria-controls': `panel-${tab}`,
+        class: `tab tab-${tab}`,
+        on: { click: () => studio.tab.set(tab) },
+      },
+      icon(name),
+      h('span', {}, title),
+      tab === 'fit' ? fitBadge(studio) : null,
+    );
+    buttons.set(tab, button);
+    tabList.append(button);
+  }
+  tabList.addEventListener('keydown', (event) => {
+    const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+    if (step === 0) return;
+    const visible = tabs.filter(({ tab }) => buttons.get(tab)!.offsetParent !== null);
+    const at = visible.findIndex(({ tab }) => tab === studio.tab.value);
+    const next = visible[(at + step + visible.length) % visible.length]!;
+    studio.tab.set(next.tab);
+    buttons.get(next.tab)!.focus();
+  });
+
+  const shelfHome = h('aside', { class: 'shelf', 'aria-label': 'Heads' });
+  const inspector = h('section', { class: 'inspector', 'aria-label': 'Inspector' }, tabList);
+  for (const { tab } of tabs) {
+    if (tab === 'heads') continue;
+    panels[tab].setAttribute('role', 'tabpanel');
+    panels[tab].id = `panel-${tab}`;
+    panels[tab].setAttribute('aria-labelledby', `tab-${tab}`);
+    inspector.append(panels[tab]);
+  }
+
+  // One shelf, in the place the width of the page gives it.
+  const narrow = matchMedia('(max-width: 1080px)');
+  const seat = (): void => {
+    panels.heads.id = 'panel-heads';
+    (narrow.matches ? inspector : shelfHome).append(panels.heads);
+    if (!narrow.matches && studio.tab.value === 'heads') studio.tab.set('animate');
+    show();
+  };
+  const show = (): void => {
+    for (const { tab } of tabs) {
+      const on = studio.tab.value === tab;
+      const button = buttons.get(tab)!;
+      button.setAttribute('aria-selected', String(on));
+      button.tabIndex = on ? 0 : -1;
+      panels[tab].hidden = tab === 'heads' ? narrow.matches && !on : !on;
+    }
+  };
+  narrow.addEventListener('change', seat);
+  studio.tab.watch(show);
+  seat();
+
+  const crumb = h('span', { class: 'crumb' });
+  studio.selected.watch((model) => (crumb.textContent = model?.name ?? ''));
+  return h(
+    'div',
+    { class: 'studio' },
+    h(
+      'header',
+      { class: 'top' },
+      h(
+        'a',
+        { class: 'brand', href: './' },
+        h('img', { src: './favicon.svg', alt: '', width: 26, height: 26 }),
+        h('h1', {}, 'Semblante'),
+      ),
+      crumb,
+      h('span', { class: 'grow' }),
+      extras,
+    ),
+    shelfHome,
+    h('main', { class: 'stage' }, stage),
+    inspector,
+    h(
+      'div',
+      { class: 'drop-veil', 'aria-hidden': 'true' },
+      h('div', {}, icon('upload', 40), h('p', {}, 'Drop a head or a performance here')),
+    ),
+  );
+}
+
+/** How many findings the open head has, on the tab that shows them. */
+function fitBadge(studio: Studio): HTMLElement {
+  const seat = h('span', { class: 'badge-seat' });
+  studio.selected.watch((model) => replace(seat, findingBadge(model?.findings)));
+  return seat;
+}

@@ -1,0 +1,39 @@
+import type { ClipPanel } from '../animate/clip_panel.ts';
+import type { LiveModel } from '../live/live_model.ts';
+import type { LivePanel } from '../live/live_panel.ts';
+import type { PerformancePanel } from '../live/performance_panel.ts';
+import type { RecordingsModel } from '../recordings/recordings_model.ts';
+import type { SceneView } from '../stage/scene.ts';
+import type { Studio } from '../shared/studio.ts';
+
+export interface PolledParts {
+  studio: Studio;
+  scene: SceneView;
+  live: LiveModel;
+  livePanel: LivePanel;
+  recordings: RecordingsModel;
+  performance: PerformancePanel;
+  clip: ClipPanel;
+}
+
+/** Draws what changes by itself, and asks the server for streams and recordings while the Live tab is open. */
+export function startPolling({ studio, scene, live, livePanel, recordings, performance, clip }: PolledParts): void {
+  setInterval(() => livePanel.refreshFigures(scene.performer.value?.player ?? null), 500);
+  setInterval(() => {
+    performance.tick();
+    clip.tick();
+  }, 200);
+  setInterval(() => {
+    if (studio.tab.value !== 'live' || document.visibilityState !== 'visible') return;
+    void live.refresh();
+    if (recordings.running.length === 0) void recordings.refresh();
+  }, 3000);
+  setInterval(() => {
+    if (recordings.running.length > 0 && studio.tab.value === 'live') void recordings.refresh();
+  }, 1000);
+  studio.tab.watch((tab) => {
+    if (tab !== 'live') return;
+    void live.refresh();
+    void recordings.refresh();
+  });
+}

@@ -1,0 +1,247 @@
+import type { ViewName } from '../../view/stage.ts';
+import { h, replace, setText } from '../shared/dom.ts';
+import { formatBytes } from '../shared/format.ts';
+import { icon, type IconName } from '../shared/icons.ts';
+import { pointById } from '../../face/feature_points.ts';
+import type { PointsModel } from '../points/points_model.ts';
+import type { SceneView } from '../stage/scene.ts';
+import { overlayCard } from './stage_overlay.ts';
+import type { Studio } from '../shared/studio.ts';
+
+const views: { name: ViewName; label: string; key: string }[] = [
+  { name: 'front', label: 'Front', key: '1' },
+  { name: 'three-quarter', label: 'Three-quarter', key: '2' },
+  { name: 'left', label: 'Left', key: '3' },
+  { name: 'right', label: 'Right', key: '4' },
+];
+
+/** The picture with its tools: views, wireframe, deformation path, and placing feature points with the pointer. */
+export class StagePanel {
+  readonly element: HTMLElement;
+  private readonly overlay = h('div', { class: 'stage-overlay' });
+  private readonly label = h('div', { class: 'marker-label', hidden: true });
+  private readonly hint = h('div', { class: 'stage-hint', hidden: true });
+  private readonly figures = h('output', { class: 'figures', 'aria-label': 'Display rate' });
+  private down: { x: number; y: number; time: number } | null = null;
+  private lastFigures = 0;
+  /** A part was clicked on while parts can be chosen. */
+  onPart: (part: number) => void = () => {};
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly scene: SceneView,
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+    driver: HTMLElement,
+  ) {
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'application');
+    canvas.setAttribute(
+      'aria-label',
+      'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view. ' +
+        'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next.',
+    );
+    this.element = h(
+      'div',
+      { class: 'stage-holder' },
+      canvas,
+      h('div', { class: 'stage-cross', 'aria-hidden': 'true' }),
+      this.label,
+      h('div', { class: 'stage-top' }, driver, this.hint),
+      this.overlay,
+      this.makeTools(),
+      this.figures,
+    );
+    canvas.addEventListener(
+      'pointerdown',
+      (event) => (this.down = { x: event.clientX, y: event.clientY, time: event.timeStamp }),
+    );
+    canvas.addEventListener('pointerup', (event) => this.click(event));
+    canvas.addEventListener('pointermove', (event) => this.hover(event));
+    canvas.addEventListener('pointerleave', () => (this.label.hidden = true));
+    canvas.addEventListener('keydown', (event) => this.key(event));
+    scene.state.watch(() => this.drawOverlay());
+    studio.activities.watch(() => this.drawOverlay());
+    const hint = (): void => this.drawHint();
+    studio.tab.watch(hint);
+    points.chosen.watch(hint);
+    points.changed.watch(hint);
+    scene.stage.onFrame(() => {
+      this.drawFigures();
+      return false;
+    });
+  }
+
+  private makeTools(): HTMLElement {
+    const wire = toggle('Wireframe', 'wire', (on) => (this.scene.wireframe = on));
+    const path = h(
+      'button',
+      {
+        type: 'button',
+        class: 'tool path',
+        title: 'Where the vertices are moved: by the graphics card or by the WebAssembly kernel',
+        'aria-label': 'Deform on the GPU',
+        on: {},
+      },
+      'GPU',
+    );
+    path.addEventListener('click', () => {
+      this.scene.deformPath = this.scene.deformPath === 'gpu' ? 'wasm' : 'gpu';
+      const gpu = this.scene.deformPath === 'gpu';
+      path.textContent = gpu ? 'GPU' : 'WASM';
+      path.setAttribute('aria-label', gpu ? 'Deform on the GPU' : 'Deform with WebAssembly');
+    });
+    return h(
+      'div',
+      { class: 'tools', role: 'toolbar', 'aria-label': 'View' },
+      views.map(({ name, label, key }) =>
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'tool',
+            title: `${label} view (${key})`,
+            on: { click: () => this.scene.stage.look(name) },
+          },
+          name === 'three-quarter' ? '3/4' : label,
+        ),
+      ),
+      h('span', { class: 'divider' }),
+      wire,
+      path,
+    );
+  }
+
+  private click(event: PointerEvent): void {
+    const { down } = this;
+    this.down = null;
+    if (
+      !down ||
+      event.button !== 0 ||
+      // A finger is less steady than a mouse.
+      Math.hypot(event.clientX - down.x, event.clientY - down.y) > (event.pointerType === 'touch' ? 12 : 5) ||
+      event.timeStamp - down.time > 600
+    )
+      return;
+    const { tab } = this.studio;
+    if ((tab.value !== 'points' && tab.value !== 'fit') || !this.scene.preview) return;
+    const { x, y, width, height } = this.place(event);
+    if (tab.value === 'fit') {
+      const pick = this.scene.preview.pick((x / width) * 2 - 1, 1 - (y / height) * 2, this.scene.stage.camera);
+      if (pick && pick.part !== null) this.onPart(pick.part);
+      return;
+    }
+    if (this.points.chosen.value === null) {
+      const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 14);
+      if (marker) this.points.chosen.set(marker.id);
+      return;
+    }
+    this.placeAt((x / width) * 2 - 1, 1 - (y / height) * 2);
+  }
+
+  /** Puts the chosen point where the head is seen at `x`, `y` (-1..1 from the lower left). */
+  private placeAt(x: number, y: number): void {
+    const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera);
+    if (pick) this.points.place(pick.fileVertex, pick.position);
+  }
+
+  private hover(event: PointerEvent): void {
+    if (this.studio.tab.value !== 'points' || event.buttons !== 0) {
+      this.label.hidden = true;
+      return;
+    }
+    const { x, y, width, height } = this.place(event);
+    const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 12);
+    this.label.hidden = marker === null;
+    this.canvas.classList.toggle('placing', this.points.chosen.value !== null);
+    if (!marker) return;
+    setText(this.label, `${marker.id}  ${pointById(marker.id)?.name ?? ''}`);
+    const at = this.scene.markers.project(marker.position, this.scene.stage.camera, width, height);
+    this.label.style.translate = `${Math.min(Math.max(at.x, 90), width - 90)}px ${at.y}px`;
+  }
+
+  private place(event: PointerEvent): { x: number; y: number; width: number; height: number } {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
+  }
+
+  private key(event: KeyboardEvent): void {
+    const { stage } = this.scene;
+    const chosen = this.points.chosen.value;
+    const move = (right: number, up: number): void =>
+      event.shiftKey ? stage.pan(right * 0.05, up * 0.05) : stage.orbit(right * 0.12, -up * 0.12);
+    const actions: Record<string, () => void> = {
+      ArrowLeft: () => move(-1, 0),
+      ArrowRight: () => move(1, 0),
+      ArrowUp: () => move(0, 1),
+      ArrowDown: () => move(0, -1),
+      '+': () => stage.zoom(0.9),
+      '=': () => stage.zoom(0.9),
+      '-': () => stage.zoom(1.1),
+      Escape: () => this.points.chosen.set(null),
+    };
+    if (this.studio.tab.value === 'points') {
+      actions['n'] = actions['N'] = () => this.points.chooseNext();
+      if (chosen !== null) {
+        actions['Delete'] = actions['Backspace'] = () => this.points.remove(chosen);
+        actions[' '] = () => this.placeAt(0, 0);
+        if (this.points.draft.points.get(chosen)?.proposal) actions['Enter'] = () => this.points.confirmAndNext(chosen);
+      }
+    }
+    views.forEach(({ name, key }) => (actions[key] = () => stage.look(name)));
+    const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  private drawHint(): void {
+    const id = this.points.chosen.value;
+    this.hint.hidden = this.studio.tab.value !== 'points' || this.scene.preview === null;
+    this.canvas.classList.toggle('placing', !this.hint.hidden && id !== null);
+    if (this.hint.hidden) return;
+    const name = id === null ? '' : (pointById(id)?.name ?? '');
+    const words =
+      id === null
+        ? 'Choose a point, then click on the head.'
+        : this.points.draft.points.has(id)
+          ? `Click elsewhere to move ${id}: ${name}`
+          : `Click where ${id} lies: ${name}`;
+    replace(this.hint, icon('point', 16), h('span', {}, words));
+  }
+
+  private drawOverlay(): void {
+    this.drawHint();
+    const state = this.scene.state.value;
+    const model = this.studio.selected.value;
+    const activity = model ? this.studio.activities.value.get(model.id) : undefined;
+    this.overlay.hidden = state.kind === 'ready';
+    const again = model && model.state !== 'failed' ? () => void this.scene.open(model) : null;
+    replace(this.overlay, overlayCard(state, activity, again));
+  }
+
+  private drawFigures(): void {
+    const now = performance.now();
+    if (now - this.lastFigures < 500) return;
+    this.lastFigures = now;
+    const rate = this.scene.stage.framesPerSecond;
+    const bytes = this.scene.packageBytes.value;
+    // At rest the stage draws only on demand: a rate would say nothing.
+    const words = [bytes > 0 ? `${formatBytes(bytes)} face` : '', rate > 4 ? `${rate} fps` : ''];
+    setText(this.figures, words.filter((word) => word !== '').join(' · '));
+  }
+}
+
+function toggle(label: string, name: IconName, change: (on: boolean) => void): HTMLElement {
+  const button = h(
+    'button',
+    { type: 'button', class: 'tool', 'aria-label': label, title: label, 'aria-pressed': 'false' },
+    icon(name),
+  );
+  button.addEventListener('click', () => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    button.setAttribute('aria-pressed', String(on));
+    change(on);
+  });
+  return button;
+}

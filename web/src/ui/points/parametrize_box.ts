@@ -1,0 +1,69 @@
+import { h, replace, setText } from '../shared/dom.ts';
+import { ParametrizeOptions } from './parametrize_options.ts';
+import type { Parametrizer } from './parametrizer.ts';
+import type { PointsModel } from './points_model.ts';
+import { progressBar } from '../shared/progress_bar.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** The foot of a panel: options, save, parametrize, and how far that is. */
+export class ParametrizeBox {
+  readonly element: HTMLElement;
+  private readonly progress = h('div', { class: 'progress-slot' });
+  private readonly save: HTMLButtonElement | null;
+  private readonly go: HTMLButtonElement;
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+    parametrizer: Parametrizer,
+    { withSave }: { withSave: boolean },
+  ) {
+    this.save = withSave ? h('button', { type: 'button', on: { click: () => void points.save() } }, 'Save') : null;
+    this.go = h('button', { type: 'button', class: 'primary', on: { click: () => void parametrizer.run() } });
+    this.element = h(
+      'footer',
+      { class: 'panel-foot' },
+      this.progress,
+      new ParametrizeOptions(parametrizer).element,
+      h('div', { class: 'row' }, this.save, this.go),
+    );
+    points.changed.watch(() => this.draw());
+    points.busy.watch(() => this.draw());
+    studio.selected.watch(() => this.draw());
+    studio.activities.watch(() => this.draw());
+  }
+
+  private draw(): void {
+    const { draft } = this.points;
+    const model = this.studio.selected.value;
+    const activity = model ? this.studio.activities.value.get(model.id) : undefined;
+    const busy = this.points.busy.value || activity !== undefined;
+    const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');
+    if (this.save) {
+      this.save.disabled = busy || !usable || draft.changes === 0;
+      setText(
+        this.save,
+        draft.changes === 0 ? 'Saved' : `Save ${draft.changes} ${draft.changes === 1 ? 'change' : 'changes'}`,
+      );
+    }
+    this.go.disabled = busy || !usable || draft.points.size === 0;
+    setText(this.go, model?.state === 'parametrized' ? 'Parametrize again' : 'Parametrize');
+    replace(
+      this.progress,
+      activity
+        ? h(
+            'div',
+            { class: 'row small' },
+            h('span', { class: 'grow' }, activity.title),
+            activity.progress !== null
+              ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`)
+              : null,
+            activity.cancel
+              ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, 'Cancel')
+              : null,
+          )
+        : null,
+      activity ? progressBar(activity) : null,
+    );
+  }
+}

@@ -1,0 +1,42 @@
+import { problemOf } from '../../net/problem.ts';
+import type { ParametrizationOptions } from '../../net/types.ts';
+import { countWords } from '../shared/finding_words.ts';
+import type { PointsModel } from './points_model.ts';
+import { Signal } from '../shared/signal.ts';
+import { needsCare, type Studio } from '../shared/studio.ts';
+
+/** Each is sent: the server's defaults are those of the paper, without levels of detail. */
+export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>>;
+
+/** Starts parametrizations with the options that are set; says what came of it. */
+export class Parametrizer {
+  readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', lods: 'auto' });
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+  ) {}
+
+  set(change: Partial<ChosenOptions>): void {
+    this.options.set({ ...this.options.value, ...change });
+  }
+
+  async run(): Promise<void> {
+    const { studio, points } = this;
+    const model = studio.selected.value;
+    if (!model) return;
+    if (points.draft.changes > 0 && !(await points.save())) return studio.tab.set('points');
+    try {
+      if (!(await studio.parametrize(model, this.options.value))) return;
+      const now = studio.models.value.find((one) => one.id === model.id) ?? model;
+      const found = now.findings ? countWords(now.findings) : '';
+      studio.toasts.say(`${now.name} can move now.${found === '' ? '' : ` The fit doctor found ${found}.`}`);
+      if (studio.selected.value?.id === now.id)
+        studio.tab.set(needsCare(now) && (now.findings?.errors ?? 0) > 0 ? 'fit' : 'animate');
+    } catch (error) {
+      points.show(error);
+      if (points.problems.size > 0) studio.tab.set('points');
+      studio.toasts.problem('The head was not parametrized', problemOf(error));
+    }
+  }
+}

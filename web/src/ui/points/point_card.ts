@@ -1,0 +1,142 @@
+import { pointById } from '../../face/feature_points.ts';
+import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
+import { h, redraw, replace, type Child } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
+import { capital } from '../shared/names.ts';
+import type { PointsModel } from './points_model.ts';
+import { proposalWords } from './proposal_words.ts';
+
+/** The chosen point: what it is, where it lies, what can be done with it. Guided, it leads through the quick set. */
+export class PointCard {
+  readonly element = h('div', { class: 'point-card', 'aria-live': 'polite' });
+
+  constructor(private readonly points: PointsModel) {
+    points.changed.watch(() => this.draw());
+    points.chosen.watch(() => this.draw());
+    points.guided.watch(() => this.draw());
+  }
+
+  private draw(): void {
+    redraw(this.element, () => this.fill());
+  }
+
+  private fill(): void {
+    const id = this.points.chosen.value;
+    const point = id === null ? undefined : pointById(id);
+    if (!point) return replace(this.element, this.points.guided.value ? this.invitation() : this.plainInvitation());
+    const { draft, problems, notProposed } = this.points;
+    const place = draft.points.get(point.id);
+    const step = this.points.guided.value ? quickSet.findIndex((one) => one.id === point.id) : -1;
+    replace(
+      this.element,
+      step >= 0 ? h('p', { class: 'step small' }, `Point ${step + 1} of ${quickSet.length}`) : null,
+      h(
+        'div',
+        { class: 'row' },
+        h('code', { class: 'id' }, point.id),
+        h('strong', { class: 'grow' }, capital(point.name)),
+        place ? this.removeButton(point.id) : null,
+      ),
+      step >= 0 ? h('p', { class: 'hint' }, quickSet[step]!.hint) : null,
+      place?.proposal ? h('p', { class: 'small' }, proposalWords(place.proposal)) : null,
+      !place && notProposed.has(point.id)
+        ? h('p', { class: 'small' }, `Not proposed: ${notProposed.get(point.id) ?? ''}.`)
+        : null,
+      h(
+        'div',
+        { class: 'row' },
+        h('p', { class: 'muted small grow' }, this.where(point.id)),
+        place?.proposal
+          ? h(
+              'button',
+              {
+                type: 'button',
+                class: 'small',
+                'data-focus': 'confirm',
+                title: 'Confirm (Enter on the picture)',
+                on: { click: () => this.points.confirmAndNext(point.id) },
+              },
+              icon('check', 15),
+              'Confirm',
+            )
+          : null,
+        this.nextButton(step >= 0 && !place ? 'Skip' : 'Next'),
+      ),
+      (problems.get(point.id) ?? []).map((text) =>
+        h('p', { class: 'reason', role: 'alert' }, icon('warning', 15), text),
+      ),
+    );
+  }
+
+  private where(id: string): string {
+    const place = this.points.draft.points.get(id);
+    if (!place) return 'Click on the head to place it.';
+    if (place.vertex === null) return `At ${place.position.map((value) => value.toPrecision(4)).join(', ')}`;
+    return `On vertex ${place.vertex}. Click elsewhere to move it.`;
+  }
+
+  private removeButton(id: string): HTMLElement {
+    return h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet square small',
+        'aria-label': `Remove point ${id}`,
+        title: 'Remove (Delete)',
+        on: { click: () => this.points.remove(id) },
+      },
+      icon('trash', 16),
+    );
+  }
+
+  private nextButton(label: string): HTMLElement | null {
+    if (!this.points.hasNext) return null;
+    return h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet small next',
+        'data-focus': 'next',
+        on: { click: () => this.points.chooseNext() },
+      },
+      label,
+      icon('chevron', 14),
+    );
+  }
+
+  private plainInvitation(): Child {
+    return h(
+      'p',
+      { class: 'muted' },
+      'Choose a point in the drawing or the list, then click where it lies on the head.',
+    );
+  }
+
+  private invitation(): Child {
+    const left = this.points.quickLeft;
+    if (left === 0)
+      return h('p', {}, h('strong', {}, 'All twenty are placed. '), 'Have the rest proposed, then look them over.');
+    return [
+      h(
+        'p',
+        {},
+        `${quickSet.length} points are enough for a talking face. One after the other: read where it lies, click there. `,
+        `From ${leastKnownPoints} on the rest can be proposed.`,
+      ),
+      h(
+        'div',
+        { class: 'row end' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'primary small',
+            'data-focus': 'next',
+            on: { click: () => this.points.chooseNext() },
+          },
+          left === quickSet.length ? 'Start' : `Go on: ${left} left`,
+        ),
+      ),
+    ];
+  }
+}

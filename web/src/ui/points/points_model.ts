@@ -1,0 +1,278 @@
+import { featurePoints } from '@protocol/generated/mpeg4.ts';
+import { PointDraft, proposalBody, type PlacedPoint } from '../../face/point_draft.ts';
+import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
+import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/problem.ts';
+import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
+import { Signal } from '../shared/signal.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** Feature points of the open head: the draft, the chosen point, and what the server said against any of them. */
+export class PointsModel {
+  readonly draft = new PointDraft();
+  /** Counts up with every change of the draft or the problems. */
+  readonly changed = new Signal(0);
+  readonly chosen = new Signal<string | null>(null);
+  readonly busy = new Signal(false);
+  /** Reasons by feature point id; "" holds what concerns no point. */
+  problems: ReadonlyMap<string, readonly string[]> = new Map();
+  /** Whether a person is led through the quick set, point by point. */
+  readonly guided = new Signal(true);
+  /** Why a point could not be proposed, by id; of the last proposals. */
+  notProposed: ReadonlyMap<string, string> = new Map();
+  private guidedByUser = false;
+  private etag: string | null = null;
+  private model: Model | null = null;
+  /** A vertex of the file in model units: asked for points whose answer names no position. */
+  positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
+  /** A proposed point is to be looked at. */
+  onReview: (point: PlacedPoint) => void = () => {};
+
+  constructor(private readonly studio: Studio) {}
+
+  get total(): number {
+    return featurePoints.length;
+  }
+
+  async open(model: Model | null): Promise<void> {
+    this.model = model;
+    this.chosen.set(null);
+    this.clearProblems();
+    this.draft.reset([]);
+    this.notProposed = new Map();
+    this.guidedByUser = false;
+    this.etag = null;
+    this.touch();
+    if (!model || model.state === 'importing' || model.state === 'failed') return;
+    await this.studio.attempt('The feature points could not be read', async () => {
+      const answer = await this.studio.api.getFeaturePoints(model.id);
+      if (this.model?.id === model.id) this.take(answer.value, answer.etag);
+    });
+  }
+
+  place(vertex: number, position: readonly [number, number, number]): void {
+    const id = this.chosen.value;
+    if (id === null) return;
+    const isNew = !this.draft.points.has(id);
+    this.draft.place(id, { vertex, position });
+    this.forgive(id);
+    this.touch();
+    if (isNew && this.guided.value) this.chooseNext();
+  }
+
+  toggle(id: string): void {
+    this.chosen.set(this.chosen.value === id ? null : id);
+  }
+
+  guide(on: boolean): void {
+    this.guidedByUser = true;
+    this.guided.set(on);
+  }
+
+  /** How many points of the quick set are not placed. */
+  get quickLeft(): number {
+    return quickSet.filter(({ id }) => !this.draft.points.has(id)).length;
+  }
+
+  /** Whether there is a point to go on to: one that is not placed, or one to look over. */
+  get hasNext(): boolean {
+    if (this.guided.value) return this.quickLeft > 0;
+    return this.draft.points.size < this.total || this.draft.proposed.length > 0;
+  }
+
+  confirmAndNext(id: string): void {
+    this.draft.confirm([id]);
+    this.touch();
+    this.chooseNextProposed();
+  }
+
+  confirmAll(): void {
+    this.draft.confirm(this.draft.proposed);
+    this.touch();
+  }
+
+  discardProposals(): void {
+    const chosen = this.chosen.value;
+    if (chosen !== null && this.draft.points.get(chosen)?.proposal) this.chosen.set(null);
+    this.draft.discard(this.draft.proposed);
+    this.touch();
+  }
+
+  chooseNextProposed(): void {
+    this.chooseAfter(
+      featurePoints.map(({ id }) => id),
+      (id) => this.draft.points.get(id)?.proposal !== undefined,
+    );
+    const place = this.draft.points.get(this.chosen.value ?? '');
+    if (place) this.onReview(place);
+  }
+
+  remove(id: string): void {
+    this.draft.remove(id);
+    this.forgive(id);
+    this.touch();
+  }
+
+  undo(): void {
+    if (this.draft.undo()) this.touch();
+  }
+
+  redo(): void {
+    if (this.draft.redo()) this.touch();
+  }
+
+  /** The next unplaced point after the chosen one, in the order that is gone by; where all are, the next proposed. */
+  chooseNext(): void {
+    const order = (this.guided.value ? quickSet : featurePoints).map(({ id }) => id);
+    if (order.every((id) => this.draft.points.has(id))) this.chooseNextProposed();
+    else this.chooseAfter(order, (id) => !this.draft.points.has(id));
+  }
+
+  private chooseAfter(order: readonly string[], wanted: (id: string) => boolean): void {
+    const start = order.indexOf(this.chosen.value ?? '');
+    const rest = [...order.slice(start + 1), ...order.slice(0, start + 1)];
+    this.chosen.set(rest.find(wanted) ?? null);
+  }
+
+  /** Saves what is not saved, and has the server propose the missing points. */
+  async propose(): Promise<void> {
+    const { model, studio } = this;
+    if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
+    this.busy.set(true);
+    await studio.attempt('No points were proposed', async () => {
+      const result = await studio.propose(model, this.etag);
+      if (result === null || this.model?.id !== model.id) return;
+      const answer = await studio.api.getFeaturePoints(model.id);
+      this.notProposed = new Map(Object.entries(result.not_proposed));
+      this.guidedByUser = false;
+      this.take(answer.value, answer.etag);
+      await studio.reload(model.id);
+      const { length } = this.draft.proposed;
+      studio.toasts.say(length > 0 ? `${length} points are proposed: look them over.` : 'No point could be proposed.');
+    });
+    this.busy.set(false);
+    this.touch();
+  }
+
+  save(mirror = false): Promise<boolean> {
+    return this.put(
+      this.draft.toBody(),
+      mirror ? 'The missing sides were not filled in' : 'The feature points were not saved',
+      { mirror, guarded: true },
+    );
+  }
+
+  /** A file in the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server reads it. */
+  async importFile(file: File): Promise<boolean> {
+    let body: FeaturePointsBody;
+    try {
+      body = JSON.parse(await file.text()) as FeaturePointsBody;
+    } catch (error) {
+      this.setProblems({ '': [`${file.name} is not JSON: ${error instanceof Error ? error.message : ''}`] });
+      return false;
+    }
+    const done = await this.put(body, `The points of ${file.name} were not accepted`, { mirror: false, guarded: true });
+    if (done) this.studio.toasts.say(`${this.draft.points.size} feature points read from ${file.name}.`);
+    return done;
+  }
+
+  exportFile(): void {
+    const points: Record<string, object> = {};
+    for (const { id } of featurePoints) {
+      const point = this.draft.points.get(id);
+      if (!point) continue;
+      const { vertex, position, proposal } = point;
+      points[id] = { vertex, position, ...(proposal ? proposalBody(proposal) : {}) };
+    }
+    const text = JSON.stringify({ head: this.model?.name ?? '', count: this.draft.points.size, points }, null, 1);
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
+    link.download = `${(this.model?.name ?? 'head').replaceAll(/[^\p{L}\p{N}._-]+/gu, '-')}.fps.json`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+
+  /** Shows a refusal beside the points it names. */
+  show(error: unknown): void {
+    const problem = problemOf(error);
+    const byPoint: Record<string, string[]> = {};
+    for (const { pointer, detail } of fieldProblems(problem))
+      (byPoint[featurePointOf(pointer) ?? ''] ??= []).push(pointer ? `${detail} (${pointer})` : detail);
+    this.setProblems(byPoint);
+    const first = Object.keys(byPoint).find((id) => id !== '');
+    if (first) this.chosen.set(first);
+  }
+
+  /** Whether proposals can be made: from fewer points than this nothing can be told. */
+  get canPropose(): boolean {
+    return this.draft.points.size - this.draft.proposed.length >= leastKnownPoints;
+  }
+
+  /** Exchanges left and right of these points; not saved yet. */
+  exchange(ids: readonly string[]): void {
+    this.draft.exchange(ids);
+    this.touch();
+  }
+
+  private async put(body: FeaturePointsBody, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
+    const model = this.model;
+    if (!model) return false;
+    this.busy.set(true);
+    try {
+      const answer = await this.studio.api.putFeaturePoints(model.id, body, {
+        etag: options.guarded ? this.etag : null,
+        mirror: options.mirror,
+      });
+      this.clearProblems();
+      this.take(answer.value, answer.etag);
+      await this.studio.reload(model.id);
+      return true;
+    } catch (error) {
+      this.show(error);
+      const named = [...this.problems.keys()].some((id) => id !== '');
+      if (!(error instanceof ApiError) || !named) this.studio.toasts.problem(failure, problemOf(error));
+      return false;
+    } finally {
+      this.busy.set(false);
+    }
+  }
+
+  private take(set: FeaturePointSet, etag: string | null): void {
+    const placed: [string, PlacedPoint][] = [];
+    for (const [id, value] of Object.entries(set.points)) {
+      const { vertex } = value;
+      const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
+      if (!position) continue;
+      const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
+      const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
+      placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
+    }
+    this.draft.reset(placed);
+    // Someone who has gone beyond the quick set, or has proposals to look over, needs the whole list.
+    if (!this.guidedByUser) {
+      const quick = new Set(quickSet.map(({ id }) => id));
+      this.guided.set(placed.every(([id, point]) => quick.has(id) && !point.proposal));
+    }
+    this.etag = etag;
+    this.touch();
+  }
+
+  private forgive(id: string): void {
+    const rest = new Map(this.problems);
+    rest.delete(id);
+    rest.delete('');
+    this.problems = rest;
+  }
+
+  private clearProblems(): void {
+    this.problems = new Map();
+  }
+
+  private setProblems(problems: Record<string, string[]>): void {
+    this.problems = new Map(Object.entries(problems));
+    this.touch();
+  }
+
+  private touch(): void {
+    this.changed.set(this.changed.value + 1);
+  }
+}

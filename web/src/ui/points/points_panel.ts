@@ -1,0 +1,161 @@
+import { ask } from '../shared/dialog.ts';
+import { h, replace, setText } from '../shared/dom.ts';
+import { Guide } from './guide.ts';
+import { icon, type IconName } from '../shared/icons.ts';
+import { ParametrizeBox } from './parametrize_box.ts';
+import type { Parametrizer } from './parametrizer.ts';
+import { PointCard } from './point_card.ts';
+import { PointList } from './point_list.ts';
+import type { PointsModel } from './points_model.ts';
+import { ProposalsBox } from './proposals_box.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** Marks where the 84 feature points lie on the open head. */
+export class PointsPanel {
+  readonly element: HTMLElement;
+  private readonly guide: Guide;
+  private readonly count = h('span', { class: 'count', 'aria-live': 'polite' });
+  private readonly meter = h('div', { class: 'bar', 'aria-hidden': 'true' }, h('span', {}));
+  private readonly notices = h('div', { class: 'notices' });
+  private readonly undo = this.tool('Undo', 'undo', () => this.points.undo());
+  private readonly redo = this.tool('Redo', 'redo', () => this.points.redo());
+  private readonly mirror = this.tool(
+    'Fill the missing side by mirroring',
+    'mirror',
+    () => void this.points.save(true),
+  );
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+    parametrizer: Parametrizer,
+  ) {
+    this.guide = new Guide({ onSelect: (id) => points.toggle(id) });
+    const list = new PointList(points);
+    const file = h('input', {
+      type: 'file',
+      accept: '.json,application/json',
+      class: 'visually-hidden',
+      id: 'points-file',
+      tabindex: -1,
+      'aria-label': 'Feature point file',
+    });
+    file.addEventListener('change', () => {
+      const chosen = file.files?.[0];
+      if (chosen) void this.importFile(chosen);
+      file.value = '';
+    });
+    this.element = h(
+      'div',
+      { class: 'panel points' },
+      h(
+        'header',
+        { class: 'section-head' },
+        this.modes(),
+        h(
+          'div',
+          { class: 'row tight' },
+          this.undo,
+          this.redo,
+          this.mirror,
+          this.tool('Import points from a file', 'upload', () => file.click()),
+          this.tool('Export points to a file', 'download', () => points.exportFile()),
+          file,
+        ),
+      ),
+      h('div', { class: 'meter' }, this.meter, this.count),
+      this.guide.element,
+      new PointCard(points).element,
+      new ProposalsBox(studio, points).element,
+      this.notices,
+      list.search,
+      list.element,
+      new ParametrizeBox(studio, points, parametrizer, { withSave: true }).element,
+    );
+    points.changed.watch(() => this.draw());
+    points.chosen.watch((id) => this.guide.select(id));
+    points.busy.watch(() => this.draw());
+    studio.selected.watch(() => this.draw());
+    studio.activities.watch(() => this.draw());
+  }
+
+  private tool(label: string, name: IconName, click: () => void): HTMLButtonElement {
+    return h(
+      'button',
+      { type: 'button', class: 'quiet square', 'aria-label': label, title: label, on: { click } },
+      icon(name),
+    );
+  }
+
+  private modes(): HTMLElement {
+    const first = h(
+      'button',
+      { type: 'button', on: { click: () => this.points.guide(true) }, title: 'The twenty points to begin with' },
+      'First 20',
+    );
+    const all = h('button', { type: 'button', on: { click: () => this.points.guide(false) } }, 'All 84');
+    this.points.guided.watch((guided) => {
+      first.setAttribute('aria-pressed', String(guided));
+      all.setAttribute('aria-pressed', String(!guided));
+    });
+    return h('div', { class: 'segments', role: 'group', 'aria-label': 'Feature points to mark' }, first, all);
+  }
+
+  private draw(): void {
+    const { draft, problems } = this.points;
+    const size = draft.points.size;
+    const proposed = draft.proposed.length;
+    setText(
+      this.count,
+      `${size - proposed} of ${this.points.total} placed${proposed > 0 ? `, ${proposed} proposed` : ''}`,
+    );
+    this.meter.querySelector('span')!.style.width = `${((size - proposed) / this.points.total) * 100}%`;
+    this.guide.mark(
+      new Set(draft.points.keys()),
+      new Set([...problems.keys()].filter((id) => id !== '')),
+      new Set(draft.proposed),
+    );
+    const general = problems.get('') ?? [];
+    const wrong = [...problems.keys()].filter((id) => id !== '');
+    replace(
+      this.notices,
+      general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), text)),
+      wrong.length > 0 ? this.refusal(wrong) : null,
+    );
+    const model = this.studio.selected.value;
+    const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');
+    const busy = this.points.busy.value || (model !== null && this.studio.activities.value.has(model.id));
+    this.undo.disabled = !draft.canUndo;
+    this.redo.disabled = !draft.canRedo;
+    this.mirror.disabled = busy || !usable || size === 0;
+  }
+
+  private refusal(wrong: readonly string[]): HTMLElement {
+    return h(
+      'p',
+      { class: 'notice error', role: 'alert' },
+      icon('warning', 16),
+      h(
+        'span',
+        {},
+        `Refused: ${wrong.length === 1 ? 'point' : 'points'} `,
+        wrong.map((id) =>
+          h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id),
+        ),
+        '. Move or remove, then save again.',
+      ),
+    );
+  }
+
+  private async importFile(file: File): Promise<void> {
+    if (this.points.draft.points.size > 0) {
+      const yes = await ask({
+        title: 'Replace the feature points?',
+        text: `${file.name} takes the place of the ${this.points.draft.points.size} points of this head.`,
+        accept: 'Replace',
+      });
+      if (yes === null) return;
+    }
+    await this.points.importFile(file);
+  }
+}

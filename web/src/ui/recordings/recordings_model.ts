@@ -1,0 +1,178 @@
+import { problemOf } from '../../net/problem.ts';
+import type { Problem, Recording, RecordingFormat } from '../../net/types.ts';
+import type { FaceDriver } from '../stage/face_driver.ts';
+import { formatTime } from '../shared/format.ts';
+import type { LiveModel } from '../live/live_model.ts';
+import { Signal } from '../shared/signal.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** Which moment of a recording the face shows. */
+export interface Look {
+  id: string;
+  /** ms */
+  at: number;
+}
+
+const endings: Record<RecordingFormat, string> = {
+  performance: '.json',
+  fap: '.fap',
+  'arkit-csv': '.csv',
+  glb: '.glb',
+  'frames-json': '.frames.json',
+};
+
+/** Recordings of a stream: making them, playing, looking into them, taking them along. */
+export class RecordingsModel {
+  /** Id of a stream; empty: recordings of all, also of streams that are gone. */
+  readonly stream = new Signal('');
+  /** Newest first; null until the first answer. */
+  readonly recordings = new Signal<readonly Recording[] | null>(null);
+  readonly problem = new Signal<Problem | null>(null);
+  /** Id of a stream to play into; empty: a new one. */
+  readonly target = new Signal('');
+  /** What the buttons wait for: the id of a recording, or `record`. */
+  readonly busy = new Signal<string | null>(null);
+  readonly look = new Signal<Look | null>(null);
+  private looking = false;
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly live: LiveModel,
+    private readonly driver: FaceDriver,
+    private readonly save: (blob: Blob, name: string) => void,
+  ) {
+    driver.onTake((source) => {
+      if (source !== 'recording') this.look.set(null);
+    });
+    live.following.watch((id) => {
+      if (id === null) return;
+      this.stream.set(id);
+      if (live.ownStreams.some((stream) => stream.id === id)) this.target.set(id);
+    });
+    live.streams.watch((streams) => {
+      const gone = (id: string): boolean => id !== '' && streams !== null && !streams.some((one) => one.id === id);
+      if (gone(this.stream.value)) this.stream.set('');
+      if (gone(this.target.value)) this.target.set('');
+    });
+    this.stream.watch(() => {
+      this.recordings.set(null);
+      void this.refresh();
+    });
+  }
+
+  get running(): readonly Recording[] {
+    return (this.recordings.value ?? []).filter(({ state }) => state === 'recording');
+  }
+
+  async refresh(): Promise<void> {
+    const stream = this.stream.value;
+    try {
+      const recordings = (await this.studio.api.listRecordings(stream === '' ? null : stream)).reverse();
+      if (stream !== this.stream.value) return;
+      this.problem.set(null);
+      if (JSON.stringify(recordings) !== JSON.stringify(this.recordings.value)) this.recordings.set(recordings);
+    } catch (error) {
+      if (stream === this.stream.value) this.problem.set(problemOf(error));
+    }
+  }
+
+  async record(): Promise<void> {
+    await this.work('record', 'The recording did not begin', async () => {
+      await this.studio.api.startRecording(this.stream.value);
+    });
+  }
+
+  async stop(recording: Recording): Promise<void> {
+    await this.work('record', 'The recording was not stopped', async () => {
+      await this.studio.api.stopRecording(recording.id);
+    });
+  }
+
+  async remove(recording: Recording): Promise<void> {
+    await this.work(recording.id, `${recording.name} was not deleted`, () =>
+      this.studio.api.deleteRecording(recording.id),
+    );
+  }
+
+  /** Plays into the target. Resolves with why not, where somebody else has the stream. */
+  async play(recording: Recording, takeOver: boolean): Promise<string | null> {
+    let held: string | null = null;
+    await this.work(recording.id, `${recording.name} does not play`, async () => {
+      const stream = await this.live.openFor(this.target.value);
+      if (stream === null) return;
+      this.target.set(stream);
+      try {
+        await this.studio.api.playRecording(stream, recording.id, { loop: false, from: 0, take_over: takeOver });
+        this.driver.byStream();
+      } catch (error) {
+        const problem = problemOf(error);
+        // Other conflicts are of the recording itself, and are not helped by taking over.
+        await this.live.refresh();
+        if (problem.status !== 409 || takeOver || !this.taken(stream)) throw error;
+        held = problem.detail ?? problem.title;
+      }
+      await this.live.refresh();
+    });
+    return held;
+  }
+
+  async stopPlaying(): Promise<void> {
+    const stream = this.live.streams.value?.find(({ id }) => id === this.target.value);
+    const playing = stream?.playing;
+    if (!playing) return;
+    await this.studio.attempt('It was not stopped', () => this.studio.api.stopPlaying(stream.id, playing.id));
+    await this.live.refresh();
+  }
+
+  async download(recording: Recording, format: RecordingFormat): Promise<void> {
+    const model = this.studio.selected.value?.id ?? null;
+    await this.work(recording.id, `${recording.name} was not downloaded`, async () => {
+      const content = await this.studio.api.recordingContent(recording.id, format, model);
+      this.save(content, `${fileName(recording.name)}${endings[format]}`);
+    });
+  }
+
+  /** Shows a moment on the face on this page alone. While one is asked for, only the newest wish is kept. */
+  async lookAt(recording: Recording, at: number): Promise<void> {
+    this.look.set({ id: recording.id, at });
+    if (this.looking) return;
+    this.looking = true;
+    await this.studio.attempt('That moment cannot be shown', async () => {
+      for (let shown: Look | null = null; this.look.value && shown !== this.look.value; ) {
+        shown = this.look.value;
+        const frame = await this.studio.api.recordedFrame(shown.id, shown.at);
+        if (this.look.value) this.driver.byRecording(frame);
+      }
+    });
+    this.looking = false;
+  }
+
+  /** In words, what the face shows; null: nothing recorded. */
+  get looksAt(): string | null {
+    const look = this.look.value;
+    if (!look) return null;
+    const name = this.recordings.value?.find(({ id }) => id === look.id)?.name ?? 'Recording';
+    // The time first: a long name is cut short.
+    return `${formatTime(look.at)} of ${name}`;
+  }
+
+  private taken(id: string): boolean {
+    const stream = this.live.streams.value?.find((one) => one.id === id);
+    return stream !== undefined && stream.active_source !== null;
+  }
+
+  private async work(what: string, failed: string, action: () => Promise<void>): Promise<void> {
+    if (this.busy.value !== null) return;
+    this.busy.set(what);
+    await this.studio.attempt(failed, action);
+    this.busy.set(null);
+    await this.refresh();
+  }
+}
+
+/** A name that every file system takes. */
+const fileName = (name: string): string =>
+  name
+    .replaceAll(/[^\p{L}\p{N}._ -]+/gu, '-')
+    .slice(0, 80)
+    .trim() || 'recording';

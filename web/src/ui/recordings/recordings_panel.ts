@@ -1,0 +1,230 @@
+import type { Recording } from '../../net/types.ts';
+import { ask } from '../shared/dialog.ts';
+import { h, redraw, replace, setText } from '../shared/dom.ts';
+import { formatBytes, formatCount } from '../shared/format.ts';
+import { icon } from '../shared/icons.ts';
+import type { LiveModel } from '../live/live_model.ts';
+import { capital } from '../shared/names.ts';
+import { recordingItem } from './recording_item.ts';
+import type { RecordingsModel } from './recordings_model.ts';
+import { progressBar } from '../shared/progress_bar.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** Records streams, and what there is to do with a recording. */
+export class RecordingsPanel {
+  readonly element: HTMLElement;
+  private readonly source = h('select', { 'aria-label': 'Stream to record' });
+  private readonly target = h('select', { 'aria-label': 'Stream to play recordings into' });
+  private readonly recorder = h('div', { class: 'recorder' });
+  private readonly player = h('div', { class: 'recorder' });
+  private readonly list = h('ul', { class: 'streams', 'aria-label': 'Recordings' });
+  /** Of the recordings that run: what changes every second. */
+  private readonly running = new Map<string, HTMLElement>();
+  private open: string | null = null;
+  private drawn = '';
+
+  constructor(
+    private readonly model: RecordingsModel,
+    private readonly live: LiveModel,
+    private readonly studio: Studio,
+  ) {
+    this.source.addEventListener('change', () => model.stream.set(this.source.value));
+    this.target.addEventListener('change', () => model.target.set(this.target.value));
+    this.element = h(
+      'section',
+      { class: 'recordings' },
+      h('header', { class: 'section-head' }, h('h2', {}, 'Recordings')),
+      h('label', { class: 'field-row' }, h('span', {}, 'Of'), this.source),
+      this.recorder,
+      this.list,
+      h('label', { class: 'field-row' }, h('span', {}, 'Play into'), this.target),
+      this.player,
+    );
+    for (const signal of [live.streams, model.stream, model.target]) signal.watch(() => this.drawStreams());
+    for (const signal of [model.recordings, model.busy, model.problem]) signal.watch(() => this.draw());
+    // Titles of streams stand in the lines, and whether there is a clip depends on the head.
+    for (const signal of [live.streams, model.stream, studio.selected]) signal.watch(() => this.draw());
+  }
+
+  private drawStreams(): void {
+    const option = ({ id, title }: { id: string; title: string }): HTMLElement => h('option', { value: id }, title || id);
+    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, 'All streams, also deleted ones'));
+    this.source.value = this.model.stream.value;
+    replace(this.target, h('option', { value: '' }, 'Make a new stream'), this.live.ownStreams.map(option));
+    this.target.value = this.model.target.value;
+    const into = this.live.ownStreams.find(({ id }) => id === this.model.target.value);
+    const name = into?.playing?.kind === 'recording' ? into.playing.name || 'A recording' : null;
+    redraw(this.player, () =>
+      replace(
+        this.player,
+        name === null || !into
+          ? null
+          : h(
+              'div',
+              { class: 'row' },
+              h('span', { class: 'lamp lamp-open' }),
+              h('strong', { class: 'grow' }, `${name} plays`),
+              h(
+                'button',
+                {
+                  type: 'button',
+                  class: 'small',
+                  'data-focus': 'stop-playing',
+                  'aria-label': `Stop ${name}`,
+                  on: { click: () => void this.model.stopPlaying() },
+                },
+                icon('stop', 14),
+                'Stop',
+              ),
+            ),
+      ),
+    );
+  }
+
+  private draw(): void {
+    const { running } = this.model;
+    // What only counts on leaves the buttons where they are under the finger, and the slider in the hand.
+    const resting = (this.model.recordings.value ?? []).filter(({ state }) => state !== 'recording');
+    const clip = this.studio.selected.value?.state === 'parametrized';
+    const { recordings, busy, problem, stream } = this.model;
+    const titles = [...running, ...resting].map((recording) => this.live.titleOf(recording.stream));
+    const facts = [running.map(({ id }) => id), resting, titles, recordings.value === null, stream.value, problem.value];
+    const key = JSON.stringify([...facts, busy.value, this.open, clip]);
+    if (key !== this.drawn) {
+      this.drawn = key;
+      redraw(this.recorder, () => this.drawRecorder(running));
+      redraw(this.list, () => this.drawList(resting, clip));
+    }
+    for (const recording of running) this.count(recording);
+  }
+
+  private count({ id, created, duration, frames, bytes, lost }: Recording): void {
+    const line = this.running.get(id);
+    if (!line) return;
+    const since = new Date(created).toLocaleTimeString('en-US', { timeStyle: 'short' });
+    const words = [`since ${since}`, `${(duration / 1000).toFixed(0)} s`, `${formatCount(frames)} frames`, formatBytes(bytes)];
+    if (lost > 0) words.push(`${formatCount(lost)} lost`);
+    setText(line, words.join(' · '));
+  }
+
+  private drawRecorder(running: readonly Recording[]): void {
+    this.running.clear();
+    const busy = this.model.busy.value === 'record';
+    const line = (recording: Recording): HTMLElement => {
+      const facts = h('span', { class: 'muted small number' });
+      this.running.set(recording.id, facts);
+      return h(
+        'div',
+        { class: 'row', role: 'status' },
+        h('span', { class: 'lamp lamp-record' }),
+        h(
+          'div',
+          { class: 'grow recording-words' },
+          h('strong', {}, `Recording ${this.live.titleOf(recording.stream)}`),
+          facts,
+        ),
+        h(
+          'button',
+          {
+            type: 'button',
+            'data-focus': 'record',
+            'aria-label': `Stop recording ${this.live.titleOf(recording.stream)}`,
+            disabled: busy,
+            on: { click: () => void this.model.stop(recording) },
+          },
+          icon('stop', 15),
+          'Stop',
+        ),
+      );
+    };
+    const ready = this.model.stream.value !== '' && this.model.recordings.value !== null;
+    replace(
+      this.recorder,
+      running.map(line),
+      running.length > 0
+        ? null
+        : h(
+            'button',
+            {
+              type: 'button',
+              class: 'record',
+              'data-focus': 'record',
+              disabled: busy || !ready,
+              on: { click: () => void this.model.record() },
+            },
+            h('span', { class: 'lamp lamp-record' }),
+            'Record',
+          ),
+      running.length === 0 && this.model.stream.value === ''
+        ? h('p', { class: 'muted small' }, 'Choose one stream to record it.')
+        : null,
+    );
+  }
+
+  private drawList(recordings: readonly Recording[], clip: boolean): void {
+    const { model } = this;
+    if (model.problem.value) {
+      const { title, detail } = model.problem.value;
+      replace(
+        this.list,
+        h(
+          'li',
+          { class: 'notice error', role: 'alert' },
+          icon('warning', 16),
+          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, 'It is tried again every few seconds.')),
+        ),
+      );
+      return;
+    }
+    if (model.recordings.value === null) return replace(this.list, h('li', {}, progressBar({ title: 'Loading recordings', progress: null })));
+    if (recordings.length === 0) return replace(this.list, h('li', { class: 'empty' }, 'Nothing recorded yet.'));
+    const look = model.look.value;
+    replace(
+      this.list,
+      recordings.map((recording) =>
+        recordingItem(
+          recording,
+          {
+            open: this.open === recording.id,
+            busy: model.busy.value !== null,
+            at: look?.id === recording.id ? look.at : null,
+            clip,
+            stream: model.stream.value === '' ? this.live.titleOf(recording.stream) : null,
+          },
+          {
+            play: () => void this.play(recording),
+            remove: () => void this.remove(recording),
+            download: (format) => void model.download(recording, format),
+            look: (at) => void model.lookAt(recording, at),
+            toggle: () => {
+              this.open = this.open === recording.id ? null : recording.id;
+              this.draw();
+            },
+          },
+        ),
+      ),
+    );
+  }
+
+  private async play(recording: Recording): Promise<void> {
+    const held = await this.model.play(recording, false);
+    if (held === null) return;
+    const yes = await ask({
+      title: `Take ${this.live.titleOf(this.model.target.value)} over?`,
+      text: `${capital(held)}.`,
+      accept: 'Take over',
+      danger: true,
+    });
+    if (yes !== null) await this.model.play(recording, true);
+  }
+
+  private async remove(recording: Recording): Promise<void> {
+    const yes = await ask({
+      title: `Delete ${recording.name}?`,
+      text: 'It is removed from the server for good.',
+      accept: 'Delete',
+      danger: true,
+    });
+    if (yes !== null) await this.model.remove(recording);
+  }
+}

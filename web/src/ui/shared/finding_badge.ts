@@ -1,0 +1,16 @@
+import type { FindingCounts } from '../../net/types.ts';
+import { h } from './dom.ts';
+import { badgeOf, countWords } from './finding_words.ts';
+
+/** How many findings a head has, in the colour of the worst; nothing where there are none. */
+export function findingBadge(counts: FindingCounts | null | undefined): HTMLElement | null {
+  const badge = badgeOf(counts);
+  if (!badge || !counts) return null;
+  const words = countWords(counts);
+  return h(
+    'span',
+    { class: `finding-badge ${badge.severity}`, title: words },
+    h('span', { 'aria-hidden': 'true' }, badge.count),
+    h('span', { class: 'visually-hidden' }, `fit doctor: ${words}`),
+  );
+}

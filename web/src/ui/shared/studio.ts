@@ -1,0 +1,226 @@
+import type { Api } from '../../net/api.ts';
+import { followJob } from '../../net/jobs.ts';
+import { ApiError, problemOf } from '../../net/problem.ts';
+import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult } from '../../net/types.ts';
+import { stageTitle } from './names.ts';
+import { Signal } from './signal.ts';
+import type { Toasts } from './toast.ts';
+
+export type Tab = 'heads' | 'fit' | 'points' | 'animate' | 'live';
+
+/** Something that takes a while, shown with a bar. `progress` is 0..1, or null while unknown. */
+export interface Activity {
+  title: string;
+  progress: number | null;
+  cancel?: () => void;
+}
+
+export type ShelfState = { kind: 'loading' } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
+
+/** The models and what is being done with them: the page's state that is not a picture. */
+export class Studio {
+  readonly models = new Signal<readonly Model[]>([]);
+  readonly shelf = new Signal<ShelfState>({ kind: 'loading' });
+  readonly selected = new Signal<Model | null>(null);
+  readonly tab = new Signal<Tab>('animate');
+  /** By model id; uploads go by a name of their own until the server has given them one. */
+  readonly activities = new Signal<ReadonlyMap<string, Activity>>(new Map());
+  private uploads = 0;
+
+  constructor(
+    readonly api: Api,
+    readonly toasts: Toasts,
+  ) {}
+
+  /** Loads the shelf and opens the head of the address, or the sample, or the first one that moves. */
+  async start(): Promise<void> {
+    if (!(await this.refresh())) return;
+    const wanted = decodeURIComponent(location.hash.slice(1));
+    const { value: models } = this.models;
+    const first =
+      models.find((m) => m.id === wanted) ??
+      models.find((m) => m.id === 'sample') ??
+      models.find((m) => m.state === 'parametrized') ??
+      models[0];
+    if (first) this.select(first.id);
+    for (const model of models) if (model.state === 'importing') void this.waitForImport(model.id);
+  }
+
+  async refresh(): Promise<boolean> {
+    try {
+      const models = await this.api.listModels();
+      this.models.set(models);
+      this.shelf.set({ kind: 'ready' });
+      return true;
+    } catch (error) {
+      this.shelf.set({ kind: 'failed', problem: problemOf(error) });
+      return false;
+    }
+  }
+
+  select(id: string): void {
+    const model = this.models.value.find((m) => m.id === id) ?? null;
+    this.selected.set(model);
+    if (!model) return;
+    history.replaceState(null, '', `#${encodeURIComponent(id)}`);
+    // Where work goes on: marking points, or moving the face.
+    const { value: tab } = this.tab;
+    if (model.state === 'ready' && tab !== 'points' && tab !== 'fit') this.tab.set('points');
+    else if (model.state === 'parametrized' && tab !== 'live' && tab !== 'fit') this.tab.set('animate');
+  }
+
+  async upload(files: Iterable<File>): Promise<void> {
+    for (const file of files) await this.uploadOne(file);
+  }
+
+  private async uploadOne(file: File): Promise<void> {
+    this.uploads += 1;
+    const key = `upload-${this.uploads}`;
+    const abort = new AbortController();
+    const show = (fraction: number): void =>
+      this.setActivity(key, { title: `Sending ${file.name}`, progress: fraction, cancel: () => abort.abort() });
+    show(0);
+    try {
+      const { model, job } = await this.api.uploadModel(file, show, abort.signal);
+      this.replaceModel(model);
+      this.setActivity(key, null);
+      this.select(model.id);
+      await this.follow(model.id, job, 'Reading the file');
+      const finished = await this.reload(model.id);
+      if (finished?.state === 'failed' && finished.problem)
+        this.toasts.problem(`${file.name} could not be read`, finished.problem);
+    } catch (error) {
+      if (!(error instanceof DOMException && error.name === 'AbortError'))
+        this.toasts.problem(`${file.name} was not accepted`, problemOf(error));
+    } finally {
+      this.setActivity(key, null);
+    }
+  }
+
+  async rename(model: Model, name: string): Promise<void> {
+    await this.attempt('The head was not renamed', async () =>
+      this.replaceModel(await this.api.renameModel(model.id, name)),
+    );
+  }
+
+  async setRole(model: Model, part: number, role: PartRole | null): Promise<boolean> {
+    return this.attempt('The role was not changed', async () =>
+      this.replaceModel(await this.api.setRoles(model.id, { [part]: role })),
+    );
+  }
+
+  /** Says the unit or the axes of a head; a change of axes has its file read again. */
+  async setFrame(model: Model, wish: FrameWish): Promise<void> {
+    await this.attempt('Unit and axes were not changed', async () => {
+      const { model: now, job } = await this.api.setFrame(model.id, wish);
+      this.replaceModel(now);
+      if (!job) return;
+      await this.follow(model.id, job, 'Turning the head');
+      await this.reload(model.id);
+    });
+  }
+
+  async remove(model: Model): Promise<void> {
+    await this.attempt('The head was not deleted', async () => {
+      await this.api.deleteModel(model.id);
+      this.models.set(this.models.value.filter((m) => m.id !== model.id));
+      if (this.selected.value?.id === model.id) {
+        const next = this.models.value[0];
+        if (next) this.select(next.id);
+        else this.selected.set(null);
+      }
+      this.toasts.say(`${model.name} was deleted.`);
+    });
+  }
+
+  /** Computes weights and package. Resolves with whether the face can now move; throws ApiError where points are refused. */
+  async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
+    const job = await this.api.parametrize(model.id, options);
+    const last = await this.follow(model.id, job, 'Parametrizing');
+    await this.reload(model.id);
+    if (last.state === 'failed')
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
+    return last.state === 'done';
+  }
+
+  /** Has missing feature points proposed. Resolves with the result, or null when it was cancelled; throws ApiError. */
+  async propose(model: Model, etag: string | null): Promise<ProposalsResult | null> {
+    const job = await this.api.proposePoints(model.id, etag);
+    const last = await this.follow(model.id, job, 'Proposing points');
+    if (last.state === 'failed')
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The proposals failed', status: 500 });
+    return last.state === 'done' && last.result !== null && 'proposed' in last.result ? last.result : null;
+  }
+
+  async reload(id: string): Promise<Model | null> {
+    try {
+      const model = await this.api.getModel(id);
+      this.replaceModel(model);
+      return model;
+    } catch (error) {
+      this.toasts.problem('The head could not be read again', problemOf(error));
+      return null;
+    }
+  }
+
+  /** Runs an action; a failure becomes a message. */
+  async attempt(what: string, action: () => Promise<void>): Promise<boolean> {
+    try {
+      await action();
+      return true;
+    } catch (error) {
+      this.toasts.problem(what, problemOf(error));
+      return false;
+    }
+  }
+
+  /** Follows a job of a model to its end, and shows it as the model's activity. */
+  private async follow(model: string, job: Job, title: string): Promise<Job> {
+    const cancel = (): void => void this.attempt('The work was not stopped', () => this.api.cancelJob(job.id));
+    try {
+      return await followJob(this.api, job, (now) =>
+        this.setActivity(model, {
+          title: now.stage ? stageTitle(now.stage) : title,
+          progress: now.state === 'queued' ? null : now.progress,
+          cancel,
+        }),
+      );
+    } finally {
+      this.setActivity(model, null);
+    }
+  }
+
+  private async waitForImport(id: string): Promise<void> {
+    this.setActivity(id, { title: 'Reading the file', progress: null });
+    for (;;) {
+      await new Promise((wake) => setTimeout(wake, 700));
+      const model = await this.reload(id);
+      if (!model || model.state !== 'importing') break;
+    }
+    this.setActivity(id, null);
+  }
+
+  private setActivity(key: string, activity: Activity | null): void {
+    const next = new Map(this.activities.value);
+    if (activity) next.set(key, activity);
+    else next.delete(key);
+    this.activities.set(next);
+  }
+
+  private replaceModel(model: Model): void {
+    const known = this.models.value.some((m) => m.id === model.id);
+    this.models.set(
+      known ? this.models.value.map((m) => (m.id === model.id ? model : m)) : [model, ...this.models.value],
+    );
+    const open = this.selected.value;
+    if (open?.id !== model.id) return;
+    this.selected.set(model);
+    // Imported while we looked at it: the next thing to do is to mark its points, unless the file itself needs care.
+    if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit')
+      this.tab.set(needsCare(model) ? 'fit' : 'points');
+  }
+}
+
+/** Whether the fit doctor found more than what is merely worth knowing. */
+export const needsCare = ({ findings }: Model): boolean =>
+  findings !== null && findings.errors + findings.warnings > 0;

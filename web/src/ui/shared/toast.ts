@@ -1,0 +1,51 @@
+import { adviceFor } from '../../net/problem.ts';
+import type { Problem } from '../../net/types.ts';
+import { h } from './dom.ts';
+import { icon } from './icons.ts';
+
+/** Messages that come and go at the foot of the page. Errors stay until closed. */
+export class Toasts {
+  readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': 'Messages', 'aria-live': 'polite' });
+
+  say(text: string): void {
+    const toast = this.show('note', icon('check'), h('p', {}, text));
+    setTimeout(() => toast.remove(), 4000);
+  }
+
+  problem(what: string, problem: Problem): void {
+    const advice = adviceFor(problem);
+    const detail = problem.detail ?? problem.title;
+    this.show(
+      'error',
+      icon('warning'),
+      h(
+        'div',
+        {},
+        h('strong', {}, what),
+        h('p', {}, detail),
+        problem.pointer ? h('p', { class: 'pointer' }, h('code', {}, problem.pointer)) : null,
+        advice ? h('p', { class: 'advice' }, advice) : null,
+      ),
+    );
+  }
+
+  private show(kind: 'note' | 'error', ...content: Node[]): HTMLElement {
+    // The same thing failing again replaces the message instead of piling up.
+    for (const old of this.element.querySelectorAll(`.toast-${kind}`)) {
+      if (old.querySelector('strong, p')?.textContent === content[1]?.firstChild?.textContent) old.remove();
+    }
+    const toast = h('div', { class: `toast toast-${kind}`, role: kind === 'error' ? 'alert' : 'status' }, ...content);
+    if (kind === 'error') {
+      toast.append(
+        h(
+          'button',
+          { class: 'quiet square', 'aria-label': 'Close message', on: { click: () => toast.remove() } },
+          icon('close', 16),
+        ),
+      );
+    }
+    this.element.append(toast);
+    while (this.element.childElementCount > 4) this.element.firstElementChild?.remove();
+    return toast;
+  }
+}

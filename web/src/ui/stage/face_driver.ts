@@ -1,0 +1,109 @@
+import type { FaceFrame, StreamClient } from '@client/index.ts';
+import { ClipPlayer } from '../../face/clip.ts';
+import { IdlePlayer } from '../../face/idle_player.ts';
+import type { Performer } from '../../face/performer.ts';
+import { Signal } from '../shared/signal.ts';
+
+/**
+ * What moves the face on this page:
+ * - `hand`: the frame set with the sliders; the only source under which idle life runs.
+ * - `clip`: a performance document or .fap file played on this page, also while it is paused.
+ * - `recording`: one moment of a recording, held still.
+ * - `stream`: the stream that the page subscribes to, whatever feeds it on the server.
+ */
+export type MotionSource = 'hand' | 'clip' | 'recording' | 'stream';
+
+export type DrivenFace = Pick<Performer, 'follow' | 'showBetween' | 'enliven' | 'step' | 'listen'>;
+
+/** A calm person; the same every time. */
+const idleSettings = { seed: 1, blinksPerMinute: 15, head: 0.3, eyes: 0.5 };
+
+/**
+ * Decides which source moves the face. One source has the face at a time; any source may take it from any other, and the
+ * one that loses it stops. A source that ends or is paused leaves the face to the hand.
+ */
+export class FaceDriver {
+  readonly source = new Signal<MotionSource>('hand');
+  private readonly listeners = new Set<(source: MotionSource) => void>();
+  private face: DrivenFace | null = null;
+  private client: StreamClient | null = null;
+  private idle: IdlePlayer | null = null;
+
+  constructor(
+    /** Set with the sliders; changed in place. */
+    private readonly frame: FaceFrame,
+    readonly clip = new ClipPlayer(),
+  ) {}
+
+  /** Calls whenever a source takes the face, also when it has the face already. */
+  onTake(listener: (source: MotionSource) => void): void {
+    this.listeners.add(listener);
+  }
+
+  /** The frame set by hand, as it is now. */
+  byHand(): void {
+    this.take('hand');
+    this.face?.follow(this.frame);
+  }
+
+  /** What the clip player shows from now on. */
+  byClip(): void {
+    this.take('clip');
+  }
+
+  byRecording(moment: FaceFrame): void {
+    this.take('recording');
+    this.face?.follow(moment);
+  }
+
+  byStream(): void {
+    this.take('stream');
+  }
+
+  /** The source has nothing more to show: if it has the face, the hand gets it. */
+  release(source: MotionSource): void {
+    if (this.source.value === source) this.byHand();
+  }
+
+  /** Whoever switches idle life on wants to see it; switched off, it leaves a clip or stream alone. */
+  setIdle(on: boolean): void {
+    this.idle = on ? new IdlePlayer(this.frame, idleSettings) : null;
+    if (on || this.source.value === 'hand' || this.source.value === 'recording') this.byHand();
+  }
+
+  /** Another face, or another level of detail of it. The moment of a recording is not carried over. */
+  setFace(face: DrivenFace | null): void {
+    this.face = face;
+    face?.listen(this.client);
+    face?.follow(this.frame);
+    const source = this.source.value;
+    if (source === 'clip') this.clip.seek(this.clip.position);
+    else if (source !== 'stream') this.take('hand');
+  }
+
+  /** The subscription whose frames `stream` shows; null: none. */
+  setClient(client: StreamClient | null): void {
+    this.client = client;
+    this.face?.listen(client);
+  }
+
+  /** Moves the face on by a displayed frame. Returns whether it moved. */
+  step(deltaSeconds: number): boolean {
+    const { face, clip, idle } = this;
+    if (!face) return false;
+    const source = this.source.value;
+    const moment = source === 'clip' ? clip.step(deltaSeconds) : null;
+    if (moment) {
+      face.showBetween(moment.from.state, moment.to.state, moment.t, clip.clip?.steps);
+      return true;
+    }
+    if (idle && source === 'hand') face.enliven(idle.step(deltaSeconds), idle.steps);
+    return face.step(deltaSeconds, source === 'stream');
+  }
+
+  private take(source: MotionSource): void {
+    if (source !== 'clip') this.clip.pause();
+    this.source.set(source);
+    for (const listener of [...this.listeners]) listener(source);
+  }
+}
