@@ -142,6 +142,19 @@ describe('studio', () => {
     await studio.close();
   });
 
+  test('Studio_VrmFile_IsOfferedAndRead', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    expect((await page.locator('#file').getAttribute('accept'))?.split(',')).toContain('.vrm');
+    const upload = page.waitForRequest((request) => request.url().includes('/v1/models?'));
+    await studio.drop(sampleHead, 'avatar.vrm');
+    expect((await upload).headers()['content-type']).toBe('model/gltf-binary');
+    await studio.waitForState('ready');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Studio_RenameAndDelete_ShelfFollows', async () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;

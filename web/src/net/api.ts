@@ -1,7 +1,7 @@
 import { streamUrl, type FaceFrame } from '@client/index.ts';
 import { decodeJson } from '@protocol/json_codec.ts';
 import { requestBlob, requestBytes, requestJson, type Answer } from './http.ts';
-import { mediaTypeOf, upload } from './upload.ts';
+import { mediaTypeOf } from './model_formats.ts';
 import type {
   AbsentFap,
   FapPlaying,
@@ -28,6 +28,7 @@ import type {
   StreamPage,
   VersionInfo,
 } from './types.ts';
+import { upload } from './upload.ts';
 
 const segment = encodeURIComponent;
 

@@ -1,3 +1,4 @@
+import { anyFormat, formatList } from './model_formats.ts';
 import type { Problem } from './types.ts';
 
 /** One place that a problem names; without a pointer it concerns the whole request. */
@@ -58,8 +59,8 @@ export function featurePointOf(pointer: string | undefined): string | null {
 export function adviceFor(problem: Problem): string | null {
   const slug = problem.type.split('/').pop() ?? '';
   if (problem.status === 0) return 'Check that the server is running, then try again.';
-  if (slug === 'malformed-model') return 'Export the head again as GLB, glTF (zipped), OBJ, PLY or STL.';
-  if (slug === 'unsupported-media-type') return 'Use a GLB, a zipped glTF, an OBJ, a PLY or an STL file.';
+  if (slug === 'malformed-model') return `Export the head again as ${anyFormat}.`;
+  if (slug === 'unsupported-media-type') return `Use a file in one of these formats: ${formatList}.`;
   if (problem.status === 413 || slug === 'limit-exceeded')
     return 'Reduce the mesh or its textures and upload it again.';
   if (slug === 'insufficient-storage') return "The server's disk is full: free some room on it, then try again.";

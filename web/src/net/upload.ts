@@ -40,15 +40,3 @@ export function upload<T>(
     request.send(file);
   });
 }
-
-/** By the name's ending; the server looks at the content anyway. */
-export function mediaTypeOf(fileName: string): string {
-  const ending = fileName.toLowerCase().split('.').pop() ?? '';
-  const types: Record<string, string> = {
-    glb: 'model/gltf-binary',
-    zip: 'application/zip',
-    obj: 'model/obj',
-    stl: 'model/stl',
-  };
-  return types[ending] ?? 'application/octet-stream';
-}

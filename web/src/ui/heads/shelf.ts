@@ -1,3 +1,4 @@
+import { acceptedFiles, formatList } from '../../net/model_formats.ts';
 import { adviceFor } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
@@ -8,7 +9,6 @@ import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
 
-const accepted = '.glb,.zip,.obj,.ply,.stl';
 const stateWords: Record<Model['state'], string> = {
   importing: 'Importing',
   ready: 'Needs points',
@@ -22,7 +22,7 @@ export class Shelf {
   private readonly list = h('ul', { class: 'heads', 'aria-label': 'Heads' });
   private readonly input = h('input', {
     type: 'file',
-    accept: accepted,
+    accept: acceptedFiles,
     multiple: true,
     class: 'visually-hidden',
     id: 'file',
@@ -64,7 +64,7 @@ export class Shelf {
         { type: 'button', class: 'drop', on: { click: choose } },
         icon('upload', 22),
         h('span', {}, h('strong', {}, 'Choose a head'), ' or drop it here'),
-        h('small', {}, 'GLB, glTF (zip), OBJ, PLY, STL'),
+        h('small', {}, formatList),
       ),
       this.input,
     );

@@ -1,3 +1,4 @@
+import { formatList } from '../../net/model_formats.ts';
 import { adviceFor } from '../../net/problem.ts';
 import { h } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
@@ -19,7 +20,7 @@ export function overlayCard(
         { class: 'stage-card' },
         icon('head', 40),
         h('h2', {}, 'No head on the stage'),
-        h('p', {}, 'Choose one from the list, or drop a GLB, OBJ, PLY or STL file anywhere on this page.'),
+        h('p', {}, `Choose one from the list, or drop a file (${formatList}) anywhere on this page.`),
       );
     case 'loading': {
       const progress = activity?.progress ?? null;
