@@ -10,17 +10,17 @@ export interface ClipMoment {
   t: number;
 }
 
-/** A face in time that is at hand as a whole. */
+/** An animation whose every moment can be shown at any time, unlike that of a live stream. */
 export interface Clip {
-  /** ms; Infinity: it has no end. */
+  /** ms; Infinity: endless. */
   readonly duration: number;
-  /** FAP units per level of its frames. */
+  /** FAP units per quantizer level of its frames. */
   readonly steps: QuantizerSteps;
-  /** `lap`: how many times it was played to its end before. The answer is the same object every time. */
+  /** `lap`: how many times it has been played to its end before. Returns the same object each time. */
   momentAt(position: number, lap?: number): ClipMoment;
 }
 
-/** A clip of frames that are there, from 0 to `duration` ms. */
+/** A clip made of frames in memory, from 0 to `duration` ms. */
 export class FrameClip implements Clip {
   readonly duration: number;
   readonly steps = standardQuantizers;
@@ -63,7 +63,7 @@ export class FrameClip implements Clip {
   }
 }
 
-/** Plays a clip on a face, without any server. */
+/** The position of a clip in time: play, pause, seek, loop. Needs no server. */
 export class ClipPlayer {
   loop = false;
   /** ms */
@@ -73,7 +73,7 @@ export class ClipPlayer {
   private on = false;
   private changed = false;
 
-  /** `onEnd` is called when it stops by itself. */
+  /** `onEnd` is called when the clip reaches its end and does not loop. */
   constructor(private readonly onEnd: () => void = () => undefined) {}
 
   get clip(): Clip | null {
@@ -84,7 +84,7 @@ export class ClipPlayer {
     return this.on;
   }
 
-  /** Another clip, or the same one read otherwise: that keeps its place. */
+  /** Replaces the clip. With `keepPlace` position and playing stay: for the same file read with another option. */
   load(clip: Clip | null, keepPlace = false): void {
     this.current = clip;
     if (!keepPlace || !clip) {
@@ -113,7 +113,7 @@ export class ClipPlayer {
     this.changed = true;
   }
 
-  /** Moves on by a displayed frame. The moment to show, or null when there is nothing new. */
+  /** Advances by the time of one displayed frame. Returns the moment to show, or null when nothing changed. */
   step(deltaSeconds: number): ClipMoment | null {
     if (!this.current || (!this.on && !this.changed)) return null;
     if (this.on && !this.changed) this.advance(this.current.duration, deltaSeconds * 1000);

@@ -7,7 +7,7 @@ import { shutLids } from './frame.ts';
 
 const unitsPerDegree = 1e5 * (Math.PI / 180); // AU: 1e-5 rad
 
-/** Which FAP turns by which part of the motion. */
+/** The rotation FAPs, and the part of the idle motion that each follows. */
 const turns: readonly (readonly [number, Exclude<keyof IdleMotion, 'lidClosure'>])[] = [
   [23, 'eyeYaw'],
   [24, 'eyeYaw'],
@@ -18,9 +18,9 @@ const turns: readonly (readonly [number, Exclude<keyof IdleMotion, 'lidClosure'>
   [50, 'headRoll'],
 ];
 
-/** Blinks, glances and a head that is never quite still, added to a frame that somebody holds. */
+/** Adds idle life (blinks, glances, small motions of the head) to a frame that is set by hand. */
 export class IdlePlayer {
-  /** Of the frames it makes. */
+  /** Quantizer steps of the frames it makes. */
   readonly steps = fineSteps;
   private readonly frame = neutralFrame();
   private elapsed = 0;
@@ -30,7 +30,7 @@ export class IdlePlayer {
     private readonly settings: IdleLife,
   ) {}
 
-  /** Moves on. The answer is the same object every time. */
+  /** Advances and returns the frame to show: the same object each time. */
   step(deltaSeconds: number): FaceFrame {
     this.elapsed += deltaSeconds * 1000;
     const { frame, held, steps } = this;

@@ -13,11 +13,11 @@ const clipTo = 6;
 export const poseCount = 7;
 
 /**
- * What the face shows: a stream, played out by the SDK's player, a frame set by hand, which it eases to, or a moment of a
- * clip. Nothing is allocated per displayed frame.
+ * Computes the displayed pose in the kernel: of a stream (by the SDK's player), of a single frame, to which it eases, or
+ * of a moment of a clip. Allocates nothing per displayed frame.
  */
 export class Performer {
-  /** Of what is followed. */
+  /** Plays out the frames of the stream that is listened to. */
   readonly player: Player;
   private stopListening: (() => void) | null = null;
   private shown = handShown;
@@ -30,7 +30,7 @@ export class Performer {
     this.player = new Player(kernel);
   }
 
-  /** What to draw. */
+  /** The pose to draw. */
   get pose(): Pose {
     return this.kernel.poses[this.shown]!;
   }
@@ -39,14 +39,14 @@ export class Performer {
     return this.shown;
   }
 
-  /** Plays what a client receives from now on; null: nothing. */
+  /** Selects the client whose frames the player gets; null: none. */
   listen(client: StreamClient | null): void {
     this.stopListening?.();
     this.player.clear();
     this.stopListening = client ? this.player.follow(client) : null;
   }
 
-  /** Eases from what is shown to a frame set by hand. */
+  /** Eases from the displayed pose to a frame. */
   follow(frame: FaceFrame): void {
     if (this.shown !== handShown) this.kernel.interpolate(this.shown, this.shown, 0, handShown);
     this.kernel.evaluate(frame, handTarget);
@@ -55,15 +55,15 @@ export class Performer {
   }
 
   /**
-   * The frame set by hand, with what idle life makes of it now. Once the face has eased to that frame it follows at once:
-   * easing would round off a blink before the eye is shut.
+   * Replaces the frame that is eased to by the same frame with idle life added. Once the face has arrived it follows
+   * without easing, which would end a blink before the eye is shut.
    */
   enliven(frame: FaceFrame, steps: QuantizerSteps): void {
     this.kernel.evaluate(frame, handTarget, steps);
     this.enlivened = true;
   }
 
-  /** Shows a moment between two frames of a clip, at once. The frames must not change meanwhile. */
+  /** Shows a moment between two frames of a clip without easing. The frames must not be changed afterwards. */
   showBetween(from: FaceFrame, to: FaceFrame, t: number, steps: QuantizerSteps = standardQuantizers): void {
     if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom, steps);
     if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo, steps);
@@ -74,7 +74,7 @@ export class Performer {
     this.settled = handDuration;
   }
 
-  /** Moves on by a displayed frame, along the stream when `live`. Returns whether the pose changed. */
+  /** Advances by the time of one displayed frame; follows the stream when `live`. Returns whether the pose changed. */
   step(deltaSeconds: number, live: boolean): boolean {
     if (live && this.player.update(deltaSeconds)) {
       this.shown = shownPose;

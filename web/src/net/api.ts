@@ -32,7 +32,7 @@ import { upload } from './upload.ts';
 
 const segment = encodeURIComponent;
 
-/** The REST interface as functions. Every one throws ApiError with the server's problem document. */
+/** The REST interface as functions. Each throws ApiError with the server's problem document. */
 export class Api {
   constructor(readonly base = '') {}
 
@@ -63,12 +63,12 @@ export class Api {
     return (await this.patchModel(id, { name })).value;
   }
 
-  /** `null` takes a role back to what is guessed. */
+  /** A role of `null` is replaced by the server's guess. */
   async setRoles(id: string, roles: Record<number, PartRole | null>): Promise<Model> {
     return (await this.patchModel(id, { roles })).value;
   }
 
-  /** The model as it is then, and the job that turns it where its axes change. */
+  /** Returns the changed model and, where the axes have changed, the job that imports its file again. */
   async setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
     const { value: model, location } = await this.patchModel(id, { frame });
     const job = location === null ? null : (await requestJson<Job>(`${this.base}${location}`)).value;
@@ -79,7 +79,7 @@ export class Api {
     return requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json });
   }
 
-  /** What the fit doctor found. */
+  /** The findings of the fit doctor. */
   async getReport(id: string): Promise<FitReport> {
     return (await requestJson<FitReport>(`${this.base}/v1/models/${segment(id)}/report.json`)).value;
   }
@@ -96,7 +96,7 @@ export class Api {
     return requestBytes(this.previewUrl(id), signal);
   }
 
-  /** Bytes by their SHA-256: images of a package. */
+  /** The artefact with this SHA-256, such as an image of a package. */
   content(sha256: string, signal?: AbortSignal): Promise<Uint8Array> {
     return requestBytes(`${this.base}/v1/artefacts/${segment(sha256)}`, signal);
   }
@@ -105,7 +105,7 @@ export class Api {
     return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points`);
   }
 
-  /** Replaces the whole set. `etag` of the set it was made from guards against overwriting someone else's work. */
+  /** Replaces the whole set. With the `etag` of the set it is based on, a newer set is not overwritten (412). */
   putFeaturePoints(
     id: string,
     body: FeaturePointsBody,
@@ -120,7 +120,7 @@ export class Api {
     });
   }
 
-  /** Has the points proposed that nobody marked; `etag` is of the set that they are made from. */
+  /** Starts a job that proposes the missing points from the set with this `etag`. */
   async proposePoints(id: string, etag: string | null): Promise<Job> {
     const url = `${this.base}/v1/models/${segment(id)}/feature-points/proposals`;
     const headers: Record<string, string> = etag ? { 'If-Match': etag } : {};
@@ -157,24 +157,24 @@ export class Api {
     await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE' });
   }
 
-  /** Plays a performance document into a stream, from now on. */
+  /** Starts playing a performance document into a stream. */
   async playPerformance(stream: string, document: Blob, options: PlayOptions): Promise<Playing> {
     const url = `${this.base}/v1/streams/${segment(stream)}/performances?${playQuery(options)}`;
     return (await requestJson<Playing>(url, { method: 'POST', body: document, contentType: 'application/json' })).value;
   }
 
-  /** Plays a .fap file into a stream, from now on. */
+  /** Starts playing a .fap file into a stream. */
   async playFap(stream: string, file: Blob, options: PlayOptions, absent: AbsentFap): Promise<FapPlaying> {
     const url = `${this.base}/v1/streams/${segment(stream)}/fap?${playQuery(options)}&absent=${absent}`;
     return (await requestJson<FapPlaying>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
   }
 
-  /** Ends what plays; the face returns to neutral. */
+  /** Stops a performance, .fap file or recording; the face returns to neutral. */
   async stopPlaying(stream: string, id: string): Promise<void> {
     await requestJson(`${this.base}/v1/streams/${segment(stream)}/performances/${segment(id)}`, { method: 'DELETE' });
   }
 
-  /** Of a stream, or (null) of all; oldest first. */
+  /** The recordings of a stream, or of all streams (`null`); oldest first. */
   async listRecordings(stream: string | null): Promise<Recording[]> {
     const url = stream === null ? '/v1/recordings' : `/v1/streams/${segment(stream)}/recordings`;
     const recordings: Recording[] = [];
@@ -193,7 +193,7 @@ export class Api {
     return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
   }
 
-  /** Answered when all of it is on the disk. */
+  /** Resolves when the whole recording is on the server's disk. */
   async stopRecording(id: string): Promise<Recording> {
     const url = `${this.base}/v1/recordings/${segment(id)}/stop`;
     return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
@@ -203,13 +203,13 @@ export class Api {
     await requestJson(`${this.base}/v1/recordings/${segment(id)}`, { method: 'DELETE' });
   }
 
-  /** `model`: whose face a clip (glb) moves. */
+  /** `model`: the head that a GLB clip animates; other formats ignore it. */
   recordingContent(id: string, format: RecordingFormat, model: string | null): Promise<Blob> {
     const query = new URLSearchParams({ format, ...(format === 'glb' && model !== null ? { model } : {}) });
     return requestBlob(`${this.base}/v1/recordings/${segment(id)}/content?${query.toString()}`);
   }
 
-  /** The face at a time, ms after the first frame. */
+  /** The frame shown at a time, ms after the first frame. */
   async recordedFrame(id: string, at: number): Promise<FaceFrame> {
     const url = `${this.base}/v1/recordings/${segment(id)}/frames?at=${Math.round(at)}`;
     const { frames } = (await requestJson<RecordedFrames>(url)).value;
@@ -218,7 +218,7 @@ export class Api {
     return message.frames[0]!.state;
   }
 
-  /** Plays a recording into a stream, from now on. */
+  /** Starts playing a recording into a stream. */
   async playRecording(stream: string, recording: string, options: PlayOptions): Promise<Playing> {
     const url = `${this.base}/v1/streams/${segment(stream)}/plays`;
     const json: RecordingPlay = { recording, ...options };

@@ -61,7 +61,7 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
   }
 }
 
-/** Bytes that go to a file: the browser keeps large ones on the disk. */
+/** For bytes to be saved as a file: browsers keep large blobs on disk. */
 export async function requestBlob(path: string): Promise<Blob> {
   return (await send(path, {})).blob();
 }

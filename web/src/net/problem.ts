@@ -7,7 +7,7 @@ export interface FieldProblem {
   detail: string;
 }
 
-/** A request that did not come back with what was asked for. `problem.status` is 0 when there was no answer at all. */
+/** A failed request. `problem.status` is 0 when there was no answer. */
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
     super(problem.detail ?? problem.title);
@@ -22,7 +22,7 @@ export const unreachable = (detail: string): Problem => ({
   detail,
 });
 
-/** Reads an error body; a body that is no problem document still becomes one, so that callers have one case. */
+/** Reads the body of an error. One that is no problem document is made into one, so that callers have one case. */
 export function problemFrom(status: number, statusText: string, contentType: string, body: string): Problem {
   if (/^application\/(problem\+)?json\b/.test(contentType)) {
     try {

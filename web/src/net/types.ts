@@ -6,7 +6,9 @@ export type { PartRole };
 
 type Schemas = components['schemas'];
 /** The JSON body that a request of an operation takes. */
-type JsonBody<Request> = Request extends { requestBody?: { content: { 'application/json': infer Body } } } ? Body : never;
+type JsonBody<Request> = Request extends { requestBody?: { content: { 'application/json': infer Body } } }
+  ? Body
+  : never;
 /** The JSON of an operation's answer with a status. */
 type JsonAnswer<Name extends keyof operations, Status extends number> = operations[Name]['responses'] extends {
   [status in Status]: { content: { 'application/json': infer Answer } };
@@ -44,23 +46,23 @@ export type ParametrizationOptions = JsonBody<operations['createParametrization'
 
 export type Job = Schemas['Job'];
 export type JobState = Job['state'];
-/** What a finished job of proposals tells: how many, and why others could not be made. */
+/** The result of a finished job of proposals: how many points, and why others have none. */
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
 
 export type StreamInfo = Schemas['Stream'];
 export type StreamPage = JsonAnswer<'listStreams', 200>;
-/** What may be said of a stream when it is made; the server has a default for what is left out. */
+/** The options of a new stream; the server has a default for each. */
 export type NewStream = JsonBody<operations['createStream']>;
 export type Playing = Schemas['Playing'];
 export type FapPlaying = JsonAnswer<'playFapFile', 202>;
 export type RecordingPlay = JsonBody<operations['playRecording']>;
-/** Where to begin (ms), whether again and again, and whether to take the stream from its present source. */
+/** Where to begin (ms), whether to loop, and whether to take the stream over from its present source. */
 export type PlayOptions = Required<Omit<RecordingPlay, 'recording'>>;
 export type AbsentFap = NonNullable<NonNullable<operations['playFapFile']['parameters']['query']>['absent']>;
 
 export type Recording = Schemas['Recording'];
 export type RecordingPage = Schemas['Recordings'];
-/** What the studio offers of a recording: all but the server's own file. */
+/** The download formats that the studio offers: all but the server's own file format. */
 export type RecordingFormat = Exclude<components['parameters']['contentFormat'], 'recording'>;
 export type RecordedFrames = Schemas['RecordedFrames'];
 

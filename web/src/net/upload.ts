@@ -1,6 +1,6 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
 
-/** Sends a file and reports how much has left, which fetch cannot do. `fraction` is 0..1. */
+/** Sends a file and reports the progress (0..1), which fetch cannot do. */
 export function upload<T>(
   url: string,
   file: Blob,

@@ -15,10 +15,10 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
 
-/** Plays a performance document or a .fap file on the face on screen; no server takes part. */
+/** Plays a performance document or .fap file on this page, without the server. */
 export class ClipPanel {
   readonly element: HTMLElement;
-  /** What the face shows of a file, in words; null while another moves it. */
+  /** The state of the file in words; null while another source has the face. */
   readonly shown = new Signal<string | null>(null);
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
@@ -56,7 +56,7 @@ export class ClipPanel {
       this.body,
     );
     driver.source.watch((source) => {
-      // Drawn anew only when it loses the face: the slider stays in the hand that takes the face by it.
+      // Redrawn only when it loses the face: a redraw on taking it would interrupt the drag of the position slider.
       if (source !== 'clip' && this.shown.value !== null) this.draw();
       else this.tell();
     });
@@ -67,7 +67,7 @@ export class ClipPanel {
     this.element.scrollIntoView({ block: 'nearest' });
   }
 
-  /** Called a few times a second. */
+  /** To be called a few times a second. */
   tick(): void {
     this.tell();
     if (!this.file) return;

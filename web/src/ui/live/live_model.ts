@@ -9,7 +9,7 @@ import type { Studio } from '../shared/studio.ts';
 const off: LinkStatus = { kind: 'off' };
 const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
 
-/** The stream the face follows, the one the sliders feed, and the list of all. */
+/** All streams, the one that this page subscribes to, and the one that the sliders are sent to. */
 export class LiveModel {
   /** null until the first answer. */
   readonly streams = new Signal<readonly StreamInfo[] | null>(null);
@@ -23,7 +23,7 @@ export class LiveModel {
 
   constructor(
     private readonly studio: Studio,
-    /** What is done by hand: sent while sending is on. */
+    /** Set with the sliders; published while `sending` names a stream. */
     private readonly frame: FaceFrame,
     readonly driver: FaceDriver,
   ) {}
@@ -54,7 +54,7 @@ export class LiveModel {
     void this.refresh();
   }
 
-  /** Streams that one may play into: the demo is for everyone. */
+  /** Streams that may be played into: all but the demo, which everyone shares. */
   get ownStreams(): readonly StreamInfo[] {
     return (this.streams.value ?? []).filter((stream) => stream.source !== 'demo');
   }
@@ -63,11 +63,11 @@ export class LiveModel {
     return this.streams.value?.find((stream) => stream.id === id)?.title || id;
   }
 
-  /** The stream to play into (empty: one of this head, made where there is none), with the face on screen following it. */
+  /** Opens the stream to play into (empty: one of this head, created if there is none) and has the face follow it. */
   async openFor(target: string): Promise<string | null> {
     let id: string | null = target;
     if (id === '') {
-      // One such stream of a head is enough: that of another day is taken again while nobody is on it.
+      // A free stream of an earlier visit is used again, so that they do not pile up.
       const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
       const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
       id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
@@ -79,7 +79,7 @@ export class LiveModel {
     return id;
   }
 
-  /** Resolves when what is followed is there to be seen, or after `patience` ms without. */
+  /** Resolves when the subscription is open, or after `patience` ms. */
   async opened(patience = 2000): Promise<void> {
     const end = performance.now() + patience;
     while (this.status.value.kind !== 'open' && performance.now() < end)
@@ -111,7 +111,7 @@ export class LiveModel {
     await this.refresh();
   }
 
-  /** Starts or stops sending what is done by hand. */
+  /** Starts (id) or stops (null) publishing the frame set by hand. */
   send(id: string | null): void {
     this.publisher?.close();
     this.publisher = null;
@@ -127,7 +127,7 @@ export class LiveModel {
     publisher.open();
   }
 
-  /** The frame was changed by hand. */
+  /** To be called after each change of the frame set by hand. */
   touch(): void {
     this.publisher?.touch();
   }

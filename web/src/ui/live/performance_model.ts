@@ -20,18 +20,18 @@ export interface Refusal {
   holder: string | null;
 }
 
-/** A performance document or a .fap file, the stream that it plays into, and how that goes. */
+/** A performance document or .fap file to play, the stream it is played into, and the state of that. */
 export class PerformanceModel {
   readonly script = new Signal<Script | null>(null);
   /** Id of a stream; empty: a new one. */
   readonly target = new Signal('');
-  /** What plays into the target, whoever started it. */
+  /** What is being played into the target, whoever started it. */
   readonly playing = new Signal<Playing | null>(null);
   readonly refusal = new Signal<Refusal | null>(null);
   readonly busy = new Signal(false);
-  /** What a FAP is that a frame of a .fap file leaves out. */
+  /** The value of a FAP that a frame of a .fap file leaves out. */
   readonly absent = new Signal<AbsentFap>('zero');
-  /** What the server found peculiar in the .fap file it plays. */
+  /** The server's warnings about the .fap file that it plays. */
   readonly warnings = new Signal<readonly string[]>([]);
   loop = false;
   /** ms */
@@ -62,12 +62,12 @@ export class PerformanceModel {
     return this.live.ownStreams;
   }
 
-  /** Whether what plays was started here from the script at hand, so that it may be begun anew anywhere. */
+  /** Whether this page started what is playing, from the present script; then it may be sought and restarted. */
   get mine(): boolean {
     return this.own !== null && this.playing.value?.id === this.own;
   }
 
-  /** ms, carried on from what the server said last. */
+  /** ms, extrapolated from the server's last answer. */
   get position(): number {
     const playing = this.playing.value;
     if (!playing) return 0;
@@ -91,7 +91,7 @@ export class PerformanceModel {
     try {
       const stream = await this.openTarget();
       if (stream === null) return;
-      // What was started here gives way to itself without being asked.
+      // A performance that this page started may be replaced without asking.
       const whole = { loop: this.loop, from: this.from, take_over: this.mine, ...options };
       const { api } = this.studio;
       const body = new Blob([script.text]);
@@ -122,7 +122,7 @@ export class PerformanceModel {
     await this.live.refresh();
   }
 
-  /** Called a few times a second: what has come to its end is asked about once more. */
+  /** To be called a few times a second: refreshes once a performance has reached its end. */
   tick(): void {
     const playing = this.playing.value;
     if (playing && !playing.loop && playing.duration !== null && this.position >= playing.duration) {

@@ -2,11 +2,11 @@ import type { NewStream } from '../../net/types.ts';
 import { openDialog } from '../shared/dialog.ts';
 import { h } from '../shared/dom.ts';
 
-/** As the server has them where nothing is said. */
+/** ms; the server's default and maximum. */
 const usualBatch = 100;
 const mostBatch = 1000;
 
-/** Asks for what a new stream is to be; null: it was cancelled. */
+/** Asks for title and options of a new stream; null: cancelled. */
 export async function askForStream(): Promise<{ title: string; options: NewStream } | null> {
   const title = h('input', { type: 'text', id: 'stream-title', maxlength: 120, required: true, autocomplete: 'off' });
   title.value = 'My stream';

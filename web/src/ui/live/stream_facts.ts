@@ -14,13 +14,13 @@ const sourceWords: Record<NonNullable<StreamInfo['active_source']>, string> = {
 
 const codingWords: Record<StreamCoding, string> = { plain: 'Plain', packed: 'Packed' };
 
-/** Who feeds a stream now. */
+/** The active source of a stream, in words. */
 export function fedBy({ active_source: source, playing }: StreamInfo): string {
   if (source === null) return 'Nobody';
   return playing?.name ? `${sourceWords[source]}: ${playing.name}` : sourceWords[source];
 }
 
-/** What the server says of the stream that is followed, and in which coding it comes here. */
+/** Facts about the stream that is followed: from the server, and the coding of this subscription. */
 export class StreamFacts {
   readonly element = h('dl', { class: 'facts', 'aria-label': 'About the stream' });
   private readonly fed = this.fact('Fed by');

@@ -1,9 +1,9 @@
 import type { Tab } from '../shared/studio.ts';
 
-/** Where a file goes that is dropped: into a stream, onto the face of this page alone, or among the heads. */
+/** What reads a dropped file: the Live tab (stream), the Animate tab (page) or the upload of heads. */
 export type DropPlace = 'stream' | 'page' | 'heads';
 
-/** By the tab one is in; where no tab says, a performance goes to the streams and a .fap file stays on the page. */
+/** By the open tab; in tabs that take no documents a performance goes to the streams, a .fap file to this page. */
 export function dropPlace(name: string, tab: Tab): DropPlace {
   const fap = /\.fap$/i.test(name);
   if (!fap && !/\.json$/i.test(name)) return 'heads';

@@ -5,10 +5,10 @@ import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
 import { needsCare, type Studio } from '../shared/studio.ts';
 
-/** Each is sent: the server's defaults are those of the paper, without levels of detail. */
+/** Always sent in full: the server's defaults follow the paper and make no levels of detail. */
 export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>>;
 
-/** Starts parametrizations with the options that are set; says what came of it. */
+/** Starts parametrizations with the chosen options and reports the outcome. */
 export class Parametrizer {
   readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', lods: 'auto' });
 

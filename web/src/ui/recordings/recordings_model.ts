@@ -6,7 +6,7 @@ import type { LiveModel } from '../live/live_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Which moment of a recording the face shows. */
+/** The moment of a recording that is looked at. */
 export interface Look {
   id: string;
   /** ms */
@@ -21,16 +21,16 @@ const endings: Record<RecordingFormat, string> = {
   'frames-json': '.frames.json',
 };
 
-/** Recordings of a stream: making them, playing, looking into them, taking them along. */
+/** Recordings of a stream: to record, play, look at single moments, download. */
 export class RecordingsModel {
-  /** Id of a stream; empty: recordings of all, also of streams that are gone. */
+  /** Id of a stream; empty: the recordings of all streams, also deleted ones. */
   readonly stream = new Signal('');
   /** Newest first; null until the first answer. */
   readonly recordings = new Signal<readonly Recording[] | null>(null);
   readonly problem = new Signal<Problem | null>(null);
   /** Id of a stream to play into; empty: a new one. */
   readonly target = new Signal('');
-  /** What the buttons wait for: the id of a recording, or `record`. */
+  /** The request in progress: the id of its recording, or `record`. */
   readonly busy = new Signal<string | null>(null);
   readonly look = new Signal<Look | null>(null);
   private looking = false;
@@ -94,7 +94,7 @@ export class RecordingsModel {
     );
   }
 
-  /** Plays into the target. Resolves with why not, where somebody else has the stream. */
+  /** Plays into the target. Resolves with the reason for refusal where somebody else has the stream. */
   async play(recording: Recording, takeOver: boolean): Promise<string | null> {
     let held: string | null = null;
     await this.work(recording.id, `${recording.name} does not play`, async () => {
@@ -106,7 +106,7 @@ export class RecordingsModel {
         this.driver.byStream();
       } catch (error) {
         const problem = problemOf(error);
-        // Other conflicts are of the recording itself, and are not helped by taking over.
+        // Other conflicts concern the recording itself; taking the stream over would not help.
         await this.live.refresh();
         if (problem.status !== 409 || takeOver || !this.taken(stream)) throw error;
         held = problem.detail ?? problem.title;
@@ -132,7 +132,7 @@ export class RecordingsModel {
     });
   }
 
-  /** Shows a moment on the face on this page alone. While one is asked for, only the newest wish is kept. */
+  /** Shows a moment, on this page only. While a request is in progress only the newest moment is kept. */
   async lookAt(recording: Recording, at: number): Promise<void> {
     this.look.set({ id: recording.id, at });
     if (this.looking) return;
@@ -147,7 +147,7 @@ export class RecordingsModel {
     this.looking = false;
   }
 
-  /** In words, what the face shows; null: nothing recorded. */
+  /** The moment that is looked at, in words; null: none. */
   get looksAt(): string | null {
     const look = this.look.value;
     if (!look) return null;

@@ -15,7 +15,7 @@ export type MotionSource = 'hand' | 'clip' | 'recording' | 'stream';
 
 export type DrivenFace = Pick<Performer, 'follow' | 'showBetween' | 'enliven' | 'step' | 'listen'>;
 
-/** A calm person; the same every time. */
+/** A calm person. The seed is fixed, so that each visit looks the same. */
 const idleSettings = { seed: 1, blinksPerMinute: 15, head: 0.3, eyes: 0.5 };
 
 /**
@@ -30,48 +30,50 @@ export class FaceDriver {
   private idle: IdlePlayer | null = null;
 
   constructor(
-    /** Set with the sliders; changed in place. */
+    /** Set with the sliders, which change it in place. */
     private readonly frame: FaceFrame,
     readonly clip = new ClipPlayer(),
   ) {}
 
-  /** Calls whenever a source takes the face, also when it has the face already. */
+  /** Calls the listener whenever a source takes the face, also when it already has it. */
   onTake(listener: (source: MotionSource) => void): void {
     this.listeners.add(listener);
   }
 
-  /** The frame set by hand, as it is now. */
+  /** Shows the frame set by hand, as it is now. */
   byHand(): void {
     this.take('hand');
     this.face?.follow(this.frame);
   }
 
-  /** What the clip player shows from now on. */
+  /** Shows what the clip player plays or seeks. */
   byClip(): void {
     this.take('clip');
   }
 
+  /** Shows a frame of a recording and holds it. */
   byRecording(moment: FaceFrame): void {
     this.take('recording');
     this.face?.follow(moment);
   }
 
+  /** Shows the frames that the subscription receives. */
   byStream(): void {
     this.take('stream');
   }
 
-  /** The source has nothing more to show: if it has the face, the hand gets it. */
+  /** The source ends or is paused: the hand takes the face, if that source has it. */
   release(source: MotionSource): void {
     if (this.source.value === source) this.byHand();
   }
 
-  /** Whoever switches idle life on wants to see it; switched off, it leaves a clip or stream alone. */
+  /** Switching idle life on takes the face to show it; switching it off does not interrupt a clip or stream. */
   setIdle(on: boolean): void {
     this.idle = on ? new IdlePlayer(this.frame, idleSettings) : null;
     if (on || this.source.value === 'hand' || this.source.value === 'recording') this.byHand();
   }
 
-  /** Another face, or another level of detail of it. The moment of a recording is not carried over. */
+  /** Replaces the face, or its level of detail. Each source goes on, but the moment of a recording is dropped. */
   setFace(face: DrivenFace | null): void {
     this.face = face;
     face?.listen(this.client);
@@ -81,13 +83,13 @@ export class FaceDriver {
     else if (source !== 'stream') this.take('hand');
   }
 
-  /** The subscription whose frames `stream` shows; null: none. */
+  /** Sets the subscription whose frames `stream` shows; null: none. */
   setClient(client: StreamClient | null): void {
     this.client = client;
     this.face?.listen(client);
   }
 
-  /** Moves the face on by a displayed frame. Returns whether it moved. */
+  /** Advances by the time of one displayed frame. Returns whether the pose changed. */
   step(deltaSeconds: number): boolean {
     const { face, clip, idle } = this;
     if (!face) return false;

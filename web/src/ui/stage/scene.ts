@@ -22,14 +22,14 @@ export interface SceneSources {
   face: (model: Model, level: number, signal: AbortSignal) => Promise<LoadedFace>;
 }
 
-/** What stands on the stage: the still preview with its markers, or the face that moves. */
+/** The contents of the stage: the still preview with its markers, or the animated face. */
 export class SceneView {
   readonly stage: Stage;
   private readonly quality: Quality;
   readonly markers: Markers;
   readonly highlight = new Highlight();
   readonly state = new Signal<SceneState>({ kind: 'empty' });
-  /** Of the face that moves; null while there is none. */
+  /** Of the animated face; null while there is none. */
   readonly performer = new Signal<Performer | null>(null);
   readonly packageBytes = new Signal(0);
   /** Which level of detail of the face is shown; 0 is the full mesh. */
@@ -59,7 +59,7 @@ export class SceneView {
   /** Moves the performer on by a displayed frame, seconds; returns whether its pose changed. */
   animate: (deltaSeconds: number) => boolean = () => false;
 
-  /** Shows a model, or what is new of it. The old picture stays until the new one is there. */
+  /** Shows a model, or its changes. The old picture stays until the new one is loaded. */
   async open(model: Model | null): Promise<void> {
     if (packageOf(model) !== packageOf(this.model)) this.level.set(0);
     this.model = model;
