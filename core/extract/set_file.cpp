@@ -17,6 +17,7 @@ namespace semblante {
 namespace {
 
 constexpr std::size_t max_name_bytes = 200;
+constexpr JsonLimits set_limits = {.max_depth = 16, .max_values = 10'000};
 
 void read_displacements(const JsonCursor& displacements, std::vector<Displacement>& out) {
   for (const auto& [name, cursor] : displacements.members()) {
@@ -48,7 +49,7 @@ double as_short_as_may_be(float value) {
 }  // namespace
 
 Result<NamedSet> parse_displacement_set(std::string_view json) {
-  const auto tree = read_json_object(json, {.max_depth = 16, .max_values = 10'000});
+  const auto tree = read_json_object(json, set_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);
@@ -64,6 +65,16 @@ Result<NamedSet> parse_displacement_set(std::string_view json) {
   read_displacements(displacements, set.displacements);
   if (fault) return *fault;
   return set;
+}
+
+Result<std::vector<Displacement>> parse_set_displacements(std::string_view json) {
+  const auto tree = read_json_object(json, set_limits);
+  if (!tree) return tree.error();
+  std::optional<Error> fault;
+  std::vector<Displacement> displacements;
+  read_displacements(JsonCursor(*tree, fault), displacements);
+  if (fault) return *fault;
+  return displacements;
 }
 
 nlohmann::ordered_json displacements_to_json(const std::vector<Displacement>& displacements) {

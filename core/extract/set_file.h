@@ -17,7 +17,10 @@ namespace semblante {
 /// all.
 Result<NamedSet> parse_displacement_set(std::string_view json);
 
-/// {"2.1": [x, y, z], ...}: the displacements alone, points rising.
+/// The displacements alone, {"2.1": [x, y, z], ...}, with the checks of parse_displacement_set.
+Result<std::vector<Displacement>> parse_set_displacements(std::string_view json);
+
+/// What parse_set_displacements reads; points rising.
 nlohmann::ordered_json displacements_to_json(const std::vector<Displacement>& displacements);
 
 /// The whole, as parse_displacement_set reads it back to the bit.

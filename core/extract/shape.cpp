@@ -27,9 +27,8 @@ Result<std::vector<glm::vec3>> shape_of_target(const Model& model, std::string_v
 
 Result<std::vector<glm::vec3>> shape_of_file(const Model& neutral, std::span<const std::uint8_t> bytes,
                                              std::string_view file_name) {
-  const auto format = detect_format(bytes, file_name);
-  if (!format)
-    return Error{ErrorCode::unsupported, "/expression", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
+  const auto format = format_of(bytes, file_name);
+  if (!format) return Error{format.error().code, "/expression", format.error().message};
   ImportLimits limits;
   limits.needs_triangles = false;
   auto model = import_model(bytes, *format, limits);

@@ -92,6 +92,11 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
   return std::nullopt;
 }
 
+Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_view file_name) {
+  if (const auto format = detect_format(bytes, file_name)) return *format;
+  return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
+}
+
 Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits) {
   if (bytes.size() > limits.max_file_bytes) {
     return Error{ErrorCode::too_large, "",

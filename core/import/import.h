@@ -20,6 +20,9 @@ std::string_view to_string(ModelFormat format);
 /// ending of `file_name` claims, so that its reader can say what is wrong. nullopt when neither says anything.
 std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, std::string_view file_name);
 
+/// The same for a file whose format must be known. Error: `unsupported`, which names the formats there are.
+Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_view file_name);
+
 /// Reads a model. Never trusts the file: any bytes give a Model whose indices are in range and whose numbers are
 /// finite, or an Error whose `where` is a line ("line 12"), a byte ("byte 80") or a JSON pointer
 /// ("/accessors/3/count"). Touches neither the file system nor the network. README.md says how each format numbers its

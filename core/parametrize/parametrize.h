@@ -19,7 +19,7 @@ struct ParametrizeOptions {
   Fapu fapu_by_user;
   WeightMethod weights = WeightMethod::paper;
   DistanceMetric metric = DistanceMetric::edge;
-  ProgressCallback progress;
+  Progress progress;
 };
 
 /// FAPUs, regions and weights (Eq. 1 to 4) of one model, and Eq. 7's quotient with the roles of parts applied.

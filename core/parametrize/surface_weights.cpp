@@ -10,7 +10,7 @@
 namespace semblante {
 
 Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
-                                            const ProgressCallback& progress, const WeightOptions& options) {
+                                            const Progress& progress, const WeightOptions& options) {
   std::vector<std::size_t> points_on(surface.part_count(), 0);
   std::size_t work = 0;  // searches weighted by the size of their part
   for (const SurfacePoint& point : points) {

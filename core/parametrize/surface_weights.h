@@ -1,19 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <span>
-#include <string_view>
 
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_lookup.h"
 #include "core/parametrize/weight_method.h"
+#include "core/types/progress.h"
 #include "core/types/result.h"
 #include "core/types/weight_table.h"
 
 namespace semblante {
-
-/// Told how far a parametrization is (0..1) and what it is at; answers false to stop it.
-using ProgressCallback = std::function<bool(double progress, std::string_view stage)>;
 
 struct WeightOptions {
   WeightMethod method = WeightMethod::paper;
@@ -26,7 +22,7 @@ struct WeightOptions {
 /// Weights of every surface vertex (#S rows), part by part: distances, then with `paper` regions, neighbours and W of
 /// Eq. 4, with `smooth` the shares of smooth_weights.h. Fails only with `cancelled`. `progress` may be empty.
 Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<const SurfacePoint> points,
-                                            const ProgressCallback& progress = {}, const WeightOptions& options = {});
+                                            const Progress& progress = {}, const WeightOptions& options = {});
 
 /// Gives each file vertex the row of its surface vertex: #V rows.
 template <class W>

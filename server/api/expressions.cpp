@@ -92,11 +92,9 @@ std::optional<NamedSet> find_built_in(std::string_view name) {
 }
 
 NamedSet read_set(const store::SetRecord& record) {
-  auto set = parse_displacement_set("{\"displacements\":" + record.displacements + "}");
-  if (!set) refuse("internal", "the expression cannot be read: " + set.error().message);
-  set->name = record.name;
-  set->kind = parse_set_kind(record.kind).value_or(SetKind::expression);
-  return std::move(*set);
+  auto displacements = parse_set_displacements(record.displacements);
+  if (!displacements) refuse("internal", "the expression cannot be read: " + displacements.error().message);
+  return {record.name, parse_set_kind(record.kind).value_or(SetKind::expression), std::move(*displacements)};
 }
 
 NamedSet set_from_body(const http::Request& request) {

@@ -47,7 +47,7 @@ Clip clip_of_folder(const ClipOutput& options, const FaceSequence& sequence, con
 Clip clip_of_head(const ClipOutput& options, const FaceSequence& sequence, const std::string& name,
                   std::vector<std::string>& warnings) {
   const Head head = load_head(options.head);
-  warnings.insert(warnings.end(), head.warnings.begin(), head.warnings.end());
+  warnings = head.all_warnings();
   PackageOptions package_options;
   package_options.name = std::filesystem::path(options.head.model_path).stem().string();
   const auto package = build_package(head.model, head.surface, head.rig, package_options);

@@ -27,7 +27,7 @@ void run(const DeformCommand& options) {
   if (!options.sequence.frames.empty()) {
     Head head = load_head(options.head);
     write_deformed_sequence(options.sequence, head, options.out);
-    print_warnings(head.warnings, options.head.quiet);
+    print_warnings(head.all_warnings(), options.head.quiet);
     return;
   }
   if (face.faps.empty() && face.viseme.empty() && face.expression.empty() && face.displacements.empty() &&
@@ -37,14 +37,14 @@ void run(const DeformCommand& options) {
         "deform: give --faps, --viseme, --expression, --set (or several of them), --displacements or --frames");
   }
   Head head = load_head(options.head);
-  const semblante_pose pose = make_pose(face, head, head.warnings);
+  const semblante_pose pose = make_pose(face, head, head.remarks);
 
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   std::vector<glm::vec3> deformed(head.model.positions.size());
   const semblante_face rows = make_kernel_face(head.rig, &head.model.positions.front().x);
   semblante_deform(&rows, &pose, &deformed.front().x);
   write_file(options.out, [&](std::ostream& out) { write_obj(head.model, deformed, out); });
-  print_warnings(head.warnings, options.head.quiet);
+  print_warnings(head.all_warnings(), options.head.quiet);
 }
 
 }  // namespace

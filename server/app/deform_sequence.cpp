@@ -75,7 +75,7 @@ class PoseTrack {
 void write_deformed_sequence(const DeformSequence& options, Head& head, const std::string& out) {
   if (out == "-") refuse("--out: a sequence of meshes needs a folder");
   const FaceSequence sequence = read_faces(options.frames, options.frames_format, options.reading);
-  head.warnings.insert(head.warnings.end(), sequence.warnings.begin(), sequence.warnings.end());
+  head.remarks.insert(head.remarks.end(), sequence.warnings.begin(), sequence.warnings.end());
   const KernelRig kernel = make_kernel_rig(head.rig);
   const semblante_rig rig = kernel.view();
   PoseTrack track(sequence, rig);

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/doctor/examine.h"
-#include "core/doctor/marked_points.h"
-#include "core/parametrize/parametrize.h"
 #include "core/parametrize/part_roles.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
@@ -23,21 +22,31 @@ struct ExamineCommand {
   bool json = false;
 };
 
-Report examine_files(const HeadFiles& files, const HeadOptions& options) {
-  const Surface surface = build_surface(files.model);
-  print_warnings(files.model.warnings, options.quiet);
-  if (options.feature_points_path.empty())
-    return examine_mesh(files.model, surface, describe_parts(files.model, surface, {}));
-  PlacedPoints placed = place_what_can_be(files.model, surface, files.marked);
-  print_warnings(placed.warnings, options.quiet);
-  ParametrizeOptions parametrize_options;
-  parametrize_options.weights = parse_weight_method(options.weights).value_or(WeightMethod::paper);
-  parametrize_options.metric = parse_distance_metric(options.metric).value_or(DistanceMetric::edge);
-  const auto rig = parametrize(files.model, surface, placed.points, parametrize_options);
-  if (!rig) fail(options.model_path, rig.error());
-  Report report = examine(files.model, surface, *rig, parametrize_options.weights);
-  report.findings.insert(report.findings.begin(), placed.refused.begin(), placed.refused.end());
-  return report;
+/// The report of a head, and how it stands.
+struct Examination {
+  Report report;
+  ModelFrame frame;
+  FrameWish wish;
+};
+
+/// Without feature points: what the mesh alone shows.
+Examination examine_shape(HeadFiles files, const HeadOptions& options) {
+  const auto head = stand_head(std::move(files.head), {files.wish, {}, {}});
+  if (!head) fail(options.model_path, head.error());
+  print_warnings(head->warnings.all(), options.quiet);
+  const auto parts = describe_parts(head->model, head->surface, {});
+  return {examine_mesh(head->model, head->surface, parts), head->frame, head->frame_wish};
+}
+
+/// Points that cannot be placed are findings too.
+Examination examine_with_points(HeadFiles files, const HeadOptions& options) {
+  MarkedHead marked = place_points(std::move(files), options, true);
+  // Not those of the rig: the report says the same, with place and remedy.
+  print_warnings(marked.warnings.all(), options.quiet);
+  const RiggedHead head = rig(std::move(marked), options);
+  Report report = examine(head.model, head.surface, head.rig, rig_request(options).weights);
+  report.findings.insert(report.findings.begin(), head.refused.begin(), head.refused.end());
+  return {std::move(report), head.frame, head.frame_wish};
 }
 
 void print(const Report& report, std::ostream& out) {
@@ -72,14 +81,16 @@ void print(const ModelFrame& frame, std::ostream& out) {
 }
 
 void run(const ExamineCommand& options) {
-  const HeadFiles files = read_head(options.head);
-  const Report report = examine_files(files, options.head);
+  HeadFiles files = read_head(options.head);
+  const auto [report, frame, wish] = options.head.feature_points_path.empty()
+                                         ? examine_shape(std::move(files), options.head)
+                                         : examine_with_points(std::move(files), options.head);
   if (options.json) {
-    const ReportSection frame{"frame", store::frame_to_json(files.frame, files.wish).dump()};
-    std::cout << write_report(report, {&frame, 1});
+    const ReportSection section{"frame", store::frame_to_json(frame, wish)};
+    std::cout << write_report(report, {&section, 1});
   } else {
     print(report, std::cout);
-    print(files.frame, std::cout);
+    print(frame, std::cout);
   }
   if (const auto errors = report.counts().errors; errors > 0)
     throw CommandFailure(CommandFailure::has_errors, options.head.model_path + ": examined, it has " +

@@ -3,6 +3,7 @@
 #include <memory>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -11,7 +12,6 @@
 #include "core/extract/shape.h"
 #include "core/import/limits.h"
 #include "core/parametrize/fapu.h"
-#include "core/parametrize/place_feature_points.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/files.h"
@@ -47,18 +47,17 @@ std::vector<glm::vec3> shape_of(const std::string& option, const std::string& pa
   return std::move(*shape);
 }
 
-Shapes read_shapes(const ExtractCommand& options, const HeadFiles& head) {
-  if (!options.target.empty()) {
-    return {shape_of("--from", options.head.model_path, head.model, options.from),
-            shape_of("--target", options.head.model_path, head.model, options.target)};
-  }
-  const auto bytes = read_file(options.expression, ImportLimits{}.max_file_bytes);
-  auto expression = shape_of_file(head.model, bytes, std::filesystem::path(options.expression).filename().string());
-  if (!expression) fail(options.expression, without_field(expression.error()));
-  if (head.to_mpeg4 != glm::dmat3(1.0)) {
-    for (glm::vec3& p : *expression) p = glm::vec3(head.to_mpeg4 * glm::dvec3(p));
-  }
-  return {head.model.positions, std::move(*expression)};
+/// The positions of the expression file as they lie in it; `neutral` is the head as it lies in its own.
+std::vector<glm::vec3> read_expression(const std::string& path, const Model& neutral) {
+  const auto bytes = read_file(path, ImportLimits{}.max_file_bytes);
+  auto expression = shape_of_file(neutral, bytes, std::filesystem::path(path).filename().string());
+  if (!expression) fail(path, without_field(expression.error()));
+  return std::move(*expression);
+}
+
+Shapes shapes_of_targets(const ExtractCommand& options, const MarkedHead& head) {
+  return {shape_of("--from", options.head.model_path, head.model, options.from),
+          shape_of("--target", options.head.model_path, head.model, options.target)};
 }
 
 std::string default_name(const ExtractCommand& options) {
@@ -70,13 +69,17 @@ void run(const ExtractCommand& options) {
     throw CommandFailure(CommandFailure::bad_input,
                          "extract: give the file of the expression, or --target with a morph target of the head");
   }
-  const HeadFiles head = read_head(options.head);
-  std::vector<std::string> warnings = head.model.warnings;
-  const auto points = place_feature_points(head.model, build_surface(head.model), head.marked, &warnings);
-  if (!points) fail(options.head.feature_points_path, points.error());
-  const Fapu fapu = compute_fapu(*points);
-  const Shapes shapes = read_shapes(options, head);
-  const auto extraction = extract_displacements(*points, fapu, shapes.neutral, shapes.expression, options.options);
+  HeadFiles files = read_head(options.head);
+  std::vector<glm::vec3> expression;
+  if (options.target.empty()) expression = read_expression(options.expression, files.head.model);
+  const MarkedHead head = place_points(std::move(files), options.head);
+  // Turned as the head was.
+  for (glm::vec3& p : expression) p = glm::vec3(head.to_mpeg4 * glm::dvec3(p));
+  const Shapes shapes =
+      options.target.empty() ? Shapes{head.model.positions, std::move(expression)} : shapes_of_targets(options, head);
+  std::vector<std::string> warnings = head.warnings.all();
+  const Fapu fapu = compute_fapu(head.points);
+  const auto extraction = extract_displacements(head.points, fapu, shapes.neutral, shapes.expression, options.options);
   if (!extraction) {
     fail(options.expression.empty() ? options.head.model_path : options.expression, without_field(extraction.error()));
   }

@@ -4,17 +4,14 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
-#include <unistd.h>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
-#include "core/import/axes.h"
-#include "core/import/import.h"
-#include "core/parametrize/parametrize.h"
-#include "core/parametrize/place_feature_points.h"
 #include "core/propose/propose.h"
 #include "server/app/command_failure.h"
 #include "server/app/files.h"
+#include "server/app/progress_line.h"
 
 namespace semblante {
 namespace {
@@ -23,21 +20,15 @@ constexpr std::size_t max_feature_points_bytes = std::size_t{4} << 20;
 constexpr std::array all_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
                                     ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
 
-Model read_model(const HeadOptions& options) {
-  const ImportLimits limits;
-  const auto bytes = read_file(options.model_path, limits.max_file_bytes);
-  std::optional<ModelFormat> format;
+ImportedHead import_file(const HeadOptions& options) {
+  ImportRequest request;
+  request.file_name = std::filesystem::path(options.model_path).filename().string();
   for (const ModelFormat candidate : all_formats) {
-    if (to_string(candidate) == options.format) format = candidate;
+    if (to_string(candidate) == options.format) request.format = candidate;
   }
-  if (!format) format = detect_format(bytes, std::filesystem::path(options.model_path).filename().string());
-  if (!format) {
-    throw CommandFailure(CommandFailure::bad_input,
-                         options.model_path + ": is no GLB, glTF (or zip of one), OBJ, PLY or STL");
-  }
-  auto model = import_model(bytes, *format, limits);
-  if (!model) fail(options.model_path, model.error());
-  return std::move(*model);
+  auto head = import_head(read_file(options.model_path, request.limits.max_file_bytes), request);
+  if (!head) fail(options.model_path, head.error());
+  return std::move(*head);
 }
 
 FrameWish wish_of(const HeadOptions& options) {
@@ -48,61 +39,19 @@ FrameWish wish_of(const HeadOptions& options) {
   return wish;
 }
 
-/// Guesses by the points, and by the shape of the head where they do not say how it stands.
-ModelFrame guess_frame_of(const HeadFiles& head) {
-  std::vector<PlacedPoint> points;
-  for (const MarkedPoint& point : head.marked) {
-    if (point.position)
-      points.push_back({point.id, *point.position});
-    else if (point.vertex && *point.vertex < head.model.positions.size())
-      points.push_back({point.id, glm::dvec3(head.model.positions[*point.vertex])});
-  }
-  const ModelFrame by_points = guess_frame(points, {});
-  if (by_points.axes_sure && by_points.unit_sure) return by_points;
-  return guess_frame(points, guess_frame(head.model, build_surface(head.model)));
-}
-
-void stand_upright(HeadFiles& head) {
-  head.frame = apply_wish(guess_frame_of(head), head.wish);
-  if (head.frame.axes == Axes{}) return;
-  head.to_mpeg4 = to_mpeg4(head.frame.axes);
-  change_axes(head.model, head.to_mpeg4);
-  for (MarkedPoint& point : head.marked) {
-    if (point.position) point.position = head.to_mpeg4 * *point.position;
-  }
-  head.model.warnings.push_back("the head stands along " + std::string(to_string(head.frame.axes.up)) + " and faces " +
-                                std::string(to_string(head.frame.axes.front)) + " in its file; it is turned upright");
-}
-
-/// One line that is written over; cleared at the end. Only for people, so only on a terminal.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  void show(double progress, std::string_view stage) const {
-    if (shown_) std::cerr << "\r\033[K" << static_cast<int>(progress * 100.0) << " % " << stage << std::flush;
-  }
-
- private:
-  bool shown_;
-};
-
 /// What `semblante propose` could do for these points.
-void warn_of_missing_points(const std::vector<MarkedPoint>& marked, std::vector<std::string>& warnings) {
+std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
+  std::vector<std::string> advice;
   const auto proposed = std::count_if(marked.begin(), marked.end(), [](const MarkedPoint& p) { return p.proposed; });
   const std::size_t placed = marked.size() - static_cast<std::size_t>(proposed);
   // 11.5, the thickness of hair, is missing from most heads, and nothing proposes it.
   if (marked.size() + 1 < feature_point_count && placed >= least_known_points) {
-    warnings.push_back(std::to_string(feature_point_count - marked.size()) +
-                       " of the 84 feature points are missing; `semblante propose` proposes most of them");
+    advice.push_back(std::to_string(feature_point_count - marked.size()) +
+                     " of the 84 feature points are missing; `semblante propose` proposes most of them");
   }
-  if (proposed > 0) {
-    warnings.push_back(std::to_string(proposed) + " feature points are proposals that nobody has confirmed");
-  }
+  if (proposed > 0)
+    advice.push_back(std::to_string(proposed) + " feature points are proposals that nobody has confirmed");
+  return advice;
 }
 
 const std::vector<std::string> model_formats = {"glb", "gltf", "gltf_zip", "obj", "ply", "stl"};
@@ -185,61 +134,46 @@ void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
 }
 
 HeadFiles read_head(const HeadOptions& options) {
-  FeaturePointsFile file;
+  HeadFiles files;
   if (!options.feature_points_path.empty()) {
     const auto json = read_file(options.feature_points_path, max_feature_points_bytes);
     auto parsed = parse_feature_points({reinterpret_cast<const char*>(json.data()), json.size()});
     if (!parsed) fail(options.feature_points_path, parsed.error());
-    file = std::move(*parsed);
+    files.points = std::move(*parsed);
   }
-  HeadFiles head;
-  head.wish = wish_of(options);
-  head.model = read_model(options);
-  if (!file.to_mpeg4_axes) {
-    head.marked = std::move(file.points);
-    stand_upright(head);
-    return head;
-  }
-  if (head.wish.has_axes()) {
-    throw CommandFailure(
-        CommandFailure::bad_input,
-        options.feature_points_path + ": /to_mpeg4_axes says how the model stands; leave out --up and --front");
-  }
-  head.to_mpeg4 = *file.to_mpeg4_axes;
-  change_axes(head.model, head.to_mpeg4);
-  change_axes(file);
-  head.marked = std::move(file.points);
-  head.frame = guess_frame_of(head);
-  head.frame.axes = {};
-  head.frame = apply_wish(std::move(head.frame), head.wish);
-  return head;
+  files.wish = wish_of(options);
+  files.head = import_file(options);
+  return files;
+}
+
+MarkedHead place_points(HeadFiles files, const HeadOptions& options, bool leaves_out_refused) {
+  auto head = mark_by_file(std::move(files.head), std::move(files.points), files.wish, leaves_out_refused);
+  if (!head) fail(options.feature_points_path, head.error());
+  return std::move(*head);
+}
+
+RiggedHead rig(MarkedHead head, const HeadOptions& options) {
+  const ProgressLine line(options.quiet);
+  auto rigged = rig_head(std::move(head), rig_request(options), line.progress());
+  if (!rigged) fail(options.model_path, rigged.error());
+  return std::move(*rigged);
+}
+
+RigRequest rig_request(const HeadOptions& options) {
+  return {parse_weight_method(options.weights).value_or(WeightMethod::paper),
+          parse_distance_metric(options.metric).value_or(DistanceMetric::edge)};
 }
 
 Head load_head(const HeadOptions& options) {
   HeadFiles files = read_head(options);
-  Head head;
-  head.model = std::move(files.model);
-  head.to_mpeg4 = files.to_mpeg4;
-  head.warnings = head.model.warnings;
-  head.surface = build_surface(head.model);
-  const auto points = place_feature_points(head.model, head.surface, files.marked, &head.warnings);
-  if (!points) fail(options.feature_points_path, points.error());
+  auto advice = advice_on(files.points.points);
+  return {rig(place_points(std::move(files), options), options), std::move(advice)};
+}
 
-  warn_of_missing_points(files.marked, head.warnings);
-
-  const ProgressLine line(options.quiet);
-  ParametrizeOptions parametrize_options;
-  parametrize_options.weights = parse_weight_method(options.weights).value_or(WeightMethod::paper);
-  parametrize_options.metric = parse_distance_metric(options.metric).value_or(DistanceMetric::edge);
-  parametrize_options.progress = [&line](double progress, std::string_view stage) {
-    line.show(progress, stage);
-    return true;
-  };
-  auto rig = parametrize(head.model, head.surface, *points, parametrize_options);
-  if (!rig) fail(options.model_path, rig.error());
-  head.rig = std::move(*rig);
-  head.warnings.insert(head.warnings.end(), head.rig.warnings.begin(), head.rig.warnings.end());
-  return head;
+std::vector<std::string> Head::all_warnings() const {
+  std::vector<std::string> list = warnings.all();
+  list.insert(list.end(), remarks.begin(), remarks.end());
+  return list;
 }
 
 }  // namespace semblante

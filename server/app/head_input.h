@@ -3,11 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/frame_guess.h"
-#include "core/geometry/surface.h"
-#include "core/import/feature_points_file.h"
-#include "core/types/model.h"
-#include "core/types/rig.h"
+#include "core/pipeline/points_file.h"
+#include "core/pipeline/rigged.h"
 
 namespace CLI {
 class App;
@@ -38,29 +35,33 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
 /// them required.
 void add_named_head_options(CLI::App& command, HeadOptions& options);
 
-/// What the files say, brought into the MPEG-4 frame.
+/// What the files and the options say, before the first stage that needs a decision.
 struct HeadFiles {
-  Model model;
-  std::vector<MarkedPoint> marked;  ///< empty without a file of feature points
-  glm::dmat3 to_mpeg4{1.0};         ///< by "to_mpeg4_axes" of the feature point file, else by `frame`
-  ModelFrame frame;                 ///< its axes are not told where the file says "to_mpeg4_axes"
-  FrameWish wish;                   ///< what the options say of it
+  ImportedHead head;
+  FeaturePointsFile points;  ///< no points without a file of them
+  FrameWish wish;
 };
 
 /// Reads both files. Throws CommandFailure, naming the file and the place in it.
 HeadFiles read_head(const HeadOptions& options);
 
-/// A parametrized head, in the MPEG-4 frame; model.to_file_frame leads back to the file's.
-struct Head {
-  Model model;
-  Surface surface;
-  Rig rig;
-  glm::dmat3 to_mpeg4{1.0};           ///< what brought it there
-  std::vector<std::string> warnings;  ///< of all steps, for print_warnings once the command has succeeded
+/// Turns the head upright and places its points: mark_by_file. Throws CommandFailure, naming the file.
+MarkedHead place_points(HeadFiles files, const HeadOptions& options, bool leaves_out_refused = false);
+
+RigRequest rig_request(const HeadOptions& options);
+
+/// rig_head with progress on stderr, if that is a terminal and quiet is not asked for. Throws CommandFailure.
+RiggedHead rig(MarkedHead head, const HeadOptions& options);
+
+/// A rigged head, and what a command has to say beside the warnings of the pipeline.
+struct Head : RiggedHead {
+  std::vector<std::string> remarks;  ///< advice on missing points, then what the command adds
+
+  /// The warnings of the stages in their order, then the remarks: for print_warnings once the command has succeeded.
+  [[nodiscard]] std::vector<std::string> all_warnings() const;
 };
 
-/// Reads, places and parametrizes. Progress goes to stderr if that is a terminal and quiet is not asked for. Throws
-/// CommandFailure, naming the file and the place in it.
+/// read_head, place_points and rig.
 Head load_head(const HeadOptions& options);
 
 /// "semblante: warning: ..." on stderr. At the end, so that a failure is one line alone.

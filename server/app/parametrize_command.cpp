@@ -1,18 +1,18 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
-#include "core/lod/decimate.h"
-#include "core/lod/lod_poses.h"
+#include "core/pipeline/levelled.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/files.h"
 #include "server/app/head_input.h"
+#include "server/app/progress_line.h"
 #include "server/app/weights_json.h"
-#include "server/package/package.h"
-#include "server/report/levels_json.h"
+#include "server/package/pack_head.h"
 
 namespace semblante {
 namespace {
@@ -62,23 +62,28 @@ std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const M
   return budgets;
 }
 
-std::vector<FacePackage> encode(Head& head, const ParametrizeCommand& options) {
+std::vector<FacePackage> pack(const LevelledHead& head, const ParametrizeCommand& options, const Progress& progress) {
   PackageOptions package_options;
   package_options.name =
       options.name.empty() ? std::filesystem::path(options.head.model_path).stem().string() : options.name;
   package_options.weight_bits = options.weight_bits;
-  LodOptions lod_options;
-  lod_options.budgets = budgets_of(options, head.model);
-  const auto poses = lod_options.budgets.empty() ? std::vector<LodPose>() : lod_poses(head.rig, head.model);
-  const auto labels = material_labels(head.model, head.surface, head.rig);
-  lod_options.poses = poses;
-  lod_options.labels = labels;
-  const auto levels = decimate(head.model, head.surface, head.rig, lod_options);
-  if (!levels) fail(options.head.model_path, levels.error());
-  for (const MissedBudget& miss : missed_budgets(lod_options.budgets, *levels)) head.warnings.push_back(miss.words);
-  auto packages = build_packages(head.model, head.surface, head.rig, *levels, package_options);
+  auto packages = pack_head(head, std::move(package_options), progress);
   if (!packages) fail(options.head.model_path, packages.error());
   return std::move(*packages);
+}
+
+void write_packages(Head& head, const ParametrizeCommand& options) {
+  const ProgressLine line(options.head.quiet);
+  const Progress progress = line.progress();
+  auto budgets = budgets_of(options, head.model);
+  auto levelled = level_head(std::move(head), std::move(budgets), part_of(progress, 0.0, 0.5));
+  if (!levelled) fail(options.head.model_path, levelled.error());
+  const std::filesystem::path folder(options.out);
+  const auto packages = pack(*levelled, options, part_of(progress, 0.5, 1.0));
+  for (std::size_t lod = 0; lod < packages.size(); ++lod) {
+    write_package(packages[lod], lod == 0 ? folder : folder / ("lod" + std::to_string(lod)));
+  }
+  head.warnings = std::move(levelled->warnings);
 }
 
 void run(const ParametrizeCommand& options) {
@@ -89,14 +94,8 @@ void run(const ParametrizeCommand& options) {
   if (!options.weights_json.empty()) {
     write_file(options.weights_json, [&head](std::ostream& out) { write_weights_json(head.rig, out); });
   }
-  if (!options.out.empty()) {
-    const std::filesystem::path folder(options.out);
-    const auto packages = encode(head, options);
-    for (std::size_t lod = 0; lod < packages.size(); ++lod) {
-      write_package(packages[lod], lod == 0 ? folder : folder / ("lod" + std::to_string(lod)));
-    }
-  }
-  print_warnings(head.warnings, options.head.quiet);
+  if (!options.out.empty()) write_packages(head, options);
+  print_warnings(head.all_warnings(), options.head.quiet);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include <memory>
 #include <ostream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/parametrize/part_roles.h"
-#include "core/parametrize/place_feature_points.h"
 #include "core/propose/propose.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
@@ -58,16 +58,14 @@ Json document(const FeaturePointSet& placed, const Proposals& proposals, const g
 void run(const ProposeCommand& options) {
   HeadFiles files = read_head(options.head);
   // Proposals of an earlier run are made anew from what a person placed.
-  std::erase_if(files.marked, [](const MarkedPoint& point) { return point.proposed; });
-  std::vector<std::string> warnings = files.model.warnings;
-  const Surface surface = build_surface(files.model);
-  const auto placed = place_feature_points(files.model, surface, files.marked, &warnings);
-  if (!placed) fail(options.head.feature_points_path, placed.error());
-  const auto proposals = propose_feature_points(surface, describe_parts(files.model, surface, *placed), *placed);
+  std::erase_if(files.points.points, [](const MarkedPoint& point) { return point.proposed; });
+  const MarkedHead head = place_points(std::move(files), options.head);
+  const auto parts = describe_parts(head.model, head.surface, head.points);
+  const auto proposals = propose_feature_points(head.surface, parts, head.points);
   if (!proposals) fail(options.head.feature_points_path, proposals.error());
-  const Json json = document(*placed, *proposals, files.to_mpeg4);
+  const Json json = document(head.points, *proposals, head.to_mpeg4);
   write_file(options.out, [&json](std::ostream& out) { out << json.dump(1) << "\n"; });
-  print_warnings(warnings, options.head.quiet);
+  print_warnings(head.warnings.all(), options.head.quiet);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/extract/extract.h"
 #include "core/extract/set_file.h"
 #include "core/extract/shape.h"
 #include "core/parametrize/fapu.h"
-#include "server/jobs/marked_model.h"
+#include "server/jobs/request_head.h"
+#include "server/jobs/result_facts.h"
 #include "server/jobs/worker_tasks.h"
 
 namespace semblante::jobs {
@@ -45,34 +45,29 @@ Result<std::vector<glm::vec3>> shape_of_field(const Model& model, const std::str
 
 Result<WorkerResult> run_extract(const WorkerRequest& request, const Progress& progress) {
   const store::ExtractionRecord& wish = *request.extraction;
-  progress(0.05, "reading");
-  auto model = read_model(request);
-  if (!model) return model.error();
+  auto imported = import_source(request, part_of(progress, 0.05, 0.3));
+  if (!imported) return imported.error();
   std::vector<glm::vec3> expression;
   if (!request.expression_source.empty()) {
-    progress(0.3, "reading the expression");
+    if (auto told = report_progress(progress, 0.3, "reading the expression"); !told) return told.error();
     const auto bytes = read_file(request.expression_source);
     if (!bytes) return bytes.error();
-    auto shape = shape_of_file(*model, *bytes, wish.expression_file);
+    auto shape = shape_of_file(imported->model, *bytes, wish.expression_file);
     if (!shape) return shape.error().where == "/expression" ? shape.error() : about_the_file(shape.error());
     expression = std::move(*shape);
   }
-  progress(0.5, "surface");
-  const glm::mat3 file_before(model->to_file_frame);
-  WorkerResult result;
-  const auto head = mark(*model, request, result);
+  const auto head = mark_source(std::move(*imported), request, part_of(progress, 0.5, 0.8));
   if (!head) return head.error();
-  progress(0.8, "displacements");
-  auto neutral = shape_of_field(*model, "/from", wish.from);
+  if (auto told = report_progress(progress, 0.8, "displacements"); !told) return told.error();
+  auto neutral = shape_of_field(head->model, "/from", wish.from);
   if (!neutral) return neutral.error();
   if (request.expression_source.empty()) {
-    auto shape = shape_of_field(*model, "/target", wish.target);
+    auto shape = shape_of_field(head->model, "/target", wish.target);
     if (!shape) return shape.error();
     expression = std::move(*shape);
   } else {
     // Turned as the head was.
-    const glm::dmat3 turn = glm::inverse(glm::dmat3(glm::mat3(model->to_file_frame))) * glm::dmat3(file_before);
-    for (glm::vec3& p : expression) p = glm::vec3(turn * glm::dvec3(p));
+    for (glm::vec3& p : expression) p = glm::vec3(head->to_mpeg4 * glm::dvec3(p));
   }
   const ExtractOptions options{wish.align, wish.least, wish.strength};
   const auto extraction =
@@ -83,6 +78,9 @@ Result<WorkerResult> run_extract(const WorkerRequest& request, const Progress& p
     if (error.code == ErrorCode::empty || error.code == ErrorCode::out_of_range) error.code = ErrorCode::mismatch;
     return error;
   }
+  WorkerResult result;
+  result.frame = head->frame;
+  if (head->turn) result.turn = rows_of(*head->turn);
   result.displacements = displacements_to_json(extraction->displacements).dump();
   result.taken = describe(*extraction).dump();
   return result;

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <functional>
-#include <string_view>
-
+#include "core/types/progress.h"
 #include "server/jobs/worker_protocol.h"
 
 namespace semblante::jobs {
 
-/// Told how far the work is (0..1) and at what; false stops it.
-using Progress = std::function<bool(double share, std::string_view stage)>;
+// Each task translates its request into the stages of core/pipeline and what they give into its result.
 
 /// Model bytes -> counts, parts, warnings, and the files `preview.glb`, `positions` (float32 x, y, z of each file
 /// vertex, little-endian, MPEG-4 frame) and `report.json` (what the mesh alone shows) in the output directory.

@@ -6,10 +6,10 @@
 
 #include "core/expressions/contact.h"
 #include "core/expressions/library.h"
+#include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "server/package/glb_writer.h"
-#include "server/package/materials.h"
 #include "server/package/mesh_encoding.h"
 #include "server/package/render_mesh.h"
 
@@ -62,7 +62,7 @@ std::vector<RigDocument::Point> name_points(const Surface& surface, const Featur
   return named;
 }
 
-RigDocument::MaterialInfo describe(const Material& material, const std::vector<Artefact>& images) {
+RigDocument::MaterialInfo describe(const Material& material, std::span<const ImageArtefact> images) {
   const auto image_hash = [&](int index) -> std::optional<Sha256> {
     if (index < 0 || static_cast<std::size_t>(index) >= images.size()) return std::nullopt;
     return images[static_cast<std::size_t>(index)].sha256;
@@ -96,22 +96,6 @@ RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig&
 DisplacementSet worn_as(const DisplacementSet& of_library, std::span<const NamedSet> worn) {
   const auto own = std::find_if(worn.begin(), worn.end(), [&](const NamedSet& s) { return s.name == of_library.name; });
   return own == worn.end() ? of_library : own->view();
-}
-
-EyeLook eye_look(const Rig& rig) {
-  static const std::array<FeaturePointId, 2> pupils = {*parse_feature_point("3.5"), *parse_feature_point("3.6")};
-  EyeLook look;
-  for (const FeaturePoint& point : rig.points) {
-    for (std::size_t eye = 0; eye < pupils.size(); ++eye) {
-      if (point.id == pupils[eye]) look.pupils[eye] = point.position;
-    }
-  }
-  // The neutral face has its lids tangent to the iris, so the unit of the eyes is the diameter of the iris.
-  look.iris_diameter = static_cast<float>(rig.fapu[FapuUnit::irisd].value_or(0.0) * 1024.0);
-  look.irises = rig.irises;
-  look.pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
-  look.motion = rig.rigid_of_vertex;
-  return look;
 }
 
 void describe_influence(const InfluenceTable& table, const Artefact& weights, int bits, double max_error,
@@ -174,8 +158,8 @@ Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, i
 }
 
 /// What all levels say alike.
-RigDocument common_document(const Model& model, const Rig& rig, const MaterialAssignment& materials,
-                            const std::vector<Artefact>& images, const PackageOptions& options) {
+RigDocument common_document(const Rig& rig, const MaterialAssignment& materials, std::span<const ImageArtefact> images,
+                            const PackageOptions& options) {
   RigDocument document;
   document.name = options.name;
   document.fapu = rig.fapu;
@@ -188,11 +172,9 @@ RigDocument common_document(const Model& model, const Rig& rig, const MaterialAs
   for (std::size_t e = 0; e < expression_count; ++e)
     document.expressions[e] = on_this_face(worn_as(expression_library()[e], options.worn), rig);
   for (const Material& material : materials.materials) document.materials.push_back(describe(material, images));
-  for (std::size_t i = 0; i < model.images.size(); ++i) {
-    document.images.push_back({images[i].sha256, model.images[i].mime_type, images[i].bytes.size()});
-  }
-  document.warnings = model.warnings;
-  document.warnings.insert(document.warnings.end(), rig.warnings.begin(), rig.warnings.end());
+  for (const ImageArtefact& image : images)
+    document.images.push_back({image.sha256, image.mime_type, image.bytes.size()});
+  document.warnings = options.warnings;
   return document;
 }
 
@@ -240,13 +222,9 @@ Status finish(Draft& draft, const Model& model, const Rig& rig, const MaterialAs
 
 }  // namespace
 
-std::vector<std::uint8_t> material_labels(const Model& model, const Surface& surface, const Rig& rig) {
-  return assign_materials(model, surface, rig.parts, eye_look(rig)).of_triangle;
-}
-
 Result<std::vector<FacePackage>> build_packages(const Model& model, const Surface& surface, const Rig& rig,
+                                                const MaterialAssignment& materials,
                                                 std::span<const LevelOfDetail> levels, const PackageOptions& options) {
-  const MaterialAssignment materials = assign_materials(model, surface, rig.parts, eye_look(rig));
   const std::vector<glm::vec3> normals = smooth_normals(model, surface);
   std::vector<Draft> drafts;
   auto full =
@@ -262,8 +240,9 @@ Result<std::vector<FacePackage>> build_packages(const Model& model, const Surfac
     drafts.push_back(std::move(*draft));
   }
 
-  for (const Image& image : model.images) drafts[0].package.images.push_back(make_artefact(image.bytes));
-  RigDocument common = common_document(model, rig, materials, drafts[0].package.images, options);
+  for (const Image& image : model.images)
+    drafts[0].package.images.push_back({make_artefact(image.bytes), image.mime_type});
+  RigDocument common = common_document(rig, materials, drafts[0].package.images, options);
   if (!levels.empty()) {
     for (const Draft& draft : drafts) {
       common.levels.push_back({draft.package.vertices, draft.package.triangles,
@@ -283,7 +262,7 @@ Result<std::vector<FacePackage>> build_packages(const Model& model, const Surfac
 
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options) {
-  auto packages = build_packages(model, surface, rig, {}, options);
+  auto packages = build_packages(model, surface, rig, materials_of_rig(model, surface, rig), {}, options);
   if (!packages) return packages.error();
   return std::move(packages->front());
 }

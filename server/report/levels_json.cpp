@@ -1,7 +1,5 @@
 #include "server/report/levels_json.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 namespace semblante {
@@ -20,27 +18,9 @@ Json to_value(const SurfaceError& error, double eye_separation) {
 
 }  // namespace
 
-std::vector<MissedBudget> missed_budgets(std::span<const std::uint32_t> budgets,
-                                         std::span<const LevelOfDetail> levels) {
-  std::vector<MissedBudget> missed;
-  for (const std::uint32_t budget : budgets) {
-    const auto level = std::find_if(levels.begin(), levels.end(), [&](const auto& l) { return l.budget == budget; });
-    if (level == levels.end()) {
-      missed.push_back({budget, "there is no level of " + std::to_string(budget) +
-                                    " vertices: it would not be smaller than the one before by a tenth, because the "
-                                    "model has no more or feature points, lips, lids, borders and seams must stay"});
-    } else if (level->vertex_count > budget) {
-      missed.push_back({budget, "the level of " + std::to_string(budget) + " vertices has " +
-                                    std::to_string(level->vertex_count) +
-                                    ": feature points, lips, lids, borders and seams must stay"});
-    }
-  }
-  return missed;
-}
-
-std::string write_levels_of_detail(std::span<const LevelOfDetail> levels, std::span<const LevelError> errors,
-                                   std::span<const LodPose> poses, double eye_separation,
-                                   std::span<const MissedBudget> missed) {
+nlohmann::ordered_json levels_of_detail_json(std::span<const LevelOfDetail> levels, std::span<const LevelError> errors,
+                                             std::span<const LodPose> poses, double eye_separation,
+                                             std::span<const MissedBudget> missed) {
   Json json;
   json["es0"] = eye_separation > 0.0 ? Json(eye_separation) : Json(nullptr);
   auto& list = json["levels"] = Json::array();
@@ -61,7 +41,7 @@ std::string write_levels_of_detail(std::span<const LevelOfDetail> levels, std::s
   }
   auto& misses = json["missed"] = Json::array();
   for (const MissedBudget& miss : missed) misses.push_back({{"budget", miss.budget}, {"words", miss.words}});
-  return json.dump();
+  return json;
 }
 
 }  // namespace semblante

@@ -1,7 +1,5 @@
 #include "server/report/report_json.h"
 
-#include <nlohmann/json.hpp>
-
 namespace semblante {
 namespace {
 
@@ -44,7 +42,7 @@ std::string write_report(const Report& report, std::span<const ReportSection> se
   json["summary"] = {{"errors", counts.errors}, {"warnings", counts.warnings}, {"notes", counts.notes}};
   auto& findings = json["findings"] = Json::array();
   for (const Finding& finding : report.findings) findings.push_back(to_value(finding));
-  for (const ReportSection& section : sections) json[section.name] = Json::parse(section.json);
+  for (const ReportSection& section : sections) json[section.name] = section.value;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "core/doctor/report.h"
 
 namespace semblante {
@@ -12,7 +14,7 @@ inline constexpr int report_version = 1;
 /// A member of the report document beside the findings: what another step found out about the same head.
 struct ReportSection {
   std::string name;  ///< of the member
-  std::string json;  ///< its value, a JSON text
+  nlohmann::ordered_json value;
 };
 
 /// The report document, `report.json`, as text:
@@ -25,8 +27,8 @@ struct ReportSection {
 ///                    "measured": {"what": "...", "value": 0.1, "threshold": 0.5}}],
 ///      <sections, in their order>}
 ///
-/// `part`, `position` and `measured` are null where a finding has none. The sections' texts must be valid JSON, their
-/// names none of the members above.
+/// `part`, `position` and `measured` are null where a finding has none. The sections' names must be none of the
+/// members above.
 std::string write_report(const Report& report, std::span<const ReportSection> sections = {});
 
 }  // namespace semblante

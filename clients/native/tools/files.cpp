@@ -3,8 +3,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/import/import.h"
-
 namespace semblante::tools {
 namespace {
 
@@ -40,23 +38,9 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   return Unit{};
 }
 
-Result<Model> load_model(const std::filesystem::path& path) {
-  auto bytes = read_file(path);
-  if (!bytes) {
-    return std::move(bytes).error();
-  }
-  const auto format = detect_format(*bytes, path.filename().string());
-  if (!format) {
-    return Error{ErrorCode::unsupported, path.string(),
-                 "not a model of a format that is read: GLB, glTF, OBJ, PLY, STL"};
-  }
-  auto model = import_model(*bytes, *format);
-  if (!model) {
-    Error error = std::move(model).error();
-    error.where = path.string() + (error.where.empty() ? "" : ": " + error.where);
-    return error;
-  }
-  return model;
+Error in_file(const std::filesystem::path& path, Error error) {
+  error.where = path.string() + (error.where.empty() ? "" : ": " + error.where);
+  return error;
 }
 
 std::string to_text(const Error& error) {

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/types/model.h"
 #include "core/types/result.h"
 
 namespace semblante::tools {
@@ -14,8 +13,8 @@ namespace semblante::tools {
 Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path);
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Reads and imports a model file; errors name the file in front of what import says.
-Result<Model> load_model(const std::filesystem::path& path);
+/// The error with the file in front of the place in it.
+Error in_file(const std::filesystem::path& path, Error error);
 
 /// "where: message" for a terminal.
 std::string to_text(const Error& error);

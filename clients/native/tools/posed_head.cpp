@@ -3,15 +3,11 @@
 #include <charconv>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "clients/native/tools/files.h"
-#include "core/geometry/surface.h"
-#include "core/import/axes.h"
-#include "core/import/feature_points_file.h"
-#include "core/lod/decimate.h"
-#include "core/lod/lod_poses.h"
-#include "core/parametrize/parametrize.h"
-#include "core/parametrize/place_feature_points.h"
+#include "core/pipeline/levelled.h"
+#include "core/pipeline/points_file.h"
 
 namespace semblante::tools {
 
@@ -37,31 +33,10 @@ std::vector<PartRole> PosedHead::roles() const {
 
 namespace {
 
-Status decimate_head(PosedHead& head, const Surface& surface, std::uint32_t max_vertices) {
-  const std::vector<LodPose> poses = lod_poses(head.rig, head.model);
-  LodOptions options;
-  options.budgets = {max_vertices};
-  options.poses = poses;
-  const auto levels = decimate(head.model, surface, head.rig, options);
-  if (!levels) {
-    return levels.error();
-  }
-  if (levels->empty() || levels->back().vertex_count > max_vertices) {
-    head.warnings.push_back("there is no level of " + std::to_string(max_vertices) + " vertices");
-  }
-  if (!levels->empty()) {
-    apply_level(head.model, levels->back());
-  }
-  return Unit{};
-}
-
-}  // namespace
-
-Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const std::filesystem::path& feature_points,
-                                  WeightMethod weights, std::uint32_t max_vertices) {
-  auto model = load_model(model_path);
-  if (!model) {
-    return std::move(model).error();
+Result<MarkedHead> load_marked(const std::filesystem::path& model, const std::filesystem::path& feature_points) {
+  auto head = load_model(model);
+  if (!head) {
+    return std::move(head).error();
   }
   const auto bytes = read_file(feature_points);
   if (!bytes) {
@@ -69,35 +44,55 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const
   }
   auto file = parse_feature_points({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!file) {
-    Error error = std::move(file).error();
-    error.where = feature_points.string() + error.where;
-    return error;
+    return in_file(feature_points, std::move(file).error());
   }
-  if (file->to_mpeg4_axes) {
-    change_axes(*model, *file->to_mpeg4_axes);
-    change_axes(*file);
+  auto marked = mark_by_file(*std::move(head), *std::move(file));
+  if (!marked) {
+    return in_file(feature_points, std::move(marked).error());
+  }
+  return marked;
+}
+
+std::vector<std::uint32_t> budget_of(std::uint32_t max_vertices) {
+  return max_vertices > 0 ? std::vector{max_vertices} : std::vector<std::uint32_t>();
+}
+
+}  // namespace
+
+Result<ImportedHead> load_model(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) {
+    return bytes.error();
+  }
+  auto head = import_head(*bytes, {path.filename().string(), std::nullopt, {}});
+  if (!head) {
+    return in_file(path, std::move(head).error());
+  }
+  return head;
+}
+
+Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const std::filesystem::path& feature_points,
+                                  WeightMethod weights, std::uint32_t max_vertices) {
+  auto marked = load_marked(model_path, feature_points);
+  if (!marked) {
+    return std::move(marked).error();
+  }
+  auto rigged = rig_head(*std::move(marked), {weights, DistanceMetric::edge});
+  if (!rigged) {
+    return in_file(model_path, std::move(rigged).error());
+  }
+  auto levelled = level_head(*std::move(rigged), budget_of(max_vertices));
+  if (!levelled) {
+    return in_file(model_path, std::move(levelled).error());
   }
   PosedHead head;
-  const Surface surface = build_surface(*model);
-  auto placed = place_feature_points(*model, surface, file->points, &head.warnings);
-  if (!placed) {
-    return std::move(placed).error();
-  }
-  ParametrizeOptions options;
-  options.weights = weights;
-  auto rig = parametrize(*model, surface, *placed, options);
-  if (!rig) {
-    return std::move(rig).error();
-  }
-  head.model = *std::move(model);
-  head.rig = *std::move(rig);
+  head.warnings = levelled->warnings.all();
+  head.model = std::move(levelled->model);
+  head.rig = std::move(levelled->rig);
   head.kernel_rig = make_kernel_rig(head.rig);
-  if (max_vertices > 0) {
-    if (auto made = decimate_head(head, surface, max_vertices); !made) {
-      return std::move(made).error();
-    }
+  if (!levelled->levels.empty()) {
+    apply_level(head.model, levelled->levels.back());
   }
-  head.warnings.insert(head.warnings.end(), head.rig.warnings.begin(), head.rig.warnings.end());
   return head;
 }
 

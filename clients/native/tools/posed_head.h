@@ -8,7 +8,7 @@
 
 #include "core/expressions/kernel_rig.h"
 #include "core/parametrize/weight_method.h"
-#include "core/types/model.h"
+#include "core/pipeline/imported.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
 
@@ -19,7 +19,7 @@ struct PosedHead {
   Model model;
   Rig rig;
   KernelRig kernel_rig;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< of all stages, in their order
 
   /// #V by 3 in the MPEG-4 frame.
   [[nodiscard]] std::vector<glm::vec3> pose(const semblante_frame& frame) const;
@@ -27,8 +27,11 @@ struct PosedHead {
   [[nodiscard]] std::vector<PartRole> roles() const;
 };
 
-/// Reads a model file and its feature points and parametrizes. `max_vertices`: makes it the level of detail of that
-/// many vertices, 0: as it is; a warning says when no such level can be made.
+/// Reads and imports a model file.
+Result<ImportedHead> load_model(const std::filesystem::path& path);
+
+/// Takes a model file and its feature points through core/pipeline. `max_vertices`: makes it the level of detail of
+/// that many vertices, 0: as it is; a warning says when no such level can be made. Errors name the file.
 Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
                                   WeightMethod weights = WeightMethod::paper, std::uint32_t max_vertices = 0);
 

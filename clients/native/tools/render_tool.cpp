@@ -8,7 +8,9 @@
 #include "clients/native/render/contact_sheet.h"
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
+#include "clients/native/tools/posed_head.h"
 #include "clients/native/tools/shots.h"
+#include "core/pipeline/standing.h"
 
 namespace semblante::tools {
 namespace {
@@ -32,11 +34,18 @@ Status run(const Arguments& arguments) {
   if (!shots) {
     return shots.error();
   }
-  auto model = load_model(arguments.model);
-  if (!model) {
-    return std::move(model).error();
+  auto imported = load_model(arguments.model);
+  if (!imported) {
+    return std::move(imported).error();
   }
-  auto scene = render::build_scene(*model);
+  const auto head = stand_head(*std::move(imported), {});
+  if (!head) {
+    return head.error();
+  }
+  for (const std::string& warning : head->warnings.all()) {
+    std::cerr << "semblante-render: " << warning << '\n';
+  }
+  auto scene = render::build_scene(head->model);
   if (!scene) {
     return std::move(scene).error();
   }

@@ -13,7 +13,7 @@
 namespace semblante::test {
 
 Outcome run_semblante(const std::vector<std::string>& arguments,
-                      const std::vector<std::pair<std::string, std::string>>& environment) {
+                      const std::vector<std::pair<std::string, std::string>>& environment, const std::string& input) {
   const Workspace outputs;
   const std::string program = SEMBLANTE_BINARY_DIR "/bin/semblante";
   const std::string out_path = outputs.path("out");
@@ -28,6 +28,7 @@ Outcome run_semblante(const std::vector<std::string>& arguments,
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     const int out = open(out_path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
     const int err = open(err_path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+    if (!input.empty()) dup2(open(input.c_str(), O_RDONLY), STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
     execv(program.c_str(), argv.data());

@@ -14,9 +14,11 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs the built `semblante` with these arguments and, beside the test's own environment, these variables.
+/// Runs the built `semblante` with these arguments and, beside the test's own environment, these variables; with the
+/// file `input` on its standard input, if there is one.
 Outcome run_semblante(const std::vector<std::string>& arguments,
-                      const std::vector<std::pair<std::string, std::string>>& environment = {});
+                      const std::vector<std::pair<std::string, std::string>>& environment = {},
+                      const std::string& input = {});
 
 /// An empty folder of its own for each test, removed at the end.
 class Workspace {

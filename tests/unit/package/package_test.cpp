@@ -8,10 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "server/package/draco_mesh.h"
-#include "server/package/materials.h"
 #include "server/package/mesh_encoding.h"
 #include "server/package/render_mesh.h"
 
@@ -81,7 +81,6 @@ Rig make_rig(const Model& model) {
   rig.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(4.0F)});
   rig.parts.push_back({"skin", PartRole::skin, false, 10, 10, {}, {}});
   rig.fapu.value[static_cast<std::size_t>(FapuUnit::mns)] = 0.001;
-  rig.warnings.emplace_back("a warning");
   return rig;
 }
 
@@ -181,7 +180,7 @@ TEST(DecodeDraco, EveryPrefix_IsRefusedOrReadWithoutCrashing) {
 class PackageOfAGrid : public testing::Test {
  protected:
   void SetUp() override {
-    auto built = build_package(model_, surface_, rig_, {"Grid", 12});
+    auto built = build_package(model_, surface_, rig_, {"Grid", 12, {}, {"a warning"}});
     ASSERT_TRUE(built.ok()) << built.error().where << ": " << built.error().message;
     package_ = std::move(*built);
     auto rig =
@@ -241,7 +240,7 @@ TEST_F(PackageOfAGrid, Rig_ListsMaterialsImagesAndOnlyMovesMarkedPoints) {
 }
 
 TEST_F(PackageOfAGrid, Building_Twice_GivesTheSameBytes) {
-  const auto again = build_package(model_, surface_, rig_, {"Grid", 12});
+  const auto again = build_package(model_, surface_, rig_, {"Grid", 12, {}, {"a warning"}});
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again->mesh_drc.bytes, package_.mesh_drc.bytes);
   EXPECT_EQ(again->weights.bytes, package_.weights.bytes);

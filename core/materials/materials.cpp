@@ -1,4 +1,4 @@
-#include "server/package/materials.h"
+#include "core/materials/materials.h"
 
 #include <algorithm>
 #include <array>
@@ -110,6 +110,22 @@ bool says_nothing(const Material& material) {
   return material.base_color_image < 0 && glm::vec3(material.base_color) == glm::vec3(1.0F);
 }
 
+EyeLook eye_look(const Rig& rig) {
+  static const std::array<FeaturePointId, 2> pupils = {*parse_feature_point("3.5"), *parse_feature_point("3.6")};
+  EyeLook look;
+  for (const FeaturePoint& point : rig.points) {
+    for (std::size_t eye = 0; eye < pupils.size(); ++eye) {
+      if (point.id == pupils[eye]) look.pupils[eye] = point.position;
+    }
+  }
+  // The neutral face has its lids tangent to the iris, so the unit of the eyes is the diameter of the iris.
+  look.iris_diameter = static_cast<float>(rig.fapu[FapuUnit::irisd].value_or(0.0) * 1024.0);
+  look.irises = rig.irises;
+  look.pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
+  look.motion = rig.rigid_of_vertex;
+  return look;
+}
+
 }  // namespace
 
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
@@ -152,6 +168,10 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
     }
   }
   return out;
+}
+
+MaterialAssignment materials_of_rig(const Model& model, const Surface& surface, const Rig& rig) {
+  return assign_materials(model, surface, rig.parts, eye_look(rig));
 }
 
 }  // namespace semblante

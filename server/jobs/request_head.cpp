@@ -1,12 +1,9 @@
-#include "server/jobs/marked_model.h"
+#include "server/jobs/request_head.h"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-
-#include "core/import/import.h"
-#include "core/parametrize/place_feature_points.h"
-#include "server/jobs/standing.h"
+#include <utility>
 
 namespace semblante::jobs {
 namespace {
@@ -50,33 +47,21 @@ Error about_the_file(Error error) {
   return error;
 }
 
-Result<Model> read_model(const WorkerRequest& request) {
-  auto bytes = read_file(request.source);
+Result<ImportedHead> import_source(const WorkerRequest& request, const Progress& progress) {
+  const auto bytes = read_file(request.source);
   if (!bytes) return bytes.error();
-  const auto format = detect_format(*bytes, request.file_name);
-  if (!format) return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
-  auto model = import_model(*bytes, *format);
-  if (!model) return about_the_file(model.error());
-  return model;
+  auto head = import_head(*bytes, {request.file_name, std::nullopt, {}}, progress);
+  if (!head) return about_the_file(head.error());
+  return head;
 }
 
-Result<MarkedModel> mark(Model& model, const WorkerRequest& request, WorkerResult& result) {
-  stand_as_before(model, request);
-  MarkedModel head;
-  head.surface = build_surface(model);
-  head.roles = roles_by_user(request);
-  auto marked = marked_points(request);
-  if (!marked) return marked.error();
-  auto points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
+Result<MarkedHead> mark_source(ImportedHead head, const WorkerRequest& request, const Progress& progress) {
+  auto points = marked_points(request);
   if (!points) return points.error();
-  head.is_turned = stand_by_points(model, head.surface, *marked, *points, request, result);
-  if (head.is_turned) {
-    head.warnings.clear();
-    points = place_feature_points(model, head.surface, *marked, &head.warnings, head.roles);
-    if (!points) return points.error();
-  }
-  head.points = std::move(*points);
-  return head;
+  // The positions of the points are those of the model as its import left it: without a frame, as it lies in the file.
+  auto standing = stand_head(std::move(head), {request.frame_wish, request.frame.value_or(ModelFrame{}), {}}, progress);
+  if (!standing) return standing.error();
+  return mark_head(std::move(*standing), {std::move(*points), roles_by_user(request)}, part_of(progress, 0.5, 1.0));
 }
 
 }  // namespace semblante::jobs

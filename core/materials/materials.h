@@ -14,8 +14,8 @@
 
 namespace semblante {
 
-/// The materials a package carries and which triangle wears which. At least one; at most 255, for packages carry one
-/// byte.
+/// The materials a face package carries and which triangle wears which. At least one; at most 255, for packages carry
+/// one byte.
 struct MaterialAssignment {
   std::vector<Material> materials;
   std::vector<std::uint8_t> of_triangle;  ///< #T
@@ -37,5 +37,8 @@ struct EyeLook {
 /// and pupil; a cornea over them becomes clear. `parts` is by PartId and may be empty: then names alone decide.
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
                                     const EyeLook& eyes = {});
+
+/// The same of a parametrized head: parts and eyes are those of `rig`.
+MaterialAssignment materials_of_rig(const Model& model, const Surface& surface, const Rig& rig);
 
 }  // namespace semblante

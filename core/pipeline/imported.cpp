@@ -1,0 +1,21 @@
+#include "core/pipeline/imported.h"
+
+#include <utility>
+
+namespace semblante {
+
+Result<ImportedHead> import_head(std::span<const std::uint8_t> bytes, const ImportRequest& request,
+                                 const Progress& progress) {
+  if (auto told = report_progress(progress, 0.0, "reading"); !told) return told.error();
+  const auto format = request.format ? Result(*request.format) : format_of(bytes, request.file_name);
+  if (!format) return format.error();
+  auto model = import_model(bytes, *format, request.limits);
+  if (!model) return model.error();
+  ImportedHead head;
+  head.model = std::move(*model);
+  head.warnings.file = std::move(head.model.warnings);
+  head.model.warnings.clear();
+  return head;
+}
+
+}  // namespace semblante

@@ -1,0 +1,19 @@
+#include "core/pipeline/points_file.h"
+
+#include <utility>
+
+namespace semblante {
+
+Result<MarkedHead> mark_by_file(ImportedHead head, FeaturePointsFile file, const FrameWish& wish,
+                                bool leaves_out_refused, const Progress& progress) {
+  if (file.to_mpeg4_axes && wish.has_axes()) {
+    return Error{ErrorCode::invalid_argument, "/to_mpeg4_axes",
+                 "says how the model stands, so up and front cannot be given as well"};
+  }
+  auto standing = stand_head(std::move(head), {wish, {}, file.to_mpeg4_axes}, progress);
+  if (!standing) return standing.error();
+  turn_points(file.points, standing->to_mpeg4);
+  return mark_head(std::move(*standing), {std::move(file.points), {}, leaves_out_refused}, part_of(progress, 0.5, 1.0));
+}
+
+}  // namespace semblante

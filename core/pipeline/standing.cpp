@@ -1,0 +1,65 @@
+#include "core/pipeline/standing.h"
+
+#include <cassert>
+#include <utility>
+
+#include <glm/matrix.hpp>
+
+#include "core/import/axes.h"
+
+namespace semblante {
+namespace {
+
+/// The guess needs the surface of the model as it lies in its file; `surface` is left empty when there is no guess.
+ModelFrame find_frame(const Model& model, const StandingRequest& request, const FrameWish& wish, Surface& surface) {
+  if (request.known) return *request.known;
+  if (wish.unit && wish.has_axes()) return apply_wish(ModelFrame{}, wish);
+  surface = build_surface(model);
+  return apply_wish(guess_frame(model, surface), wish);
+}
+
+}  // namespace
+
+Result<StandingHead> stand_head(ImportedHead head, const StandingRequest& request, const Progress& progress) {
+  assert(!request.to_mpeg4_axes || (!request.wish.has_axes() && !request.known));
+  if (auto told = report_progress(progress, 0.0, "surface"); !told) return told.error();
+  StandingHead standing{std::move(head), {}, {}, request.wish, glm::dmat3(1.0)};
+  if (request.to_mpeg4_axes) {
+    standing.to_mpeg4 = *request.to_mpeg4_axes;
+    change_axes(standing.model, standing.to_mpeg4);
+    standing.frame_wish.up = Direction::plus_y;
+    standing.frame_wish.front = Direction::plus_z;
+  }
+  standing.frame = find_frame(standing.model, request, standing.frame_wish, standing.surface);
+  standing.warnings.stance = stance_warnings(standing.frame);
+  if (standing.frame.axes != Axes{}) {
+    const glm::dmat3 turn = to_mpeg4(standing.frame.axes);
+    change_axes(standing.model, turn);
+    standing.to_mpeg4 = turn * standing.to_mpeg4;
+    standing.surface = build_surface(standing.model);
+  } else if (standing.surface.surface_of.empty()) {
+    standing.surface = build_surface(standing.model);
+  }
+  return standing;
+}
+
+glm::dmat3 turn_between(const Axes& from, const Axes& to) { return to_mpeg4(to) * glm::transpose(to_mpeg4(from)); }
+
+void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn) {
+  for (MarkedPoint& point : points) {
+    if (point.position) point.position = turn * *point.position;
+  }
+}
+
+std::string stance_in_words(const Axes& axes) {
+  return "stands along " + std::string(to_string(axes.up)) + " and faces " + std::string(to_string(axes.front)) +
+         " in its file";
+}
+
+std::vector<std::string> stance_warnings(const ModelFrame& frame) {
+  if (frame.axes != Axes{}) return {"the head " + stance_in_words(frame.axes) + "; it is turned upright"};
+  if (!frame.axes_sure) return {"how the head stands cannot be told for certain; it is taken as it lies in its file"};
+  return {};
+}
+
+}  // namespace semblante

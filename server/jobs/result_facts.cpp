@@ -1,0 +1,55 @@
+#include "server/jobs/result_facts.h"
+
+#include <string>
+#include <utility>
+
+#include <glm/common.hpp>
+
+namespace semblante::jobs {
+
+void describe(const Model& model, WorkerResult& result) {
+  result.format = model.format;
+  result.vertices = static_cast<std::uint32_t>(model.positions.size());
+  result.triangles = static_cast<std::uint32_t>(model.triangles.size());
+  if (model.positions.empty()) return;
+  glm::vec3 low = model.positions.front();
+  glm::vec3 high = low;
+  for (const auto& position : model.positions) {
+    low = glm::min(low, position);
+    high = glm::max(high, position);
+  }
+  result.box_min = {low.x, low.y, low.z};
+  result.box_max = {high.x, high.y, high.z};
+}
+
+std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
+  std::vector<store::PartRecord> records;
+  for (const auto& part : parts) {
+    store::PartRecord record;
+    record.name = part.name;
+    record.role = std::string(part_role_names[static_cast<std::size_t>(part.role)]);
+    record.role_by_user = part.role_by_user;
+    record.vertices = part.vertex_count;
+    record.triangles = part.triangle_count;
+    record.box_min = {part.box_min.x, part.box_min.y, part.box_min.z};
+    record.box_max = {part.box_max.x, part.box_max.y, part.box_max.z};
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+store::Turn rows_of(const glm::dmat3& turn) {
+  store::Turn rows{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rows[static_cast<std::size_t>(3 * row + column)] = turn[column][row];
+  }
+  return rows;
+}
+
+store::FindingCounts counts_of(const Report& report) {
+  const auto counts = report.counts();
+  return {static_cast<std::uint32_t>(counts.errors), static_cast<std::uint32_t>(counts.warnings),
+          static_cast<std::uint32_t>(counts.notes)};
+}
+
+}  // namespace semblante::jobs

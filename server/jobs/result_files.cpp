@@ -1,0 +1,79 @@
+#include "server/jobs/result_files.h"
+
+#include <bit>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "server/jobs/result_facts.h"
+#include "server/store/frame_json.h"
+#include "server/store/store_error.h"
+
+namespace semblante::jobs {
+
+static_assert(std::endian::native == std::endian::little, "`positions` is written as it lies in memory");
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+
+Status ResultFiles::write(const std::string& name, const std::string& content_type,
+                          std::span<const std::uint8_t> bytes) {
+  errno = 0;
+  std::ofstream stream(request_.output_directory + "/" + name, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream.flush()) {
+    store::throw_if_disk_full(name, errno);
+    return Error{ErrorCode::io, "", name + " cannot be written"};
+  }
+  result_.artefacts.push_back({name, "", bytes.size(), content_type});
+  return Unit{};
+}
+
+Status ResultFiles::write_report(const Report& report, const ModelFrame& frame, std::vector<ReportSection> more) {
+  result_.findings = counts_of(report);
+  more.insert(more.begin(), ReportSection{"frame", store::frame_to_json(frame, request_.frame_wish)});
+  const auto json = semblante::write_report(report, more);
+  return write("report.json", "application/json", {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
+}
+
+Status ResultFiles::write_preview(const StandingHead& head, std::span<const Part> parts) {
+  const auto preview = build_preview(head.model, head.surface, parts);
+  if (!preview) return preview.error();
+  if (auto written = write("preview.glb", "model/gltf-binary", *preview); !written) return written;
+  const auto& positions = head.model.positions;
+  return write("positions", "application/octet-stream",
+               {reinterpret_cast<const std::uint8_t*>(positions.data()), positions.size() * sizeof(glm::vec3)});
+}
+
+Status ResultFiles::write_packages(std::span<const FacePackage> packages) {
+  for (const FacePackage& package : packages) {
+    if (auto written = write_package(package); !written) return written;
+  }
+  const auto& images = packages.front().images;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (auto written = write("image-" + std::to_string(i), images[i].mime_type, images[i].bytes); !written)
+      return written;
+  }
+  return Unit{};
+}
+
+Status ResultFiles::write_package(const FacePackage& package) {
+  const std::size_t lod = result_.levels.size();
+  result_.levels.push_back({package.vertices, package.triangles});
+  struct File {
+    std::string_view name, content_type;
+    const Artefact& artefact;
+  };
+  const File files[] = {{"mesh.drc", "application/octet-stream", package.mesh_drc},
+                        {"weights", "application/vnd.semblante.weights", package.weights},
+                        {"rig.json", "application/json", package.rig_json},
+                        {"face.glb", "model/gltf-binary", package.face_glb}};
+  for (const auto& file : files) {
+    auto written = write(store::artefact_name(lod, file.name), std::string(file.content_type), file.artefact.bytes);
+    if (!written) return written;
+  }
+  return Unit{};
+}
+
+}  // namespace semblante::jobs

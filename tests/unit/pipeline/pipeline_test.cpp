@@ -1,0 +1,204 @@
+// The stages from a file's bytes to a head with its levels, each with what it says and how it is cancelled.
+#include <glm/matrix.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/import/axes.h"
+#include "core/pipeline/levelled.h"
+#include "core/pipeline/points_file.h"
+#include "tests/support/meshes.h"
+#include "tests/support/sample_head_model.h"
+
+namespace semblante {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr Axes along_z{Direction::plus_z, Direction::minus_y};
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// The sample head as a file would have it in which it stands by `axes`.
+ImportedHead sample_standing(const Axes& axes) {
+  ImportedHead head{testing::sample_head_model(), {}};
+  change_axes(head.model, glm::transpose(to_mpeg4(axes)));
+  return head;
+}
+
+/// All points of the sample by position, in the axes of such a file.
+std::vector<MarkedPoint> sample_marks(const Axes& axes) {
+  std::vector<MarkedPoint> marks;
+  for (const FeaturePoint& point : testing::sample_head_points())
+    marks.push_back({point.id, std::nullopt, glm::transpose(to_mpeg4(axes)) * glm::dvec3(point.position)});
+  return marks;
+}
+
+/// Each stage's share and name; cancels once `last` are told.
+struct Listener {
+  std::vector<double> shares;
+  std::size_t last = 1'000'000;
+  [[nodiscard]] Progress progress() {
+    return [this](double share, std::string_view) {
+      shares.push_back(share);
+      return shares.size() < last;
+    };
+  }
+};
+
+TEST(ImportHead, OfNoKnownFormat_NamesTheFormats) {
+  const auto head = import_head(bytes_of("once upon"), {"prose.txt", std::nullopt, {}});
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().code, ErrorCode::unsupported);
+  EXPECT_THAT(head.error().message, HasSubstr("GLB, glTF (zipped), OBJ, PLY, STL"));
+}
+
+TEST(ImportHead, WarningsOfTheFile_AreKeptOnce) {
+  const auto head =
+      import_head(bytes_of("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {"a.obj", std::nullopt, {}});
+  ASSERT_TRUE(head) << head.error().message;
+  EXPECT_THAT(head->warnings.file, ElementsAre(HasSubstr("none.mtl")));
+  EXPECT_THAT(head->model.warnings, IsEmpty());
+}
+
+TEST(StandHead, AlongZ_IsTurnedUpright_AndSaysSo) {
+  const auto head = stand_head(sample_standing(along_z), {});
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->frame.axes, along_z);
+  EXPECT_EQ(head->to_mpeg4, to_mpeg4(along_z));
+  EXPECT_EQ(head->model.positions, testing::sample_head_model().positions);
+  EXPECT_EQ(head->surface.surface_of.size(), head->model.positions.size());
+  EXPECT_THAT(head->warnings.all(),
+              ElementsAre("the head stands along +Z and faces -Y in its file; it is turned upright"));
+}
+
+TEST(StandHead, KnownFrame_IsTakenWithoutAGuess) {
+  ModelFrame known;
+  known.axes = {Direction::plus_x, Direction::plus_y};
+  known.axes_sure = true;
+  const auto head = stand_head(sample_standing(along_z), {{}, known, {}});
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->frame, known);
+  EXPECT_THAT(head->warnings.all(), ElementsAre(HasSubstr("stands along +X and faces +Y")));
+}
+
+TEST(StandHead, UnsureStance_IsLeft_WithAWarning) {
+  const auto head = stand_head({testing::make_grid(4, 4), {}}, {});
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->to_mpeg4, glm::dmat3(1.0));
+  EXPECT_THAT(head->warnings.all(), ElementsAre(HasSubstr("cannot be told for certain")));
+}
+
+TEST(StandHead, AxesOfThePointsFile_AreNotGuessedAgain) {
+  const auto head = stand_head(sample_standing(along_z), {{}, {}, to_mpeg4(along_z)});
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->frame.axes, Axes{});
+  EXPECT_TRUE(head->frame.axes_sure);
+  EXPECT_EQ(head->model.positions, testing::sample_head_model().positions);
+  EXPECT_THAT(head->warnings.all(), IsEmpty());
+}
+
+TEST(MarkHead, PointsThatShowAnotherStance_TurnHeadAndPoints) {
+  ModelFrame known;  // as it lies, which is wrong
+  known.axes_sure = true;
+  auto standing = stand_head(sample_standing(along_z), {{}, known, {}});
+  ASSERT_TRUE(standing);
+  const auto head = mark_head(std::move(*standing), {sample_marks(along_z), {}});
+  ASSERT_TRUE(head) << head.error().where << head.error().message;
+  ASSERT_TRUE(head->turn);
+  EXPECT_EQ(*head->turn, to_mpeg4(along_z));
+  EXPECT_EQ(head->to_mpeg4, to_mpeg4(along_z));
+  EXPECT_EQ(head->model.positions, testing::sample_head_model().positions);
+  const auto expected = testing::sample_head_points();
+  ASSERT_EQ(head->points.size(), expected.size());
+  EXPECT_LT(glm::distance(head->points[0].position, expected[0].position), 1e-5F);
+  EXPECT_THAT(head->warnings.stance, ElementsAre(HasSubstr("the feature points show that the head stands along +Z")));
+}
+
+TEST(MarkHead, PointsThatAreSure_TakeTheDoubtAway) {
+  auto standing = stand_head(sample_standing({}), {{}, ModelFrame{}, {}});
+  ASSERT_TRUE(standing);
+  ASSERT_THAT(standing->warnings.stance, ElementsAre(HasSubstr("cannot be told")));
+  const auto head = mark_head(std::move(*standing), {sample_marks({}), {}});
+  ASSERT_TRUE(head);
+  EXPECT_FALSE(head->turn);
+  EXPECT_THAT(head->warnings.stance, IsEmpty());
+}
+
+TEST(MarkHead, PointThatCannotBePlaced_StopsOrIsAFinding) {
+  for (const bool leaves_out : {false, true}) {
+    auto standing = stand_head(sample_standing({}), {});
+    ASSERT_TRUE(standing);
+    auto marks = sample_marks({});
+    marks[3].position = glm::dvec3(1e6);
+    const auto head = mark_head(std::move(*standing), {marks, {}, leaves_out});
+    ASSERT_EQ(head.ok(), leaves_out);
+    if (!leaves_out) continue;
+    EXPECT_EQ(head->refused.size(), 1U);
+    EXPECT_EQ(head->points.size(), marks.size() - 1);
+  }
+}
+
+TEST(MarkByFile, AxesFromBothFileAndUser_AreRefused) {
+  FeaturePointsFile file;
+  file.to_mpeg4_axes = glm::dmat3(1.0);
+  const auto head = mark_by_file(sample_standing({}), file, {{}, Direction::plus_z, {}});
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().where, "/to_mpeg4_axes");
+}
+
+Result<LevelledHead> whole_way(const Progress& progress) {
+  ImportedHead imported = sample_standing(along_z);
+  imported.warnings.file = {"of the file"};
+  FeaturePointsFile file;
+  file.points = sample_marks(along_z);
+  std::erase_if(file.points, [](const MarkedPoint& p) { return p.id == testing::fp("2.1"); });
+  auto marked = mark_by_file(std::move(imported), file, {}, false, part_of(progress, 0.0, 0.2));
+  if (!marked) return marked.error();
+  auto rigged = rig_head(std::move(*marked), {}, part_of(progress, 0.2, 0.6));
+  if (!rigged) return rigged.error();
+  auto head = level_head(std::move(*rigged), {2000, 100}, part_of(progress, 0.6, 0.8));
+  if (!head) return head.error();
+  auto errors = measure_levels(*head, part_of(progress, 0.8, 1.0));
+  if (!errors) return errors.error();
+  EXPECT_EQ(errors->size(), head->levels.size());
+  return head;
+}
+
+TEST(Pipeline, Warnings_ComeOnce_InTheOrderOfTheStages) {
+  const auto head = whole_way({});
+  ASSERT_TRUE(head) << head.error().where << head.error().message;
+  EXPECT_THAT(head->model.warnings, IsEmpty());
+  EXPECT_THAT(head->rig.warnings, IsEmpty());
+  const auto all = head->warnings.all();
+  ASSERT_GE(all.size(), 4U);
+  EXPECT_EQ(all[0], "of the file");
+  EXPECT_THAT(all[1], HasSubstr("stands along +Z"));
+  EXPECT_FALSE(head->warnings.rig.empty());
+  ASSERT_FALSE(head->missed.empty());
+  EXPECT_EQ(all.back(), head->missed.back().words);
+  EXPECT_EQ(head->materials.of_triangle.size(), head->model.triangles.size());
+}
+
+TEST(Pipeline, Progress_NeverFalls_AndCancelsWhereverItSaysNo) {
+  Listener whole;
+  ASSERT_TRUE(whole_way(whole.progress()));
+  EXPECT_TRUE(std::is_sorted(whole.shares.begin(), whole.shares.end()));
+  EXPECT_GE(whole.shares.front(), 0.0);
+  EXPECT_LE(whole.shares.back(), 1.0);
+  // The first, the last and some between.
+  const std::size_t count = whole.shares.size();
+  for (const std::size_t last : {std::size_t{1}, std::size_t{2}, std::size_t{3}, count / 2, count}) {
+    Listener impatient;
+    impatient.last = last;
+    const auto head = whole_way(impatient.progress());
+    ASSERT_FALSE(head) << last;
+    EXPECT_EQ(head.error().code, ErrorCode::cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace semblante
