@@ -19,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   bytes.resize(layout::header_bytes + packed);
   std::memcpy(bytes.data(), data, layout::header_bytes);
   std::memcpy(bytes.data(), layout::magic, sizeof(layout::magic));
-  byte_io::put_u16(&bytes[layout::at_version], layout::version);
+  byte_io::put_u16(&bytes[layout::at_version],
+                   data[layout::at_version] % 2 == 0 ? layout::version_of_eyes : layout::version_of_all_parts);
   bytes[layout::at_reserved] = 0;
   byte_io::put_u32(&bytes[layout::at_raw_bytes], static_cast<std::uint32_t>(size - layout::header_bytes));
   byte_io::put_u32(&bytes[layout::at_packed_bytes], static_cast<std::uint32_t>(packed));
