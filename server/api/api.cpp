@@ -173,7 +173,7 @@ http::Problem Api::refuse(const std::string& request, const store::StoreError& f
 
 http::Problem Api::unwritten_body(int error_number) {
   try {
-    refuse_unwritten("a body", error_number);
+    store::throw_store_error("a body", error_number);
   } catch (const store::StoreError& fault) {
     return refuse("an upload", fault);
   }

@@ -61,10 +61,10 @@ http::Body through_a_file(Context& context, Write write) {
   auto file = std::make_shared<http::TemporaryFile>(context.blobs.temporary() / ("export-" + store::random_id()));
   errno = 0;
   std::ofstream out(file->path(), std::ios::binary);
-  if (!out) refuse_unwritten(file->path(), errno);
+  if (!out) store::throw_store_error(file->path(), errno);
   if (const auto written = write(out); !written) refuse_export(written.error());
   out.close();
-  if (!out) refuse_unwritten(file->path(), errno);
+  if (!out) store::throw_store_error(file->path(), errno);
   std::error_code error;
   const auto size = std::filesystem::file_size(file->path(), error);
   const auto path = file->path();

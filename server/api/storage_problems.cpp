@@ -1,7 +1,5 @@
 #include "server/api/storage_problems.h"
 
-#include <cstring>
-
 #include "server/api/common.h"
 
 namespace semblante::api {
@@ -23,11 +21,6 @@ http::Problem problem_of(const store::StoreError& error) {
 void refuse_unkept(const Error& error) {
   const auto& [code, where, message] = error;
   throw store::StoreError(where.empty() ? message : where + ": " + message);
-}
-
-void refuse_unwritten(const std::filesystem::path& path, int error_number) {
-  store::throw_if_disk_full(path, error_number);
-  throw store::StoreError(path.string() + ": " + std::strerror(error_number));
 }
 
 void refuse_pending(const Context& context, const std::string& effect) {

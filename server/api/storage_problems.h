@@ -14,8 +14,6 @@ http::Problem problem_of(const store::StoreError& error);
 
 /// Throws StoreError for a file that cannot be kept, which Api::handle turns into the answer.
 [[noreturn]] void refuse_unkept(const Error& error);
-/// The same for a stream that failed; `error_number` as it left errno.
-[[noreturn]] void refuse_unwritten(const std::filesystem::path& path, int error_number);
 
 /// Refuses a request whose effect is there but not durable yet; `effect` is a sentence: "the job does not run any
 /// more".

@@ -44,7 +44,7 @@ Upload take_form(const http::Request& request) {
   errno = 0;
   std::ofstream out(upload.path, std::ios::binary);
   out.write(file->content.data(), static_cast<std::streamsize>(file->content.size()));
-  if (!out.flush()) refuse_unwritten(upload.path, errno);
+  if (!out.flush()) store::throw_store_error(upload.path, errno);
   return upload;
 }
 

@@ -4,7 +4,7 @@
 
 namespace semblante {
 
-/// One line on stderr that is written over, and cleared at the end. Only for people, so only on a terminal.
+/// A progress line on stderr that each update overwrites and the destructor clears. Shown only on a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "server/recordings/recording_reader.h"
+#include "server/store/descriptor.h"
 #include "server/store/store_error.h"
 
 namespace semblante::recordings {
@@ -27,13 +28,6 @@ Status write_at(int descriptor, std::uint64_t offset, std::span<const std::uint8
     bytes = bytes.subspan(static_cast<std::size_t>(wrote));
   }
   return Unit{};
-}
-
-Status sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  return synced ? Status(Unit{}) : Status(io_error(folder.string()));
 }
 
 }  // namespace
@@ -55,7 +49,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::file
   std::unique_ptr<RecordingWriter> writer(new RecordingWriter(descriptor, beginning.size()));
   auto status = write_at(descriptor, 0, beginning);
   if (status && ::fsync(descriptor) != 0) status = io_error(path.string());
-  if (status) status = sync_folder(path.parent_path());
+  if (status && !store::sync_folder(path.parent_path())) status = io_error(path.parent_path().string());
   if (!status) {
     const int error_number = errno;
     ::unlink(path.c_str());

@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <span>
 #include <system_error>
 #include <vector>
@@ -17,9 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error io_error(const fs::path& path, int error_number = errno) {
+/// io_error(), unless the disk is full: then it throws.
+Error write_error(const fs::path& path, int error_number = errno) {
   throw_if_disk_full(path, error_number);
-  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(error_number)};
+  return io_error(path, error_number);
 }
 
 /// Goes with the object, if it is still there.
@@ -55,7 +55,7 @@ Status BlobStore::make_folders() const {
   for (const auto& folder : {temporary(), folder_ / "blobs"}) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) return io_error(folder, error.value());
+    if (error) return write_error(folder, error.value());
   }
   return Unit{};
 }
@@ -66,14 +66,14 @@ fs::path BlobStore::path_of(std::string_view sha256) const {
 
 Result<Blob> BlobStore::adopt(const fs::path& path) const {
   const Descriptor file(path, O_RDONLY);
-  if (!file.ok()) return io_error(path);
+  if (!file.ok()) return write_error(path);
   Sha256Stream hash;
   Blob blob;
   std::vector<std::uint8_t> piece(1U << 18U);
   while (true) {
     const auto got = ::read(file.get(), piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return io_error(path);
+    if (got < 0) return write_error(path);
     if (got == 0) break;
     hash.update(std::span(piece).first(static_cast<std::size_t>(got)));
     blob.bytes += static_cast<std::uint64_t>(got);
@@ -85,12 +85,12 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
     fs::remove(path, error);
     return blob;
   }
-  if (::fsync(file.get()) != 0) return io_error(path);
+  if (::fsync(file.get()) != 0) return write_error(path);
   const bool new_folder = fs::create_directory(target.parent_path(), error);
-  if (error) return io_error(target, error.value());
-  if (new_folder && !sync_folder(folder_ / "blobs")) return io_error(folder_);
-  if (::rename(path.c_str(), target.c_str()) != 0) return io_error(target);
-  if (!sync_folder(target.parent_path())) return io_error(target);
+  if (error) return write_error(target, error.value());
+  if (new_folder && !sync_folder(folder_ / "blobs")) return write_error(folder_);
+  if (::rename(path.c_str(), target.c_str()) != 0) return write_error(target);
+  if (!sync_folder(target.parent_path())) return write_error(target);
   return blob;
 }
 
@@ -99,11 +99,11 @@ Result<Blob> BlobStore::put(std::string_view bytes) const {
   const RemovedFile file{temporary() / ("put-" + std::to_string(::getpid()) + "-" + std::to_string(number++))};
   {
     const Descriptor out(file.path, O_WRONLY | O_CREAT | O_EXCL);
-    if (!out.ok()) return io_error(file.path);
+    if (!out.ok()) return write_error(file.path);
     while (!bytes.empty()) {
       const auto written = ::write(out.get(), bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return io_error(file.path);
+      if (written <= 0) return write_error(file.path);
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
   }

@@ -1,10 +1,15 @@
 #pragma once
 
-// Private to store/: what std::filesystem does not offer.
+// What std::filesystem does not offer to whoever writes files of the data folder.
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <string>
 #include <unistd.h>
+
+#include "core/types/result.h"
 
 namespace semblante::store {
 
@@ -28,6 +33,11 @@ class Descriptor {
 inline bool sync_folder(const std::filesystem::path& folder) {
   const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
   return descriptor.ok() && ::fsync(descriptor.get()) == 0;
+}
+
+/// The error of a call on `path` that set this errno.
+inline Error io_error(const std::filesystem::path& path, int error_number = errno) {
+  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(error_number)};
 }
 
 }  // namespace semblante::store

@@ -1,6 +1,5 @@
 #include "server/store/disk_space.h"
 
-#include <cstring>
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
@@ -37,9 +36,7 @@ void DiskReserve::fill() {
   int fault = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes_));
   if (descriptor >= 0 && fault != 0 && ::ftruncate(descriptor, 0) != 0) fault = errno;
   if (descriptor >= 0) ::close(descriptor);
-  if (fault == 0) return;
-  throw_if_disk_full(file_, fault);
-  throw StoreError(file_.string() + ": " + std::strerror(fault));
+  if (fault != 0) throw_store_error(file_, fault);
 }
 
 }  // namespace semblante::store

@@ -3,7 +3,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <string>
 
 #include "server/store/descriptor.h"
@@ -12,10 +11,6 @@ namespace semblante::store {
 namespace {
 
 constexpr const char* file_name = "last-database";
-
-Error io_error(const std::filesystem::path& path) {
-  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(errno)};
-}
 
 }  // namespace
 

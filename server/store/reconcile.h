@@ -19,8 +19,8 @@ struct Reconciled {
   std::vector<std::string> missing;          ///< the database knows them and they are nowhere
 };
 
-/// For a start, before anything reads or adds files: moves every file of the kind that is not `known` into the trash,
-/// and those that are known and missing back from it. `data` is the folder of the trash.
+/// Called at a start, before anything reads or adds files. Moves every file of the kind that is not `known` into the
+/// trash, and moves those that are known and missing back from it. `data` is the folder of the trash.
 Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKind kind,
                      const std::unordered_set<std::string>& known);
 

@@ -19,7 +19,8 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Throws, as everything here that runs SQL: DiskFull or another StoreError where the disk is the reason.
+  /// Throws DiskFull or another StoreError when the disk is the reason, else std::runtime_error; so does every function
+  /// here that runs SQL.
   void execute(const char* sql);
   [[nodiscard]] sqlite3* get() const { return handle_; }
   /// Rows the last statement changed.

@@ -12,6 +12,13 @@ std::optional<ArtefactRecord> read_first(Statement& statement) {
   return read_artefact(statement);
 }
 
+/// The first column of every row.
+std::vector<std::string> read_texts(Statement& statement) {
+  std::vector<std::string> texts;
+  while (statement.step()) texts.push_back(statement.text(0));
+  return texts;
+}
+
 }  // namespace
 
 void insert_artefact(Database& db, std::string_view model, const ArtefactRecord& artefact, bool of_package) {
@@ -43,33 +50,27 @@ std::vector<ArtefactRecord> list_artefacts(Database& db, std::string_view model)
 }
 
 std::vector<std::string> hashes_of(Database& db, std::string_view model) {
-  std::vector<std::string> hashes;
   Statement statement(db,
                       "SELECT sha256 FROM artefacts WHERE model = ? "
                       "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.model = ?");
   statement.bind(model, model);
-  while (statement.step()) hashes.push_back(statement.text(0));
-  return hashes;
+  return read_texts(statement);
 }
 
 std::vector<std::string> all_hashes(Database& db) {
-  std::vector<std::string> hashes;
   // A job that has ended needs its files no more, even if the end came between that and their removal.
   Statement statement(db,
                       "SELECT sha256 FROM artefacts "
                       "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.state IN (0, 1)");
-  while (statement.step()) hashes.push_back(statement.text(0));
-  return hashes;
+  return read_texts(statement);
 }
 
 std::vector<std::string> users_of_hash(Database& db, std::string_view sha256) {
-  std::vector<std::string> users;
   Statement statement(db,
                       "SELECT 'model ' || model FROM artefacts WHERE sha256 = ? "
                       "UNION SELECT 'job ' || job FROM job_files WHERE sha256 = ?");
   statement.bind(sha256, sha256);
-  while (statement.step()) users.push_back(statement.text(0));
-  return users;
+  return read_texts(statement);
 }
 
 std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes) {

@@ -29,5 +29,7 @@ class NotEnoughRoom : public DiskFull {
 bool is_disk_full(int error_number);
 /// Throws DiskFull if this errno means it.
 void throw_if_disk_full(const std::filesystem::path& path, int error_number);
+/// Throws DiskFull if this errno means it, else StoreError.
+[[noreturn]] void throw_store_error(const std::filesystem::path& path, int error_number);
 
 }  // namespace semblante::store

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <optional>
 #include <system_error>
@@ -41,10 +40,6 @@ std::optional<system_clock::time_point> parse_time_name(const std::string& name)
   if (!rest.empty() && (rest[0] != '-' || rest.size() == 1 || rest.find_first_not_of("0123456789", 1) != rest.npos))
     return std::nullopt;
   return system_clock::from_time_t(timegm(&utc));
-}
-
-Error io_error(const fs::path& path, int number) {
-  return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(number)};
 }
 
 /// Removes the folders of a file's path below `root` that are empty now.

@@ -147,7 +147,7 @@ void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
   const auto& newest = log.join_point(subscriber.coding);
   const auto sent = subscriber.sink->send(newest, http::Purpose::state);
   if (sent == http::Sent::waits || sent == http::Sent::refused) subscriber.waits = true;
-  if (sent == http::Sent::refused) return;  // it stays behind until it can be written to
+  if (sent == http::Sent::refused) return;  // the subscriber stays behind until its socket is writable
   subscriber.behind = false;
   subscriber.next_batch = log.batches() + 1;
   count_sent(*newest);

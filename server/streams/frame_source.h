@@ -21,7 +21,7 @@ class FrameCursor {
 };
 
 /// Something that has a face for every moment and can be played into a stream: a performance, a .fap file, a recording.
-/// Immutable, so any thread may use it. To play another kind of thing, implement this and give it to StreamHub::play.
+/// Immutable, so any thread may use it. A new kind of source implements this and is given to StreamHub::play.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;

@@ -8,7 +8,7 @@
 
 namespace semblante::streams {
 
-/// Plays a performance. `steps` are those of the stream it is played into.
+/// Plays a performance. `steps` are the quantizer steps of the stream that plays it.
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance,
                                                            const QuantizerSteps& steps = standard_quantizers());
 

@@ -18,7 +18,7 @@ class FullDisk {
   void fill();
   /// Also takes back fill_after_removal().
   void free();
-  /// Fills it when a file or folder whose path contains `part` has been removed or renamed.
+  /// Makes the disk full as soon as a file or folder whose path contains `part` has been removed or renamed.
   void fill_after_removal(const std::string& part);
   [[nodiscard]] bool is_full() const;
 

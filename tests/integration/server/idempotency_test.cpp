@@ -1,4 +1,5 @@
-// One Idempotency-Key in many connections at the same moment, against a real server, on every route that takes it.
+// Many connections send requests with one Idempotency-Key at the same moment to a real server, on every route that
+// takes the key.
 
 #include <barrier>
 #include <csignal>

@@ -19,8 +19,8 @@ struct ClosableHead {
 /// Our own head, and where their folder is the real ones, with other people on the mesh of the first.
 std::vector<ClosableHead> closable_heads();
 
-/// The same head with lips and lids closed by so much of their gaps, by FAPs and smooth weights: 0 leaves it as it is,
-/// 1 lets them touch, more presses them past each other.
+/// The same head with lips and lids closed by `share` of their gaps, by FAPs and smooth weights. A share of 0 changes
+/// nothing, with 1 the rims touch, with more they pass each other.
 Head closed(const Head& head, double share);
 
 /// One side higher than the other, so that mirror images of lips lie on the other lip.

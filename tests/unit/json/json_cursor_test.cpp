@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The place and words of what `read` finds wrong.
+/// The `where` and the message of the error that `read` returns.
 template <class Read>
 std::string fault(const char* text, Read read) {
   const json document = json::parse(text);

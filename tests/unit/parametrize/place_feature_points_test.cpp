@@ -190,7 +190,8 @@ TEST_F(PlaceOnAClosedMouth, AtAPlaceOfBothLips_EachPointGetsItsOwn) {
 }
 
 TEST_F(PlaceOnAClosedMouth, BesideAVertex_SnapsToItsOwnLip) {
-  // Lips pressed past each other: a little below the rim of the upper lip, where the lower lip is nearest.
+  // The lips pass each other, so the place of 2.2, a little below the rim of the upper lip, is nearest to the lower
+  // lip.
   for (const int column : {-1, 0, 1}) mouth_.model.positions[mouth_.at(column, 0, true)].y = -0.1F;
   const auto placed = place({at_position("2.2", {0, 0.05, 0.02}), at_position("2.3", {0, -0.15, 0.02})});
   EXPECT_EQ(vertex_of(placed, "2.2").value(), mouth_.at(0, 0) + 1);
