@@ -12,12 +12,12 @@
 namespace semblante {
 namespace {
 
-constexpr JsonLimits limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 10'000};
+constexpr JsonLimits displacement_limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 10'000};
 
 }  // namespace
 
 Result<std::vector<std::pair<FeaturePointId, glm::dvec3>>> parse_displacements(std::string_view json) {
-  const auto tree = read_json_object(json, limits);
+  const auto tree = read_json_object(json, displacement_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);

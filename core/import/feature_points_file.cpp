@@ -16,7 +16,7 @@ namespace semblante {
 namespace {
 
 /// 84 points with a page of remarks each are far below this.
-constexpr JsonLimits limits = {.max_bytes = std::size_t{4} << 20U, .max_depth = 64, .max_values = 500'000};
+constexpr JsonLimits point_limits = {.max_bytes = std::size_t{4} << 20U, .max_depth = 64, .max_values = 500'000};
 
 MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
   MarkedPoint marked{id, std::nullopt, std::nullopt};
@@ -52,7 +52,7 @@ glm::dmat3 read_axes(const JsonCursor& rows) {
 }  // namespace
 
 Result<FeaturePointsFile> parse_feature_points(std::string_view json) {
-  const auto tree = read_json_object(json, limits);
+  const auto tree = read_json_object(json, point_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);

@@ -7,7 +7,7 @@
 namespace semblante::import {
 namespace {
 
-constexpr std::size_t header_bytes = 12;
+constexpr std::size_t glb_header_bytes = 12;
 constexpr std::size_t chunk_header_bytes = 8;
 constexpr std::uint32_t magic_gltf = 0x46546C67;
 constexpr std::uint32_t chunk_json = 0x4E4F534A;
@@ -35,7 +35,7 @@ int base64_value(char c) {
 }  // namespace
 
 Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < header_bytes) {
+  if (bytes.size() < glb_header_bytes) {
     return error_at(ErrorCode::truncated, bytes.size(), "a GLB header has 12 bytes");
   }
   if (u32_at(bytes, 0) != magic_gltf)
@@ -49,12 +49,12 @@ Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
         ErrorCode::truncated, 8,
         "the GLB announces " + std::to_string(length) + " bytes, there are " + std::to_string(bytes.size()));
   }
-  if (length < header_bytes + chunk_header_bytes) return error_at(ErrorCode::truncated, 8, "the GLB has no chunk");
+  if (length < glb_header_bytes + chunk_header_bytes) return error_at(ErrorCode::truncated, 8, "the GLB has no chunk");
   bytes = bytes.first(length);
 
   std::optional<std::string_view> json;
   std::optional<std::span<const std::uint8_t>> binary;
-  std::size_t at = header_bytes;
+  std::size_t at = glb_header_bytes;
   while (at + chunk_header_bytes <= bytes.size()) {
     const std::uint32_t size = u32_at(bytes, at);
     const std::uint32_t type = u32_at(bytes, at + 4);

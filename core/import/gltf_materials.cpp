@@ -5,12 +5,11 @@
 #include <map>
 
 #include "core/import/image_type.h"
+#include "core/import/limits.h"
 #include "core/import/text.h"
 
 namespace semblante::import {
 namespace {
-
-constexpr std::size_t max_materials = 4096;
 
 class MaterialReader {
  public:

@@ -18,7 +18,7 @@
 namespace semblante::import {
 namespace {
 
-enum Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+enum PrimitiveMode : std::uint64_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
 
 /// Extensions we read, or that change only how a surface looks. Any other that a file *requires* is refused: without it
 /// the geometry would be wrong.

@@ -4,6 +4,9 @@
 
 namespace semblante {
 
+/// Materials of one file; an OBJ file ignores further ones of its libraries.
+inline constexpr std::size_t max_materials = 4096;
+
 /// What an uploaded model may ask of us. Every reader checks announced sizes against these, and against the bytes that
 /// are really there, before it allocates.
 struct ImportLimits {

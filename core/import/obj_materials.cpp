@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "core/import/image_type.h"
+#include "core/import/limits.h"
 #include "core/import/text.h"
 
 namespace semblante::import {
 namespace {
 
-constexpr std::size_t max_materials = 4096;
 /// Paths of images that are looked for: each is compared with every entry of the zip.
 constexpr std::size_t max_image_paths = 1024;
 constexpr std::size_t max_library_bytes = std::size_t{4} << 20;

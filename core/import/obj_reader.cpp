@@ -260,7 +260,6 @@ class ObjReader {
     const auto [entry, is_new] =
         material_by_name_.try_emplace(std::string(name), static_cast<int>(builder_.model.materials.size()));
     if (is_new) {
-      constexpr std::size_t max_materials = 4096;
       if (builder_.model.materials.size() >= max_materials) return too_many("materials", max_materials);
       Material material;
       material.name = std::string(name);

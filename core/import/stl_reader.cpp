@@ -13,7 +13,7 @@
 namespace semblante::import {
 namespace {
 
-constexpr std::size_t header_bytes = 80;
+constexpr std::size_t stl_header_bytes = 80;
 constexpr std::size_t facet_bytes = 50;
 
 /// Numbers positions as they appear.
@@ -45,10 +45,10 @@ Error too_many(const char* what, std::size_t limit) {
 }
 
 Result<Model> read_binary(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
-  if (bytes.size() < header_bytes + 4) {
+  if (bytes.size() < stl_header_bytes + 4) {
     return Error{ErrorCode::truncated, "byte " + std::to_string(bytes.size()), "a binary STL has a header of 84 bytes"};
   }
-  ByteReader reader(bytes.subspan(header_bytes));
+  ByteReader reader(bytes.subspan(stl_header_bytes));
   const auto count = reader.read<std::uint32_t>();
   if (count > reader.left() / facet_bytes) {
     return Error{ErrorCode::truncated, "byte 80",

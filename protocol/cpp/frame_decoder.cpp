@@ -11,9 +11,10 @@ namespace semblante {
 namespace {
 
 /// Reads the fields of one message in order; the first fault is kept and the rest is not read.
-class FieldReader {
+class BinaryFieldReader {
  public:
-  FieldReader(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last) : in_(bytes), last_(last) {}
+  BinaryFieldReader(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last)
+      : in_(bytes), last_(last) {}
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
@@ -140,7 +141,7 @@ class FieldReader {
 
 template <class M>
 Result<Message> read_message(std::span<const std::uint8_t> body, const std::optional<FaceFrame>& last) {
-  FieldReader reader(body, last);
+  BinaryFieldReader reader(body, last);
   M message;
   visit_fields(message, reader);
   if (reader.error()) return *reader.error();

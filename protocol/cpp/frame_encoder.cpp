@@ -9,9 +9,9 @@ namespace semblante {
 namespace {
 
 /// Writes the fields of one message in order. `last` is the state that batches are differences to.
-class Writer {
+class BinaryFieldWriter {
  public:
-  Writer(std::vector<std::uint8_t>& to, const FaceFrame& last) : to_(to), last_(last) {}
+  BinaryFieldWriter(std::vector<std::uint8_t>& to, const FaceFrame& last) : to_(to), last_(last) {}
 
   void uint(const char*, std::uint64_t value, [[maybe_unused]] std::uint64_t max, Presence) {
     assert(value <= max);
@@ -97,7 +97,7 @@ std::vector<std::uint8_t> FrameEncoder::encode(const Message& message) {
 
   std::vector<std::uint8_t> bytes;
   const FaceFrame neutral;
-  Writer writer(bytes, last_.has_value() ? *last_ : neutral);
+  BinaryFieldWriter writer(bytes, last_.has_value() ? *last_ : neutral);
   std::visit(
       [&]<class M>(const M& m) {
         bytes.push_back(MessageTraits<M>::type);

@@ -112,9 +112,9 @@ std::vector<TimedFrame> read_frames(const JsonCursor& at, const QuantizerSteps& 
   return frames;
 }
 
-class FieldReader {
+class JsonFieldReader {
  public:
-  FieldReader(const JsonCursor& at, const QuantizerSteps& steps) : at_(at), steps_(steps) {}
+  JsonFieldReader(const JsonCursor& at, const QuantizerSteps& steps) : at_(at), steps_(steps) {}
 
   template <class Int>
   void uint(const char* name, Int& value, std::uint64_t max, Presence presence) {
@@ -150,7 +150,7 @@ class FieldReader {
   void optional(const char* name, std::optional<T>& value) {
     const auto at = at_.optional_member(name);
     if (!at || at->is_null()) return;
-    FieldReader reader(*at, steps_);
+    JsonFieldReader reader(*at, steps_);
     visit_fields(value.emplace(), reader);
   }
   void optional_real(const char* name, std::optional<double>& value, double min, double max) {
@@ -178,7 +178,7 @@ Message read_by_name(const JsonCursor& root, const QuantizerSteps& steps, const 
   const std::string name = type.text(64);
   Message result;
   const auto read = [&]<class T>(T message) {
-    FieldReader reader(root, steps);
+    JsonFieldReader reader(root, steps);
     visit_fields(message, reader);
     result = std::move(message);
     return true;

@@ -4,18 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/json_number.h"
 #include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// 200, not 200.0, where it is a whole number.
-Json number(double value) {
-  const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
-  return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
-}
 
 void write_viseme(Json& to, const VisemeBlend& viseme) {
   to["viseme"] = {{"select1", viseme.select1}, {"select2", viseme.select2}, {"blend", viseme.blend}};
@@ -34,14 +29,14 @@ void write_state(Json& to, const FaceFrame& state, const QuantizerSteps& steps) 
   write_expression(to, state.expression);
   Json faps = Json::object();
   for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
-    if (state.level[fap] != 0) faps[std::to_string(fap)] = number(state.level[fap] * steps[fap]);
+    if (state.level[fap] != 0) faps[std::to_string(fap)] = json_number<Json>(state.level[fap] * steps[fap]);
   }
   to["faps"] = std::move(faps);
 }
 
-class Writer {
+class JsonFieldWriter {
  public:
-  Writer(Json& to, const QuantizerSteps& steps) : to_(to), steps_(steps) {}
+  JsonFieldWriter(Json& to, const QuantizerSteps& steps) : to_(to), steps_(steps) {}
 
   void uint(const char* name, std::uint64_t value, [[maybe_unused]] std::uint64_t max, Presence) {
     assert(value <= max);
@@ -49,7 +44,7 @@ class Writer {
   }
   void real(const char* name, double value, [[maybe_unused]] double min, [[maybe_unused]] double max, Presence) {
     assert(value >= min && value <= max);
-    to_[name] = number(value);
+    to_[name] = json_number<Json>(value);
   }
   void boolean(const char* name, bool value, Presence presence) {
     if (presence != Presence::appended || value) to_[name] = value;
@@ -62,7 +57,7 @@ class Writer {
              Presence) {
     assert(values.empty() || values.size() == length);
     to_[name] = Json::array();
-    for (const double value : values) to_[name].push_back(number(value));
+    for (const double value : values) to_[name].push_back(json_number<Json>(value));
   }
   template <class E>
   void enumeration(const char* name, E value, const EnumNames& names, Presence presence) {
@@ -73,7 +68,7 @@ class Writer {
   void optional(const char* name, const std::optional<T>& value) {
     if (!value.has_value()) return;
     Json inner = Json::object();
-    Writer writer(inner, steps_);
+    JsonFieldWriter writer(inner, steps_);
     visit_fields(*value, writer);
     to_[name] = std::move(inner);
   }
@@ -103,7 +98,7 @@ std::string encode_json(const Message& message, const QuantizerSteps& steps) {
   std::visit(
       [&]<class M>(const M& m) {
         json["type"] = MessageTraits<M>::name;
-        Writer writer(json, steps);
+        JsonFieldWriter writer(json, steps);
         visit_fields(m, writer);
       },
       message);
@@ -117,7 +112,7 @@ std::string encode_json_value(const TimedValues& frame) {
   if (!(state.expression == ExpressionBlend{})) write_expression(item, state.expression);
   Json faps = Json::object();
   for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap) {
-    if (state.fap[fap] != 0.0) faps[std::to_string(fap)] = number(state.fap[fap]);
+    if (state.fap[fap] != 0.0) faps[std::to_string(fap)] = json_number<Json>(state.fap[fap]);
   }
   if (!faps.empty()) item["faps"] = std::move(faps);
   return item.dump();

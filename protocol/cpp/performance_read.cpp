@@ -13,7 +13,7 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t max_text_bytes = 1000;
+constexpr std::size_t max_performance_text_bytes = 1000;
 
 // ---- one cue
 
@@ -168,7 +168,7 @@ Cue read_cue(const JsonCursor& at) {
   cue.attack = optional_number(at, "attack");
   cue.release = optional_number(at, "release");
   if (const auto easing = at.optional_member("easing")) cue.easing = read_easing(*easing);
-  if (const auto note = at.optional_member("note")) (void)note->text(max_text_bytes);
+  if (const auto note = at.optional_member("note")) (void)note->text(max_performance_text_bytes);
   const auto value = at.optional_member("value");
   if (const auto keys = at.optional_member("keys")) {
     if (value) value->fail(ErrorCode::invalid_argument, "the keys say it already");
@@ -206,8 +206,8 @@ void read_members(const JsonCursor& root, PerformanceScript& script) {
   const auto version = root.member("version");
   if (version.number() != performance_version)
     version.fail(ErrorCode::unsupported, "this reader knows version " + std::to_string(performance_version));
-  if (const auto name = root.optional_member("name")) script.name = name->text(max_text_bytes);
-  if (const auto note = root.optional_member("note")) (void)note->text(max_text_bytes);
+  if (const auto name = root.optional_member("name")) script.name = name->text(max_performance_text_bytes);
+  if (const auto note = root.optional_member("note")) (void)note->text(max_performance_text_bytes);
   script.duration = optional_number(root, "duration");
   if (const auto idle = root.optional_member("idle")) script.idle = read_idle(*idle);
   if (const auto cues = root.optional_member("cues")) {

@@ -16,7 +16,7 @@ namespace {
 
 /// The longest list has 100,000 parts of a dozen values each.
 constexpr JsonLimits rig_limits = {.max_bytes = 16U << 20U, .max_depth = 64, .max_values = 2'000'000};
-constexpr std::size_t max_text_bytes = 4096;
+constexpr std::size_t max_rig_text_bytes = 4096;
 constexpr std::size_t max_list = 100'000;  // parts, materials, warnings: a hostile file ends somewhere
 constexpr std::uint64_t max_u32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t max_exact = (1ULL << 53U) - 1;
@@ -54,7 +54,7 @@ FeaturePointId point_id(const JsonCursor& at, std::string_view text) {
 
 template <std::size_t N>
 std::size_t index_in(const JsonCursor& at, const std::array<std::string_view, N>& names) {
-  const std::string text = at.text(max_text_bytes);
+  const std::string text = at.text(max_rig_text_bytes);
   for (std::size_t i = 0; i < N; ++i) {
     if (names[i] == text) return i;
   }
@@ -96,7 +96,7 @@ RigDocument::Level level(const JsonCursor& at) {
 RigDocument::Point point(const JsonCursor& at, std::uint32_t vertices) {
   RigDocument::Point result;
   const JsonCursor id = at.member("id");
-  result.id = point_id(id, id.text(max_text_bytes));
+  result.id = point_id(id, id.text(max_rig_text_bytes));
   const JsonCursor vertex = at.member("vertex");
   if (!vertex.is_null()) result.vertex = static_cast<std::uint32_t>(vertex.integer(0, vertices - 1));
   result.position = vec3(at.member("position"));
@@ -107,7 +107,7 @@ template <std::size_t N>
 void displacement_sets(const JsonCursor& at, std::array<RigDocument::DisplacementSet, N>& sets) {
   const auto elements = at.elements(N, N);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    sets[i].name = elements[i].member("name").text(max_text_bytes);
+    sets[i].name = elements[i].member("name").text(max_rig_text_bytes);
     for (const auto& [name, value] : elements[i].member("displacements").members()) {
       sets[i].displacements.push_back({point_id(value, name), vec3(value)});
     }
@@ -155,7 +155,7 @@ Tongue tongue(const JsonCursor& at) {
 
 RigDocument::PartInfo part(const JsonCursor& at) {
   RigDocument::PartInfo result;
-  result.name = at.member("name").text(max_text_bytes);
+  result.name = at.member("name").text(max_rig_text_bytes);
   result.role = static_cast<PartRole>(index_in(at.member("role"), part_role_names));
   result.vertices = natural(at.member("vertices"));
   result.triangles = natural(at.member("triangles"));
@@ -165,7 +165,7 @@ RigDocument::PartInfo part(const JsonCursor& at) {
 RigDocument::MaterialInfo material(const JsonCursor& at) {
   static constexpr std::array<std::string_view, 3> alpha_modes = {"opaque", "mask", "blend"};
   RigDocument::MaterialInfo result;
-  result.name = at.member("name").text(max_text_bytes);
+  result.name = at.member("name").text(max_rig_text_bytes);
   const auto color = at.member("base_color").elements(4, 4);
   if (!color.empty()) result.base_color = {real(color[0]), real(color[1]), real(color[2]), real(color[3])};
   result.metallic = real(at.member("metallic"));
@@ -179,7 +179,7 @@ RigDocument::MaterialInfo material(const JsonCursor& at) {
 }
 
 RigDocument::ImageInfo image(const JsonCursor& at) {
-  return {hash(at.member("sha256")), at.member("mime_type").text(max_text_bytes),
+  return {hash(at.member("sha256")), at.member("mime_type").text(max_rig_text_bytes),
           at.member("bytes").integer(0, max_exact)};
 }
 
@@ -192,13 +192,13 @@ Result<RigDocument> read_rig(std::string_view text) {
   const JsonCursor root(*tree, report);
 
   RigDocument rig;
-  if (root.member("format").text(max_text_bytes) != "semblante.rig") {
+  if (root.member("format").text(max_rig_text_bytes) != "semblante.rig") {
     root.member("format").fail(ErrorCode::malformed, "must be \"semblante.rig\"");
   }
   if (root.member("version").integer(0, max_u32) != 1) {
     root.member("version").fail(ErrorCode::unsupported, "only version 1 is known");
   }
-  rig.name = root.member("name").text(max_text_bytes);
+  rig.name = root.member("name").text(max_rig_text_bytes);
   if (const auto levels = root.optional_member("levels")) {
     for (const auto& at : levels->elements(1, max_list)) rig.levels.push_back(level(at));
     if (!rig.levels.empty()) {
@@ -235,7 +235,7 @@ Result<RigDocument> read_rig(std::string_view text) {
   rig.bounds_max = vec3(root.member("bounds").member("max"));
   for (const auto& at : root.member("materials").elements(1, 256)) rig.materials.push_back(material(at));
   for (const auto& at : root.member("images").elements(0, max_list)) rig.images.push_back(image(at));
-  for (const auto& at : root.member("warnings").elements(0, max_list)) rig.warnings.push_back(at.text(max_text_bytes));
+  for (const auto& at : root.member("warnings").elements(0, max_list)) rig.warnings.push_back(at.text(max_rig_text_bytes));
   if (report) return *report;
   return rig;
 }

@@ -88,16 +88,16 @@ Result<std::vector<std::uint8_t>> inflate_payload(std::span<const std::uint8_t> 
   return raw;
 }
 
-struct InfluenceSet {
+struct InfluenceSetView {
   std::span<const std::uint8_t> points;
   bool unit_sum = false;
   [[nodiscard]] std::size_t stored() const { return points.size() - (unit_sum ? 1 : 0); }
 };
 
-Result<std::vector<InfluenceSet>> read_dictionary(byte_io::Reader& reader, std::uint32_t set_count) {
+Result<std::vector<InfluenceSetView>> read_dictionary(byte_io::Reader& reader, std::uint32_t set_count) {
   if (set_count > reader.remaining()) return fail(ErrorCode::truncated, "set_count", "more sets than bytes");
-  std::vector<InfluenceSet> sets(set_count);
-  for (InfluenceSet& set : sets) {
+  std::vector<InfluenceSetView> sets(set_count);
+  for (InfluenceSetView& set : sets) {
     const std::uint8_t first = reader.u8();
     set.unit_sum = (first & unit_sum_flag) != 0;
     set.points = reader.take(first & ~unit_sum_flag & 0xFFU);
@@ -122,7 +122,7 @@ std::uint32_t from_planes(std::span<const std::uint8_t> planes, std::size_t coun
 }
 
 Result<std::vector<std::uint32_t>> read_set_ids(byte_io::Reader& reader, const Header& header,
-                                                const std::vector<InfluenceSet>& sets) {
+                                                const std::vector<InfluenceSetView>& sets) {
   const auto planes =
       reader.take(std::size_t{header.vertex_count} * static_cast<std::size_t>(id_planes(header.set_count)));
   if (reader.failed()) return fail(ErrorCode::truncated, "set_ids", "ends early");
@@ -139,7 +139,7 @@ Result<std::vector<std::uint32_t>> read_set_ids(byte_io::Reader& reader, const H
   return ids;
 }
 
-Status read_rows(byte_io::Reader& reader, const Header& header, const std::vector<InfluenceSet>& sets,
+Status read_rows(byte_io::Reader& reader, const Header& header, const std::vector<InfluenceSetView>& sets,
                  const std::vector<std::uint32_t>& ids, WeightTable<float>& rows) {
   std::size_t stored = 0;
   for (const std::uint32_t id : ids) stored += sets[id].stored();
@@ -152,7 +152,7 @@ Status read_rows(byte_io::Reader& reader, const Header& header, const std::vecto
   rows.points.reserve(header.entry_count);
   rows.weights.reserve(header.entry_count);
   for (std::size_t v = 0, at = 0; v < ids.size(); ++v) {
-    const InfluenceSet& set = sets[ids[v]];
+    const InfluenceSetView& set = sets[ids[v]];
     auto& prediction = last[ids[v]];
     prediction.resize(set.stored());
     std::uint32_t sum = 0;

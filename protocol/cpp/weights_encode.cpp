@@ -20,10 +20,10 @@ namespace {
 using namespace weights_layout;
 
 /// One entry of the dictionary: which points move a vertex, and whether its weights sum to one.
-struct InfluenceSet {
+struct OrderedInfluenceSet {
   std::vector<std::uint16_t> points;  ///< dense indices; not bytes, whose comparison GCC 12 warns of for no reason
   bool unit_sum = false;
-  bool operator<(const InfluenceSet& other) const {
+  bool operator<(const OrderedInfluenceSet& other) const {
     return std::tie(points, unit_sum) < std::tie(other.points, other.unit_sum);
   }
 };
@@ -74,20 +74,20 @@ Quantized quantize_rows(const WeightTable<float>& rows, int bits) {
 }
 
 struct Dictionary {
-  std::vector<InfluenceSet> sets;  ///< most used first; ties by content, so that equal tables give equal bytes
+  std::vector<OrderedInfluenceSet> sets;  ///< most used first; ties by content, so that equal tables give equal bytes
   std::vector<std::uint32_t> set_of_vertex;
 };
 
 Dictionary build_dictionary(const WeightTable<float>& rows, const std::vector<bool>& unit_sum) {
-  std::map<InfluenceSet, std::vector<std::uint32_t>> vertices_of;
+  std::map<OrderedInfluenceSet, std::vector<std::uint32_t>> vertices_of;
   for (std::size_t v = 0; v < rows.row_count(); ++v) {
     const auto points = rows.points_of(v);
-    InfluenceSet set;
+    OrderedInfluenceSet set;
     set.unit_sum = unit_sum[v];
     for (const FeaturePointId point : points) set.points.push_back(point.value());
     vertices_of[std::move(set)].push_back(static_cast<std::uint32_t>(v));
   }
-  std::vector<const std::pair<const InfluenceSet, std::vector<std::uint32_t>>*> order;
+  std::vector<const std::pair<const OrderedInfluenceSet, std::vector<std::uint32_t>>*> order;
   order.reserve(vertices_of.size());
   for (const auto& entry : vertices_of) order.push_back(&entry);
   std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->second.size() > b->second.size(); });
@@ -132,7 +132,7 @@ std::vector<std::uint32_t> residuals(const WeightTable<float>& rows, const Quant
 std::vector<std::uint8_t> build_payload(const InfluenceTable& table, const Quantized& quantized,
                                         const Dictionary& dictionary, int bits) {
   std::vector<std::uint8_t> payload;
-  for (const InfluenceSet& set : dictionary.sets) {
+  for (const OrderedInfluenceSet& set : dictionary.sets) {
     payload.push_back(static_cast<std::uint8_t>(set.points.size() | (set.unit_sum ? unit_sum_flag : 0U)));
     for (const std::uint16_t point : set.points) payload.push_back(static_cast<std::uint8_t>(point));
   }

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
@@ -18,6 +17,7 @@
 #include "server/log/guard.h"
 #include "server/log/log.h"
 #include "server/net/body_sink.h"
+#include "server/net/error_value.h"
 #include "server/net/request_parser.h"
 #include "server/net/response_writer.h"
 #include "server/net/websocket_session.h"
@@ -31,7 +31,6 @@ namespace {
 
 using boost::system::error_code;
 
-constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
 /// Read at once, at most.
 constexpr std::size_t piece_bytes = 16 * 1024;
 
@@ -143,8 +142,9 @@ class Session {
   asio::awaitable<error_code> fill() {
     const auto room = buffer_.max_size() - buffer_.size();
     if (room == 0) co_return beast::http::error::buffer_overflow;
-    const auto [error, count] =
-        co_await stream_.async_read_some(buffer_.prepare(std::min(room, piece_bytes)), use_tuple);
+    error_code error;
+    const std::size_t count =
+        co_await stream_.async_read_some(buffer_.prepare(std::min(room, piece_bytes)), error_into(error));
     buffer_.commit(count);
     co_return error;
   }
@@ -189,8 +189,8 @@ class Session {
         co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is known")};
       stream_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
-      const auto [error, count] =
-          co_await asio::async_write(stream_, asio::buffer(go_on.data(), go_on.size()), use_tuple);
+      error_code error;
+      co_await asio::async_write(stream_, asio::buffer(go_on.data(), go_on.size()), error_into(error));
       if (error) co_return Unread{};
     }
     BodySink sink(plan, *state_, request);

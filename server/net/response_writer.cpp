@@ -6,11 +6,11 @@
 #include <unistd.h>
 #include <vector>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 
 #include "server/log/log.h"
+#include "server/net/error_value.h"
 #include "server/net/waker.h"
 
 namespace semblante::net {
@@ -20,8 +20,7 @@ namespace beast = boost::beast;
 
 namespace {
 
-constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
-constexpr std::size_t piece_bytes = 64 * 1024;
+constexpr std::size_t sent_piece_bytes = 64 * 1024;
 constexpr std::chrono::seconds heartbeat{15};
 constexpr std::chrono::milliseconds look_for_stop{500};
 
@@ -87,7 +86,8 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
       framed = piece;
     }
     stream.expires_after(state.config.limits.write_timeout);
-    const auto [error, written] = co_await asio::async_write(stream, asio::buffer(framed), use_tuple);
+    boost::system::error_code error;
+    co_await asio::async_write(stream, asio::buffer(framed), error_into(error));
     co_return !error;
   };
 
@@ -110,7 +110,8 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
   feed->attach({});
   if (alive && chunked) {
     stream.expires_after(state.config.limits.write_timeout);
-    const auto [error, written] = co_await asio::async_write(stream, asio::buffer("0\r\n\r\n", 5), use_tuple);
+    boost::system::error_code error;
+    co_await asio::async_write(stream, asio::buffer("0\r\n\r\n", 5), error_into(error));
     alive = !error;
   }
   co_return alive&& chunked;
@@ -122,15 +123,15 @@ asio::awaitable<bool> write_file(beast::tcp_stream& stream, const http::FileBody
     log::error("cannot open " + body.path.string());
     co_return false;
   }
-  std::vector<char> piece(std::min<std::uint64_t>(piece_bytes, body.length));
+  std::vector<char> piece(std::min<std::uint64_t>(sent_piece_bytes, body.length));
   std::uint64_t sent = 0;
   while (sent < body.length) {
     const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), body.length - sent));
     const auto got = ::pread(file.get(), piece.data(), want, static_cast<off_t>(body.offset + sent));
     if (got <= 0) co_return false;
     stream.expires_after(state.config.limits.write_timeout);
-    const auto [error, written] =
-        co_await asio::async_write(stream, asio::buffer(piece.data(), static_cast<std::size_t>(got)), use_tuple);
+    boost::system::error_code error;
+    co_await asio::async_write(stream, asio::buffer(piece.data(), static_cast<std::size_t>(got)), error_into(error));
     if (error) co_return false;
     sent += static_cast<std::uint64_t>(got);
   }
@@ -150,10 +151,12 @@ asio::awaitable<bool> write_response(beast::tcp_stream& stream, const http::Resp
   const auto* text = std::get_if<std::string>(&response.body);
   if (text != nullptr && !head_only) {
     const std::array<asio::const_buffer, 2> both = {asio::buffer(header), asio::buffer(*text)};
-    const auto [error, written] = co_await asio::async_write(stream, both, use_tuple);
+    boost::system::error_code error;
+    co_await asio::async_write(stream, both, error_into(error));
     co_return !error && keep_alive;
   }
-  const auto [error, written] = co_await asio::async_write(stream, asio::buffer(header), use_tuple);
+  boost::system::error_code error;
+  co_await asio::async_write(stream, asio::buffer(header), error_into(error));
   if (error) co_return false;
   if (head_only) co_return keep_alive;
   if (const auto* file = std::get_if<http::FileBody>(&response.body))
@@ -165,11 +168,12 @@ asio::awaitable<bool> write_response(beast::tcp_stream& stream, const http::Resp
 asio::awaitable<void> close_gently(beast::tcp_stream& stream) {
   boost::system::error_code ignored;
   stream.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
-  std::vector<char> dropped(piece_bytes);
+  std::vector<char> dropped(sent_piece_bytes);
   std::size_t total = 0;
   stream.expires_after(std::chrono::seconds(2));
   while (total < (64U << 20)) {
-    const auto [error, count] = co_await stream.async_read_some(asio::buffer(dropped), use_tuple);
+    boost::system::error_code error;
+    const std::size_t count = co_await stream.async_read_some(asio::buffer(dropped), error_into(error));
     if (error) break;
     total += count;
   }

@@ -5,7 +5,6 @@
 #include <thread>
 #include <vector>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -16,6 +15,7 @@
 #include "server/http/problem.h"
 #include "server/log/guard.h"
 #include "server/log/log.h"
+#include "server/net/error_value.h"
 #include "server/net/http_session.h"
 #include "server/net/state.h"
 
@@ -34,8 +34,6 @@ struct Server::State : SharedState {
 
 namespace {
 
-constexpr auto use_tuple = asio::as_tuple(asio::use_awaitable);
-
 /// More connections than are served: a short answer, then the door.
 asio::awaitable<void> turn_away(tcp::socket socket) {
   const auto body =
@@ -44,7 +42,8 @@ asio::awaitable<void> turn_away(tcp::socket socket) {
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/problem+json\r\nRetry-After: 1\r\nConnection: "
       "close\r\nContent-Length: " +
       std::to_string(body.size()) + "\r\n\r\n" + body;
-  co_await asio::async_write(socket, asio::buffer(text), use_tuple);
+  boost::system::error_code ignored;
+  co_await asio::async_write(socket, asio::buffer(text), error_into(ignored));
 }
 
 /// For co_spawn: an exception that ends a coroutine ends its connection alone.
@@ -55,7 +54,8 @@ void log_fault(const std::exception_ptr& fault) {
 
 /// One connection, accepted and begun. False when that failed.
 asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const std::shared_ptr<SharedState>& state) {
-  auto [error, socket] = co_await acceptor.async_accept(asio::make_strand(state->io), use_tuple);
+  boost::system::error_code error;
+  auto socket = co_await acceptor.async_accept(asio::make_strand(state->io), error_into(error));
   if (error) {
     if (!state->stopping && error != asio::error::operation_aborted) log::warning("cannot accept: " + error.message());
     co_return false;
@@ -83,7 +83,8 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, std::shared_pt
     if (!acceptor.is_open()) co_return;
     // Out of descriptors, most likely: wait for some to come back rather than spin.
     asio::steady_timer pause(co_await asio::this_coro::executor, std::chrono::milliseconds(100));
-    co_await pause.async_wait(use_tuple);
+    boost::system::error_code ignored;
+    co_await pause.async_wait(error_into(ignored));
   }
 }
 

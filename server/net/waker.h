@@ -3,11 +3,11 @@
 #include <functional>
 #include <memory>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
+
+#include "server/net/error_value.h"
 
 namespace semblante::net {
 
@@ -35,7 +35,8 @@ class Waker : public std::enable_shared_from_this<Waker> {
   boost::asio::awaitable<void> wait(std::chrono::steady_clock::duration limit) {
     if (!signalled_) {
       timer_.expires_after(limit);
-      co_await timer_.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
+      boost::system::error_code ignored;  // a wake cancels the wait
+      co_await timer_.async_wait(error_into(ignored));
     }
     signalled_ = false;
   }

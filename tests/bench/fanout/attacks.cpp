@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 /// The server's limits are 10 s; a busy machine gets more.
-constexpr seconds patience{120};
+constexpr seconds time_limit{120};
 
 /// A connection that misbehaves, and what it is told.
 class Wrongdoer {
@@ -78,7 +78,7 @@ std::size_t count(const Wrongdoers& all, Test test) {
 /// Does `step` every `pause` until all have been sent away, or the time is up.
 template <class Step>
 void until_sent_away(Wrongdoers& all, milliseconds pause, Step step) {
-  for (const auto end = Clock::now() + patience; Clock::now() < end; std::this_thread::sleep_for(pause)) {
+  for (const auto end = Clock::now() + time_limit; Clock::now() < end; std::this_thread::sleep_for(pause)) {
     for (Wrongdoer& one : all) {
       step(one);
       one.listen();
@@ -155,7 +155,7 @@ Outcome garbage(const Endpoint& endpoint, const std::string& path, std::size_t n
     std::this_thread::sleep_for(milliseconds(50));
   } while (!enough);
   until_sent_away(rude, milliseconds(20), [](Wrongdoer&) {});
-  for (const auto end = Clock::now() + patience; Clock::now() < end; std::this_thread::sleep_for(milliseconds(20))) {
+  for (const auto end = Clock::now() + time_limit; Clock::now() < end; std::this_thread::sleep_for(milliseconds(20))) {
     for (Wrongdoer& one : polite) one.listen();
     if (std::all_of(polite.begin(), polite.end(), [](const Wrongdoer& one) { return one.errors() > 0; })) break;
   }
@@ -194,7 +194,7 @@ Outcome flood(SemblanteServer& server, const std::atomic<bool>& enough) {
   bool lost = false;
   {
     const Publisher publisher(server.endpoint(), path, feed, sent);
-    const auto end = begin + patience;
+    const auto end = begin + time_limit;
     while (Clock::now() < end && (!enough || publisher.throttled() == 0) && !publisher.lost())
       std::this_thread::sleep_for(milliseconds(20));
     throttled = publisher.throttled();

@@ -17,7 +17,7 @@
 namespace semblante::bench {
 namespace {
 
-constexpr timeval patience{120, 0};
+constexpr timeval socket_timeout{120, 0};
 /// Of the 28 thousand ports a source address has, so many are used, which leaves room for those in TIME_WAIT.
 constexpr std::size_t connections_per_source = 12'000;
 
@@ -85,8 +85,8 @@ Socket connect_to(const Endpoint& endpoint, int receive_buffer) {
   Socket socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   const int on = 1;
   setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &socket_timeout, sizeof socket_timeout);
+  setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &socket_timeout, sizeof socket_timeout);
   if (receive_buffer > 0) setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
   sockaddr_in address = endpoint.address;
   if (connect(socket.get(), plain(address), sizeof address) != 0)

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 /// Handshakes under way at a time: within every listener's backlog.
-constexpr std::size_t wave = 128;
+constexpr std::size_t connects_at_once = 128;
 /// One subscriber of so many decodes everything itself.
 constexpr std::size_t sample_every = 97;
 constexpr std::size_t buffer_bytes = 256 * 1024;
@@ -57,7 +57,7 @@ void SubscriberPool::open(std::size_t count) {
   const std::size_t wanted = live_ + count;
   for (std::size_t begun = 0; live_ < wanted;) {
     // The first one alone: the timeline begins where it joins, before all others.
-    const std::size_t most = live_ == 0 ? 1 : wave;
+    const std::size_t most = live_ == 0 ? 1 : connects_at_once;
     if (begun < count && pending_ < most) {
       const std::size_t more = std::min(most - pending_, count - begun);
       begin(more);

@@ -7,7 +7,7 @@
 namespace semblante::bench {
 namespace {
 
-std::int16_t wave(std::uint64_t number, double frames, double amplitude, double phase) {
+std::int16_t sine(std::uint64_t number, double frames, double amplitude, double phase) {
   const double angle = 2.0 * 3.14159265358979 * static_cast<double>(number) / frames + phase;
   return static_cast<std::int16_t>(std::lround(amplitude * std::sin(angle)));
 }
@@ -28,12 +28,12 @@ FaceFrame trace_frame(std::uint64_t number, bool heavy) {
   frame.viseme.blend = static_cast<std::uint8_t>(63 - number % 3 * 21);
   frame.expression = {1, static_cast<std::uint8_t>(20 + number / 25 % 40), 0, 0};
   for (std::size_t fap = 31; fap <= 36; ++fap)
-    frame.level[fap] = wave(number, 90.0, 40.0, static_cast<double>(fap % 2) * 0.2);
-  if (const auto lid = number % 100; lid < 6) frame.level[19] = frame.level[20] = wave(lid, 12.0, 900.0, 0.0);
+    frame.level[fap] = sine(number, 90.0, 40.0, static_cast<double>(fap % 2) * 0.2);
+  if (const auto lid = number % 100; lid < 6) frame.level[19] = frame.level[20] = sine(lid, 12.0, 900.0, 0.0);
   frame.level[23] = frame.level[24] = static_cast<std::int16_t>(mixed(number / 20) % 80);
-  frame.level[48] = wave(number, 140.0, 30.0, 0.0);
-  frame.level[49] = wave(number, 190.0, 50.0, 1.0);
-  frame.level[50] = wave(number, 240.0, 20.0, 2.0);
+  frame.level[48] = sine(number, 140.0, 30.0, 0.0);
+  frame.level[49] = sine(number, 190.0, 50.0, 1.0);
+  frame.level[50] = sine(number, 240.0, 20.0, 2.0);
   if (heavy)
     for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap)
       frame.level[fap] = static_cast<std::int16_t>(mixed(number * 69 + fap) % 400) - 200;
