@@ -6,7 +6,7 @@
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/part_roles.h"
 #include "core/parametrize/place_feature_points.h"
-#include "core/sample_head/sample_head.h"
+#include "deploy/sample_head/sample_head.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::testing {
