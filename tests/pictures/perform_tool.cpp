@@ -8,15 +8,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/native/render/contact_sheet.h"
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
-#include "clients/native/tools/posed_head.h"
 #include "clients/native/tools/shots.h"
 #include "core/performance/performance.h"
 #include "protocol/cpp/performance_document.h"
+#include "tests/pictures/contact_sheet.h"
+#include "tests/pictures/posed_head.h"
 
-namespace semblante::tools {
+namespace semblante::pictures {
 namespace {
 
 struct Arguments {
@@ -34,7 +34,7 @@ struct Arguments {
 constexpr double most_pictures = 100'000.0;
 
 Result<Performance> load_performance(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
+  const auto bytes = tools::read_file(path);
   if (!bytes) {
     return bytes.error();
   }
@@ -74,11 +74,11 @@ Result<std::vector<double>> moments(const Arguments& arguments, const Performanc
 }
 
 Status run(const Arguments& arguments) {
-  const auto size = parse_size(arguments.size);
+  const auto size = tools::parse_size(arguments.size);
   if (!size) {
     return size.error();
   }
-  const auto shot = parse_shot(arguments.shot);
+  const auto shot = tools::parse_shot(arguments.shot);
   if (!shot) {
     return shot.error();
   }
@@ -106,7 +106,7 @@ Status run(const Arguments& arguments) {
   if (!sheet) {
     std::filesystem::create_directories(arguments.out);
   }
-  std::vector<render::LabelledPicture> pictures;
+  std::vector<LabelledPicture> pictures;
   for (std::size_t i = 0; i < times->size(); ++i) {
     const double ms = (*times)[i];
     if (auto set = renderer->set_positions(head->pose(performance->frame_at(ms))); !set) {
@@ -135,10 +135,10 @@ Status run(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace semblante::tools
+}  // namespace semblante::pictures
 
 int main(int argc, char** argv) {
-  semblante::tools::Arguments arguments;
+  semblante::pictures::Arguments arguments;
   CLI::App app{"Draws a performance on a head: a picture a frame, or a sheet of moments.", "semblante-perform"};
   app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
   app.add_option("performance", arguments.performance, "JSON of a performance")->required();
@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
   app.add_option("--weights", arguments.weights, "how weights are computed: paper or smooth")
       ->transform(CLI::CheckedTransformer(methods));
   CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::tools::run(arguments); !done) {
+  if (const auto done = semblante::pictures::run(arguments); !done) {
     std::cerr << "semblante-perform: " << semblante::tools::to_text(done.error()) << '\n';
     return 1;
   }

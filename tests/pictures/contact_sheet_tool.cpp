@@ -6,14 +6,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/native/render/contact_sheet.h"
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
-#include "clients/native/tools/posed_head.h"
 #include "clients/native/tools/shots.h"
 #include "core/expressions/library.h"
+#include "tests/pictures/contact_sheet.h"
+#include "tests/pictures/posed_head.h"
 
-namespace semblante::tools {
+namespace semblante::pictures {
 namespace {
 
 struct Arguments {
@@ -139,11 +139,11 @@ std::string file_name(std::string text, bool jpeg) {
 }
 
 Status run(const Arguments& arguments) {
-  const auto size = parse_size(arguments.size);
+  const auto size = tools::parse_size(arguments.size);
   if (!size) {
     return size.error();
   }
-  const auto shots = parse_shots(arguments.shots);
+  const auto shots = tools::parse_shots(arguments.shots);
   if (!shots) {
     return shots.error();
   }
@@ -161,7 +161,7 @@ Status run(const Arguments& arguments) {
   }
   std::filesystem::create_directories(arguments.out);
   for (const Sheet& sheet : *list) {
-    std::vector<std::vector<render::LabelledPicture>> pictures(shots->size());
+    std::vector<std::vector<LabelledPicture>> pictures(shots->size());
     for (const NamedFrame& named : sheet.frames) {
       for (Posed& face : posed) {
         if (auto set = face.renderer.set_positions(face.head.pose(named.frame)); !set) {
@@ -193,10 +193,10 @@ Status run(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace semblante::tools
+}  // namespace semblante::pictures
 
 int main(int argc, char** argv) {
-  semblante::tools::Arguments arguments;
+  semblante::pictures::Arguments arguments;
   CLI::App app{"Parametrizes a head and draws its 15 visemes and 6 expressions on sheets.", "semblante-contact-sheet"};
   app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
   app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
@@ -217,7 +217,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 100));
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
   CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::tools::run(arguments); !done) {
+  if (const auto done = semblante::pictures::run(arguments); !done) {
     std::cerr << "semblante-contact-sheet: " << semblante::tools::to_text(done.error()) << '\n';
     return 1;
   }

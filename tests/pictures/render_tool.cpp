@@ -5,14 +5,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/native/render/contact_sheet.h"
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
-#include "clients/native/tools/posed_head.h"
 #include "clients/native/tools/shots.h"
 #include "core/pipeline/standing.h"
+#include "tests/pictures/contact_sheet.h"
+#include "tests/pictures/posed_head.h"
 
-namespace semblante::tools {
+namespace semblante::pictures {
 namespace {
 
 struct Arguments {
@@ -26,11 +26,11 @@ struct Arguments {
 };
 
 Status run(const Arguments& arguments) {
-  const auto size = parse_size(arguments.size);
+  const auto size = tools::parse_size(arguments.size);
   if (!size) {
     return size.error();
   }
-  const auto shots = parse_shots(arguments.shots);
+  const auto shots = tools::parse_shots(arguments.shots);
   if (!shots) {
     return shots.error();
   }
@@ -56,8 +56,8 @@ Status run(const Arguments& arguments) {
   for (const std::string& warning : renderer->scene().warnings) {
     std::cerr << "semblante-render: " << warning << '\n';
   }
-  std::vector<render::LabelledPicture> pictures;
-  for (const Shot& shot : *shots) {
+  std::vector<LabelledPicture> pictures;
+  for (const tools::Shot& shot : *shots) {
     auto picture = renderer->draw(shot.view, shot.subject, *size);
     if (!picture) {
       return std::move(picture).error();
@@ -71,7 +71,7 @@ Status run(const Arguments& arguments) {
         arguments.out);
   }
   std::filesystem::create_directories(arguments.out);
-  for (const render::LabelledPicture& picture : pictures) {
+  for (const LabelledPicture& picture : pictures) {
     std::string name = picture.label + ".png";
     std::replace(name.begin(), name.end(), ':', '-');
     if (auto written = write_png(picture.picture, arguments.out / name); !written) {
@@ -82,10 +82,10 @@ Status run(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace semblante::tools
+}  // namespace semblante::pictures
 
 int main(int argc, char** argv) {
-  semblante::tools::Arguments arguments;
+  semblante::pictures::Arguments arguments;
   CLI::App app{"Draws a head from several sides, without a window.", "semblante-render"};
   app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
   app.add_option("-o,--out", arguments.out, "PNG to write: one shot, or a sheet of all; with --separate a folder")
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
   app.add_option("--columns", arguments.columns, "of the sheet")->capture_default_str();
   app.add_flag("--separate", arguments.separate, "one file a shot");
   CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::tools::run(arguments); !done) {
+  if (const auto done = semblante::pictures::run(arguments); !done) {
     std::cerr << "semblante-render: " << semblante::tools::to_text(done.error()) << '\n';
     return 1;
   }

@@ -1,4 +1,4 @@
-#include "clients/native/render/contact_sheet.h"
+#include "tests/pictures/contact_sheet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <stb/stb_easy_font.h>
 #pragma GCC diagnostic pop
 
-namespace semblante::render {
+namespace semblante::pictures {
 namespace {
 
-constexpr Rgb paper = {246, 245, 242};
-constexpr Rgb ink = {52, 50, 48};
+constexpr render::Rgb paper = {246, 245, 242};
+constexpr render::Rgb ink = {52, 50, 48};
 constexpr int gap = 12;
 constexpr int label_height = 24;
 constexpr int title_height = 44;
@@ -26,7 +26,7 @@ struct FontVertex {
 
 }  // namespace
 
-void draw_label(Picture& picture, std::string_view text, int x, int y, int scale, Rgb color) {
+void draw_label(render::Picture& picture, std::string_view text, int x, int y, int scale, render::Rgb color) {
   std::string printable(text);
   for (char& c : printable) {
     c = c < ' ' || c > '~' ? '?' : c;
@@ -48,7 +48,7 @@ void draw_label(Picture& picture, std::string_view text, int x, int y, int scale
   }
 }
 
-Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_view title, int columns) {
+render::Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_view title, int columns) {
   const int count = static_cast<int>(pictures.size());
   if (columns <= 0) {
     columns = static_cast<int>(std::ceil(std::sqrt(count)));
@@ -62,7 +62,7 @@ Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_
     cell_height = std::max(cell_height, entry.picture.height);
   }
   const int top = title.empty() ? gap : title_height;
-  Picture sheet(gap + columns * (cell_width + gap), top + rows * (cell_height + label_height + gap), paper);
+  render::Picture sheet(gap + columns * (cell_width + gap), top + rows * (cell_height + label_height + gap), paper);
   if (!title.empty()) {
     draw_label(sheet, title, gap, gap, 3, ink);
   }
@@ -76,4 +76,4 @@ Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_
   return sheet;
 }
 
-}  // namespace semblante::render
+}  // namespace semblante::pictures

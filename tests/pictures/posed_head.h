@@ -12,7 +12,7 @@
 #include "core/types/result.h"
 #include "core/types/rig.h"
 
-namespace semblante::tools {
+namespace semblante::pictures {
 
 /// A parametrized model that takes poses in this process: what a client should see, without the package between.
 struct PosedHead {
@@ -38,4 +38,4 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std:
 /// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
 Result<semblante_frame> parse_faps(const std::string& text);
 
-}  // namespace semblante::tools
+}  // namespace semblante::pictures

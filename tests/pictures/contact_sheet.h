@@ -6,18 +6,19 @@
 
 #include "clients/native/render/picture.h"
 
-namespace semblante::render {
+namespace semblante::pictures {
 
 struct LabelledPicture {
   std::string label;
-  Picture picture;
+  render::Picture picture;
 };
 
 /// Draws ASCII text with its top left corner at (x, y); a letter is about 7 * scale pixels high.
-void draw_label(Picture& picture, std::string_view text, int x, int y, int scale, Rgb color);
+void draw_label(render::Picture& picture, std::string_view text, int x, int y, int scale, render::Rgb color);
 
 /// A grid, row by row, each picture under its label, with a title on top if one is given. Cells have the size of the
 /// largest picture. `columns` of 0: about as wide as high.
-Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_view title = {}, int columns = 0);
+render::Picture contact_sheet(const std::vector<LabelledPicture>& pictures, std::string_view title = {},
+                              int columns = 0);
 
-}  // namespace semblante::render
+}  // namespace semblante::pictures

@@ -1,4 +1,4 @@
-#include "clients/native/tools/posed_head.h"
+#include "tests/pictures/posed_head.h"
 
 #include <charconv>
 #include <sstream>
@@ -9,7 +9,7 @@
 #include "core/pipeline/levelled.h"
 #include "core/pipeline/points_file.h"
 
-namespace semblante::tools {
+namespace semblante::pictures {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "positions are handed to the kernel as packed floats");
 
@@ -38,17 +38,17 @@ Result<MarkedHead> load_marked(const std::filesystem::path& model, const std::fi
   if (!head) {
     return std::move(head).error();
   }
-  const auto bytes = read_file(feature_points);
+  const auto bytes = tools::read_file(feature_points);
   if (!bytes) {
     return bytes.error();
   }
   auto file = parse_feature_points({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!file) {
-    return in_file(feature_points, std::move(file).error());
+    return tools::in_file(feature_points, std::move(file).error());
   }
   auto marked = mark_by_file(*std::move(head), *std::move(file));
   if (!marked) {
-    return in_file(feature_points, std::move(marked).error());
+    return tools::in_file(feature_points, std::move(marked).error());
   }
   return marked;
 }
@@ -60,13 +60,13 @@ std::vector<std::uint32_t> budget_of(std::uint32_t max_vertices) {
 }  // namespace
 
 Result<ImportedHead> load_model(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
+  const auto bytes = tools::read_file(path);
   if (!bytes) {
     return bytes.error();
   }
   auto head = import_head(*bytes, {path.filename().string(), std::nullopt, {}});
   if (!head) {
-    return in_file(path, std::move(head).error());
+    return tools::in_file(path, std::move(head).error());
   }
   return head;
 }
@@ -79,11 +79,11 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const
   }
   auto rigged = rig_head(*std::move(marked), {weights, DistanceMetric::edge});
   if (!rigged) {
-    return in_file(model_path, std::move(rigged).error());
+    return tools::in_file(model_path, std::move(rigged).error());
   }
   auto levelled = level_head(*std::move(rigged), budget_of(max_vertices));
   if (!levelled) {
-    return in_file(model_path, std::move(levelled).error());
+    return tools::in_file(model_path, std::move(levelled).error());
   }
   PosedHead head;
   head.warnings = levelled->warnings.all();
@@ -116,4 +116,4 @@ Result<semblante_frame> parse_faps(const std::string& text) {
   return frame;
 }
 
-}  // namespace semblante::tools
+}  // namespace semblante::pictures
