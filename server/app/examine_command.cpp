@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/anatomy/part_roles.h"
 #include "core/doctor/examine.h"
-#include "core/parametrize/part_roles.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/head_input.h"

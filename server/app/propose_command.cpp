@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
 #include "core/propose/propose.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"

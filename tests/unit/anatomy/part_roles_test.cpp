@@ -1,8 +1,8 @@
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
 
 #include <gtest/gtest.h>
 
-#include "core/parametrize/role_by_name.h"
+#include "core/anatomy/role_by_name.h"
 #include "tests/support/meshes.h"
 
 namespace semblante {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "core/parametrize/part_shape.h"
+#include "core/anatomy/part_shape.h"
 #include "core/types/rig.h"
 
 namespace semblante {

@@ -1,4 +1,4 @@
-#include "core/parametrize/part_shape.h"
+#include "core/anatomy/part_shape.h"
 
 #include <algorithm>
 #include <map>

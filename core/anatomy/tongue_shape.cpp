@@ -1,4 +1,4 @@
-#include "core/parametrize/tongue_shape.h"
+#include "core/anatomy/tongue_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/parametrize/jaw_share.h"
+#include "core/anatomy/jaw_share.h"
 
 namespace semblante {
 namespace {

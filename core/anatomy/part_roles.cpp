@@ -1,13 +1,13 @@
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 
-#include "core/parametrize/part_shape.h"
-#include "core/parametrize/role_by_name.h"
-#include "core/parametrize/role_by_place.h"
+#include "core/anatomy/part_shape.h"
+#include "core/anatomy/role_by_name.h"
+#include "core/anatomy/role_by_place.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/parametrize/lip_gaps.h"
+#include "core/anatomy/lip_gaps.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/shortest_path.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/tables/openings.h"
 
 namespace semblante {

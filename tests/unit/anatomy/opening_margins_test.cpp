@@ -1,4 +1,4 @@
-#include "core/parametrize/opening_margins.h"
+#include "core/anatomy/opening_margins.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/parametrize/role_by_name.h"
+#include "core/anatomy/role_by_name.h"
 
 #include <algorithm>
 #include <cctype>

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/tables/openings.h"
 
 namespace semblante {

@@ -1,4 +1,4 @@
-#include "core/parametrize/role_by_place.h"
+#include "core/anatomy/role_by_place.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/point_lookup.h"
+#include "core/anatomy/role_by_name.h"
 #include "core/geometry/nearest_point.h"
-#include "core/parametrize/point_lookup.h"
-#include "core/parametrize/role_by_name.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/parametrize/iris.h"
+#include "core/anatomy/iris.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/parametrize/point_lookup.h"
+#include "core/anatomy/point_lookup.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/parametrize/iris.h"
+#include "core/anatomy/iris.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/parametrize/tongue_shape.h"
+#include "core/anatomy/tongue_shape.h"
 #include "tests/support/meshes.h"
 
 namespace semblante {

@@ -1,4 +1,4 @@
-#include "core/parametrize/point_lookup.h"
+#include "core/anatomy/point_lookup.h"
 
 #include <algorithm>
 #include <cassert>

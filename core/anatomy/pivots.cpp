@@ -1,11 +1,11 @@
-#include "core/parametrize/pivots.h"
+#include "core/anatomy/pivots.h"
 
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/sphere_fit.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

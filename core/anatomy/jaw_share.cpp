@@ -1,4 +1,4 @@
-#include "core/parametrize/jaw_share.h"
+#include "core/anatomy/jaw_share.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/parametrize/rim_sides.h"
+#include "core/anatomy/rim_sides.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/parametrize/pivots.h"
+#include "core/anatomy/pivots.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
