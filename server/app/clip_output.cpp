@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "protocol/clips/clip.h"
+#include "protocol/package/package.h"
 #include "server/app/command_failure.h"
 #include "server/app/files.h"
-#include "server/package/clip.h"
-#include "server/package/package.h"
 
 namespace semblante {
 namespace {

@@ -6,13 +6,13 @@
 #include <CLI/CLI.hpp>
 
 #include "core/pipeline/levelled.h"
+#include "protocol/package/pack_head.h"
 #include "server/app/command_failure.h"
 #include "server/app/commands.h"
 #include "server/app/files.h"
 #include "server/app/head_input.h"
 #include "server/app/progress_line.h"
 #include "server/app/weights_json.h"
-#include "server/package/pack_head.h"
 
 namespace semblante {
 namespace {
