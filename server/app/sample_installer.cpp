@@ -10,7 +10,7 @@
 #include "protocol/hash/sha256.h"
 #include "server/api/new_model.h"
 #include "server/api/new_parametrization.h"
-#include "server/app/command_failure.h"
+#include "server/cli/command_failure.h"
 #include "server/log/log.h"
 
 namespace semblante {

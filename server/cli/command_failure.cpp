@@ -1,4 +1,4 @@
-#include "server/app/command_failure.h"
+#include "server/cli/command_failure.h"
 
 namespace semblante {
 

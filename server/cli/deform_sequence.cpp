@@ -1,4 +1,4 @@
-#include "server/app/deform_sequence.h"
+#include "server/cli/deform_sequence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "core/expressions/kernel_rig.h"
 #include "protocol/cpp/kernel_values.h"
-#include "server/app/command_failure.h"
-#include "server/app/files.h"
-#include "server/app/obj_writer.h"
-#include "server/app/ply_writer.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
+#include "server/cli/obj_writer.h"
+#include "server/cli/ply_writer.h"
 
 namespace semblante {
 namespace {

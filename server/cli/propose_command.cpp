@@ -8,10 +8,10 @@
 
 #include "core/anatomy/part_roles.h"
 #include "core/propose/propose.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/files.h"
-#include "server/app/head_input.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/files.h"
+#include "server/cli/head_input.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/app/progress_line.h"
+#include "server/cli/progress_line.h"
 
 #include <iostream>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "server/app/clip_output.h"
+#include "server/cli/clip_output.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 #include "protocol/clips/clip.h"
 #include "protocol/package/package.h"
-#include "server/app/command_failure.h"
-#include "server/app/files.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
 
 namespace semblante {
 namespace {

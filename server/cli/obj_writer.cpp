@@ -1,4 +1,4 @@
-#include "server/app/obj_writer.h"
+#include "server/cli/obj_writer.h"
 
 #include <array>
 #include <cassert>

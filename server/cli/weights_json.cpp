@@ -1,4 +1,4 @@
-#include "server/app/weights_json.h"
+#include "server/cli/weights_json.h"
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 namespace CLI {
 class App;

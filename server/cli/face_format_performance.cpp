@@ -6,7 +6,7 @@
 #include "core/performance/record.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/performance_document.h"
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 namespace semblante {
 namespace {

@@ -1,5 +1,5 @@
 #include "protocol/cpp/json_codec.h"
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 namespace semblante {
 

@@ -1,4 +1,4 @@
-#include "server/app/ply_writer.h"
+#include "server/cli/ply_writer.h"
 
 #include <bit>
 #include <cassert>

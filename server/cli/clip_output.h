@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "server/app/face_formats.h"
-#include "server/app/head_input.h"
+#include "server/cli/face_formats.h"
+#include "server/cli/head_input.h"
 
 namespace CLI {
 class App;

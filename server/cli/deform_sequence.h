@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "server/app/face_formats.h"
-#include "server/app/head_input.h"
+#include "server/cli/face_formats.h"
+#include "server/cli/head_input.h"
 
 namespace semblante {
 

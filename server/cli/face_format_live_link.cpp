@@ -3,7 +3,7 @@
 #include "core/bridges/live_link_csv.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/messages.h"
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 namespace semblante {
 

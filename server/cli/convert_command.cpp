@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "server/app/clip_output.h"
-#include "server/app/commands.h"
-#include "server/app/face_formats.h"
-#include "server/app/face_reading_options.h"
-#include "server/app/files.h"
-#include "server/app/head_input.h"
+#include "server/cli/clip_output.h"
+#include "server/cli/commands.h"
+#include "server/cli/face_formats.h"
+#include "server/cli/face_reading_options.h"
+#include "server/cli/files.h"
+#include "server/cli/head_input.h"
 
 namespace semblante {
 namespace {

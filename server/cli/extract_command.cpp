@@ -12,10 +12,10 @@
 #include "core/extract/shape.h"
 #include "core/import/limits.h"
 #include "core/parametrize/fapu.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/files.h"
-#include "server/app/head_input.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/files.h"
+#include "server/cli/head_input.h"
 
 namespace semblante {
 namespace {

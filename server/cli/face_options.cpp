@@ -1,4 +1,4 @@
-#include "server/app/face_options.h"
+#include "server/cli/face_options.h"
 
 #include <algorithm>
 #include <bitset>
@@ -15,8 +15,8 @@
 #include "core/import/displacements_file.h"
 #include "core/parametrize/fapu.h"
 #include "core/tables/mpeg4.h"
-#include "server/app/command_failure.h"
-#include "server/app/files.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
 
 namespace semblante {
 namespace {

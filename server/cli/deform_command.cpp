@@ -3,14 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include "core/expressions/kernel_rig.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/deform_sequence.h"
-#include "server/app/face_options.h"
-#include "server/app/face_reading_options.h"
-#include "server/app/files.h"
-#include "server/app/head_input.h"
-#include "server/app/obj_writer.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/deform_sequence.h"
+#include "server/cli/face_options.h"
+#include "server/cli/face_reading_options.h"
+#include "server/cli/files.h"
+#include "server/cli/head_input.h"
+#include "server/cli/obj_writer.h"
 
 namespace semblante {
 namespace {

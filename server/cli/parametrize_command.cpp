@@ -7,12 +7,12 @@
 
 #include "core/pipeline/levelled.h"
 #include "protocol/package/pack_head.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/files.h"
-#include "server/app/head_input.h"
-#include "server/app/progress_line.h"
-#include "server/app/weights_json.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/files.h"
+#include "server/cli/head_input.h"
+#include "server/cli/progress_line.h"
+#include "server/cli/weights_json.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/app/face_reading_options.h"
+#include "server/cli/face_reading_options.h"
 
 #include <map>
 

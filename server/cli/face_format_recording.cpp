@@ -1,5 +1,5 @@
 #include "protocol/cpp/quantizers.h"
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 #include "server/recordings/recording_reader.h"
 
 namespace semblante {

@@ -1,4 +1,4 @@
-#include "server/app/files.h"
+#include "server/cli/files.h"
 
 #include <array>
 #include <cerrno>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "server/app/command_failure.h"
+#include "server/cli/command_failure.h"
 
 namespace semblante {
 namespace {

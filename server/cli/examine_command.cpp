@@ -8,9 +8,9 @@
 
 #include "core/anatomy/part_roles.h"
 #include "core/doctor/examine.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/head_input.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/head_input.h"
 #include "server/report/report_json.h"
 #include "server/store/frame_json.h"
 

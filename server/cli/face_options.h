@@ -6,7 +6,7 @@
 
 #include "core/kernel/semblante_kernel.h"
 #include "core/types/rig.h"
-#include "server/app/head_input.h"
+#include "server/cli/head_input.h"
 
 namespace semblante {
 

@@ -1,5 +1,5 @@
 #include "protocol/cpp/fap_file.h"
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 namespace semblante {
 

@@ -1,4 +1,4 @@
-#include "server/app/head_input.h"
+#include "server/cli/head_input.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <CLI/CLI.hpp>
 
 #include "core/propose/propose.h"
-#include "server/app/command_failure.h"
-#include "server/app/files.h"
-#include "server/app/progress_line.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
+#include "server/cli/progress_line.h"
 
 namespace semblante {
 namespace {

@@ -13,10 +13,10 @@
 
 #include "core/json/json_cursor.h"
 #include "core/json/read_json.h"
-#include "server/app/command_failure.h"
-#include "server/app/commands.h"
-#include "server/app/face_formats.h"
-#include "server/app/files.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
+#include "server/cli/face_formats.h"
+#include "server/cli/files.h"
 #include "server/net/http_client.h"
 
 namespace semblante {

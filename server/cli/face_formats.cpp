@@ -1,11 +1,11 @@
-#include "server/app/face_formats.h"
+#include "server/cli/face_formats.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "server/app/command_failure.h"
-#include "server/app/files.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
 
 namespace semblante {
 namespace {
