@@ -8,13 +8,13 @@
 #include <string_view>
 #include <utility>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/mesh_faults.h"
 #include "core/doctor/mesh_sides.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/part_checks.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/subject.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/part_checks.h"
 #include "core/doctor/words.h"
 #include "core/geometry/nearest_point.h"
-#include "core/parametrize/part_roles.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

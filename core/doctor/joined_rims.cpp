@@ -7,11 +7,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/surface_way.h"
 #include "core/doctor/words.h"
 #include "core/geometry/edge_path_search.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

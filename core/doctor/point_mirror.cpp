@@ -1,10 +1,10 @@
 #include <string>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/mirror_offsets.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/mirror_offsets.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/part_roles.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante {
 

@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {

@@ -9,8 +9,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/role_by_name.h"
 #include "core/geometry/nearest_point.h"
-#include "core/parametrize/role_by_name.h"
 
 namespace semblante {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/part_shape.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/part_shape.h"
 #include "core/types/model.h"
 
 namespace semblante {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/parametrize/point_lookup.h"
+#include "core/anatomy/point_lookup.h"
 
 namespace semblante {
 namespace {

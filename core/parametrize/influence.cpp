@@ -4,8 +4,8 @@
 #include <limits>
 #include <queue>
 
+#include "core/anatomy/jaw_share.h"
 #include "core/geometry/nearest_point.h"
-#include "core/parametrize/jaw_share.h"
 
 namespace semblante {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/parametrize/weight_method.h"
 #include "core/types/rig.h"
 #include "core/types/weight_table.h"

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <string>
 
+#include "core/anatomy/iris.h"
+#include "core/anatomy/lip_gaps.h"
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/pivots.h"
+#include "core/anatomy/point_lookup.h"
+#include "core/anatomy/tongue_shape.h"
 #include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
-#include "core/parametrize/iris.h"
-#include "core/parametrize/lip_gaps.h"
-#include "core/parametrize/part_roles.h"
-#include "core/parametrize/pivots.h"
-#include "core/parametrize/point_lookup.h"
-#include "core/parametrize/tongue_shape.h"
 
 namespace semblante {
 namespace {

@@ -9,9 +9,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/parametrize/part_roles.h"
-#include "core/parametrize/point_lookup.h"
-#include "core/parametrize/rim_sides.h"
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
+#include "core/anatomy/rim_sides.h"
 
 namespace semblante {
 namespace {

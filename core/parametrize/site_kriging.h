@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/opening_margins.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/non_negative_kriging.h"
-#include "core/parametrize/opening_margins.h"
 #include "core/parametrize/point_distances.h"
 
 namespace semblante {

@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "core/anatomy/opening_margins.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/opening_margins.h"
 #include "core/parametrize/point_distances.h"
 #include "core/types/weight_table.h"
 

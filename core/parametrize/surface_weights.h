@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/parametrize/weight_method.h"
 #include "core/types/progress.h"
 #include "core/types/result.h"

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/similarity.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mirror_plane.h"
 #include "core/propose/mouth_and_eyes.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parametrize/rim_sides.h"
+#include "core/anatomy/rim_sides.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mirror_plane.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/json/json_pointer.h"
 #include "core/json/read_json.h"
-#include "server/hash/sha256.h"
+#include "protocol/hash/sha256.h"
 #include "server/http/conditional.h"
 #include "server/settings/text.h"
 

@@ -5,11 +5,11 @@
 #include "core/expressions/contact.h"
 #include "core/extract/set_file.h"
 #include "protocol/cpp/rig_document.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/mapped_file.h"
 #include "server/api/routes.h"
 #include "server/api/sets.h"
-#include "server/hash/sha256.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/anatomy/rim_sides.h"
 #include "core/json/json_pointer.h"
-#include "core/parametrize/rim_sides.h"
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"

@@ -3,12 +3,12 @@
 #include "core/lod/decimate.h"
 #include "core/parametrize/weight_method.h"
 #include "core/propose/propose.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
-#include "server/hash/sha256.h"
 
 namespace semblante::api {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/parametrize/rim_sides.h"
+#include "core/anatomy/rim_sides.h"
 #include "core/tables/mpeg4.h"
 #include "core/types/feature_point_id.h"
 

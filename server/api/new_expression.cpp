@@ -9,12 +9,12 @@
 #include "core/extract/set_file.h"
 #include "core/import/feature_points_file.h"
 #include "core/import/import.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/mapped_file.h"
 #include "server/api/routes.h"
 #include "server/api/sets.h"
 #include "server/api/storage_problems.h"
-#include "server/hash/sha256.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "protocol/clips/clip.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "server/api/mapped_file.h"
@@ -13,7 +14,6 @@
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
-#include "server/package/clip.h"
 #include "server/recordings/recording_export.h"
 
 namespace semblante::api {

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/cpp/quantizers.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/play_options.h"
 #include "server/api/recordings_common.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
-#include "server/hash/sha256.h"
 #include "server/recordings/recording_source.h"
 
 namespace semblante::api {

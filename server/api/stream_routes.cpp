@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/cpp/json_codec.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/routes.h"
-#include "server/hash/sha256.h"
 #include "server/settings/stream_settings.h"
 
 namespace semblante::api {

@@ -1,10 +1,10 @@
 #include <nlohmann/json.hpp>
 
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/openapi.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
-#include "server/hash/sha256.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {

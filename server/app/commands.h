@@ -6,17 +6,8 @@ class App;
 
 namespace semblante {
 
-// One function a subcommand, each in a file of its own: declares the options (every option is also an environment
-// variable SEMBLANTE_...) and the callback that runs it. A callback that fails throws CommandFailure
-// (command_failure.h); one that returns has succeeded.
+// The subcommands of the service, as server/cli/commands.h has those for heads and files.
 
-void add_parametrize_command(CLI::App& app);
-void add_convert_command(CLI::App& app);
-void add_deform_command(CLI::App& app);
-void add_examine_command(CLI::App& app);
-void add_extract_command(CLI::App& app);
-void add_play_command(CLI::App& app);
-void add_propose_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 void add_version_command(CLI::App& app);
 void add_worker_command(CLI::App& app);

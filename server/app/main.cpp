@@ -3,8 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "server/app/command_failure.h"
 #include "server/app/commands.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/commands.h"
 
 int main(int argc, char** argv) {
   using namespace semblante;

@@ -7,10 +7,10 @@
 #include "core/import/axes.h"
 #include "core/import/feature_points_file.h"
 #include "core/lod/decimate.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/new_model.h"
 #include "server/api/new_parametrization.h"
-#include "server/app/command_failure.h"
-#include "server/hash/sha256.h"
+#include "server/cli/command_failure.h"
 #include "server/log/log.h"
 
 namespace semblante {

@@ -11,10 +11,10 @@
 #include <sys/file.h>
 
 #include "server/api/api.h"
-#include "server/app/command_failure.h"
 #include "server/app/data_folder.h"
 #include "server/app/open_files.h"
 #include "server/app/sample_installer.h"
+#include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
 #include "server/net/server.h"

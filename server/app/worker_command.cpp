@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "server/app/command_failure.h"
 #include "server/app/commands.h"
+#include "server/cli/command_failure.h"
 #include "server/jobs/worker.h"
 
 namespace semblante {

@@ -1,7 +1,7 @@
 #include <utility>
 
+#include "core/anatomy/part_roles.h"
 #include "core/doctor/examine.h"
-#include "core/parametrize/part_roles.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"

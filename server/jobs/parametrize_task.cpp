@@ -5,11 +5,11 @@
 #include "core/doctor/examine.h"
 #include "core/extract/set_file.h"
 #include "core/pipeline/levelled.h"
+#include "protocol/package/pack_head.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"
 #include "server/jobs/worker_tasks.h"
-#include "server/package/pack_head.h"
 #include "server/report/levels_json.h"
 
 namespace semblante::jobs {

@@ -2,7 +2,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
 #include "core/propose/propose.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"

@@ -5,8 +5,8 @@
 
 #include "core/doctor/report.h"
 #include "core/pipeline/standing.h"
+#include "protocol/package/package.h"
 #include "server/jobs/worker_protocol.h"
-#include "server/package/package.h"
 #include "server/report/report_json.h"
 
 namespace semblante::jobs {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "server/hash/sha256.h"
+#include "protocol/hash/sha256.h"
 #include "server/store/data_files.h"
 #include "server/store/descriptor.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "server/hash/sha256.h"
+#include "protocol/hash/sha256.h"
 
 namespace semblante::store {
 namespace {

@@ -19,6 +19,7 @@ ARROWS = {
     "protocol": ["core", "protocol"],
     "server": ["core", "protocol", "server"],
     "clients": ["core", "protocol", "clients"],
+    "deploy": ["core", "deploy"],
     "web": ["protocol", "clients", "web"],
 }
 ALIASES = {"@protocol/": "protocol/ts/", "@client/": "clients/js/"}  # web/aliases.ts

@@ -1,6 +1,6 @@
 #include "tests/support/sample_head_model.h"
 
-#include "core/sample_head/sample_head.h"
+#include "deploy/sample_head/sample_head.h"
 
 namespace semblante::testing {
 namespace {

@@ -4,9 +4,8 @@
 #include <numeric>
 #include <span>
 
-#include <openssl/evp.h>
-
 #include "clients/native/client/draco_decode.h"
+#include "protocol/hash/sha256.h"
 
 namespace semblante::client {
 namespace {
@@ -14,13 +13,6 @@ namespace {
 constexpr std::uint64_t max_rig_bytes = 16U << 20U;
 constexpr std::uint64_t max_mesh_bytes = 128U << 20U;
 constexpr std::uint64_t max_image_bytes = 64U << 20U;
-
-Sha256 hash_of(std::string_view bytes) {
-  Sha256 hash{};
-  unsigned size = 0;
-  EVP_Digest(bytes.data(), bytes.size(), hash.data(), &size, EVP_sha256(), nullptr);
-  return hash;
-}
 
 std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -115,11 +107,11 @@ Result<Face> Face::create(const PackageBytes& bytes) {
     error.where = "rig.json" + error.where;
     return error;
   }
-  const Sha256 mesh_hash = hash_of(bytes.mesh_drc);
+  const Sha256 mesh_hash = sha256(as_bytes(bytes.mesh_drc));
   if (mesh_hash != rig->mesh.sha256) {
     return Error{ErrorCode::mismatch, "mesh.drc", "its SHA-256 is not the one in rig.json"};
   }
-  if (hash_of(bytes.weights) != rig->weights.sha256) {
+  if (sha256(as_bytes(bytes.weights)) != rig->weights.sha256) {
     return Error{ErrorCode::mismatch, "weights", "its SHA-256 is not the one in rig.json"};
   }
   auto mesh = decode_mesh(as_bytes(bytes.mesh_drc), rig->mesh);
@@ -224,7 +216,7 @@ std::vector<std::string> fetch_images(const HttpClient& http, Face& face) {
     auto bytes = http.fetch("/v1/artefacts/" + to_hex(info.sha256), std::min(info.bytes, max_image_bytes));
     if (!bytes) {
       warnings.push_back("image " + std::to_string(i) + ": " + bytes.error().message);
-    } else if (hash_of(*bytes) != info.sha256) {
+    } else if (sha256(as_bytes(*bytes)) != info.sha256) {
       warnings.push_back("image " + std::to_string(i) + ": its SHA-256 is not the one in rig.json");
     } else {
       face.model().images[i] = {info.mime_type, {bytes->begin(), bytes->end()}};

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the sheets of this folder anew: after a change of the displacement sets. Needs the native tools (a build with
-# SEMBLANTE_CLIENTS); takes some minutes on a software renderer. The heads of others are drawn where their folder is.
+# Draws the sheets of this folder anew: after a change of the displacement sets. Needs tests/pictures (a build with
+# SEMBLANTE_TESTS and SEMBLANTE_CLIENTS); takes some minutes on a software renderer. The heads of others are drawn where their folder is.
 #   core/expressions/pictures/draw.sh [BUILD-FOLDER]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/parametrize/point_distances.h"
-#include "core/parametrize/point_lookup.h"
 
 namespace semblante::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "protocol/cpp/weights_format.h"
-#include "server/package/draco_mesh.h"
-#include "server/package/package.h"
+#include "protocol/package/draco_mesh.h"
+#include "protocol/package/package.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/sample_head_model.h"
 

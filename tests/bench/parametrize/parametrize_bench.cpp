@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/distances_from_all.h"
 #include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
-#include "core/parametrize/point_lookup.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/meshes.h"
 

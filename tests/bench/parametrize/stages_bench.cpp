@@ -16,7 +16,7 @@
 #include "core/import/import.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
-#include "server/package/package.h"
+#include "protocol/package/package.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante {

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/parametrize/place_feature_points.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/tables/mpeg4.h"
 #include "tests/oracle/real_heads.h"
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/parametrize/point_lookup.h"
+#include "core/anatomy/point_lookup.h"
 
 namespace semblante::bench {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/place_feature_points.h"
-#include "core/parametrize/point_lookup.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::bench {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/expressions/library.h"
-#include "core/parametrize/point_lookup.h"
 #include "tests/bench/foldover/posed_face.h"
 #include "tests/bench/readability/face_reading.h"
 #include "tests/bench/readability/mouth_shape.h"

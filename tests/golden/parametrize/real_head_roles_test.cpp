@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/part_roles.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/parametrize.h"
-#include "core/parametrize/part_roles.h"
 #include "core/parametrize/place_feature_points.h"
 #include "tests/oracle/real_heads.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/import/import.h"
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/cli/program.h"
 
 namespace semblante::test {

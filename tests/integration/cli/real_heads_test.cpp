@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/import/import.h"
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/cli/program.h"
 
 namespace semblante::test {

@@ -12,10 +12,10 @@
 #include "clients/native/client/face_package.h"
 #include "clients/native/client/frame_player.h"
 #include "clients/native/tools/files.h"
-#include "clients/native/tools/posed_head.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/client/sample_server.h"
+#include "tests/pictures/posed_head.h"
 #include "tests/support/wait.h"
 
 namespace semblante::testing {
@@ -94,7 +94,7 @@ TEST(NativeClient, FollowingAFedStream_WritesWhatTheKernelGives) {
 
   // The same frames in this process, on the model file itself: full precision, no package between.
   // The server gives its sample smooth weights.
-  const auto head = tools::load_posed_head(server.model_file(), server.points_file(), WeightMethod::smooth);
+  const auto head = pictures::load_posed_head(server.model_file(), server.points_file(), WeightMethod::smooth);
   ASSERT_TRUE(head) << head.error().message;
   semblante_frame faps{};
   // On the wire a FAP is a whole number of quantizer steps.

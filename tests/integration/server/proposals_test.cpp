@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/propose/quick_set.h"
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/server/model_flow.h"
 
 namespace semblante::test {

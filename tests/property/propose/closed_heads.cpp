@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/parametrize/part_roles.h"
-#include "core/parametrize/point_lookup.h"
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::bench {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/part_roles.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/part_roles.h"
 #include "core/propose/propose.h"
 #include "core/propose/quick_set.h"
 #include "core/tables/mpeg4.h"

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/edge_path_search.h"
-#include "core/parametrize/point_lookup.h"
 #include "core/propose/quick_set.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/property/propose/closed_heads.h"

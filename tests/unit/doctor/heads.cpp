@@ -2,11 +2,11 @@
 
 #include <stdexcept>
 
+#include "core/anatomy/part_roles.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/parametrize.h"
-#include "core/parametrize/part_roles.h"
 #include "core/parametrize/place_feature_points.h"
-#include "core/sample_head/sample_head.h"
+#include "deploy/sample_head/sample_head.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::testing {

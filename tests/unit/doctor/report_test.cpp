@@ -8,10 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/part_roles.h"
 #include "core/doctor/examine.h"
 #include "core/doctor/marked_points.h"
 #include "core/doctor/words.h"
-#include "core/parametrize/part_roles.h"
 #include "tests/support/meshes.h"
 #include "tests/unit/doctor/heads.h"
 #include "tests/unit/doctor/spoil.h"

@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
 #include "core/doctor/surface_way.h"
 #include "core/geometry/edge_path_search.h"
-#include "core/parametrize/part_roles.h"
 
 namespace semblante::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/import/axes.h"
 #include "core/import/import.h"
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::test {

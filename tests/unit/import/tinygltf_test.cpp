@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {

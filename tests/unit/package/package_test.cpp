@@ -1,5 +1,5 @@
 // The face package against the model and rig it was made from.
-#include "server/package/package.h"
+#include "protocol/package/package.h"
 
 #include <cmath>
 #include <map>
@@ -11,9 +11,9 @@
 #include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
-#include "server/package/draco_mesh.h"
-#include "server/package/mesh_encoding.h"
-#include "server/package/render_mesh.h"
+#include "protocol/package/draco_mesh.h"
+#include "protocol/package/mesh_encoding.h"
+#include "protocol/package/render_mesh.h"
 
 namespace semblante {
 namespace {

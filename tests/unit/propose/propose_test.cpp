@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/part_roles.h"
 #include "core/geometry/surface.h"
-#include "core/parametrize/part_roles.h"
 #include "core/propose/quick_set.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"

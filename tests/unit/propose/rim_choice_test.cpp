@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/parametrize/part_roles.h"
+#include "core/anatomy/part_roles.h"
 #include "tests/support/meshes.h"
 
 namespace semblante {

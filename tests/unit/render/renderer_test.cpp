@@ -7,7 +7,6 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
-#include "clients/native/render/contact_sheet.h"
 #include "tests/unit/render/ball.h"
 
 namespace semblante::testing {
@@ -147,23 +146,6 @@ TEST(Picture, UnwritablePath_IsAnError) {
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, ErrorCode::io);
   EXPECT_EQ(written.error().where, "/nowhere/at/all.png");
-}
-
-TEST(ContactSheet, OfFive_HasThreeColumnsAndLabels) {
-  const Rgb red = {255, 0, 0};
-  const std::vector<render::LabelledPicture> pictures(5, {"label", Picture(40, 30, red)});
-  const Picture sheet = render::contact_sheet(pictures, "title");
-  // ceil(sqrt 5) = 3 columns, so 2 rows.
-  EXPECT_GT(sheet.width, 3 * 40);
-  EXPECT_LT(sheet.width, 4 * 40 + 60);
-  std::size_t reds = 0;
-  std::size_t darks = 0;
-  for (std::size_t i = 0; i < sheet.rgb.size(); i += 3) {
-    reds += sheet.rgb[i] == 255 && sheet.rgb[i + 1] == 0 ? 1 : 0;
-    darks += sheet.rgb[i] < 100 ? 1 : 0;
-  }
-  EXPECT_EQ(reds, 5U * 40 * 30);
-  EXPECT_GT(darks, 100U) << "the letters";
 }
 
 }  // namespace

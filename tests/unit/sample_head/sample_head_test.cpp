@@ -1,4 +1,4 @@
-#include "core/sample_head/sample_head.h"
+#include "deploy/sample_head/sample_head.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/sample_head/write_sample_head.h"
+#include "deploy/sample_head/write_sample_head.h"
 
 namespace semblante {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/hash/sha256.h"
+#include "protocol/hash/sha256.h"
 
 namespace semblante::store {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "server/hash/sha256.h"
+#include "protocol/hash/sha256.h"
 #include "server/store/last_database.h"
 #include "server/store/reconcile.h"
 #include "server/store/trash_purger.h"

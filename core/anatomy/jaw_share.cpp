@@ -1,0 +1,118 @@
+#include "core/anatomy/jaw_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/geometry/edge_path_search.h"
+#include "core/geometry/nearest_point.h"
+
+namespace semblante {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Vertices of teeth parts of one row, other than `except`.
+std::vector<glm::dvec3> teeth_of_row(const Surface& surface, std::span<const Part> parts, PartRole row, PartId except) {
+  std::vector<glm::dvec3> positions;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != row || PartId(p) == except) continue;
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) positions.push_back(surface.positions[v.value()]);
+  }
+  return positions;
+}
+
+/// The vertices of a part in which a row of teeth stands; empty if it does not stand in this part.
+std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, const std::vector<glm::dvec3>& teeth) {
+  const std::span<const SurfaceVertexId> members = surface.members_of(part);
+  if (teeth.empty()) return {};
+  std::vector<glm::dvec3> positions;
+  for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
+
+  double low = infinite;
+  double high = -infinite;
+  for (const glm::dvec3& t : teeth) {
+    low = std::min(low, t.x);
+    high = std::max(high, t.x);
+  }
+  // Two millimetres or so: a row of teeth is some 60 mm wide.
+  const double touch = 0.04 * (high - low);
+  const NearestPoint near_part(positions);
+  std::size_t touching = 0;
+  for (const glm::dvec3& t : teeth) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
+  // Gums hold a good part of every tooth (a quarter of their vertices on the head this was tried on); a tongue at rest
+  // keeps off them but for its tip (one in fifty).
+  if (touching * 10 < teeth.size()) return {};
+
+  const NearestPoint near_teeth(teeth);
+  std::vector<SurfaceVertexId> sockets;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    // Half of it: the rims of the tongue lie along the teeth too.
+    if (near_teeth.nearest(positions[m]).distance < 0.5 * touch) sockets.push_back(members[m]);
+  }
+  return sockets;
+}
+
+double smooth_step(double from, double to, double value) {
+  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Where on the way from a place `a` away to one `b` away: 0..1. Half way where it is at both.
+double part_of_way(double a, double b) { return a + b > 0.0 ? a / (a + b) : 0.5; }
+
+void share_joined_part(const Surface& surface, PartId part, const std::vector<SurfaceVertexId>& upper,
+                       const std::vector<SurfaceVertexId>& lower, const std::vector<SurfaceVertexId>& tongue,
+                       std::vector<MouthShare>& shares) {
+  EdgePathSearch search(surface);
+  const auto distances = [&](const std::vector<SurfaceVertexId>& sources) {
+    const std::span<const double> found = search.from(sources);
+    return std::vector<double>(found.begin(), found.end());
+  };
+  const std::vector<double> to_upper = distances(upper);
+  const std::vector<double> to_lower = distances(lower);
+  const std::vector<double> to_tongue =
+      tongue.empty() ? std::vector<double>(to_lower.size(), infinite) : distances(tongue);
+  for (const SurfaceVertexId vertex : surface.members_of(part)) {
+    const std::size_t s = vertex.value();
+    const double jaw_side = std::min(to_lower[s], to_tongue[s]);
+    const double gum_side = std::min(to_upper[s], to_lower[s]);
+    MouthShare& share = shares[s];
+    if (to_tongue[s] == 0.0) {
+      share = {1.0, 1.0};  // a point's own vertex follows it exactly
+      continue;
+    }
+    share.jaw = smooth_step(0.35, 0.65, part_of_way(to_upper[s], jaw_side));
+    share.tongue = tongue.empty() ? 0.0 : smooth_step(0.2, 0.6, part_of_way(gum_side, to_tongue[s]));
+  }
+}
+
+}  // namespace
+
+std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
+                                     std::span<const SurfacePoint> points) {
+  std::vector<MouthShare> shares(surface.vertex_count());
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    const PartId part(p);
+    const PartRole role = parts[p].role;
+    if (role != PartRole::tongue && role != PartRole::lower_teeth && role != PartRole::upper_teeth) continue;
+    const std::vector<SurfaceVertexId> upper =
+        sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::upper_teeth, part));
+    const std::vector<SurfaceVertexId> lower =
+        sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::lower_teeth, part));
+    if (!upper.empty() && !lower.empty()) {
+      std::vector<SurfaceVertexId> tongue;
+      for (const SurfacePoint& point : points) {
+        if (group_of(point.id) == 6 && surface.part_of[point.vertex.value()] == part) tongue.push_back(point.vertex);
+      }
+      share_joined_part(surface, part, upper, lower, tongue, shares);
+      continue;
+    }
+    const MouthShare whole{role == PartRole::upper_teeth ? 0.0 : 1.0, role == PartRole::tongue ? 1.0 : 0.0};
+    for (const SurfaceVertexId vertex : surface.members_of(part)) shares[vertex.value()] = whole;
+  }
+  return shares;
+}
+
+}  // namespace semblante

@@ -1,0 +1,236 @@
+#include "core/anatomy/lip_gaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/geometry/shortest_path.h"
+#include "core/tables/openings.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::size_t columns = 61;
+/// Depths at which the lips of one column are compared.
+constexpr std::size_t depths = 400;
+/// Left out at either corner, as share of the width: there both lips are one skin.
+constexpr double corner_share = 0.05;
+/// A triangle is of a lip whose points have at least this share in it, and more than those of the other lip. Near the
+/// corners most is the share of the corners' own points.
+constexpr double least_share = 0.05;
+/// A mask has skin between its lips: there the way along it is no longer than so many times the straight distance.
+constexpr double detour_of_mask = 3.0;
+constexpr int rounds = 100;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// A place of a lip in one column; `moves` says how far it goes up or down with one unit of each facing point.
+struct Place {
+  double y = 0.0, z = 0.0;
+  glm::dvec3 moves{0.0};
+};
+
+Place between(const Place& a, const Place& b, double t) {
+  return {std::lerp(a.y, b.y, t), std::lerp(a.z, b.z, t), glm::mix(a.moves, b.moves, t)};
+}
+
+/// A lip cut by a plane of equal x.
+using Section = std::vector<std::array<Place, 2>>;
+
+double share_of(const WeightTable<float>& rows, std::size_t vertex, FeaturePointId id) {
+  const auto points = rows.points_of(vertex);
+  const auto at = std::find(points.begin(), points.end(), id);
+  return at != points.end() ? rows.weights_of(vertex)[static_cast<std::size_t>(at - points.begin())] : 0.0;
+}
+
+double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, std::span<const std::string_view> names) {
+  double sum = 0.0;
+  for (const std::string_view name : names) {
+    const FeaturePointId id = *parse_feature_point(name);
+    for (const std::uint32_t corner : t) sum += share_of(rows, corner, id);
+  }
+  return sum;
+}
+
+/// Both lips of one head, column by column.
+class Lips {
+ public:
+  Lips(const Model& model, const Rig& rig, double from_x, double to_x)
+      : from_x_(from_x), step_((to_x - from_x) / static_cast<double>(columns - 1)) {
+    for (const Triangle& t : model.triangles) {
+      if (rig.parts[rig.part_of_vertex[t[0]].value()].role != PartRole::skin) continue;
+      const auto [least, greatest] =
+          std::minmax({model.positions[t[0]].x, model.positions[t[1]].x, model.positions[t[2]].x}, std::less<float>());
+      if (least >= to_x || greatest <= from_x) continue;
+      const double upper = sum_of_shares(rig.influence, t, mpeg4::mouth.upper_flesh) / 3.0;
+      const double lower = sum_of_shares(rig.influence, t, mpeg4::mouth.lower_flesh) / 3.0;
+      if (std::max(upper, lower) < least_share || upper == lower) continue;
+      add(model, rig, t, upper > lower);
+    }
+  }
+
+  [[nodiscard]] const Section& upper(std::size_t column) const { return upper_[column]; }
+  [[nodiscard]] const Section& lower(std::size_t column) const { return lower_[column]; }
+
+ private:
+  void add(const Model& model, const Rig& rig, const Triangle& t, bool is_upper) {
+    std::array<double, 3> x{};
+    std::array<Place, 3> corners;
+    for (int c = 0; c < 3; ++c) {
+      const glm::dvec3 p(model.positions[t[c]]);
+      x[c] = p.x;
+      corners[c] = {p.y, p.z, {}};
+      for (int i = 0; i < 3; ++i) {
+        // With weights of Eq. 4 a lip follows the points of the other one too.
+        const double by_upper = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].upper));
+        const double by_lower = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].lower));
+        corners[c].moves[i] = is_upper ? by_upper - by_lower : by_lower - by_upper;
+      }
+    }
+    const auto [least, greatest] = std::minmax_element(x.begin(), x.end());
+    const double last = std::min(std::floor((*greatest - from_x_) / step_), static_cast<double>(columns) - 1.0);
+    for (double k = std::max(0.0, std::ceil((*least - from_x_) / step_)); k <= last; ++k) {
+      const double at = from_x_ + k * step_;
+      std::array<Place, 2> segment;
+      std::size_t found = 0;
+      for (int c = 0; c < 3; ++c) {
+        const int next = (c + 1) % 3;
+        if ((x[c] < at) == (x[next] < at)) continue;
+        segment[found++] = between(corners[c], corners[next], (at - x[c]) / (x[next] - x[c]));
+      }
+      if (found == 2) (is_upper ? upper_ : lower_)[static_cast<std::size_t>(k)].push_back(segment);
+    }
+  }
+
+  double from_x_, step_;
+  std::array<Section, columns> upper_, lower_;
+};
+
+/// One column: with `moves` closing by c, the view is shut from c = `seen` on, and surfaces touch from `touch` on.
+struct Column {
+  glm::dvec3 moves{0.0};  ///< with one unit of closing of each facing pair, half of it by either point
+  double seen = 0.0;
+  double touch = 0.0;
+};
+
+/// The edge of a section towards the other lip at each depth: the lowest (sign 1) or highest (sign -1) place.
+std::vector<std::optional<Place>> edge_by_depth(const Section& section, double sign, double from, double step) {
+  std::vector<std::optional<Place>> edge(depths);
+  for (auto [a, b] : section) {
+    if (a.z > b.z) std::swap(a, b);
+    const double last = std::min(std::floor((b.z - from) / step), static_cast<double>(depths) - 1.0);
+    for (double k = std::max(0.0, std::ceil((a.z - from) / step)); k <= last; ++k) {
+      const Place place = between(a, b, b.z > a.z ? (from + k * step - a.z) / (b.z - a.z) : 0.0);
+      auto& known = edge[static_cast<std::size_t>(k)];
+      if (!known || sign * place.y < sign * known->y) known = place;
+    }
+  }
+  return edge;
+}
+
+std::optional<Column> measure(const Section& upper, const Section& lower) {
+  if (upper.empty() || lower.empty()) return std::nullopt;
+  Place low{infinite, 0.0, {}};
+  Place high{-infinite, 0.0, {}};
+  double near = infinite;
+  double far = -infinite;
+  for (const auto& segment : upper) {
+    for (const Place& p : segment) {
+      if (p.y < low.y) low = p;
+      near = std::min(near, p.z);
+      far = std::max(far, p.z);
+    }
+  }
+  for (const auto& segment : lower) {
+    for (const Place& p : segment) {
+      if (p.y > high.y) high = p;
+      near = std::min(near, p.z);
+      far = std::max(far, p.z);
+    }
+  }
+  Column column;
+  column.seen = low.y - high.y;
+  column.touch = infinite;
+  column.moves = (low.moves + high.moves) / 2.0;
+  const double step = (far - near) / static_cast<double>(depths - 1);
+  if (!(step > 0.0)) return std::nullopt;
+  const auto above = edge_by_depth(upper, 1.0, near, step);
+  const auto below = edge_by_depth(lower, -1.0, near, step);
+  for (std::size_t k = 0; k < depths; ++k) {
+    if (!above[k] || !below[k] || above[k]->y - below[k]->y >= column.touch) continue;
+    column.touch = above[k]->y - below[k]->y;
+    column.moves = (above[k]->moves + below[k]->moves) / 2.0;
+  }
+  // Lips one behind the other pass without touching: they stop where they shut the view.
+  if (column.touch == infinite) column.touch = column.seen;
+  return column;
+}
+
+double reach_of(const Column& column) { return glm::dot(column.moves, column.moves); }
+
+/// Least squares of what columns are away from their range between `seen` and `touch`; a convex problem, by turns for
+/// the aims in the ranges and for the gaps. A column counts by how far the points move it: to close what they hardly
+/// move, near the corners, lips would have to pass through each other elsewhere.
+LipGaps fit(const std::vector<Column>& columns_of_head) {
+  glm::dmat3 normal(0.0);
+  for (const Column& c : columns_of_head) normal += reach_of(c) * glm::outerProduct(c.moves, c.moves);
+  // A head without weight between points that face each other keeps those gaps at zero.
+  for (int i = 0; i < 3; ++i) normal[i][i] += 1e-6;
+  const glm::dmat3 inverse = glm::inverse(normal);
+  glm::dvec3 gaps(0.0);
+  for (int round = 0; round < rounds; ++round) {
+    glm::dvec3 right(0.0);
+    for (const Column& c : columns_of_head) {
+      right += reach_of(c) * c.moves * std::clamp(glm::dot(c.moves, gaps), c.seen, std::max(c.seen, c.touch));
+    }
+    gaps = glm::max(inverse * right, glm::dvec3(0.0));
+  }
+  return {gaps[0], gaps[1], gaps[2]};
+}
+
+bool is_mask(const Surface& surface, const FeaturePointSet& points) {
+  const FeaturePoint& upper = *find_point(points, facing_lips[0].upper);
+  const FeaturePoint& lower = *find_point(points, facing_lips[0].lower);
+  if (!upper.vertex || !lower.vertex) return false;
+  const auto path =
+      shortest_path(surface, surface.surface_of[upper.vertex->value()], surface.surface_of[lower.vertex->value()]);
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += glm::distance(surface.positions[path[i - 1].value()], surface.positions[path[i].value()]);
+  }
+  return length > 0.0 && length < detour_of_mask * glm::distance(upper.position, lower.position);
+}
+
+}  // namespace
+
+std::optional<LipGaps> measure_lip_gaps(const Model& model, const Surface& surface, const Rig& rig) {
+  const FeaturePoint* const left = find_point(rig.points, "2.4");
+  const FeaturePoint* const right = find_point(rig.points, "2.5");
+  if (left == nullptr || right == nullptr) return std::nullopt;
+  for (const FacingLips& lips : facing_lips) {
+    if (find_point(rig.points, lips.upper) == nullptr || find_point(rig.points, lips.lower) == nullptr) {
+      return std::nullopt;
+    }
+  }
+  const double from = right->position.x;
+  const double width = static_cast<double>(left->position.x) - from;
+  if (!(width > 0.0) || is_mask(surface, rig.points)) return std::nullopt;
+  const Lips lips(model, rig, from + corner_share * width, from + (1.0 - corner_share) * width);
+  std::vector<Column> measured;
+  for (std::size_t c = 0; c < columns; ++c) {
+    if (const auto column = measure(lips.upper(c), lips.lower(c))) measured.push_back(*column);
+  }
+  if (measured.empty()) return std::nullopt;
+  return fit(measured);
+}
+
+}  // namespace semblante

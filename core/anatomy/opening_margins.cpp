@@ -1,0 +1,191 @@
+#include "core/anatomy/opening_margins.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "core/geometry/shortest_path.h"
+
+namespace semblante {
+namespace {
+
+/// At most so many places between the middle of a lid and a corner, or between two points of a lip.
+constexpr std::size_t places_of_lid = 9;
+constexpr std::size_t places_of_lip = 2;
+/// A corner that is no vertex of the lid's part may be this far from it, as share of the eye's width.
+constexpr double greatest_step_to_corner = 0.25;
+
+const SurfacePoint* find(std::span<const SurfacePoint> points, const char* name) {
+  const auto at = std::find_if(points.begin(), points.end(),
+                               [&](const SurfacePoint& p) { return p.id == parse_feature_point(name); });
+  return at != points.end() ? &*at : nullptr;
+}
+
+SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::dvec3& to) {
+  const auto members = surface.members_of(part);
+  return *std::min_element(members.begin(), members.end(), [&](SurfaceVertexId a, SurfaceVertexId b) {
+    return glm::distance(surface.positions[a.value()], to) < glm::distance(surface.positions[b.value()], to);
+  });
+}
+
+/// Vertices at even distances between the ends of a path, ends left out.
+std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector<SurfaceVertexId>& path,
+                                       std::size_t count) {
+  std::vector<double> along = {0.0};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    along.push_back(along.back() + glm::distance(surface.positions[path[i - 1].value()],  //
+                                                 surface.positions[path[i].value()]));
+  }
+  std::vector<SurfaceVertexId> places;
+  for (std::size_t k = 1; k <= count && path.size() > 2; ++k) {
+    const double wanted = along.back() * static_cast<double>(k) / static_cast<double>(count + 1);
+    std::size_t best = 1;
+    for (std::size_t i = 2; i + 1 < path.size(); ++i) {
+      if (std::abs(along[i] - wanted) < std::abs(along[best] - wanted)) best = i;
+    }
+    if (places.empty() || places.back() != path[best]) places.push_back(path[best]);
+  }
+  return places;
+}
+
+/// The edge of a lid from corner to corner, by way of its middle.
+struct LidEdge {
+  const SurfacePoint* middle = nullptr;
+  std::array<const SurfacePoint*, 2> corners{};
+  std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< paths from the middle
+  std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
+};
+
+std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfacePoint> points, const char* middle,
+                                const std::array<const char*, 2>& corners) {
+  LidEdge edge;
+  edge.middle = find(points, middle);
+  edge.corners = {find(points, corners[0]), find(points, corners[1])};
+  if (edge.middle == nullptr || edge.corners[0] == nullptr || edge.corners[1] == nullptr) return std::nullopt;
+  const PartId part = surface.part_of[edge.middle->vertex.value()];
+  const double width = glm::distance(edge.corners[0]->position, edge.corners[1]->position);
+  for (std::size_t c = 0; c < 2; ++c) {
+    SurfaceVertexId end = edge.corners[c]->vertex;
+    edge.ends_at_corner[c] = surface.part_of[end.value()] == part;
+    if (!edge.ends_at_corner[c]) {
+      end = nearest_of_part(surface, part, edge.corners[c]->position);
+      const double step = glm::distance(surface.positions[end.value()], edge.corners[c]->position);
+      if (step > greatest_step_to_corner * width) return std::nullopt;
+    }
+    edge.to_corner[c] = shortest_path(surface, edge.middle->vertex, end);
+  }
+  return edge;
+}
+
+/// y of the edge where it passes `x`; the mean where it does so several times, empty where it does not.
+std::optional<double> height_of(const Surface& surface, const LidEdge& edge, double x) {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& path : edge.to_corner) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const glm::dvec3& a = surface.positions[path[i - 1].value()];
+      const glm::dvec3& b = surface.positions[path[i].value()];
+      if ((a.x < x) == (b.x < x)) continue;
+      sum += a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, double travel,
+                   std::vector<MarginSite>& sites) {
+  const auto& [a, b] = edge.corners;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto& path = edge.to_corner[c];
+    std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);
+    if (!edge.ends_at_corner[c] && !path.empty()) places.push_back(path.back());
+    for (const SurfaceVertexId vertex : places) {
+      const glm::dvec3& p = surface.positions[vertex.value()];
+      // Beyond the end of the other edge there is no opening.
+      const double across = height_of(surface, other, p.x).value_or(p.y);
+      const double middle = std::clamp(std::abs(p.y - across) / travel, 0.0, 1.0);
+      const glm::dvec3 axis = b->position - a->position;
+      const double to_b = std::clamp(glm::dot(p - a->position, axis) / glm::dot(axis, axis), 0.0, 1.0);
+      MarginSite site{vertex, {}};
+      for (const auto& [id, share] :
+           {std::pair(edge.middle->id, middle), std::pair(a->id, (1.0 - middle) * (1.0 - to_b)),
+            std::pair(b->id, (1.0 - middle) * to_b)}) {
+        if (share > 0.0) site.shares.emplace_back(id, share);
+      }
+      sites.push_back(std::move(site));
+    }
+  }
+}
+
+void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
+  struct Eye {
+    std::optional<LidEdge> upper, lower;
+  };
+  const std::array<Eye, 2> eyes = {
+      Eye{lid_edge(surface, points, "3.1", {"3.11", "3.7"}),  //
+          lid_edge(surface, points, "3.3", {"3.11", "3.7"})},
+      Eye{lid_edge(surface, points, "3.2", {"3.12", "3.8"}), lid_edge(surface, points, "3.4", {"3.12", "3.8"})}};
+  // A lid at FAP 1024 goes IRISD0, which is the mean of both eyes.
+  double travel = 0.0;
+  int open = 0;
+  for (const Eye& eye : eyes) {
+    if (!eye.upper || !eye.lower) continue;
+    travel += eye.upper->middle->position.y - eye.lower->middle->position.y;
+    ++open;
+  }
+  if (!(travel > 0.0)) return;
+  travel /= open;
+  for (const Eye& eye : eyes) {
+    if (!eye.upper || !eye.lower) continue;
+    add_lid_sites(surface, *eye.upper, *eye.lower, travel, sites);
+    add_lid_sites(surface, *eye.lower, *eye.upper, travel, sites);
+  }
+}
+
+void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
+  for (const auto& edge : {std::array<const char*, 5>{"2.5", "2.7", "2.2", "2.6", "2.4"},
+                           std::array<const char*, 5>{"2.5", "2.9", "2.3", "2.8", "2.4"}}) {
+    for (std::size_t i = 1; i < edge.size(); ++i) {
+      const SurfacePoint* const a = find(points, edge[i - 1]);
+      const SurfacePoint* const b = find(points, edge[i]);
+      if (a == nullptr || b == nullptr || a->position.x == b->position.x) continue;
+      for (const SurfaceVertexId vertex :
+           places_on(surface, shortest_path(surface, a->vertex, b->vertex), places_of_lip)) {
+        const double x = surface.positions[vertex.value()].x;
+        const double t = std::clamp((x - a->position.x) / (b->position.x - a->position.x), 0.0, 1.0);
+        // Half way between a straight line, which bends at the points, and a curve that is level at them.
+        const double to_b = (t + t * t * (3.0 - 2.0 * t)) / 2.0;
+        MarginSite site{vertex, {}};
+        if (to_b < 1.0) site.shares.emplace_back(a->id, 1.0 - to_b);
+        if (to_b > 0.0) site.shares.emplace_back(b->id, to_b);
+        sites.push_back(std::move(site));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points) {
+  std::vector<MarginSite> sites;
+  add_lids(surface, points, sites);
+  add_lips(surface, points, sites);
+  // A vertex that is a point follows that point; one that two edges share follows the first.
+  std::vector<MarginSite> result;
+  for (MarginSite& site : sites) {
+    const bool is_point =
+        std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.vertex == site.vertex; });
+    const bool is_known =
+        std::any_of(result.begin(), result.end(), [&](const MarginSite& s) { return s.vertex == site.vertex; });
+    if (!is_point && !is_known) result.push_back(std::move(site));
+  }
+  return result;
+}
+
+}  // namespace semblante

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/geometry/surface.h"
+#include "core/types/feature_points.h"
+#include "core/types/model.h"
+#include "core/types/rig.h"
+
+namespace semblante {
+
+/// The parts of a model by PartId, with their roles: what the user set, else a guess from the
+/// points marked on a part, its name, its place and its size. `points` may be empty: then names and places alone speak.
+std::vector<Part> describe_parts(const Model& model, const Surface& surface, const FeaturePointSet& points,
+                                 std::span<const std::optional<PartRole>> roles_by_user = {});
+
+/// True for the points that can only lie on skin: groups 2, 4, 5, 8, 10, the lids (3.1-3.4, 3.7-3.14) and the nose
+/// (9.1-9.7, 9.12-9.15).
+bool is_skin_point(FeaturePointId id);
+
+/// The role that its own points give a part beyond doubt: one that holds a pupil, a tongue or a teeth point and is not
+/// the skin. Empty for every other part. #P entries.
+std::vector<std::optional<PartRole>> roles_clear_from_points(const Surface& surface,
+                                                             std::span<const SurfacePoint> points);
+
+}  // namespace semblante

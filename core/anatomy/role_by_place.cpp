@@ -1,0 +1,240 @@
+#include "core/anatomy/role_by_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/anatomy/role_by_name.h"
+#include "core/geometry/nearest_point.h"
+
+namespace semblante {
+namespace {
+
+/// Sizes of a face in units of ES0, the distance between the pupils (63 mm on an adult).
+namespace share_of_es {
+constexpr double eyeball_least = 0.1;  // radius; an adult's is 0.19
+constexpr double eyeball_most = 0.4;
+constexpr double eye_off_its_point = 0.5;  // centre of an eyeball from its pupil or lids
+constexpr double mouth_below_eyes = 1.1;
+constexpr double mouth_half_width = 0.6;
+constexpr double mouth_half_height = 0.55;
+constexpr double mouth_depth = 1.6;
+constexpr double attached_mean = 0.15;  // lashes: a centimetre long at most, roots on the lid
+constexpr double attached_most = 0.4;
+constexpr double attached_width = 1.3;  // a brow, a row of lashes; hair in one piece is wider and keeps its shape
+constexpr double attached_height = 1.0;
+constexpr double of_skin_height = 0.25;  // ES0 of a cut head, where nothing else tells
+}  // namespace share_of_es
+
+std::optional<glm::dvec3> mean_of(const FeaturePointSet& points, std::initializer_list<std::string_view> names) {
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  for (const std::string_view name : names) {
+    const FeaturePoint* const point = find_point(points, name);
+    if (point == nullptr) continue;
+    sum += glm::dvec3(point->position);
+    count += 1.0;
+  }
+  return count > 0.0 ? std::optional(sum / count) : std::nullopt;
+}
+
+class PlaceGuess {
+ public:
+  PlaceGuess(std::span<const PartShape> shapes, const FeaturePointSet& points, std::size_t skin,
+             std::span<std::optional<PartRole>> roles)
+      : shapes_(shapes), points_(points), skin_(shapes[skin]), roles_(roles), near_skin_(skin_.positions) {}
+
+  void run() {
+    eyes_[0] = mean_of(points_, {"3.5"});
+    eyes_[1] = mean_of(points_, {"3.6"});
+    if (!eyes_[0]) eyes_[0] = mean_of(points_, {"3.1", "3.3", "3.7", "3.11"});
+    if (!eyes_[1]) eyes_[1] = mean_of(points_, {"3.2", "3.4", "3.8", "3.12"});
+    if (!eyes_[0] || !eyes_[1]) eyes_from_named_parts();
+    if (!eyes_[0] || !eyes_[1]) eyes_from_pair_of_balls();
+    es_ = eyes_[0] && eyes_[1] ? glm::distance(*eyes_[0], *eyes_[1]) : share_of_es::of_skin_height * skin_.extent().y;
+    find_balls();
+    find_parts_of_eyes();
+    find_mouth();
+    find_attached();
+  }
+
+ private:
+  [[nodiscard]] bool is_open(std::size_t p) const { return !roles_[p] && shapes_[p].triangles > 0; }
+
+  /// Largest part with that role.
+  [[nodiscard]] const PartShape* largest(PartRole role) const {
+    const PartShape* best = nullptr;
+    for (std::size_t p = 0; p < shapes_.size(); ++p) {
+      if (roles_[p] != role) continue;
+      if (best == nullptr || shapes_[p].positions.size() > best->positions.size()) best = &shapes_[p];
+    }
+    return best;
+  }
+
+  void eyes_from_named_parts() {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const PartShape* const eye = largest(eye_roles[side]);
+      if (!eyes_[side] && eye != nullptr) eyes_[side] = eye->box_center();
+    }
+  }
+
+  /// Two balls of one size, mirror images in the middle plane of the skin, in its front half.
+  void eyes_from_pair_of_balls() {
+    const double middle = skin_.box_center().x;
+    for (std::size_t a = 0; a < shapes_.size(); ++a) {
+      if (!is_open(a) || !is_ball(shapes_[a])) continue;
+      const glm::dvec3 left = shapes_[a].sphere->center;
+      const double radius = shapes_[a].sphere->radius;
+      if (left.x <= middle || left.z < skin_.box_center().z) continue;
+      for (std::size_t b = 0; b < shapes_.size(); ++b) {
+        if (!is_open(b) || !is_ball(shapes_[b])) continue;
+        const glm::dvec3 right = shapes_[b].sphere->center;
+        const glm::dvec3 image(2.0 * middle - right.x, right.y, right.z);
+        if (right.x >= middle || glm::distance(left, image) > 0.5 * radius) continue;
+        if (std::abs(shapes_[b].sphere->radius - radius) > 0.2 * radius) continue;
+        eyes_ = {left, right};
+        return;
+      }
+    }
+  }
+
+  void find_balls() {
+    for (std::size_t p = 0; p < shapes_.size(); ++p) {
+      if (!is_open(p) || !is_ball(shapes_[p])) continue;
+      const Sphere& ball = *shapes_[p].sphere;
+      if (ball.radius < share_of_es::eyeball_least * es_ || ball.radius > share_of_es::eyeball_most * es_) continue;
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (eyes_[side] && glm::distance(ball.center, *eyes_[side]) < share_of_es::eye_off_its_point * es_) {
+          roles_[p] = eye_roles[side];
+        }
+      }
+    }
+  }
+
+  /// Iris, pupil and cornea: within the eyeball, or a little outside but centred on its axis and no wider than a
+  /// cornea. What else lies on the eyeball (tears, occlusion, the blend to the lids) is wider or off to a side.
+  void find_parts_of_eyes() {
+    constexpr double bulge = 1.12;
+    constexpr double widest = 1.5;
+    constexpr double off_axis = 0.3;  // a gaze to the side in the neutral face stays within
+    for (std::size_t side = 0; side < 2; ++side) {
+      const PartShape* const eye = largest(eye_roles[side]);
+      if (eye == nullptr || !eye->sphere) continue;
+      const Sphere ball = *eye->sphere;
+      for (std::size_t p = 0; p < shapes_.size(); ++p) {
+        if (!is_open(p)) continue;
+        double farthest = 0.0;
+        for (const glm::dvec3& v : shapes_[p].positions) {
+          farthest = std::max(farthest, glm::distance(v, ball.center));
+        }
+        const glm::dvec3 from = shapes_[p].box_center() - ball.center;
+        const bool on_axis = std::hypot(from.x, from.y) < off_axis * ball.radius;
+        const bool inside = farthest < 0.99 * ball.radius;
+        const bool cornea = farthest < bulge * ball.radius && on_axis && shapes_[p].extent().x < widest * ball.radius;
+        if (inside || cornea) roles_[p] = eye_roles[side];
+      }
+    }
+  }
+
+  void find_mouth() {
+    const std::optional<glm::dvec3> lips = mean_of(points_, {"2.2", "2.3"});
+    std::optional<glm::dvec3> mouth = lips ? lips : mean_of(points_, {"8.3", "8.4"});
+    if (!mouth && eyes_[0] && eyes_[1]) {
+      mouth = 0.5 * (*eyes_[0] + *eyes_[1]) - glm::dvec3(0.0, share_of_es::mouth_below_eyes * es_, 0.0);
+      mouth->z = skin_.high.z;
+    }
+    std::vector<std::size_t> inside;
+    for (std::size_t p = 0; p < shapes_.size(); ++p) {
+      if (!is_open(p)) continue;
+      const bool named = is_named_teeth(shapes_[p]);
+      if (!mouth) {
+        if (named) inside.push_back(p);
+        continue;
+      }
+      const glm::dvec3 from = shapes_[p].box_center() - *mouth;
+      if (named || (std::abs(from.x) < share_of_es::mouth_half_width * es_ &&
+                    std::abs(from.y) < share_of_es::mouth_half_height * es_ && from.z < 0.0 &&
+                    from.z > -share_of_es::mouth_depth * es_ && shapes_[p].extent().x < 1.5 * es_)) {
+        inside.push_back(p);
+      }
+    }
+    if (!inside.empty()) split_mouth(inside, mouth);
+  }
+
+  /// An arch of teeth is hollow in its middle, a tongue is not.
+  [[nodiscard]] static bool fills_its_middle(const PartShape& shape) {
+    const glm::dvec3 center = shape.box_center();
+    const glm::dvec3 room = 0.15 * shape.extent();
+    return std::any_of(shape.positions.begin(), shape.positions.end(), [&](const glm::dvec3& v) {
+      return std::abs(v.x - center.x) <= room.x && std::abs(v.z - center.z) <= room.z;
+    });
+  }
+
+  void split_mouth(const std::vector<std::size_t>& inside, const std::optional<glm::dvec3>& mouth) {
+    const bool teeth_elsewhere = largest(PartRole::upper_teeth) != nullptr || largest(PartRole::lower_teeth) != nullptr;
+    if (largest(PartRole::tongue) == nullptr && (inside.size() >= 2 || teeth_elsewhere)) {
+      // A single tooth fills its middle as well: the tongue reaches across a good part of the mouth.
+      for (const std::size_t p : inside) {
+        const PartShape& shape = shapes_[p];
+        const bool midline = std::abs(shape.box_center().x - skin_.box_center().x) < 0.1 * shape.extent().x;
+        if (is_named_teeth(shape) || !midline || shape.extent().z < 0.3 * es_ || !fills_its_middle(shape)) continue;
+        roles_[p] = PartRole::tongue;
+        break;
+      }
+    }
+    // Where the teeth meet: between the edges marked; else the line of the lips, behind which they meet.
+    const std::optional<glm::dvec3> upper_edge = mean_of(points_, {"9.10"});
+    const std::optional<glm::dvec3> lower_edge = mean_of(points_, {"9.11"});
+    double line = mouth ? mouth->y : skin_.box_center().y;
+    if (upper_edge && lower_edge) line = 0.5 * (upper_edge->y + lower_edge->y);
+    for (const std::size_t p : inside) {
+      if (roles_[p]) continue;
+      roles_[p] = shapes_[p].box_center().y > line ? PartRole::upper_teeth : PartRole::lower_teeth;
+    }
+  }
+
+  void find_attached() {
+    for (std::size_t p = 0; p < shapes_.size(); ++p) {
+      if (!is_open(p)) continue;
+      const glm::dvec3 extent = shapes_[p].extent();
+      if (extent.x > share_of_es::attached_width * es_ || extent.y > share_of_es::attached_height * es_) {
+        roles_[p] = PartRole::rest;
+        continue;
+      }
+      double sum = 0.0;
+      double most = 0.0;
+      for (const glm::dvec3& v : shapes_[p].positions) {
+        const double gap = near_skin_.nearest(v).distance;
+        sum += gap;
+        most = std::max(most, gap);
+      }
+      const bool near = sum < share_of_es::attached_mean * es_ * static_cast<double>(shapes_[p].positions.size()) &&
+                        most < share_of_es::attached_most * es_;
+      roles_[p] = near ? PartRole::attached : PartRole::rest;
+    }
+  }
+
+  static constexpr std::array<PartRole, 2> eye_roles = {PartRole::left_eye, PartRole::right_eye};
+
+  std::span<const PartShape> shapes_;
+  const FeaturePointSet& points_;
+  const PartShape& skin_;
+  std::span<std::optional<PartRole>> roles_;
+  NearestPoint near_skin_;
+  std::array<std::optional<glm::dvec3>, 2> eyes_;  ///< left, right: about where they are
+  double es_ = 0.0;
+};
+
+}  // namespace
+
+void guess_roles_by_place(std::span<const PartShape> shapes, const FeaturePointSet& points, std::size_t skin,
+                          std::span<std::optional<PartRole>> roles) {
+  PlaceGuess(shapes, points, skin, roles).run();
+}
+
+}  // namespace semblante

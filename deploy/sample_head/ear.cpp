@@ -1,0 +1,134 @@
+#include "deploy/sample_head/ear.h"
+
+#include <cmath>
+#include <iterator>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace semblante::sample_head_detail {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The ear's own frame: `up` along its length, `back` across it, `out` away from the head. It leans back by about 15
+/// degrees and stands off the head by about 25.
+struct Frame {
+  Vec3 origin, up, back, out;
+  [[nodiscard]] Vec3 at(double u, double b, double o) const { return origin + up * u + back * b + out * o; }
+};
+
+Frame ear_frame() {
+  Frame f;
+  f.origin = {6.95, -1.45, -0.55};
+  f.up = glm::normalize(Vec3(0.12, 1.0, -0.20));
+  const Vec3 back = glm::normalize(Vec3(0.34, 0.0, -1.0));
+  f.out = glm::normalize(glm::cross(back, f.up));
+  if (f.out.x < 0.0) f.out = -f.out;
+  f.back = glm::normalize(back - f.up * glm::dot(back, f.up));
+  return f;
+}
+
+/// sign(v) |v|^e: e < 1 makes a circle squarer, so that top and lobe are round instead of pointed.
+double rounded(double v, double e) { return std::copysign(std::pow(std::abs(v), e), v); }
+
+/// Outline of the ear at angle a: 0 front, pi/2 top, pi back, 3 pi/2 the lobe. An egg, broad above, narrow below.
+Vec2 outline(double a) {
+  const double up = std::sin(a);
+  const double back = -std::cos(a);
+  const double length = up > 0.0 ? 3.0 : 3.15;
+  double width = back > 0.0 ? 2.05 : 1.25;
+  width *= 1.0 - 0.38 * glm::smoothstep(0.2, -0.9, up);
+  return {length * rounded(up, 0.94), width * rounded(back, up < 0.0 ? 0.72 : 0.85) + 0.15 * up};
+}
+
+/// A ring of the ear: outline scaled by `size` about a centre that shifts by (up, back), at height `out` (cm). `front`
+/// is the height at the front instead, where helix and tragus join the cheek.
+struct Ring {
+  double size, up, back, out, front;
+};
+
+constexpr Ring ring_table[] = {
+    {0.70, 0.0, 0.00, 0.20, 0.12},     // foot, behind
+    {0.78, 0.0, 0.05, 0.62, 0.20},     // back of the shell
+    {0.94, 0.0, 0.02, 0.98, 0.28},     // behind the rim
+    {1.00, 0.0, 0.00, 1.20, 0.36},     // outermost edge of the helix
+    {0.975, 0.0, 0.00, 1.36, 0.44},    // top of the helix
+    {0.90, 0.0, 0.00, 1.36, 0.46},     // its inner edge
+    {0.84, 0.0, 0.00, 1.12, 0.36},     // groove
+    {0.76, 0.0, 0.00, 1.06, 0.34},     // floor of the groove
+    {0.66, 0.0, 0.02, 1.24, 0.44},     // rise to the antihelix
+    {0.58, -0.02, 0.02, 1.27, 0.50},   // antihelix
+    {0.48, -0.12, 0.00, 1.08, 0.52},   // rim of the bowl
+    {0.40, -0.18, -0.04, 0.60, 0.46},  // wall of the bowl
+    {0.30, -0.20, -0.10, 0.30, 0.30},  // floor of the bowl
+    {0.14, -0.20, -0.20, 0.15, 0.12},
+};
+
+/// Where the back edge passes the height half way between top and lobe; the vertex is moved to that height exactly.
+int back_of_ear(HalfMesh& mesh, const Loop& edge, int top, int lobe) {
+  const auto at = [&](int v) -> Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
+  const double height = 0.5 * (at(top).y + at(lobe).y);
+  int best = -1;
+  for (const int v : edge) {
+    if (at(v).z > at(top).z - 0.3) continue;
+    if (best < 0 || std::abs(at(v).y - height) < std::abs(at(best).y - height)) best = v;
+  }
+  at(best).y = height;
+  return best;
+}
+
+}  // namespace
+
+void add_ear(Skin& skin, const Loop& hole) {
+  HalfMesh& mesh = skin.mesh;
+  const Frame frame = ear_frame();
+  const std::size_t count = 2 * hole.size();  // an ear's outline needs more corners than the cheek beside it
+  Loop outer = hole;
+  Loop edge;
+  std::size_t index = 0;
+  for (const Ring& ring : ring_table) {
+    Loop loop;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double a = 2.0 * pi * static_cast<double>(k) / static_cast<double>(count);
+      const Vec2 o = outline(a);
+      const double up = std::sin(a);
+      const double to_front = glm::smoothstep(0.35, 0.95, std::cos(a));
+      const double lobe = glm::smoothstep(-0.45, -0.95, up);
+      double out = glm::mix(ring.out, ring.front, to_front);
+      // The lobe is a soft pad: the rings of groove and antihelix level out there.
+      if (index >= 5 && index <= 10) out = glm::mix(out, 1.12, 0.85 * lobe);
+      out -= 0.45 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
+      Paint paint;
+      paint.flush = 0.6;
+      loop.push_back(mesh.add(frame.at(o.x * ring.size + ring.up, o.y * ring.size + ring.back, out), paint));
+    }
+    if (index == 0) {
+      bridge_doubling(mesh, outer, loop, Chart::outer);
+    } else {
+      bridge(mesh, outer, loop, true, Chart::outer);
+    }
+    outer = loop;
+    if (index == 3) edge = loop;
+    ++index;
+  }
+  Paint paint;
+  paint.flush = 0.6;
+  close_with_fan(mesh, outer, true, mesh.add(frame.at(-0.2, -0.25, 0.1), paint), Chart::outer);
+
+  const auto extreme = [&](const Loop& loop, const Vec3& direction) {
+    int best = loop[0];
+    for (const int v : loop) {
+      const auto along = [&](int i) { return glm::dot(mesh.positions[static_cast<std::size_t>(i)], direction); };
+      if (along(v) > along(best)) best = v;
+    }
+    return best;
+  };
+  skin.marks["10.1"] = extreme(edge, {0.0, 1.0, 0.0});
+  skin.marks["10.5"] = extreme(edge, {0.0, -1.0, 0.0});
+  skin.marks["10.3"] = back_of_ear(mesh, edge, skin.marks["10.1"], skin.marks["10.5"]);
+  skin.marks["10.9"] = extreme(hole, {0.0, 0.6, 1.0});
+  skin.marks["10.7"] = extreme(hole, {0.0, -0.6, 1.0});
+}
+
+}  // namespace semblante::sample_head_detail

@@ -1,0 +1,166 @@
+#include "deploy/sample_head/eyelids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "deploy/sample_head/sculpt.h"
+
+namespace semblante::sample_head_detail {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// The opening, relative to the centre of the eye, in cm.
+constexpr double inner_corner_y = -0.10;
+constexpr double outer_corner_y = 0.08;
+constexpr double inner_corner_z = 0.80;  ///< the inner corner leaves the ball towards the nose
+constexpr double outer_corner_z = 0.62;
+
+/// Height of the lid edges over the middle of the slit: tangent to the iris on both sides.
+constexpr double lid_height = iris_radius;
+/// Height of the fold under which the upper lid slides, at the middle.
+constexpr double fold_height = 0.96;
+/// How far the skin lies in front of the ball's surface at the lower edge and at the fold.
+constexpr double lower_thickness = 0.17;
+constexpr double fold_front = 1.60;
+
+/// y of the line from corner to corner at x.
+double corner_line(double x) { return glm::mix(inner_corner_y, outer_corner_y, 0.5 + 0.5 * x / slit_half_width); }
+
+struct LidPlace {
+  double along;  ///< 0 inner corner .. 1 outer corner
+  bool upper;
+};
+
+LidPlace place_of(int k) {
+  const bool upper = k <= lid_steps / 2;
+  const double along = static_cast<double>(upper ? k : lid_steps - k) / (0.5 * lid_steps);
+  return {along, upper};
+}
+
+/// A ring of the lids: how far out it lies between the edge (0) and the orbit (1), and how much it sinks (cm) at the
+/// middle of upper and lower lid.
+struct Ring {
+  double upper, lower;
+  double upper_sink, lower_sink;
+};
+
+// From the orbit inwards; the lower fold lies at 0.44.
+constexpr Ring rings[] = {
+    {0.74, 0.82, 0.0, 0.0}, {0.48, 0.62, 0.0, 0.0}, {0.28, 0.44, 0.0, 0.03},
+    {0.14, 0.26, 0.0, 0.0}, {0.05, 0.10, 0.0, 0.0},
+};
+constexpr std::size_t fold_ring = 2;
+
+/// The edge of the skin's opening at step k: along the fold above, along the lower lid below.
+Vec3 opening_edge(int k) {
+  const LidPlace place = place_of(k);
+  const double t = 2.0 * place.along - 1.0;
+  const double x = t * slit_half_width;
+  const double line = corner_line(x);
+  const double corner = glm::mix(inner_corner_z, outer_corner_z, place.along);
+  const double to_corner = glm::smoothstep(0.55, 1.0, std::abs(t));
+  if (place.upper) {
+    const double y = line + (fold_height - corner_line(0.0)) * (1.0 - std::pow(std::abs(t), 2.1));
+    const double z = std::sqrt(std::max(fold_front * fold_front - 0.85 * x * x, 0.0));
+    return eye_centre + Vec3(x, y, glm::mix(z, corner, to_corner));
+  }
+  const double y = line - (lid_height + corner_line(0.0)) * (1.0 - std::pow(std::abs(t), 1.8));
+  const double r = eye_radius + lower_thickness;
+  const double z = std::sqrt(std::max(r * r - x * x - y * y, 0.0));
+  return eye_centre + Vec3(x, y, glm::mix(z, corner, to_corner));
+}
+
+}  // namespace
+
+double upper_edge_y(double x) {
+  const double t = std::min(std::abs(x) / slit_half_width, 1.0);
+  return corner_line(x) + (lid_height - corner_line(0.0)) * (1.0 - std::pow(t, 2.3));
+}
+
+void add_eyelids(Skin& skin, const Loop& orbit) {
+  HalfMesh& mesh = skin.mesh;
+  const auto orbit_at = [&](int k) {
+    return mesh.positions[static_cast<std::size_t>(orbit[static_cast<std::size_t>(k)])];
+  };
+
+  Loop outer = orbit;
+  std::vector<Loop> loops;
+  for (const Ring& ring : rings) {
+    Loop loop;
+    for (int k = 0; k < lid_steps; ++k) {
+      const LidPlace place = place_of(k);
+      const Vec3 edge = opening_edge(k);
+      const double middle = std::sin(pi * place.along);  // 1 at the middle of the lid, 0 at the corners
+      const double side = place.upper ? ring.upper : ring.lower;
+      const double out = glm::mix(0.5 * (ring.upper + ring.lower), side, middle);
+      Vec3 p = glm::mix(edge, orbit_at(k), out);
+      const double z = front_z(p.x, p.y) - middle * (place.upper ? ring.upper_sink : ring.lower_sink);
+      // The fold hangs in front of what the sculpt has there; the lower lid lies on it.
+      const double trust =
+          place.upper ? glm::smoothstep(0.1, 1.0, out) : std::max(middle, glm::smoothstep(0.05, 0.6, out));
+      p.z = glm::mix(p.z, z, trust);
+      loop.push_back(mesh.add(p));
+    }
+    bridge(mesh, outer, loop, true, Chart::outer);
+    outer = loop;
+    loops.push_back(loop);
+  }
+
+  // Edge: front rim, then a rim behind it: on the ball below, with room for the upper lid above.
+  Loop rim;
+  Loop rest;
+  for (int k = 0; k < lid_steps; ++k) {
+    const bool upper = place_of(k).upper;
+    const Vec3 p = opening_edge(k);
+    Paint paint;
+    paint.lid = upper ? 0.0 : 1.0;
+    paint.lash = upper ? 0.0 : 0.3;
+    rim.push_back(mesh.add(p, paint));
+    const Vec3 q = p - eye_centre;
+    const double r = eye_radius + 0.015;
+    const double side = q.x * q.x + q.y * q.y;
+    const double z = side < r * r ? std::sqrt(r * r - side) : 0.0;
+    const double middle = std::sin(pi * place_of(k).along);
+    const double depth = upper ? glm::mix(0.18, 0.09, middle) : std::clamp(q.z - z, 0.10, 0.22);
+    const double rise = upper ? 0.07 * middle : 0.0;
+    rest.push_back(mesh.add(eye_centre + Vec3(q.x * 0.985, q.y * 0.985 + rise, q.z - depth), paint));
+  }
+  bridge(mesh, outer, rim, true, Chart::outer);
+  bridge(mesh, rim, rest, true, Chart::outer);
+
+  // Socket: round the back of the ball, far enough off it for the upper lid to turn in.
+  Loop front = rest;
+  for (int j = 0; j <= 5; ++j) {
+    Loop loop;
+    for (int k = 0; k < lid_steps; ++k) {
+      const Vec3 p = opening_edge(k) - eye_centre;
+      const double azimuth = std::atan2(p.y, p.x);
+      const double at_edge = std::acos(std::clamp(p.z / glm::length(p), -1.0, 1.0));
+      const double polar = glm::mix(at_edge + 0.05, 0.93 * pi, static_cast<double>(j) / 5.0);
+      const double roof = glm::smoothstep(0.35, 0.9, std::sin(azimuth));
+      const double r = eye_radius + glm::mix(j == 0 ? 0.06 : 0.12, 0.40, roof * std::sin(pi * (j + 1.0) / 7.0));
+      Paint paint;
+      paint.inner_uv = {static_cast<double>(j) / 5.0, 1.0};
+      const Vec3 direction(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      loop.push_back(mesh.add(eye_centre + direction * r, paint));
+    }
+    bridge(mesh, front, loop, true, j == 0 ? Chart::outer : Chart::inner);
+    front = loop;
+  }
+  Paint deep;
+  deep.inner_uv = {1.0, 1.0};
+  close_with_fan(mesh, front, true, mesh.add(eye_centre - Vec3(0.0, 0.0, eye_radius + 0.12), deep), Chart::inner);
+
+  const std::size_t lower = 3 * lid_steps / 4;
+  skin.marks["3.3"] = rim[lower];
+  skin.marks["3.7"] = loops.back()[lid_steps / 2];
+  skin.marks["3.11"] = loops.back()[0];
+  skin.marks["3.9"] = loops[fold_ring][lower];
+}
+
+}  // namespace semblante::sample_head_detail

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "deploy/sample_head/skin.h"
+
+namespace semblante::sample_head_detail {
+
+/// Fills the orbit: rings from the hole of the skin inwards to the fold over the upper lid and the edge of the lower
+/// one, over the edge and back into a socket behind the eyeball. `orbit` starts at the inner corner and runs over the
+/// top.
+void add_eyelids(Skin& skin, const Loop& orbit);
+
+inline constexpr int lid_steps = 24;
+
+/// Line of the upper lid's edge over the eyeball: y at x, both from the middle of the eye.
+double upper_edge_y(double x);
+inline constexpr double slit_half_width = 1.52;
+
+}  // namespace semblante::sample_head_detail

@@ -1,0 +1,118 @@
+#include "deploy/sample_head/hair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "deploy/sample_head/sculpt.h"
+
+namespace semblante::sample_head_detail {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct BorderPoint {
+  double azimuth, elevation;  ///< degrees
+};
+
+/// Forehead, temple, sideburn, arch over the ear, nape.
+constexpr std::array<BorderPoint, 14> border = {{{0, 34},
+                                                 {18, 34.5},
+                                                 {34, 32.5},
+                                                 {46, 26},
+                                                 {55, 13},
+                                                 {63, -2},
+                                                 {70, -13},
+                                                 {77, -14},
+                                                 {84, -4},
+                                                 {94, 0},
+                                                 {106, -4},
+                                                 {120, -24},
+                                                 {140, -38},
+                                                 {180, -43}}};
+
+/// Locks run from front to back: lines of equal angle about the long axis of the head.
+double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
+
+/// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
+double thickness(double a, double t, const Vec3& p) {
+  const double front = 0.5 + 0.5 * std::cos(a);
+  const double body = 0.16 + 0.14 * front + 0.55 * glm::smoothstep(0.0, 0.55, t) +
+                      0.75 * front * front * glm::smoothstep(0.0, 0.22, t) * (1.0 - glm::smoothstep(0.35, 1.0, t));
+  const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
+  const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
+  return body - 0.26 * groove;
+}
+
+}  // namespace
+
+double hairline(double azimuth) {
+  const double degrees = std::clamp(azimuth * 180.0 / pi, 0.0, 180.0);
+  std::size_t i = 0;
+  while (i + 2 < border.size() && border[i + 1].azimuth < degrees) ++i;
+  const auto at = [&](std::size_t k) { return border[std::min(k, border.size() - 1)].elevation; };
+  const double t = (degrees - border[i].azimuth) / (border[i + 1].azimuth - border[i].azimuth);
+  const double before = i == 0 ? at(0) : at(i - 1);
+  const double m0 = 0.5 * (at(i + 1) - before);
+  const double m1 = 0.5 * (at(i + 2) - at(i));
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  const double e =
+      (2 * t3 - 3 * t2 + 1) * at(i) + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * at(i + 1) + (t3 - t2) * m1;
+  return e * pi / 180.0;
+}
+
+Hair make_hair() {
+  constexpr int columns = 52;
+  constexpr int rows = 24;
+  Hair hair;
+  HalfMesh& mesh = hair.mesh;
+  const auto place = [&](int column, double t, double offset_scale, double sink) {
+    const double a = pi * column / columns;
+    const double elevation = glm::mix(hairline(a), 0.5 * pi, t);
+    Vec3 direction(std::cos(elevation) * std::sin(a), std::sin(elevation), std::cos(elevation) * std::cos(a));
+    if (column == 0 || column == columns) direction.x = 0.0;
+    const Vec3 foot = cast_from_inside(hair_centre, direction);
+    Vec3 n = head_normal(foot);
+    if (direction.x == 0.0) n = glm::normalize(Vec3(0.0, n.y, n.z));
+    return foot + n * (offset_scale * thickness(a, t, foot) - sink);
+  };
+  std::vector<Loop> rings;
+  const auto add_ring = [&](double t, double scale, double sink) {
+    Loop ring;
+    for (int c = 0; c <= columns; ++c) ring.push_back(mesh.add(place(c, t, scale, sink)));
+    if (!rings.empty()) bridge(mesh, rings.back(), ring, false, Chart::outer);
+    rings.push_back(ring);
+  };
+  add_ring(0.03, 0.0, 0.25);  // tucked under the skin
+  add_ring(0.0, 0.0, -0.02);  // the border
+  add_ring(0.0, 0.6, 0.0);    // and its thickness
+  for (int r = 0; r < rows; ++r) add_ring(0.02 + 0.96 * std::pow(static_cast<double>(r) / (rows - 1), 1.1), 1.0, 0.0);
+  const Vec3 crown = cast_from_inside(hair_centre, {0.0, 1.0, 0.0});
+  hair.top = mesh.add(crown + Vec3(0.0, thickness(0.0, 1.0, crown), 0.0));
+  close_with_fan(mesh, rings.back(), false, hair.top, Chart::outer);
+  // The first face is the tuck at the forehead, which looks inwards and down.
+  orient(mesh, {0.0, -1.0, -0.2});
+  return hair;
+}
+
+Vec2 hair_uv(const Vec3& p) {
+  return {std::clamp(0.5 + angle_across(p) / pi, 0.0, 1.0), std::clamp(0.5 - p.z / 26.0, 0.0, 1.0)};
+}
+
+Vec2 brow_line(double t) {
+  // Rises to its highest point in the middle of its width (4.3), then falls to a fine end.
+  const double x = glm::mix(1.15, 5.15, t);
+  const double y = 2.42 + 0.50 * std::sin(pi * t) + 0.06 * t;
+  return {x, y};
+}
+
+double brow_half_height(double t) {
+  return 0.30 * std::pow(std::max(1.0 - std::pow(t, 2.2), 0.0), 0.8) * (0.72 + 0.28 * glm::smoothstep(0.0, 0.12, t)) +
+         0.02;
+}
+
+}  // namespace semblante::sample_head_detail

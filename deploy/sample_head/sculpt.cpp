@@ -1,0 +1,108 @@
+#include "deploy/sample_head/sculpt.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace semblante::sample_head_detail {
+namespace {
+
+double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
+  const Vec3 q = p - centre;
+  const double k0 = glm::length(q / radii);
+  const double k1 = glm::length(q / (radii * radii));
+  return k1 > 0.0 ? k0 * (k0 - 1.0) / k1 : -std::min({radii.x, radii.y, radii.z});
+}
+
+/// A capsule whose radius runs from ra at a to rb at b.
+double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
+  const Vec3 ab = b - a;
+  const double t = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+  return glm::length(p - a - ab * t) - (ra + (rb - ra) * t);
+}
+
+/// Union with a fillet of size k.
+double join(double a, double b, double k) {
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * h * k / 6.0;
+}
+
+/// a without b, with a rounded rim of size k.
+double carve(double a, double b, double k) { return -join(-a, b, k); }
+
+double nose_distance(const Vec3& q) {
+  double d = capsule(q, {0.0, 0.8, 8.25}, {0.0, -3.0, 10.35}, 0.70, 0.74);         // bridge
+  d = join(d, ellipsoid(q, {0.0, -3.62, 10.42}, {0.92, 0.78, 0.92}), 0.9);         // tip
+  d = join(d, ellipsoid(q, {0.98, -3.92, 9.55}, {0.62, 0.62, 0.90}), 0.9);         // wing
+  d = join(d, capsule(q, {0.0, -4.42, 9.4}, {0.0, -4.1, 10.5}, 0.34, 0.42), 0.5);  // columella
+  return carve(d, ellipsoid(q, {0.60, -4.72, 9.92}, {0.30, 0.40, 0.52}), 0.35);    // nostril
+}
+
+}  // namespace
+
+double skull_distance(const Vec3& p) {
+  const Vec3 q(std::abs(p.x), p.y, p.z);
+  double d = ellipsoid(q, {0.0, 3.5, -0.9}, {7.45, 7.8, 9.0});           // brain case
+  return join(d, ellipsoid(q, {0.0, 3.4, 2.2}, {6.3, 5.6, 6.75}), 2.0);  // forehead
+}
+
+double head_distance(const Vec3& p) {
+  const Vec3 q(std::abs(p.x), p.y, p.z);
+  double d = skull_distance(q);
+  d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);             // middle of the face
+  d = join(d, ellipsoid(q, {0.0, -5.1, 2.9}, {5.65, 5.5, 6.1}), 2.4);             // lower face
+  d = join(d, ellipsoid(q, {3.6, -5.9, 1.7}, {1.85, 2.6, 2.8}), 2.2);             // angle of the jaw
+  d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);              // cheek bone
+  d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);              // apple of the cheek
+  d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);              // muzzle, over the teeth
+  d = join(d, ellipsoid(q, {0.0, -9.4, 7.6}, {1.75, 1.5, 1.85}), 2.2);            // chin
+  d = join(d, capsule(q, {4.0, -7.4, 2.9}, {1.4, -9.7, 7.0}, 1.0, 1.0), 2.4);     // edge of the jaw
+  d = join(d, capsule(q, {1.0, 2.0, 8.05}, {4.6, 2.0, 6.2}, 0.72, 0.66), 1.8);    // brow ridge
+  d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);            // eye socket
+  d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);            // lids over the ball
+  d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
+  d = join(d, nose_distance(q), 0.95);
+  double neck = capsule(q, {0.0, -6.0, -2.5}, {0.0, -15.0, -2.3}, 4.5, 4.9);
+  neck = join(neck, capsule(q, {4.4, -6.0, -2.2}, {1.5, -16.5, 1.6}, 0.8, 1.0), 2.0);    // sternomastoid
+  neck = join(neck, capsule(q, {0.0, -17.5, -3.2}, {6.0, -18.5, -3.2}, 2.4, 2.2), 3.0);  // trapezius
+  return join(d, neck, 2.8);
+}
+
+Vec3 head_normal(const Vec3& p) {
+  constexpr double h = 1e-4;
+  return glm::normalize(Vec3(head_distance(p + Vec3(h, 0, 0)) - head_distance(p - Vec3(h, 0, 0)),
+                             head_distance(p + Vec3(0, h, 0)) - head_distance(p - Vec3(0, h, 0)),
+                             head_distance(p + Vec3(0, 0, h)) - head_distance(p - Vec3(0, 0, h))));
+}
+
+Vec3 project_to_head(const Vec3& p) {
+  Vec3 q = p;
+  for (int i = 0; i < 6; ++i) q -= head_normal(q) * (head_distance(q) * 0.95);
+  if (p.x == 0.0) q.x = 0.0;
+  return q;
+}
+
+double front_z(double x, double y) {
+  double z = 14.0;
+  // Sphere tracing with short steps: smooth unions of ellipsoids bend the distance, but never by half.
+  for (int i = 0; i < 400; ++i) {
+    const double d = head_distance({x, y, z});
+    if (d < 1e-9) break;
+    z -= std::max(0.6 * d, 1e-6);
+  }
+  return z;
+}
+
+Vec3 cast_from_inside(const Vec3& origin, const Vec3& direction) {
+  const Vec3 unit = glm::normalize(direction);
+  double t = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double d = head_distance(origin + unit * t);
+    if (d > -1e-9) break;
+    t -= std::min(0.6 * d, -1e-6);
+  }
+  return origin + unit * t;
+}
+
+}  // namespace semblante::sample_head_detail

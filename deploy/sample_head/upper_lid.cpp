@@ -1,0 +1,70 @@
+#include "deploy/sample_head/upper_lid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <glm/common.hpp>
+
+#include "deploy/sample_head/eyelids.h"
+#include "deploy/sample_head/sculpt.h"
+
+namespace semblante::sample_head_detail {
+namespace {
+
+constexpr int columns = 20;  // even: a column runs down the middle
+constexpr double half_width = 1.38;
+/// The lid's front stands on a sphere this large at its edge and goes straight up from there: when the edge passes the
+/// middle of the ball on its straight way down, it must not touch it.
+constexpr double front_radius = eye_radius + 0.14;
+
+/// A row of the shell: `rise` over the edge, `back` from the edge's depth; both in cm.
+struct Row {
+  double rise, back;
+  double lash;   ///< 1 on the lashes' tips
+  double shade;  ///< texture: 0 lash .. 1 root
+};
+/// From the ball over the tips of the lashes up the front, behind the brow and over the ball to the root.
+constexpr Row rows[] = {
+    {0.0, 0.13, 0.0, 0.0},   {0.0, 0.0, 1.0, 0.04},   {0.045, 0.0, 0.0, 0.12}, {0.10, -0.01, 0.0, 0.24},
+    {0.22, -0.02, 0.0, 0.4}, {0.36, -0.02, 0.0, 0.6}, {0.55, -0.01, 0.0, 0.8}, {0.80, 0.06, 0.0, 1.0},
+    {1.10, 0.22, 0.0, 1.0},  {1.38, 0.46, 0.0, 1.0},  {1.45, 0.75, 0.0, 1.0},  {1.40, 1.20, 0.0, 1.0},
+    {1.15, 1.85, 0.0, 1.0},  {0.80, 2.35, 0.0, 1.0},  {0.40, 2.70, 0.0, 1.0},
+};
+constexpr std::size_t tips = 1;
+
+}  // namespace
+
+UpperLid make_upper_lid() {
+  UpperLid lid;
+  HalfMesh& mesh = lid.mesh;
+  std::vector<Loop> loops;
+  for (const Row& row : rows) {
+    Loop loop;
+    for (int c = 0; c <= columns; ++c) {
+      const double t = 2.0 * c / columns - 1.0;
+      const double x = t * half_width;
+      const double edge_y = upper_edge_y(x);
+      const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
+      const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // a point at 3.1: everything else lies behind it
+      const double end = t * t * t * t;
+      const double drawn_back = (t > 0.0 ? 0.33 : 0.24) * end * (1.0 - 0.6 * std::min(row.rise / 0.6, 1.0)) +
+                                0.05 * t * t * std::min(row.rise, 1.1);
+      Paint paint;
+      // No lashes in the corners, where the shell only tucks in.
+      paint.inner_uv = {std::max(row.shade, 0.4 * glm::smoothstep(0.80, 0.92, std::abs(t))), 3.0};
+      // The ends draw back under the corners of the skin.
+      const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise,
+                   edge_z - row.back * (1.0 - 0.55 * t * t) + row.lash * lash - drawn_back);
+      loop.push_back(mesh.add(eye_centre + p, paint));
+    }
+    if (!loops.empty()) bridge(mesh, loops.back(), loop, false, Chart::inner);
+    loops.push_back(loop);
+  }
+  orient(mesh, {0.0, -1.0, 0.0});
+  lid.marks["3.1"] = loops[tips][columns / 2];
+  lid.marks["3.13"] = loops.back()[columns / 2];
+  return lid;
+}
+
+}  // namespace semblante::sample_head_detail

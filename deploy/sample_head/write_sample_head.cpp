@@ -1,0 +1,190 @@
+#include "deploy/sample_head/write_sample_head.h"
+
+#include <cstring>
+#include <span>
+#include <sstream>
+#include <tiny_gltf.h>
+
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+#include <stb/stb_image_write.h>
+
+namespace semblante {
+namespace {
+
+/// Grows the one buffer of the file; every view starts at a multiple of four bytes.
+class Buffer {
+ public:
+  explicit Buffer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
+
+  int add_view(const void* data, std::size_t bytes, int target) {
+    auto& out = model_.buffers[0].data;
+    out.resize((out.size() + 3) / 4 * 4, 0);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = out.size();
+    view.byteLength = bytes;
+    view.target = target;
+    const auto* from = static_cast<const unsigned char*>(data);
+    out.insert(out.end(), from, from + bytes);
+    model_.bufferViews.push_back(view);
+    return static_cast<int>(model_.bufferViews.size()) - 1;
+  }
+
+  template <class Vector>
+  int add_vectors(const std::vector<Vector>& values, int type, bool with_bounds) {
+    static_assert(sizeof(Vector) == sizeof(float) * static_cast<std::size_t>(Vector::length()));
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(values.data(), values.size() * sizeof(Vector), TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.count = values.size();
+    accessor.type = type;
+    if (with_bounds) {
+      Vector low = values.front();
+      Vector high = values.front();
+      for (const auto& v : values) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+      }
+      for (int i = 0; i < Vector::length(); ++i) {
+        accessor.minValues.push_back(low[i]);
+        accessor.maxValues.push_back(high[i]);
+      }
+    }
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  int add_indices(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    std::vector<std::uint16_t> indices;
+    for (const auto& t : triangles) {
+      for (const std::uint32_t v : t) indices.push_back(static_cast<std::uint16_t>(v));
+    }
+    tinygltf::Accessor accessor;
+    accessor.bufferView =
+        add_view(indices.data(), indices.size() * sizeof(std::uint16_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    accessor.count = indices.size();
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+ private:
+  tinygltf::Model& model_;
+};
+
+void append_bytes(void* context, void* data, int size) {
+  auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
+  const auto* from = static_cast<const std::uint8_t*>(data);
+  out.insert(out.end(), from, from + size);
+}
+
+bool add_image(tinygltf::Model& model, Buffer& buffer, const SampleHeadImage& image) {
+  std::vector<std::uint8_t> png;
+  if (stbi_write_png_to_func(append_bytes, &png, image.width, image.height, 3, image.rgb.data(), image.width * 3) ==
+      0) {
+    return false;
+  }
+  tinygltf::Image out;
+  out.name = image.name;
+  out.mimeType = "image/png";
+  out.bufferView = buffer.add_view(png.data(), png.size(), 0);
+  model.images.push_back(out);
+  tinygltf::Texture texture;
+  texture.source = static_cast<int>(model.images.size()) - 1;
+  texture.sampler = 0;
+  model.textures.push_back(texture);
+  return true;
+}
+
+tinygltf::Material material_of(const SampleHeadMaterial& material) {
+  tinygltf::Material out;
+  out.name = material.name;
+  out.doubleSided = material.double_sided;
+  auto& pbr = out.pbrMetallicRoughness;
+  const auto& c = material.base_color;
+  pbr.baseColorFactor = {c.r, c.g, c.b, c.a};
+  pbr.metallicFactor = 0.0;
+  pbr.roughnessFactor = material.roughness;
+  if (material.image) pbr.baseColorTexture.index = static_cast<int>(*material.image);
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  model.asset.generator = "semblante-sample-head";
+  model.asset.copyright = "CC0 1.0: no rights reserved";
+  Buffer buffer(model);
+  tinygltf::Sampler sampler;
+  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+  model.samplers.push_back(sampler);
+  for (const auto& image : head.images) {
+    if (!add_image(model, buffer, image)) return Error{ErrorCode::internal, image.name, "the PNG encoder failed"};
+  }
+  for (const auto& material : head.materials) model.materials.push_back(material_of(material));
+
+  // A mesh and a node for each part: glTF gives names to these, not to primitives.
+  tinygltf::Scene scene;
+  for (const auto& part : head.meshes) {
+    if (part.positions.size() > 0xFFFF) return Error{ErrorCode::too_large, part.name, "over 65535 vertices in a part"};
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = static_cast<int>(part.material);
+    primitive.attributes["POSITION"] = buffer.add_vectors(part.positions, TINYGLTF_TYPE_VEC3, true);
+    primitive.attributes["NORMAL"] = buffer.add_vectors(part.normals, TINYGLTF_TYPE_VEC3, false);
+    primitive.attributes["TEXCOORD_0"] = buffer.add_vectors(part.uvs, TINYGLTF_TYPE_VEC2, false);
+    primitive.indices = buffer.add_indices(part.triangles);
+    tinygltf::Mesh mesh;
+    mesh.name = part.name;
+    mesh.primitives.push_back(primitive);
+    tinygltf::Node node;
+    node.name = part.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.meshes.push_back(mesh);
+    model.nodes.push_back(node);
+  }
+  model.scenes.push_back(scene);
+  model.defaultScene = 0;
+
+  std::ostringstream stream(std::ios::binary);
+  tinygltf::TinyGLTF writer;
+  if (!writer.WriteGltfSceneToStream(&model, stream, false, true)) {
+    return Error{ErrorCode::internal, "", "the glTF writer failed"};
+  }
+  const std::string bytes = stream.str();
+  return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+}
+
+std::string sample_head_feature_points_json(const SampleHead& head) {
+  nlohmann::ordered_json json;
+  json["head"] = "sample-head";
+  json["model"] = "sample-head.glb";
+  json["vertex_index_base"] = 0;
+  json["to_mpeg4_axes"] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  json["unit"] = "metre";
+  json["orientation"] = "already MPEG-4: +X to the face's own left, +Y up, +Z out of the face";
+  json["symmetric"] = true;
+  json["count"] = head.points.size();
+  auto& points = json["points"];
+  for (const auto& point : head.points) {
+    nlohmann::ordered_json one;
+    if (point.vertex) {
+      one["vertex"] = *point.vertex;
+    } else {
+      one["vertex"] = nullptr;
+    }
+    one["position"] = {point.position.x, point.position.y, point.position.z};
+    one["placed"] = "by construction";
+    one["confidence"] = "high";
+    points[to_string(point.id)] = one;
+  }
+  return json.dump(1) + "\n";
+}
+
+}  // namespace semblante

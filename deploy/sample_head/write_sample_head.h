@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/types/result.h"
+#include "deploy/sample_head/sample_head.h"
+
+namespace semblante {
+
+/// The head as a binary glTF: a node and a mesh of one primitive per SampleHeadMesh, in order, textures as PNG inside.
+Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head);
+
+/// Its feature points as JSON: {"points": {"2.1": {"vertex": n, "position": [x, y, z]}, ...}}, `vertex` counted over
+/// the GLB's primitives in order and null for a bare position.
+std::string sample_head_feature_points_json(const SampleHead& head);
+
+}  // namespace semblante

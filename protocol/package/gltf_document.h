@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "protocol/package/mesh_slices.h"
+
+namespace semblante {
+
+/// A joint as glTF places it: relative to its parent.
+struct GltfJoint {
+  std::string name;
+  std::optional<std::size_t> parent;  ///< a joint before this one; empty: the root of the skeleton
+  glm::vec3 translation{0.0F};
+  glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+  glm::mat4 inverse_bind{1.0F};
+};
+
+/// One property of one joint over time.
+struct GltfChannel {
+  enum class Path : std::uint8_t { translation, rotation, scale };
+  std::size_t joint = 0;
+  Path path = Path::translation;
+  std::vector<float> times;   ///< #keys, seconds, rising
+  std::vector<float> values;  ///< #keys by 3, of a rotation by 4: x, y, z, w
+};
+
+/// A glTF 2.0 document in the making: one mesh named "face" in one scene, its materials and images. tinygltf's types
+/// stay behind it.
+class GltfDocument {
+ public:
+  GltfDocument(const std::vector<Material>& materials, const std::vector<Image>& images);
+  ~GltfDocument();
+  GltfDocument(const GltfDocument&) = delete;
+  GltfDocument& operator=(const GltfDocument&) = delete;
+
+  Status add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
+  void add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
+  /// The rig document as extension SEMBLANTE_face of the scene.
+  void set_rig(const std::string& rig_json);
+  /// The skeleton beside the mesh, and the mesh's skin. Once.
+  void set_skin(std::span<const GltfJoint> joints);
+  /// Linear interpolation throughout. After set_skin; at least one channel.
+  void add_animation(const std::string& name, std::span<const GltfChannel> channels);
+  /// What glTF has no word for, as a JSON object.
+  void set_asset_extras(const std::string& json);
+
+  /// A GLB. Once, at the end.
+  Result<std::vector<std::uint8_t>> finish();
+
+ private:
+  class Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace semblante

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/extract/named_set.h"
+#include "core/geometry/surface.h"
+#include "core/lod/decimate.h"
+#include "core/materials/materials.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+#include "core/types/rig.h"
+#include "protocol/hash/sha256.h"
+
+namespace semblante {
+
+struct PackageOptions {
+  std::string name;                        ///< of the model, for people
+  int weight_bits = 12;                    ///< 8..16, of each normalized weight in `weights`
+  std::vector<NamedSet> worn = {};         ///< worn in place of the library's set of the same name
+  std::vector<std::string> warnings = {};  ///< for rig.json; what lies in the model and the rig is not read again
+};
+
+/// One artefact and its content address.
+struct Artefact {
+  std::vector<std::uint8_t> bytes;
+  Sha256 sha256{};
+};
+
+/// An image of the model as the file had it, with its type ("image/png").
+struct ImageArtefact : Artefact {
+  std::string mime_type;
+};
+
+/// What a client fetches to animate one face (protocol/SPEC.md). `weights` names the mesh it belongs to by hash;
+/// `rig_json` names both.
+struct FacePackage {
+  std::uint32_t vertices = 0;   ///< as mesh.drc decodes
+  std::uint32_t triangles = 0;  ///< likewise
+  Artefact mesh_drc;
+  Artefact weights;
+  Artefact rig_json;
+  Artefact face_glb;
+  std::vector<ImageArtefact> images;  ///< the model's images, as rig.json names them by hash
+};
+
+/// Encodes the mesh once, decodes it back, checks that every triangle survived and every position is within a quantum,
+/// and lays the weight table out in the decoded order. `rig` is over the file vertices of `model`.
+Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
+                                  const PackageOptions& options);
+
+/// The same of the model (first) and of each of its levels; their rig.json name one another. Images are with the first.
+/// `materials` are materials_of_rig: the levels were made with them.
+Result<std::vector<FacePackage>> build_packages(const Model& model, const Surface& surface, const Rig& rig,
+                                                const MaterialAssignment& materials,
+                                                std::span<const LevelOfDetail> levels, const PackageOptions& options);
+
+/// preview.glb: the model as imported, to look at and to mark feature points on; every vertex knows its number in the
+/// file and its part. `parts` (by PartId) may be empty.
+Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
+                                                std::span<const Part> parts);
+
+}  // namespace semblante

@@ -1,0 +1,179 @@
+#include "server/cli/head_input.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "core/propose/propose.h"
+#include "server/cli/command_failure.h"
+#include "server/cli/files.h"
+#include "server/cli/progress_line.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::size_t max_feature_points_bytes = std::size_t{4} << 20;
+constexpr std::array all_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
+                                    ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
+
+ImportedHead import_file(const HeadOptions& options) {
+  ImportRequest request;
+  request.file_name = std::filesystem::path(options.model_path).filename().string();
+  for (const ModelFormat candidate : all_formats) {
+    if (to_string(candidate) == options.format) request.format = candidate;
+  }
+  auto head = import_head(read_file(options.model_path, request.limits.max_file_bytes), request);
+  if (!head) fail(options.model_path, head.error());
+  return std::move(*head);
+}
+
+FrameWish wish_of(const HeadOptions& options) {
+  FrameWish wish{parse_length_unit(options.unit), parse_direction(options.up), parse_direction(options.front)};
+  if (wish.up && wish.front && !are_valid({*wish.up, *wish.front}))
+    throw CommandFailure(CommandFailure::bad_input,
+                         "--front: " + options.front + " lies on the axis of --up " + options.up);
+  return wish;
+}
+
+/// What `semblante propose` could do for these points.
+std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
+  std::vector<std::string> advice;
+  const auto proposed = std::count_if(marked.begin(), marked.end(), [](const MarkedPoint& p) { return p.proposed; });
+  const std::size_t placed = marked.size() - static_cast<std::size_t>(proposed);
+  // 11.5, the thickness of hair, is missing from most heads, and nothing proposes it.
+  if (marked.size() + 1 < feature_point_count && placed >= least_known_points) {
+    advice.push_back(std::to_string(feature_point_count - marked.size()) +
+                     " of the 84 feature points are missing; `semblante propose` proposes most of them");
+  }
+  if (proposed > 0)
+    advice.push_back(std::to_string(proposed) + " feature points are proposals that nobody has confirmed");
+  return advice;
+}
+
+const std::vector<std::string> model_formats = {"glb", "gltf", "gltf_zip", "obj", "ply", "stl"};
+
+/// --unit, --up and --front.
+void add_placing_options(CLI::App& command, HeadOptions& options) {
+  command.add_option("--unit", options.unit, "Unit of MODEL's coordinates, instead of a guess")
+      ->check(CLI::IsMember(std::vector<std::string>(length_unit_names.begin(), length_unit_names.end())))
+      ->envname("SEMBLANTE_UNIT");
+  const auto direction = CLI::Validator(
+      [](std::string& text) { return parse_direction(text) ? std::string() : "must be +X, -X, +Y, -Y, +Z or -Z"; },
+      "DIRECTION");
+  command.add_option("--up", options.up, "Where the top of the head is in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_UP");
+  command.add_option("--front", options.front, "Where the face looks in MODEL, instead of a guess")
+      ->check(direction)
+      ->envname("SEMBLANTE_FRONT");
+}
+
+/// --weights and --metric.
+void add_weight_options(CLI::App& command, HeadOptions& options) {
+  command
+      .add_option("--weights", options.weights,
+                  "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
+      ->check(CLI::IsMember({"paper", "smooth"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_WEIGHTS");
+  command
+      .add_option("--metric", options.metric,
+                  "What the surface distance is measured along: edge, or unfolded (nearer to the geodesic)")
+      ->check(CLI::IsMember({"edge", "unfolded"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_METRIC");
+}
+
+}  // namespace
+
+void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points) {
+  command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+      ->required()
+      ->envname("SEMBLANTE_MODEL");
+  command
+      .add_option("--feature-points,--points", options.feature_points_path,
+                  "JSON: {\"points\": {\"2.1\": {\"vertex\": 966}, ...}}, vertices as the model file numbers them, or "
+                  "positions")
+      ->required(points == PointsOption::required)
+      ->envname("SEMBLANTE_FEATURE_POINTS");
+  command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
+      ->check(CLI::IsMember(model_formats))
+      ->envname("SEMBLANTE_FORMAT");
+  add_placing_options(command, options);
+  command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
+}
+
+void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
+  add_file_options(command, options, points);
+  add_weight_options(command, options);
+}
+
+void add_named_head_options(CLI::App& command, HeadOptions& options) {
+  CLI::Option* const model =
+      command.add_option("--model", options.model_path, "A head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+          ->envname("SEMBLANTE_MODEL");
+  CLI::Option* const points =
+      command.add_option("--feature-points,--points", options.feature_points_path, "Its feature points, as JSON")
+          ->needs(model)
+          ->envname("SEMBLANTE_FEATURE_POINTS");
+  model->needs(points);
+  command.add_option("--model-format", options.format, "Format of the head, instead of what its content shows")
+      ->check(CLI::IsMember(model_formats))
+      ->envname("SEMBLANTE_MODEL_FORMAT");
+  add_placing_options(command, options);
+  add_weight_options(command, options);
+}
+
+void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
+  if (quiet) return;
+  for (const std::string& warning : warnings) std::cerr << "semblante: warning: " << warning << "\n";
+}
+
+HeadFiles read_head(const HeadOptions& options) {
+  HeadFiles files;
+  if (!options.feature_points_path.empty()) {
+    const auto json = read_file(options.feature_points_path, max_feature_points_bytes);
+    auto parsed = parse_feature_points({reinterpret_cast<const char*>(json.data()), json.size()});
+    if (!parsed) fail(options.feature_points_path, parsed.error());
+    files.points = std::move(*parsed);
+  }
+  files.wish = wish_of(options);
+  files.head = import_file(options);
+  return files;
+}
+
+MarkedHead place_points(HeadFiles files, const HeadOptions& options, bool leaves_out_refused) {
+  auto head = mark_by_file(std::move(files.head), std::move(files.points), files.wish, leaves_out_refused);
+  if (!head) fail(options.feature_points_path, head.error());
+  return std::move(*head);
+}
+
+RiggedHead rig(MarkedHead head, const HeadOptions& options) {
+  const ProgressLine line(options.quiet);
+  auto rigged = rig_head(std::move(head), rig_request(options), line.progress());
+  if (!rigged) fail(options.model_path, rigged.error());
+  return std::move(*rigged);
+}
+
+RigRequest rig_request(const HeadOptions& options) {
+  return {parse_weight_method(options.weights).value_or(WeightMethod::paper),
+          parse_distance_metric(options.metric).value_or(DistanceMetric::edge)};
+}
+
+Head load_head(const HeadOptions& options) {
+  HeadFiles files = read_head(options);
+  auto advice = advice_on(files.points.points);
+  return {rig(place_points(std::move(files), options), options), std::move(advice)};
+}
+
+std::vector<std::string> Head::all_warnings() const {
+  std::vector<std::string> list = warnings.all();
+  list.insert(list.end(), remarks.begin(), remarks.end());
+  return list;
+}
+
+}  // namespace semblante

@@ -1,0 +1,106 @@
+// semblante-render: looks at a model file from several sides.
+
+#include <algorithm>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/native/render/renderer.h"
+#include "clients/native/tools/files.h"
+#include "clients/native/tools/shots.h"
+#include "core/pipeline/standing.h"
+#include "tests/pictures/contact_sheet.h"
+#include "tests/pictures/posed_head.h"
+
+namespace semblante::pictures {
+namespace {
+
+struct Arguments {
+  std::filesystem::path model;
+  std::filesystem::path out;
+  std::vector<std::string> shots = {"front",      "three-quarter",      "left",       "below",
+                                    "front:face", "three-quarter:face", "front:eyes", "front:mouth"};
+  std::string size = "420x480";
+  int columns = 4;
+  bool separate = false;
+};
+
+Status run(const Arguments& arguments) {
+  const auto size = tools::parse_size(arguments.size);
+  if (!size) {
+    return size.error();
+  }
+  const auto shots = tools::parse_shots(arguments.shots);
+  if (!shots) {
+    return shots.error();
+  }
+  auto imported = load_model(arguments.model);
+  if (!imported) {
+    return std::move(imported).error();
+  }
+  const auto head = stand_head(*std::move(imported), {});
+  if (!head) {
+    return head.error();
+  }
+  for (const std::string& warning : head->warnings.all()) {
+    std::cerr << "semblante-render: " << warning << '\n';
+  }
+  auto scene = render::build_scene(head->model);
+  if (!scene) {
+    return std::move(scene).error();
+  }
+  auto renderer = render::Renderer::create(*std::move(scene));
+  if (!renderer) {
+    return std::move(renderer).error();
+  }
+  for (const std::string& warning : renderer->scene().warnings) {
+    std::cerr << "semblante-render: " << warning << '\n';
+  }
+  std::vector<LabelledPicture> pictures;
+  for (const tools::Shot& shot : *shots) {
+    auto picture = renderer->draw(shot.view, shot.subject, *size);
+    if (!picture) {
+      return std::move(picture).error();
+    }
+    pictures.push_back({shot.name, *std::move(picture)});
+  }
+  if (!arguments.separate) {
+    const bool one = pictures.size() == 1;
+    return write_png(
+        one ? pictures[0].picture : contact_sheet(pictures, arguments.model.filename().string(), arguments.columns),
+        arguments.out);
+  }
+  std::filesystem::create_directories(arguments.out);
+  for (const LabelledPicture& picture : pictures) {
+    std::string name = picture.label + ".png";
+    std::replace(name.begin(), name.end(), ':', '-');
+    if (auto written = write_png(picture.picture, arguments.out / name); !written) {
+      return written;
+    }
+  }
+  return Unit{};
+}
+
+}  // namespace
+}  // namespace semblante::pictures
+
+int main(int argc, char** argv) {
+  semblante::pictures::Arguments arguments;
+  CLI::App app{"Draws a head from several sides, without a window.", "semblante-render"};
+  app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
+  app.add_option("-o,--out", arguments.out, "PNG to write: one shot, or a sheet of all; with --separate a folder")
+      ->required();
+  app.add_option("-s,--shot", arguments.shots,
+                 "VIEW or VIEW:SUBJECT, repeatable; front three-quarter left below "
+                 "right above back, of all face eyes mouth")
+      ->capture_default_str();
+  app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
+  app.add_option("--columns", arguments.columns, "of the sheet")->capture_default_str();
+  app.add_flag("--separate", arguments.separate, "one file a shot");
+  CLI11_PARSE(app, argc, argv);
+  if (const auto done = semblante::pictures::run(arguments); !done) {
+    std::cerr << "semblante-render: " << semblante::tools::to_text(done.error()) << '\n';
+    return 1;
+  }
+  return 0;
+}
