@@ -5,20 +5,16 @@
 #include <span>
 #include <string_view>
 
+#include "clients/capi/copy_text.h"
 #include "clients/capi/semblante.h"
 #include "core/bridges/arkit.h"
 #include "core/bridges/oculus.h"
 
 namespace {
 
-static_assert(semblante::arkit_count == 52 && semblante::oculus_count == 15, "as the header says");
+using semblante::capi::copy_text;
 
-template <std::size_t N>
-void copy_text(char (&to)[N], std::string_view text) {
-  const std::size_t length = std::min(text.size(), N - 1);
-  std::memcpy(to, text.data(), length);
-  to[length] = '\0';
-}
+static_assert(semblante::arkit_count == 52 && semblante::oculus_count == 15, "as the header says");
 
 /// Runs `make`, which gives a Result of something with a frame; no exception leaves.
 template <class Make>

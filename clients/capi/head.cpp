@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/capi/copy_text.h"
 #include "clients/capi/semblante.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/rig_kernel.h"
@@ -37,15 +38,10 @@ struct semblante_head {
 
 namespace {
 
+using semblante::capi::copy_text;
+
 using semblante::ErrorCode;
 using semblante::RigDocument;
-
-template <std::size_t N>
-void copy_text(char (&to)[N], std::string_view text) {
-  const std::size_t length = std::min(text.size(), N - 1);
-  std::memcpy(to, text.data(), length);
-  to[length] = '\0';
-}
 
 semblante_result fail(semblante_error* error, semblante_result result, std::string_view where,
                       std::string_view message) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
 #include "core/geometry/nearest_point.h"
 
@@ -52,11 +53,6 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
     if (near_teeth.nearest(positions[m]).distance < 0.5 * touch) sockets.push_back(members[m]);
   }
   return sockets;
-}
-
-double smooth_step(double from, double to, double value) {
-  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 /// Where on the way from a place `a` away to one `b` away: 0..1. Half way where it is at both.

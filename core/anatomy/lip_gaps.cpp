@@ -31,7 +31,7 @@ constexpr double least_share = 0.05;
 /// A mask has skin between its lips: there the way along it is no longer than so many times the straight distance.
 constexpr double detour_of_mask = 3.0;
 constexpr int rounds = 100;
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 /// A place of a lip in one column; `moves` says how far it goes up or down with one unit of each facing point.
 struct Place {
@@ -139,10 +139,10 @@ std::vector<std::optional<Place>> edge_by_depth(const Section& section, double s
 
 std::optional<Column> measure(const Section& upper, const Section& lower) {
   if (upper.empty() || lower.empty()) return std::nullopt;
-  Place low{infinite, 0.0, {}};
-  Place high{-infinite, 0.0, {}};
-  double near = infinite;
-  double far = -infinite;
+  Place low{no_bound, 0.0, {}};
+  Place high{-no_bound, 0.0, {}};
+  double near = no_bound;
+  double far = -no_bound;
   for (const auto& segment : upper) {
     for (const Place& p : segment) {
       if (p.y < low.y) low = p;
@@ -159,7 +159,7 @@ std::optional<Column> measure(const Section& upper, const Section& lower) {
   }
   Column column;
   column.seen = low.y - high.y;
-  column.touch = infinite;
+  column.touch = no_bound;
   column.moves = (low.moves + high.moves) / 2.0;
   const double step = (far - near) / static_cast<double>(depths - 1);
   if (!(step > 0.0)) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<Column> measure(const Section& upper, const Section& lower) {
     column.moves = (above[k]->moves + below[k]->moves) / 2.0;
   }
   // Lips one behind the other pass without touching: they stop where they shut the view.
-  if (column.touch == infinite) column.touch = column.seen;
+  if (column.touch == no_bound) column.touch = column.seen;
   return column;
 }
 

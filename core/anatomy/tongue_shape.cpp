@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/jaw_share.h"
+#include "core/anatomy/smooth_step.h"
 
 namespace semblante {
 namespace {
@@ -21,11 +22,6 @@ constexpr double rear_part = 0.35;
 
 /// Borders that turn by half a turn meet; a little before, a tongue as thick as tongues are touches itself.
 constexpr double greatest_roll = 2.6;
-
-double smooth_step(double from, double to, double value) {
-  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();

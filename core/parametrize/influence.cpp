@@ -11,9 +11,9 @@ namespace semblante {
 namespace {
 
 /// One row being put together: ids rise, equal ids add up.
-class Row {
+class InfluenceRow {
  public:
-  explicit Row(WeightMethod method) : method_(method) {}
+  explicit InfluenceRow(WeightMethod method) : method_(method) {}
   void add(FeaturePointId id, double weight) {
     if (!(weight > 0.0)) return;
     const auto at = std::lower_bound(entries_.begin(), entries_.end(), id,
@@ -124,7 +124,7 @@ WeightTable<float> influence_with_roles(const Surface& surface, std::span<const 
   const std::vector<MouthShare> mouth = share_of_jaw(surface, parts, points);
 
   WeightTable<float> table;
-  Row row(method);
+  InfluenceRow row(method);
   for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
     const SurfaceVertexId vertex(s);
     switch (parts[surface.part_of[s].value()].role) {

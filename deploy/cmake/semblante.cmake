@@ -3,6 +3,10 @@
 # Warnings and sanitizers for our own targets only: other people's headers come in as SYSTEM.
 add_library(semblante_flags INTERFACE)
 target_compile_options(semblante_flags INTERFACE -Wall -Wextra -Werror)
+if(SEMBLANTE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # A type of a .cpp file may have members of its anonymous namespace; compiled together, GCC takes the file for a header.
+  target_compile_options(semblante_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif()
 if(SEMBLANTE_SANITIZE)
   target_compile_options(semblante_flags INTERFACE -fsanitize=${SEMBLANTE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(semblante_flags INTERFACE -fsanitize=${SEMBLANTE_SANITIZE})

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,7 +10,7 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// The ear's own frame: `up` along its length, `back` across it, `out` away from the head. It leans back by about 15
 /// degrees and stands off the head by about 25.
@@ -44,11 +45,11 @@ Vec2 outline(double a) {
 
 /// A ring of the ear: outline scaled by `size` about a centre that shifts by (up, back), at height `out` (cm). `front`
 /// is the height at the front instead, where helix and tragus join the cheek.
-struct Ring {
+struct EarRing {
   double size, up, back, out, front;
 };
 
-constexpr Ring ring_table[] = {
+constexpr EarRing ring_table[] = {
     {0.70, 0.0, 0.00, 0.20, 0.12},     // foot, behind
     {0.78, 0.0, 0.05, 0.62, 0.20},     // back of the shell
     {0.94, 0.0, 0.02, 0.98, 0.28},     // behind the rim
@@ -87,7 +88,7 @@ void add_ear(Skin& skin, const Loop& hole) {
   Loop outer = hole;
   Loop edge;
   std::size_t index = 0;
-  for (const Ring& ring : ring_table) {
+  for (const EarRing& ring : ring_table) {
     Loop loop;
     for (std::size_t k = 0; k < count; ++k) {
       const double a = 2.0 * pi * static_cast<double>(k) / static_cast<double>(count);

@@ -1,13 +1,14 @@
 #include "deploy/sample_head/eyeballs.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "deploy/sample_head/sculpt.h"
 
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int around = 32;
 /// Rings by angle from the line of sight, in degrees. Close rings at the iris keep its rim round: iris_radius on the
 /// ball is asin(0.60 / 1.42) = 25.0 degrees.

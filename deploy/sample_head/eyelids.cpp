@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,7 +13,7 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // The opening, relative to the centre of the eye, in cm.
 constexpr double inner_corner_y = -0.10;
@@ -36,7 +37,7 @@ struct LidPlace {
   bool upper;
 };
 
-LidPlace place_of(int k) {
+LidPlace lid_place(int k) {
   const bool upper = k <= lid_steps / 2;
   const double along = static_cast<double>(upper ? k : lid_steps - k) / (0.5 * lid_steps);
   return {along, upper};
@@ -44,13 +45,13 @@ LidPlace place_of(int k) {
 
 /// A ring of the lids: how far out it lies between the edge (0) and the orbit (1), and how much it sinks (cm) at the
 /// middle of upper and lower lid.
-struct Ring {
+struct LidRing {
   double upper, lower;
   double upper_sink, lower_sink;
 };
 
 // From the orbit inwards; the lower fold lies at 0.44.
-constexpr Ring rings[] = {
+constexpr LidRing rings[] = {
     {0.74, 0.82, 0.0, 0.0}, {0.48, 0.62, 0.0, 0.0}, {0.28, 0.44, 0.0, 0.03},
     {0.14, 0.26, 0.0, 0.0}, {0.05, 0.10, 0.0, 0.0},
 };
@@ -58,7 +59,7 @@ constexpr std::size_t fold_ring = 2;
 
 /// The edge of the skin's opening at step k: along the fold above, along the lower lid below.
 Vec3 opening_edge(int k) {
-  const LidPlace place = place_of(k);
+  const LidPlace place = lid_place(k);
   const double t = 2.0 * place.along - 1.0;
   const double x = t * slit_half_width;
   const double line = corner_line(x);
@@ -90,10 +91,10 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
 
   Loop outer = orbit;
   std::vector<Loop> loops;
-  for (const Ring& ring : rings) {
+  for (const LidRing& ring : rings) {
     Loop loop;
     for (int k = 0; k < lid_steps; ++k) {
-      const LidPlace place = place_of(k);
+      const LidPlace place = lid_place(k);
       const Vec3 edge = opening_edge(k);
       const double middle = std::sin(pi * place.along);  // 1 at the middle of the lid, 0 at the corners
       const double side = place.upper ? ring.upper : ring.lower;
@@ -115,7 +116,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
   Loop rim;
   Loop rest;
   for (int k = 0; k < lid_steps; ++k) {
-    const bool upper = place_of(k).upper;
+    const bool upper = lid_place(k).upper;
     const Vec3 p = opening_edge(k);
     Paint paint;
     paint.lid = upper ? 0.0 : 1.0;
@@ -125,7 +126,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
     const double r = eye_radius + 0.015;
     const double side = q.x * q.x + q.y * q.y;
     const double z = side < r * r ? std::sqrt(r * r - side) : 0.0;
-    const double middle = std::sin(pi * place_of(k).along);
+    const double middle = std::sin(pi * lid_place(k).along);
     const double depth = upper ? glm::mix(0.18, 0.09, middle) : std::clamp(q.z - z, 0.10, 0.22);
     const double rise = upper ? 0.07 * middle : 0.0;
     rest.push_back(mesh.add(eye_centre + Vec3(q.x * 0.985, q.y * 0.985 + rise, q.z - depth), paint));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,27 +13,27 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 struct BorderPoint {
   double azimuth, elevation;  ///< degrees
 };
 
 /// Forehead, temple, sideburn, arch over the ear, nape.
-constexpr std::array<BorderPoint, 14> border = {{{0, 34},
-                                                 {18, 34.5},
-                                                 {34, 32.5},
-                                                 {46, 26},
-                                                 {55, 13},
-                                                 {63, -2},
-                                                 {70, -13},
-                                                 {77, -14},
-                                                 {84, -4},
-                                                 {94, 0},
-                                                 {106, -4},
-                                                 {120, -24},
-                                                 {140, -38},
-                                                 {180, -43}}};
+constexpr std::array<BorderPoint, 14> border_points = {{{0, 34},
+                                                        {18, 34.5},
+                                                        {34, 32.5},
+                                                        {46, 26},
+                                                        {55, 13},
+                                                        {63, -2},
+                                                        {70, -13},
+                                                        {77, -14},
+                                                        {84, -4},
+                                                        {94, 0},
+                                                        {106, -4},
+                                                        {120, -24},
+                                                        {140, -38},
+                                                        {180, -43}}};
 
 /// Locks run from front to back: lines of equal angle about the long axis of the head.
 double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
@@ -52,9 +53,9 @@ double thickness(double a, double t, const Vec3& p) {
 double hairline(double azimuth) {
   const double degrees = std::clamp(azimuth * 180.0 / pi, 0.0, 180.0);
   std::size_t i = 0;
-  while (i + 2 < border.size() && border[i + 1].azimuth < degrees) ++i;
-  const auto at = [&](std::size_t k) { return border[std::min(k, border.size() - 1)].elevation; };
-  const double t = (degrees - border[i].azimuth) / (border[i + 1].azimuth - border[i].azimuth);
+  while (i + 2 < border_points.size() && border_points[i + 1].azimuth < degrees) ++i;
+  const auto at = [&](std::size_t k) { return border_points[std::min(k, border_points.size() - 1)].elevation; };
+  const double t = (degrees - border_points[i].azimuth) / (border_points[i + 1].azimuth - border_points[i].azimuth);
   const double before = i == 0 ? at(0) : at(i - 1);
   const double m0 = 0.5 * (at(i + 1) - before);
   const double m1 = 0.5 * (at(i + 2) - at(i));

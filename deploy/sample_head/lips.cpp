@@ -1,6 +1,7 @@
 #include "deploy/sample_head/lips.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,7 +11,7 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 constexpr double mouth_y = -6.72;
 constexpr double corner_x = 2.52;        ///< of the border of the red, 8.3
@@ -30,7 +31,7 @@ double spread(double along) {
   return half + 0.25 + 0.25 * t * std::abs(t);
 }
 
-LipPlace place_of(int k) {
+LipPlace lip_place(int k) {
   const bool upper = k <= lip_steps / 2;
   return {spread(static_cast<double>(upper ? k : lip_steps - k) / (0.5 * lip_steps)), upper};
 }
@@ -108,7 +109,7 @@ void add_lips(Skin& skin, const Loop& around) {
   for (const double t : {0.42, 0.76}) {
     add_ring(
         [&](int k) {
-          const Vec2 b = border(place_of(k));
+          const Vec2 b = border(lip_place(k));
           const Vec3 from = around_at(k);
           const double x = glm::mix(from.x, b.x, t);
           const double y = glm::mix(from.y, b.y, t);
@@ -119,7 +120,7 @@ void add_lips(Skin& skin, const Loop& around) {
 
   Paint paint;
   const auto red_ring = [&](double t) {
-    return add_ring([&](int k) { return red(place_of(k), t); }, paint, Chart::outer);
+    return add_ring([&](int k) { return red(lip_place(k), t); }, paint, Chart::outer);
   };
   paint.lip = 0.55;
   const Loop border_loop = red_ring(0.0);
@@ -133,7 +134,7 @@ void add_lips(Skin& skin, const Loop& around) {
     paint.inner_uv = {depth, 0.0};
     add_ring(
         [&](int k) {
-          const LipPlace place = place_of(k);
+          const LipPlace place = lip_place(k);
           const double a = 0.5 * pi * place.along;
           const double up = place.upper ? section.up : -section.down;
           return Vec3(section.x * std::sin(a), mouth_y + up * std::cos(a),

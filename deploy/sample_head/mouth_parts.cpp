@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include <glm/common.hpp>
@@ -10,7 +11,7 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Widths of the teeth from the middle outwards, in cm: incisors, canine, premolars, molars.
 constexpr double upper_widths[] = {0.60, 0.46, 0.54, 0.48, 0.48, 0.70, 0.66};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,7 +14,7 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 using Colour = Vec3;  ///< sRGB, 0..1
 
 constexpr int skin_size = 512;

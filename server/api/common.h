@@ -35,6 +35,9 @@ inline void refuse_unknown_members(const JsonBody& object, std::initializer_list
   refuse_unknown_members(object, std::span(known.begin(), known.size()));
 }
 
+/// Names that clients give: of models, recordings, sets, points.
+inline constexpr std::size_t max_name_bytes = 200;
+
 /// A string of 1..max bytes without control characters; `pointer` is where it was.
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer);
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer);

@@ -15,8 +15,6 @@
 namespace semblante::api {
 namespace {
 
-constexpr std::size_t max_name_bytes = 200;
-
 std::vector<store::RoleChange> role_changes(const JsonBody& roles, std::size_t part_count) {
   if (!roles.is_object()) refuse("invalid-field", "roles is an object of part indices", "/roles");
   std::vector<store::RoleChange> changes;

@@ -21,8 +21,6 @@
 namespace semblante::api {
 namespace {
 
-constexpr std::size_t max_name_bytes = 200;
-
 /// What a request for an extraction says, however it was sent.
 struct ExampleRequest {
   store::ExtractionRecord wish;

@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/quantizers.h"
 #include "protocol/hash/sha256.h"
+#include "server/api/common.h"
 #include "server/api/play_options.h"
 #include "server/api/recordings_common.h"
 #include "server/api/routes.h"
@@ -15,8 +16,6 @@ namespace semblante::api {
 namespace {
 
 using recordings::RecordingStatus;
-
-constexpr std::size_t max_name_bytes = 200;
 
 std::optional<std::uint64_t> checked_duration(const JsonBody& value) {
   const double ms = value.is_number() ? value.get<double>() : 0.0;

@@ -16,8 +16,6 @@
 namespace semblante::api {
 namespace {
 
-constexpr std::size_t max_name_bytes = 200;
-
 /// What arrived, whichever way it was sent.
 struct Upload {
   std::filesystem::path path;

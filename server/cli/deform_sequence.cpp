@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::uint64_t max_meshes = 100'000;
 
-[[noreturn]] void refuse(const std::string& reason) { throw CommandFailure(CommandFailure::bad_input, reason); }
+[[noreturn]] void refuse_sequence(const std::string& reason) {
+  throw CommandFailure(CommandFailure::bad_input, reason);
+}
 
 /// The frames of a sequence by number: each entry's own, rising.
 std::vector<std::uint32_t> numbers_of(const FaceSequence& sequence) {
@@ -73,7 +75,7 @@ class PoseTrack {
 }  // namespace
 
 void write_deformed_sequence(const DeformSequence& options, Head& head, const std::string& out) {
-  if (out == "-") refuse("--out: a sequence of meshes needs a folder");
+  if (out == "-") refuse_sequence("--out: a sequence of meshes needs a folder");
   const FaceSequence sequence = read_faces(options.frames, options.frames_format, options.reading);
   head.remarks.insert(head.remarks.end(), sequence.warnings.begin(), sequence.warnings.end());
   const KernelRig kernel = make_kernel_rig(head.rig);
@@ -81,17 +83,17 @@ void write_deformed_sequence(const DeformSequence& options, Head& head, const st
   PoseTrack track(sequence, rig);
   const std::uint32_t from = options.from.value_or(0);
   const std::uint32_t to = options.to.value_or(track.last());
-  if (to > track.last()) refuse("--to: the last frame is " + std::to_string(track.last()));
-  if (from > to) refuse("--from: is after the last frame to write, " + std::to_string(to));
+  if (to > track.last()) refuse_sequence("--to: the last frame is " + std::to_string(track.last()));
+  if (from > to) refuse_sequence("--from: is after the last frame to write, " + std::to_string(to));
   const std::uint64_t steps = std::uint64_t{options.between} + 1;
   const std::uint64_t meshes = (to - from) * steps + 1;
   if (meshes > max_meshes) {
-    refuse("deform: that makes " + std::to_string(meshes) + " meshes, at most " + std::to_string(max_meshes) +
-           " are written at once; see --from, --to and --between");
+    refuse_sequence("deform: that makes " + std::to_string(meshes) + " meshes, at most " + std::to_string(max_meshes) +
+                    " are written at once; see --from, --to and --between");
   }
   std::error_code fault;
   std::filesystem::create_directories(out, fault);
-  if (fault) refuse(out + ": cannot be made: " + fault.message());
+  if (fault) refuse_sequence(out + ": cannot be made: " + fault.message());
 
   std::vector<glm::vec3> deformed(head.model.positions.size());
   const semblante_face rows = make_kernel_face(head.rig, &head.model.positions.front().x);

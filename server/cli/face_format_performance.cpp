@@ -12,7 +12,7 @@ namespace semblante {
 namespace {
 
 constexpr double usual_rate = 25.0;
-constexpr double max_frames = 500'000.0;
+constexpr double max_performance_frames = 500'000.0;
 
 }  // namespace
 
@@ -28,9 +28,10 @@ Result<FaceSequence> read_performance_faces(std::string_view text, const FaceRea
   FaceSequence sequence;
   sequence.rate = reading.rate > 0.0 ? reading.rate : usual_rate;
   const double frames = std::floor(performance->duration() * sequence.rate / 1000.0) + 1.0;
-  if (frames > max_frames)
-    return Error{ErrorCode::too_large, "/duration",
-                 "gives more than " + std::to_string(static_cast<int>(max_frames)) + " frames at this rate"};
+  if (frames > max_performance_frames)
+    return Error{
+        ErrorCode::too_large, "/duration",
+        "gives more than " + std::to_string(static_cast<int>(max_performance_frames)) + " frames at this rate"};
   for (double k = 0.0; k < frames; k += 1.0) {
     const double ms = k * 1000.0 / sequence.rate;
     sequence.frames.push_back({static_cast<std::uint32_t>(std::lround(ms)), to_values(performance->frame_at(ms))});

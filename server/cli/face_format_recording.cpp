@@ -5,7 +5,7 @@
 namespace semblante {
 namespace {
 
-constexpr std::uint64_t max_frames = 500'000;
+constexpr std::uint64_t max_recording_frames = 500'000;
 
 }  // namespace
 
@@ -14,8 +14,8 @@ Result<FaceSequence> read_recording_faces(std::string_view text, const FaceReadi
   auto reader = RecordingReader::open(bytes_in_memory({text.begin(), text.end()}), Check::everything);
   if (!reader) return reader.error();
   if (reader->frames() == 0) return Error{ErrorCode::empty, "", "the recording has no frame"};
-  if (reader->frames() > max_frames)
-    return Error{ErrorCode::too_large, "", "more than " + std::to_string(max_frames) + " frames"};
+  if (reader->frames() > max_recording_frames)
+    return Error{ErrorCode::too_large, "", "more than " + std::to_string(max_recording_frames) + " frames"};
   FaceSequence sequence;
   if (reader->torn_bytes() > 0) {
     sequence.warnings.push_back("byte " + std::to_string(reader->whole_bytes()) + ": " + reader->torn_reason() +

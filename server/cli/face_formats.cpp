@@ -51,7 +51,7 @@ const FaceFormat* by_path(const std::string& path, const Filter& filter) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+[[noreturn]] void refuse_file(const std::string& path, const std::string& reason) {
   throw CommandFailure(CommandFailure::bad_input, path + ": " + reason);
 }
 
@@ -77,8 +77,9 @@ FaceSequence read_faces(const std::string& path, const std::string& format, cons
                                })
                      : by_name(format);
   if (chosen == nullptr || chosen->read == nullptr) {
-    refuse(path, format.empty() ? "its format cannot be told from its name; say one of " + readable_face_formats()
-                                : "no format '" + format + "' can be read; it is one of " + readable_face_formats());
+    refuse_file(path, format.empty()
+                          ? "its format cannot be told from its name; say one of " + readable_face_formats()
+                          : "no format '" + format + "' can be read; it is one of " + readable_face_formats());
   }
   auto sequence = chosen->read(text, reading);
   if (!sequence) fail(path, sequence.error());
@@ -92,8 +93,9 @@ std::string write_faces(const FaceSequence& sequence, const std::string& path, c
       format.empty() ? by_path(path, [](const FaceFormat& f) { return f.write != nullptr && f.recognizes == nullptr; })
                      : by_name(format);
   if (chosen == nullptr || chosen->write == nullptr) {
-    refuse(path, format.empty() ? "its format cannot be told from its name; say one of " + writable_face_formats()
-                                : "no format '" + format + "' can be written; it is one of " + writable_face_formats());
+    refuse_file(path, format.empty()
+                          ? "its format cannot be told from its name; say one of " + writable_face_formats()
+                          : "no format '" + format + "' can be written; it is one of " + writable_face_formats());
   }
   auto text = chosen->write(sequence, writing);
   if (!text) fail(path, text.error());

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t max_displacements_bytes = std::size_t{1} << 20;
 
-[[noreturn]] void refuse(const std::string& option, const std::string& reason) {
+[[noreturn]] void refuse_option(const std::string& option, const std::string& reason) {
   throw CommandFailure(CommandFailure::bad_input, option + ": " + reason);
 }
 
@@ -67,13 +67,13 @@ void check_fap(const mpeg4::Fap& fap, const std::string& option, const Rig& rig,
   }
   if (fap.kind != mpeg4::FapKind::translation) return;
   if (!rig.fapu.value[static_cast<std::size_t>(fap.unit)])
-    refuse(option, name + " needs a unit: " + why_missing(rig, fap.unit));
+    refuse_option(option, name + " needs a unit: " + why_missing(rig, fap.unit));
   // The eyeballs are moved whole, by their part, not by weights.
   const FeaturePointId id(fap.feature_points[0]);
   const bool moves_eyeball = group_of(id) == 3 && (number_of(id) == 5 || number_of(id) == 6);
   const FeaturePoint* const point = find_point(rig, id);
   if (!moves_eyeball && (point == nullptr || !point->vertex)) {
-    refuse(option, name + " moves feature point " + to_string(id) + ", which is not marked on the surface");
+    refuse_option(option, name + " moves feature point " + to_string(id) + ", which is not marked on the surface");
   }
 }
 
@@ -85,19 +85,20 @@ void parse_faps(const std::string& text, const Rig& rig, semblante_frame& frame,
     const std::size_t comma = rest.find(',');
     const std::string item(rest.substr(0, comma));
     const std::size_t equals = item.find('=');
-    if (equals == std::string::npos) refuse(option, "'" + item + "' must be <number>=<value>");
+    if (equals == std::string::npos) refuse_option(option, "'" + item + "' must be <number>=<value>");
     const auto number = parse<int>(std::string_view(item).substr(0, equals));
     const auto value = parse<float>(std::string_view(item).substr(equals + 1));
-    if (!number) refuse(option, "'" + item + "' has no FAP number before the =");
+    if (!number) refuse_option(option, "'" + item + "' has no FAP number before the =");
     if (*number == 1 || *number == 2) {
-      refuse(option, "FAP " + std::to_string(*number) + " is given by " + (*number == 1 ? "--viseme" : "--expression"));
+      refuse_option(option,
+                    "FAP " + std::to_string(*number) + " is given by " + (*number == 1 ? "--viseme" : "--expression"));
     }
     if (*number < 3 || *number > SEMBLANTE_FAP_COUNT) {
-      refuse(option, "there is no FAP " + std::to_string(*number) + ", low-level FAPs are 3 to 68");
+      refuse_option(option, "there is no FAP " + std::to_string(*number) + ", low-level FAPs are 3 to 68");
     }
-    if (!value) refuse(option, "'" + item + "' has no finite number after the =");
+    if (!value) refuse_option(option, "'" + item + "' has no finite number after the =");
     const auto index = static_cast<std::size_t>(*number);
-    if (seen[index]) refuse(option, "FAP " + std::to_string(*number) + " is there twice");
+    if (seen[index]) refuse_option(option, "FAP " + std::to_string(*number) + " is there twice");
     seen.set(index);
     check_fap(mpeg4::fap(index), option, rig, warnings);
     frame.fap[index] = *value;
@@ -114,8 +115,8 @@ std::uint8_t find_entry(const std::string& option, const std::string& text, std:
   }
   std::string names;
   for (std::size_t i = first; i < library.size(); ++i) names.append(i > first ? ", " : "").append(library[i].name);
-  refuse(option, "there is no '" + text + "'; it is a number from " + std::to_string(first) + " to " +
-                     std::to_string(library.size() - 1) + " or one of " + names);
+  refuse_option(option, "there is no '" + text + "'; it is a number from " + std::to_string(first) + " to " +
+                            std::to_string(library.size() - 1) + " or one of " + names);
 }
 
 /// Says which points of a set stay behind on this head; refuses the set if all of them do.
@@ -139,7 +140,7 @@ void check_set(const std::string& option, const DisplacementSet& set, const Rig&
   }
   if (!unmarked.empty()) warnings.push_back(option + ": not marked, so not moved: " + unmarked);
   if (moved == 0 && !set.displacements.empty()) {
-    refuse(option, "'" + std::string(set.name) + "' moves none of the points that are marked");
+    refuse_option(option, "'" + std::string(set.name) + "' moves none of the points that are marked");
   }
 }
 
@@ -158,8 +159,9 @@ void wear_set(const FaceOptions& options, const Rig& rig, KernelRig& kernel, sem
   if (!set) fail(options.set, set.error());
   const bool is_viseme = set->kind == SetKind::viseme;
   if (!(is_viseme ? options.viseme : options.expression).empty()) {
-    refuse("--set", options.set + " is for " + (is_viseme ? "FAP 1, as --viseme is" : "FAP 2, as --expression is") +
-                        "; give one of them");
+    refuse_option("--set", options.set + " is for " +
+                               (is_viseme ? "FAP 1, as --viseme is" : "FAP 2, as --expression is") +
+                               "; give one of them");
   }
   check_set("--set", set->view(), rig, warnings);
   constexpr std::size_t slot = 1;

@@ -39,7 +39,9 @@ struct PlayCommand {
 
 std::atomic<bool> interrupted{false};
 
-[[noreturn]] void refuse(const std::string& what) { throw CommandFailure(CommandFailure::bad_input, "play: " + what); }
+[[noreturn]] void refuse_to_play(const std::string& what) {
+  throw CommandFailure(CommandFailure::bad_input, "play: " + what);
+}
 
 /// What the server says is wrong, in its own words.
 std::string reason_of(const net::ClientResponse& reply) {
@@ -63,7 +65,7 @@ class Playing {
 
   void create_stream() const {
     const auto reply = ask("POST", "/v1/streams", "application/json", json{{"name", options_.stream}}.dump());
-    if (reply.status != 201 && reply.status != 409) refuse("--create: " + reason_of(reply));
+    if (reply.status != 201 && reply.status != 409) refuse_to_play("--create: " + reason_of(reply));
   }
 
   /// A performance and a .fap file go as they are: the server plays both. All else becomes a performance, exact to half
@@ -89,7 +91,8 @@ class Playing {
     if (options_.from > 0.0) target << "&from=" << options_.from;
     const auto reply = ask("POST", target.str(), fap ? "text/plain" : "application/json", std::move(text));
     if (reply.status != 202)
-      refuse(options_.file + ": " + reason_of(reply) + (reply.status == 409 ? " (--take-over takes its place)" : ""));
+      refuse_to_play(options_.file + ": " + reason_of(reply) +
+                     (reply.status == 409 ? " (--take-over takes its place)" : ""));
     location_ = reply.location;
     for (const auto& warning : note(reply)) say(warning);
   }
@@ -100,7 +103,7 @@ class Playing {
     while (!interrupted) {
       const auto reply = ask("GET", location_);
       if (reply.status == 404) break;
-      if (reply.status != 200) refuse(reason_of(reply));
+      if (reply.status != 200) refuse_to_play(reason_of(reply));
       (void)note(reply);
       if (shows) {
         std::cerr << "\r" << std::fixed << std::setprecision(1) << position_ / 1000.0 << " s";
@@ -112,7 +115,7 @@ class Playing {
     if (shows) std::cerr << "\n";
     if (interrupted) {
       const auto reply = ask("DELETE", location_);
-      if (reply.status != 204 && reply.status != 404) refuse(reason_of(reply));
+      if (reply.status != 204 && reply.status != 404) refuse_to_play(reason_of(reply));
       return;
     }
     if (options_.loop || duration_ <= 0.0 || duration_ - position_ > end_slack)
@@ -130,12 +133,12 @@ class Playing {
   /// Keeps where the playing is; the warnings of the answer.
   std::vector<std::string> note(const net::ClientResponse& reply) {
     const auto status = read_json_object(reply.body, answer_limits);
-    if (!status) refuse("the server's answer cannot be read: " + status.error().message);
+    if (!status) refuse_to_play("the server's answer cannot be read: " + status.error().message);
     JsonCursor::Report report;
     const JsonCursor root(*status, report);
     position_ = root.number_or("position", 0.0);
     duration_ = root.number_or("duration", 0.0);
-    if (report) refuse("the server's answer cannot be read: " + report->where + ": " + report->message);
+    if (report) refuse_to_play("the server's answer cannot be read: " + report->where + ": " + report->message);
     return root.texts("warnings", most_warnings);
   }
   void say(const std::string& warning) const {
@@ -151,7 +154,7 @@ class Playing {
 void run(const PlayCommand& options) {
   for (const char c : options.stream)
     if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_'))
-      refuse("--stream: it takes lower-case letters, digits, - and _");
+      refuse_to_play("--stream: it takes lower-case letters, digits, - and _");
   Playing playing(options);
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "tests/bench/fanout/median.h"
 #include "tests/bench/fanout/subscriber_pool.h"
 #include "tests/bench/fanout/target.h"
 
@@ -74,12 +75,6 @@ std::optional<Run> run_one(const std::string& name, const Options& options, std:
   return measure(pool, timeline, server->pid(), options, rate);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 /// Size of our messages, which the baselines' shall have.
 std::size_t message_bytes(Options options) {
   options.subscribers = 1;
@@ -121,14 +116,14 @@ int compare(const Options& given) {
   const auto middle = [&](const std::string& name, double Run::*figure) {
     std::vector<double> values;
     for (const Run& run : runs[name]) values.push_back(run.*figure);
-    return values.empty() ? 0.0 : median(values);
+    return median(values);
   };
   // Each round against its own bare loop: what else the machine does changes from round to round.
   const auto ratio = [&](const std::string& name) {
     std::vector<double> values;
     for (std::size_t i = 0; i < std::min(runs[name].size(), runs["epoll"].size()); ++i)
       values.push_back(runs[name][i].total / runs["epoll"][i].total);
-    return values.empty() ? 0.0 : median(values);
+    return median(values);
   };
   std::printf(
       "\n| server | CPU, us/message | user | system | x bare loop | delivered, %% | late p50, ms | p99 | p99.9 | max "

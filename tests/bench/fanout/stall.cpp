@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include "tests/bench/fanout/median.h"
 #include "tests/bench/fanout/target.h"
 #include "tests/bench/fanout/verdict.h"
 
@@ -36,11 +37,6 @@ Ending ending_of(const Socket& socket) {
   if (at != std::string::npos && at >= 2 && tail[at - 2] == '\x88') return Ending::told_1013;
   if (size == 0) return Ending::closed;
   return errno == EAGAIN ? Ending::open : Ending::reset;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
 }  // namespace

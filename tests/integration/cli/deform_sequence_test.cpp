@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A flat sheet of 5 by 5, one unit a step: vertex 5 * row + column.
-std::string sheet_obj() {
+std::string flat_sheet_obj() {
   std::ostringstream text;
   for (int v = 0; v < 25; ++v) text << "v " << v % 5 << " " << v / 5 << " 0\n";
   for (int row = 0; row < 4; ++row) {
@@ -28,7 +28,7 @@ std::string sheet_obj() {
 }
 
 /// MNS0 is 9.15.y - 2.2.y = 1.
-constexpr const char* sheet_points = R"({"to_mpeg4_axes": [[1,0,0],[0,1,0],[0,0,1]],
+constexpr const char* flat_sheet_points = R"({"to_mpeg4_axes": [[1,0,0],[0,1,0],[0,0,1]],
   "points": {"9.15": {"vertex": 17}, "2.1": {"vertex": 2}, "2.2": {"vertex": 12}, "8.3": {"vertex": 14},
              "8.4": {"vertex": 10}}})";
 
@@ -41,8 +41,8 @@ std::string jaw_fap() {
 
 struct DeformFrames : ::testing::Test {
   Workspace work;
-  std::string model = work.write("sheet.obj", sheet_obj());
-  std::string points = work.write("fps.json", sheet_points);
+  std::string model = work.write("sheet.obj", flat_sheet_obj());
+  std::string points = work.write("fps.json", flat_sheet_points);
   std::string fap = work.write("jaw.fap", jaw_fap());
 
   [[nodiscard]] Outcome deform(const std::string& out, std::vector<std::string> more) const {

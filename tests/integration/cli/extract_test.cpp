@@ -31,7 +31,7 @@ std::string sheet(double scale, bool has_faces = true, int moved = -1, const std
 }
 
 /// MW0 is 4 steps (8.3 to 8.4), MNS0 2 (9.15 to 2.2).
-constexpr const char* sheet_points = R"({"to_mpeg4_axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+constexpr const char* framed_sheet_points = R"({"to_mpeg4_axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   "points": {"9.15": {"vertex": 58}, "2.1": {"vertex": 13}, "8.3": {"vertex": 33}, "8.4": {"vertex": 29},
   "2.2": {"vertex": 40}, "7.1": {"vertex": null, "position": [4, 4, -3]}}})";
 
@@ -40,7 +40,7 @@ struct Extract : ::testing::Test {
   std::string neutral = work.write("neutral.obj", sheet(1.0));
   // Vertex 33 from (6, 3, 0.125 * ((21 + 18) % 4)) = (6, 3, 0.375) to the side by 1 and down by a half.
   std::string smile = work.write("smile.obj", sheet(1.0, false, 33, "7 2.5 0.375"));
-  std::string points = work.write("fps.json", sheet_points);
+  std::string points = work.write("fps.json", framed_sheet_points);
 
   [[nodiscard]] Outcome extract(std::vector<std::string> more) const {
     std::vector<std::string> arguments = {"extract", neutral, "--points", points, "--out", work.path("set.json")};

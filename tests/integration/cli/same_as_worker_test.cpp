@@ -52,7 +52,7 @@ json head_points() {
   return points;
 }
 
-std::string sheet_obj() {
+std::string torn_sheet_obj() {
   std::ostringstream text;
   for (int i = 0; i < 81; ++i) text << "v " << i % 9 << " " << i / 9 << " " << 0.125 * (i * 3 % 4) << "\n";
   for (int i = 0; i < 71; ++i) {
@@ -153,7 +153,7 @@ TEST_F(SameAsWorker, PointsThatShowAnotherStance) {
 
 TEST_F(SameAsWorker, UnsureStance) {
   const json points = {{"2.1", {{"vertex", 13}}}, {"7.1", {{"position", {4, 4, -3}}}}};
-  const Warnings warnings = compare(sheet_obj(), points);
+  const Warnings warnings = compare(torn_sheet_obj(), points);
   EXPECT_THAT(warnings.package, Contains(HasSubstr("cannot be told for certain")));
 }
 

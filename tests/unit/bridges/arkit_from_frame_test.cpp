@@ -6,17 +6,12 @@
 #include "core/bridges/arkit.h"
 #include "core/bridges/axis_displacements.h"
 #include "core/tables/mpeg4.h"
+#include "tests/unit/bridges/coefficients.h"
 
 namespace semblante {
 namespace {
 
 float at(const ArkitCoefficients& c, const char* name) { return c.at(find_arkit(name).value()); }
-
-ArkitCoefficients with(std::initializer_list<std::pair<const char*, float>> given) {
-  ArkitCoefficients c{};
-  for (const auto& [name, value] : given) c.at(find_arkit(name).value()) = value;
-  return c;
-}
 
 ArkitCoefficients there_and_back(const ArkitCoefficients& c) {
   return arkit_from_frame(frame_from_arkit(c).value().frame);
@@ -138,7 +133,7 @@ TEST(ArkitFromFrame, Lids_TellBlinkSquintAndWideApart) {
   EXPECT_EQ(at(shut, "eyeBlinkRight"), 0.0F);
   const ArkitCoefficients half = arkit_from_frame(fap_frame({{20, 502.0F}, {22, 10.0F}}));
   EXPECT_NEAR(at(half, "eyeBlinkRight"), 0.5F, 0.03F);
-  const ArkitCoefficients squint = there_and_back(with({{"eyeSquintLeft", 0.8F}, {"eyeBlinkLeft", 0.3F}}));
+  const ArkitCoefficients squint = there_and_back(coefficients_with({{"eyeSquintLeft", 0.8F}, {"eyeBlinkLeft", 0.3F}}));
   EXPECT_NEAR(at(squint, "eyeSquintLeft"), 0.8F, 0.15F);
   EXPECT_NEAR(at(squint, "eyeBlinkLeft"), 0.3F, 0.05F);
   const ArkitCoefficients wide = arkit_from_frame(fap_frame({{19, -162.0F}}));
@@ -148,7 +143,8 @@ TEST(ArkitFromFrame, Lids_TellBlinkSquintAndWideApart) {
 
 // The lids of eyes that look down are where the gaze takes them: no blink.
 TEST(ArkitFromFrame, LidsThatFollowTheGaze_DoNotBlink) {
-  const ArkitCoefficients c = there_and_back(with({{"eyeLookDownLeft", 0.8F}, {"eyeLookDownRight", 0.8F}}));
+  const ArkitCoefficients c =
+      there_and_back(coefficients_with({{"eyeLookDownLeft", 0.8F}, {"eyeLookDownRight", 0.8F}}));
   EXPECT_LE(at(c, "eyeBlinkLeft"), 0.01F);
   EXPECT_NEAR(at(c, "eyeLookDownLeft"), 0.8F, 0.01F);
 }

@@ -8,18 +8,13 @@
 
 #include "core/bridges/arkit.h"
 #include "core/tables/mpeg4.h"
+#include "tests/unit/bridges/coefficients.h"
 
 namespace semblante {
 namespace {
 
-ArkitCoefficients with(std::initializer_list<std::pair<const char*, float>> given) {
-  ArkitCoefficients c{};
-  for (const auto& [name, value] : given) c.at(find_arkit(name).value()) = value;
-  return c;
-}
-
 semblante_frame frame_of(std::initializer_list<std::pair<const char*, float>> given) {
-  return frame_from_arkit(with(given)).value().frame;
+  return frame_from_arkit(coefficients_with(given)).value().frame;
 }
 
 ArkitCoefficients any_face(std::mt19937& random) {
@@ -80,8 +75,9 @@ TEST(FrameFromArkit, NotANumber_IsRefusedByName) {
 }
 
 TEST(FrameFromArkit, OutsideZeroToOne_IsClampedAndCounted) {
-  const auto over = frame_from_arkit(with({{"jawOpen", 1.5F}, {"browInnerUp", -0.5F}, {"mouthFunnel", 1.0F}}));
-  const auto just = frame_from_arkit(with({{"jawOpen", 1.0F}, {"mouthFunnel", 1.0F}}));
+  const auto over =
+      frame_from_arkit(coefficients_with({{"jawOpen", 1.5F}, {"browInnerUp", -0.5F}, {"mouthFunnel", 1.0F}}));
+  const auto just = frame_from_arkit(coefficients_with({{"jawOpen", 1.0F}, {"mouthFunnel", 1.0F}}));
   EXPECT_EQ(over->clamped, 2U);
   EXPECT_EQ(just->clamped, 0U);
   for (int n = 3; n <= SEMBLANTE_FAP_COUNT; ++n) EXPECT_EQ(over->frame.fap[n], just->frame.fap[n]) << n;
@@ -180,9 +176,11 @@ TEST(FrameFromArkit, MouthClose_NeverMoreThanTheJawIsOpen) {
 }
 
 TEST(FrameFromArkit, Blink_ShutsTheLidsWhateverElseTheyDo) {
-  for (const auto& others : {with({}), with({{"eyeLookDownLeft", 1.0F}}), with({{"eyeLookUpLeft", 1.0F}}),
-                             with({{"eyeSquintLeft", 1.0F}, {"cheekSquintLeft", 1.0F}, {"mouthSmileLeft", 1.0F}}),
-                             with({{"eyeWideLeft", 1.0F}})}) {
+  for (const auto& others :
+       {coefficients_with({}), coefficients_with({{"eyeLookDownLeft", 1.0F}}),
+        coefficients_with({{"eyeLookUpLeft", 1.0F}}),
+        coefficients_with({{"eyeSquintLeft", 1.0F}, {"cheekSquintLeft", 1.0F}, {"mouthSmileLeft", 1.0F}}),
+        coefficients_with({{"eyeWideLeft", 1.0F}})}) {
     ArkitCoefficients c = others;
     const semblante_frame open = frame_from_arkit(c)->frame;
     EXPECT_LT(open.fap[19] + open.fap[21], 900.0F);

@@ -14,7 +14,7 @@
 namespace semblante {
 namespace {
 
-OculusWeights with(std::initializer_list<std::pair<const char*, float>> given) {
+OculusWeights weights_with(std::initializer_list<std::pair<const char*, float>> given) {
   OculusWeights w{};
   for (const auto& [name, value] : given) w.at(find_oculus(name).value()) = value;
   return w;
@@ -46,27 +46,27 @@ TEST(Oculus_Names, AreInTheOrderOfFap1) {
 }
 
 TEST(FrameFromOculus, OneViseme_KeepsItsStrength) {
-  EXPECT_EQ(fap1_of(with({{"aa", 1.0F}})), (Fap1{10, 0, 63}));
-  EXPECT_EQ(fap1_of(with({{"aa", 0.5F}})), (Fap1{10, 0, 32}));
-  EXPECT_EQ(fap1_of(with({{"aa", 0.5F}, {"sil", 0.5F}})), (Fap1{10, 0, 32}));
-  EXPECT_EQ(fap1_of(with({{"sil", 1.0F}})), (Fap1{0, 0, 0}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 1.0F}})), (Fap1{10, 0, 63}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 0.5F}})), (Fap1{10, 0, 32}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 0.5F}, {"sil", 0.5F}})), (Fap1{10, 0, 32}));
+  EXPECT_EQ(fap1_of(weights_with({{"sil", 1.0F}})), (Fap1{0, 0, 0}));
   EXPECT_EQ(fap1_of(OculusWeights{}), (Fap1{0, 0, 0}));
 }
 
 TEST(FrameFromOculus, TwoThatSumToOne_AreBothThere) {
-  EXPECT_EQ(fap1_of(with({{"aa", 0.75F}, {"PP", 0.25F}})), (Fap1{10, 1, 47}));
-  EXPECT_EQ(fap1_of(with({{"aa", 0.5F}, {"PP", 0.5F}})), (Fap1{1, 10, 32}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 0.75F}, {"PP", 0.25F}})), (Fap1{10, 1, 47}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 0.5F}, {"PP", 0.5F}})), (Fap1{1, 10, 32}));
 }
 
 TEST(FrameFromOculus, MoreThanTwo_AreTheNearestPair) {
   // 0.1 is missing, less than 1.41 times 0.3: the two strongest.
-  EXPECT_EQ(fap1_of(with({{"oh", 0.6F}, {"SS", 0.3F}, {"nn", 0.1F}})), (Fap1{13, 7, 41}));
+  EXPECT_EQ(fap1_of(weights_with({{"oh", 0.6F}, {"SS", 0.3F}, {"nn", 0.1F}})), (Fap1{13, 7, 41}));
   // 0.4 is missing, more than 1.41 times 0.1: the strongest alone.
-  EXPECT_EQ(fap1_of(with({{"oh", 0.5F}, {"SS", 0.1F}})), (Fap1{13, 0, 32}));
+  EXPECT_EQ(fap1_of(weights_with({{"oh", 0.5F}, {"SS", 0.1F}})), (Fap1{13, 0, 32}));
 }
 
 TEST(FrameFromOculus, OverOne_IsSharedOut) {
-  EXPECT_EQ(fap1_of(with({{"aa", 1.0F}, {"ou", 1.0F}})), (Fap1{10, 14, 32}));
+  EXPECT_EQ(fap1_of(weights_with({{"aa", 1.0F}, {"ou", 1.0F}})), (Fap1{10, 14, 32}));
 }
 
 TEST(FrameFromOculus, BadWeights_AreRefusedOrCounted) {
@@ -83,7 +83,7 @@ TEST(FrameFromOculus, BadWeights_AreRefusedOrCounted) {
 }
 
 TEST(FrameFromOculus, AllVisemes_MovesTheFapsByTheSum) {
-  const OculusWeights w = with({{"aa", 0.4F}, {"ou", 0.3F}, {"PP", 0.2F}});
+  const OculusWeights w = weights_with({{"aa", 0.4F}, {"ou", 0.3F}, {"PP", 0.2F}});
   const semblante_frame frame = frame_from_oculus(w, OculusBlend::all_visemes).value().frame;
   std::array<double, SEMBLANTE_FAP_COUNT + 1> sum{};
   for (std::size_t v = 1; v < oculus_count; ++v) {
@@ -123,7 +123,8 @@ TEST(OculusFromFrame, NeutralFace_IsSilence) {
 TEST(OculusFromFrame, LowLevelFapsOfAViseme_AreReadAsThatViseme) {
   // Those that no other sound looks like.
   for (const char* const name : {"PP", "FF", "aa"}) {
-    const semblante_frame frame = frame_from_oculus(with({{name, 1.0F}}), OculusBlend::all_visemes).value().frame;
+    const semblante_frame frame =
+        frame_from_oculus(weights_with({{name, 1.0F}}), OculusBlend::all_visemes).value().frame;
     semblante_frame faps_alone = frame;
     faps_alone.viseme1 = faps_alone.viseme2 = faps_alone.viseme_blend = 0;
     const OculusWeights w = oculus_from_frame(faps_alone);

@@ -15,12 +15,12 @@
 namespace semblante {
 namespace {
 
-FeaturePointId fp(const char* id) { return *parse_feature_point(id); }
+FeaturePointId point(const char* id) { return *parse_feature_point(id); }
 
 /// Displacement of a point in a set, FAPU units; zero when the set does not move it.
 glm::vec3 moved(const DisplacementSet& set, const char* id) {
   for (const Displacement& d : set.displacements) {
-    if (d.point == fp(id)) return d.value;
+    if (d.point == point(id)) return d.value;
   }
   return glm::vec3(0.0F);
 }
@@ -45,36 +45,36 @@ TEST(Expressions_Generated, AreWhatTheDataGive) {
 }
 
 TEST(Expressions_Units, FollowTheFapOfTheAxis) {
-  EXPECT_EQ(fapu_of(fp("2.1"), 1), FapuUnit::mns);    // FAP 3
-  EXPECT_EQ(fapu_of(fp("2.1"), 0), FapuUnit::mw);     // FAP 15
-  EXPECT_EQ(fapu_of(fp("3.1"), 1), FapuUnit::irisd);  // FAP 19
-  EXPECT_EQ(fapu_of(fp("9.1"), 0), FapuUnit::ens);    // FAP 61, against the region's ES
-  EXPECT_EQ(fapu_of(fp("9.3"), 0), FapuUnit::ens);    // FAP 64
-  EXPECT_EQ(fapu_of(fp("5.1"), 0), FapuUnit::es);     // FAP 39
-  EXPECT_EQ(fapu_of(fp("6.1"), 2), FapuUnit::mw);     // FAP 45, against the region's MNS
-  EXPECT_EQ(fapu_of(fp("10.1"), 1), FapuUnit::ens);   // FAP 65
-  EXPECT_EQ(fapu_of(fp("10.3"), 0), FapuUnit::ens);   // FAP 67
+  EXPECT_EQ(fapu_of(point("2.1"), 1), FapuUnit::mns);    // FAP 3
+  EXPECT_EQ(fapu_of(point("2.1"), 0), FapuUnit::mw);     // FAP 15
+  EXPECT_EQ(fapu_of(point("3.1"), 1), FapuUnit::irisd);  // FAP 19
+  EXPECT_EQ(fapu_of(point("9.1"), 0), FapuUnit::ens);    // FAP 61, against the region's ES
+  EXPECT_EQ(fapu_of(point("9.3"), 0), FapuUnit::ens);    // FAP 64
+  EXPECT_EQ(fapu_of(point("5.1"), 0), FapuUnit::es);     // FAP 39
+  EXPECT_EQ(fapu_of(point("6.1"), 2), FapuUnit::mw);     // FAP 45, against the region's MNS
+  EXPECT_EQ(fapu_of(point("10.1"), 1), FapuUnit::ens);   // FAP 65
+  EXPECT_EQ(fapu_of(point("10.3"), 0), FapuUnit::ens);   // FAP 67
 }
 
 TEST(Expressions_Units, FollowTheRegion_WhereNoFapMoves) {
-  EXPECT_EQ(fapu_of(fp("2.11"), 0), FapuUnit::mw);
-  EXPECT_EQ(fapu_of(fp("2.11"), 1), FapuUnit::mns);
-  EXPECT_EQ(fapu_of(fp("8.9"), 2), FapuUnit::mns);
-  EXPECT_EQ(fapu_of(fp("9.11"), 1), FapuUnit::mns);  // teeth belong to the mouth
-  EXPECT_EQ(fapu_of(fp("3.13"), 1), FapuUnit::irisd);
-  EXPECT_EQ(fapu_of(fp("3.1"), 0), FapuUnit::es);
-  EXPECT_EQ(fapu_of(fp("3.1"), 2), FapuUnit::es);
-  EXPECT_EQ(fapu_of(fp("4.3"), 0), FapuUnit::es);
-  EXPECT_EQ(fapu_of(fp("4.3"), 2), FapuUnit::ens);
-  EXPECT_EQ(fapu_of(fp("9.5"), 0), FapuUnit::es);
-  EXPECT_EQ(fapu_of(fp("5.3"), 2), FapuUnit::ens);
-  EXPECT_EQ(fapu_of(fp("11.1"), 0), FapuUnit::es);
+  EXPECT_EQ(fapu_of(point("2.11"), 0), FapuUnit::mw);
+  EXPECT_EQ(fapu_of(point("2.11"), 1), FapuUnit::mns);
+  EXPECT_EQ(fapu_of(point("8.9"), 2), FapuUnit::mns);
+  EXPECT_EQ(fapu_of(point("9.11"), 1), FapuUnit::mns);  // teeth belong to the mouth
+  EXPECT_EQ(fapu_of(point("3.13"), 1), FapuUnit::irisd);
+  EXPECT_EQ(fapu_of(point("3.1"), 0), FapuUnit::es);
+  EXPECT_EQ(fapu_of(point("3.1"), 2), FapuUnit::es);
+  EXPECT_EQ(fapu_of(point("4.3"), 0), FapuUnit::es);
+  EXPECT_EQ(fapu_of(point("4.3"), 2), FapuUnit::ens);
+  EXPECT_EQ(fapu_of(point("9.5"), 0), FapuUnit::es);
+  EXPECT_EQ(fapu_of(point("5.3"), 2), FapuUnit::ens);
+  EXPECT_EQ(fapu_of(point("11.1"), 0), FapuUnit::es);
 }
 
 TEST(Expressions_ToModelUnits, MultipliesEachAxisByItsUnit) {
   Fapu fapu;
   fapu.value = {2.0, 3.0, 5.0, 7.0, 11.0};  // IRISD ES ENS MNS MW
-  const Displacement one{fp("2.1"), {1.0F, -10.0F, 100.0F}};
+  const Displacement one{point("2.1"), {1.0F, -10.0F, 100.0F}};
   const auto model = to_model_units({"test", std::span(&one, 1)}, fapu);
   // 2.1: x in MW, y and z in MNS: (1 * 11, -10 * 7, 100 * 7)
   ASSERT_EQ(model.displacements.size(), 1U);
@@ -85,19 +85,19 @@ TEST(Expressions_ToModelUnits, MultipliesEachAxisByItsUnit) {
 TEST(Expressions_ToModelUnits, LeavesOutAndNamesPoints_WhenAUnitIsMissing) {
   Fapu fapu;
   fapu.value = {2.0, 3.0, 5.0, std::nullopt, 11.0};
-  const std::array<Displacement, 3> three = {{{fp("2.1"), {1.0F, 1.0F, 0.0F}},    // y in MNS: missing
-                                              {fp("2.4"), {1.0F, 0.0F, 0.0F}},    // x in MW: there
-                                              {fp("4.1"), {0.0F, 1.0F, 0.0F}}}};  // ENS
+  const std::array<Displacement, 3> three = {{{point("2.1"), {1.0F, 1.0F, 0.0F}},    // y in MNS: missing
+                                              {point("2.4"), {1.0F, 0.0F, 0.0F}},    // x in MW: there
+                                              {point("4.1"), {0.0F, 1.0F, 0.0F}}}};  // ENS
   const auto model = to_model_units({"test", three}, fapu);
   ASSERT_EQ(model.skipped.size(), 1U);
-  EXPECT_EQ(model.skipped[0].point, fp("2.1"));
+  EXPECT_EQ(model.skipped[0].point, point("2.1"));
   EXPECT_EQ(model.skipped[0].unit, FapuUnit::mns);
   ASSERT_EQ(model.displacements.size(), 2U);
-  EXPECT_EQ(model.displacements[0].point, fp("2.4"));
+  EXPECT_EQ(model.displacements[0].point, point("2.4"));
 }
 
 TEST(Expressions_ToDense, PutsEachPointInItsPlace) {
-  const Displacement one{fp("2.3"), {1.0F, 2.0F, 3.0F}};
+  const Displacement one{point("2.3"), {1.0F, 2.0F, 3.0F}};
   const auto dense = to_dense(std::span(&one, 1));
   EXPECT_EQ(dense[6], 1.0F);  // 2.3 is index 2
   EXPECT_EQ(dense[7], 2.0F);
@@ -118,7 +118,7 @@ TEST(Expressions_Library, MovesNoPupilNoEarNoHead) {
   for (const auto sets : {viseme_library(), expression_library()}) {
     for (const DisplacementSet& set : sets) {
       for (const Displacement& d : set.displacements) {
-        EXPECT_TRUE(d.point != fp("3.5") && d.point != fp("3.6") && d.point != fp("7.1")) << set.name;
+        EXPECT_TRUE(d.point != point("3.5") && d.point != point("3.6") && d.point != point("7.1")) << set.name;
         EXPECT_NE(group_of(d.point), 10) << set.name;
       }
     }

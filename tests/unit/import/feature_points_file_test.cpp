@@ -9,16 +9,16 @@
 namespace semblante {
 namespace {
 
-struct Invalid {
+struct InvalidPoints {
   const char* name;
   const char* json;
   ErrorCode code;
   const char* where;
 };
 
-void PrintTo(const Invalid& invalid, std::ostream* out) { *out << invalid.name; }
+void PrintTo(const InvalidPoints& invalid, std::ostream* out) { *out << invalid.name; }
 
-class InvalidFile : public ::testing::TestWithParam<Invalid> {};
+class InvalidFile : public ::testing::TestWithParam<InvalidPoints> {};
 
 TEST_P(InvalidFile, IsRefused_NamingTheMember) {
   const auto file = parse_feature_points(GetParam().json);
@@ -28,7 +28,7 @@ TEST_P(InvalidFile, IsRefused_NamingTheMember) {
   EXPECT_FALSE(file.error().message.empty());
 }
 
-const Invalid invalid_files[] = {
+const InvalidPoints invalid_point_files[] = {
     {"Nothing", "", ErrorCode::malformed, ""},
     {"NoJson", "hello", ErrorCode::malformed, ""},
     {"CutShort", R"({"points": {"2.1": {"vertex": 1)", ErrorCode::malformed, ""},
@@ -77,7 +77,7 @@ const Invalid invalid_files[] = {
      ErrorCode::malformed, "/to_mpeg4_axes/1/1"},
 };
 
-INSTANTIATE_TEST_SUITE_P(FeaturePointsFile, InvalidFile, ::testing::ValuesIn(invalid_files),
+INSTANTIATE_TEST_SUITE_P(FeaturePointsFile, InvalidFile, ::testing::ValuesIn(invalid_point_files),
                          [](const auto& test) { return test.param.name; });
 
 TEST(FeaturePointsFile, Points_ComeInRisingOrder_WhateverTheFileSays) {

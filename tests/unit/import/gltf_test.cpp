@@ -14,16 +14,16 @@ Result<Model> import_json(std::string_view json, const ImportLimits& limits = {}
 }
 
 /// quad_gltf_json() with one change must be refused with this code at this pointer.
-struct Invalid {
+struct InvalidGltfFile {
   const char* name;
   const char* what;
   const char* with;
   ErrorCode code;
   const char* where;
 };
-void PrintTo(const Invalid& invalid, std::ostream* out) { *out << invalid.name; }
+void PrintTo(const InvalidGltfFile& invalid, std::ostream* out) { *out << invalid.name; }
 
-class InvalidGltf : public ::testing::TestWithParam<Invalid> {};
+class InvalidGltf : public ::testing::TestWithParam<InvalidGltfFile> {};
 
 TEST_P(InvalidGltf, IsRefused_NamingTheMember) {
   const auto model = import_json(replaced(quad_gltf_json(), GetParam().what, GetParam().with));
@@ -32,7 +32,7 @@ TEST_P(InvalidGltf, IsRefused_NamingTheMember) {
   EXPECT_EQ(model.error().where, GetParam().where) << model.error().message;
 }
 
-const Invalid invalid_files[] = {
+const InvalidGltfFile invalid_gltfs[] = {
     {"NoAsset", R"("asset":{"version":"2.0"},)", "", ErrorCode::missing, "/asset"},
     {"VersionOne", R"("version":"2.0")", R"("version":"1.0")", ErrorCode::unsupported, "/asset/version"},
     {"VersionIsANumber", R"("version":"2.0")", R"("version":2)", ErrorCode::malformed, "/asset/version"},
@@ -129,7 +129,7 @@ const Invalid invalid_files[] = {
      ErrorCode::out_of_range, "/accessors/0/sparse/values"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Gltf, InvalidGltf, ::testing::ValuesIn(invalid_files),
+INSTANTIATE_TEST_SUITE_P(Gltf, InvalidGltf, ::testing::ValuesIn(invalid_gltfs),
                          [](const auto& test) { return test.param.name; });
 
 /// Faults of the container: bytes of quad_glb() changed.

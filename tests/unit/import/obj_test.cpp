@@ -9,15 +9,15 @@ Result<Model> import_obj(std::string_view text, const ImportLimits& limits = {})
   return import_model(to_bytes(text), ModelFormat::obj, limits);
 }
 
-struct Invalid {
+struct InvalidObjFile {
   const char* name;
   const char* text;
   ErrorCode code;
   const char* where;
 };
-void PrintTo(const Invalid& invalid, std::ostream* out) { *out << invalid.name; }
+void PrintTo(const InvalidObjFile& invalid, std::ostream* out) { *out << invalid.name; }
 
-class InvalidObj : public ::testing::TestWithParam<Invalid> {};
+class InvalidObj : public ::testing::TestWithParam<InvalidObjFile> {};
 
 TEST_P(InvalidObj, IsRefused_NamingTheLine) {
   const auto model = import_obj(GetParam().text);
@@ -27,7 +27,7 @@ TEST_P(InvalidObj, IsRefused_NamingTheLine) {
 }
 
 constexpr const char* no_line = "";
-const Invalid invalid_files[] = {
+const InvalidObjFile invalid_objs[] = {
     {"NoTriangles", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ErrorCode::empty, no_line},
     {"OnlyLines", "v 0 0 0\nv 1 0 0\nl 1 2\n", ErrorCode::empty, no_line},
     {"OnlyTwoCornerFaces", "v 0 0 0\nv 1 0 0\nf 1 2\n", ErrorCode::empty, no_line},
@@ -55,7 +55,7 @@ const Invalid invalid_files[] = {
     {"NormalIndexTooLarge", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n", ErrorCode::out_of_range, "line 4"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Obj, InvalidObj, ::testing::ValuesIn(invalid_files),
+INSTANTIATE_TEST_SUITE_P(Obj, InvalidObj, ::testing::ValuesIn(invalid_objs),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Obj, ZeroBytes_AreRefused_AsNotText) {

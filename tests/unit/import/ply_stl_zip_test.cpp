@@ -10,31 +10,31 @@
 namespace semblante::test {
 namespace {
 
-struct Invalid {
+struct InvalidPlyOrStl {
   const char* name;
   const char* what;  ///< what to change in the valid text
   const char* with;
   ErrorCode code;
   const char* where;
 };
-void PrintTo(const Invalid& invalid, std::ostream* out) { *out << invalid.name; }
+void PrintTo(const InvalidPlyOrStl& invalid, std::ostream* out) { *out << invalid.name; }
 
 std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-void expect_refused(const Result<Model>& model, const Invalid& invalid) {
+void expect_refused(const Result<Model>& model, const InvalidPlyOrStl& invalid) {
   ASSERT_FALSE(model);
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(invalid.code)) << model.error().message;
   EXPECT_EQ(model.error().where, invalid.where) << model.error().message;
 }
 
-class InvalidPly : public ::testing::TestWithParam<Invalid> {};
+class InvalidPly : public ::testing::TestWithParam<InvalidPlyOrStl> {};
 
 TEST_P(InvalidPly, IsRefused_NamingThePlace) {
   const std::string text = replaced(text_of(quad_ply_text()), GetParam().what, GetParam().with);
   expect_refused(import_model(to_bytes(text), ModelFormat::ply), GetParam());
 }
 
-const Invalid invalid_plys[] = {
+const InvalidPlyOrStl invalid_plys[] = {
     {"NoMagic", "ply\n", "plx\n", ErrorCode::malformed, "line 1"},
     {"UnknownFormat", "ascii", "ebcdic", ErrorCode::unsupported, "line 2"},
     {"NoFormat", "format ascii 1.0", "comment", ErrorCode::missing, "line 12"},
@@ -107,7 +107,7 @@ TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::not_finite));
 }
 
-class InvalidStl : public ::testing::TestWithParam<Invalid> {};
+class InvalidStl : public ::testing::TestWithParam<InvalidPlyOrStl> {};
 
 TEST_P(InvalidStl, IsRefused_NamingTheLine) {
   const std::string text = replaced(
@@ -117,7 +117,7 @@ TEST_P(InvalidStl, IsRefused_NamingTheLine) {
   expect_refused(import_model(to_bytes(text), ModelFormat::stl), GetParam());
 }
 
-const Invalid invalid_stls[] = {
+const InvalidPlyOrStl invalid_stls[] = {
     {"NoEnd", "endsolid a\n", "", ErrorCode::truncated, "line 8"},
     {"FacetOfTwo", "vertex 1 0 0\n", "", ErrorCode::malformed, "line 7"},
     {"FacetOfFour", "vertex 1 0 0\n", "vertex 1 0 0\nvertex 1 1 0\n", ErrorCode::malformed, "line 7"},

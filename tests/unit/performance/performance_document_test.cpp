@@ -11,7 +11,7 @@ std::string document(const std::string& cues, const std::string& more = "") {
   return R"({"format":"semblante.performance","version":1,)" + more + R"("cues":[)" + cues + "]}";
 }
 
-Error refused(const std::string& text) {
+Error refused_document(const std::string& text) {
   auto script = read_performance(text);
   if (!script) return script.error();
   const auto made = Performance::compile(*script);
@@ -74,7 +74,7 @@ TEST(PerformanceDocument, Written_ReadsBackTheSame) {
 }
 
 TEST(PerformanceDocument, WhatIsWrong_IsNamedWithItsPlace) {
-  const auto where = [](const std::string& cue) { return refused(document(cue)).where; };
+  const auto where = [](const std::string& cue) { return refused_document(document(cue)).where; };
   EXPECT_EQ(where(R"({"duration":1,"fap":3,"value":1})"), "/cues/0/time");
   EXPECT_EQ(where(R"({"time":0,"fap":3,"value":1})"), "/cues/0/duration");
   EXPECT_EQ(where(R"({"time":0,"duration":1,"fap":3})"), "/cues/0");
@@ -97,19 +97,19 @@ TEST(PerformanceDocument, WhatIsWrong_IsNamedWithItsPlace) {
   EXPECT_EQ(where(R"({"time":0,"duration":1,"fap":3,"value":1,"time":2})"), "/cues/0/time");
   EXPECT_EQ(where(R"({"time":0,"duration":1,"fap":3,"value":1},{"time":-1,"duration":1,"fap":3,"value":1})"),
             "/cues/1/time");
-  EXPECT_EQ(refused(document(R"({"time":1e999,"duration":1,"fap":3,"value":1})")).code, ErrorCode::not_finite);
-  EXPECT_EQ(refused(document(R"({"time":NaN,"duration":1,"fap":3,"value":1})")).code, ErrorCode::malformed);
-  EXPECT_EQ(refused(document("", R"("duraton":1,)")).where, "/duraton");
-  EXPECT_EQ(refused(document("", R"("idle":{"seed":-1},)")).where, "/idle/seed");
-  EXPECT_EQ(refused(document("", R"("idle":{"blinks_per_minute":400},)")).where, "/idle/blinks_per_minute");
-  EXPECT_EQ(refused(document("", R"("idle":{},"idle":{},)")).where, "/idle");
-  EXPECT_EQ(refused(R"({"version":1,"cues":[]})").where, "/format");
-  EXPECT_EQ(refused(R"({"format":"semblante.performance","version":2,"cues":[]})").where, "/version");
-  EXPECT_EQ(refused(R"({"format":"semblante.performance","version":1})").where, "/cues");
-  EXPECT_EQ(refused(R"({"format":"semblante.performance","version":1,"cues":7})").where, "/cues");
-  EXPECT_EQ(refused("[]").code, ErrorCode::malformed);
-  EXPECT_EQ(refused("7").code, ErrorCode::malformed);
-  EXPECT_EQ(refused("").code, ErrorCode::malformed);
+  EXPECT_EQ(refused_document(document(R"({"time":1e999,"duration":1,"fap":3,"value":1})")).code, ErrorCode::not_finite);
+  EXPECT_EQ(refused_document(document(R"({"time":NaN,"duration":1,"fap":3,"value":1})")).code, ErrorCode::malformed);
+  EXPECT_EQ(refused_document(document("", R"("duraton":1,)")).where, "/duraton");
+  EXPECT_EQ(refused_document(document("", R"("idle":{"seed":-1},)")).where, "/idle/seed");
+  EXPECT_EQ(refused_document(document("", R"("idle":{"blinks_per_minute":400},)")).where, "/idle/blinks_per_minute");
+  EXPECT_EQ(refused_document(document("", R"("idle":{},"idle":{},)")).where, "/idle");
+  EXPECT_EQ(refused_document(R"({"version":1,"cues":[]})").where, "/format");
+  EXPECT_EQ(refused_document(R"({"format":"semblante.performance","version":2,"cues":[]})").where, "/version");
+  EXPECT_EQ(refused_document(R"({"format":"semblante.performance","version":1})").where, "/cues");
+  EXPECT_EQ(refused_document(R"({"format":"semblante.performance","version":1,"cues":7})").where, "/cues");
+  EXPECT_EQ(refused_document("[]").code, ErrorCode::malformed);
+  EXPECT_EQ(refused_document("7").code, ErrorCode::malformed);
+  EXPECT_EQ(refused_document("").code, ErrorCode::malformed);
 }
 
 TEST(PerformanceDocument, TenMillionCues_AreRefusedBeforeTheyAreRead) {
@@ -117,11 +117,11 @@ TEST(PerformanceDocument, TenMillionCues_AreRefusedBeforeTheyAreRead) {
   const std::string one = R"({"time":0,"blink":"both"},)";
   for (int i = 0; i < 10'000'000; ++i) text += one;
   text += R"({"time":0,"blink":"both"}]})";
-  const auto error = refused(text);
+  const auto error = refused_document(text);
   EXPECT_EQ(error.code, ErrorCode::too_large);
   // As many as fit into the bytes are more cues than there may be, too.
   text.resize(max_performance_bytes);
-  const auto second = refused(text);
+  const auto second = refused_document(text);
   EXPECT_EQ(second.code, ErrorCode::too_large);
   EXPECT_EQ(second.where, "/cues");
 }
@@ -129,18 +129,18 @@ TEST(PerformanceDocument, TenMillionCues_AreRefusedBeforeTheyAreRead) {
 TEST(PerformanceDocument, WhatIsNoDocument_TakesNoMemory) {
   std::string lists;
   for (int i = 0; i < 4'000'001; ++i) lists += i == 0 ? "[]" : ",[]";
-  const auto empty_keys = refused(document(R"({"time":0,"fap":3,"keys":[)" + lists + "]}"));
+  const auto empty_keys = refused_document(document(R"({"time":0,"fap":3,"keys":[)" + lists + "]}"));
   EXPECT_TRUE(empty_keys.where.starts_with("/cues/0/keys/")) << empty_keys.where;
   EXPECT_EQ(empty_keys.code, ErrorCode::too_large);
   std::string members;
   for (int i = 0; i < 65; ++i) members += "\"m" + std::to_string(i) + "\":0,";
-  EXPECT_EQ(refused(document("", members)).where, "/m0");
-  EXPECT_EQ(refused(document("", R"("idle":{"a/b":1,"a/b":2},)")).where, "/idle/a~1b");
+  EXPECT_EQ(refused_document(document("", members)).where, "/m0");
+  EXPECT_EQ(refused_document(document("", R"("idle":{"a/b":1,"a/b":2},)")).where, "/idle/a~1b");
 }
 
 TEST(PerformanceDocument, Nesting_IsBounded) {
-  EXPECT_EQ(refused(document(std::string(100'000, '['))).code, ErrorCode::too_large);
-  EXPECT_EQ(refused(R"({"idle":)" + std::string(100'000, '[')).code, ErrorCode::too_large);
+  EXPECT_EQ(refused_document(document(std::string(100'000, '['))).code, ErrorCode::too_large);
+  EXPECT_EQ(refused_document(R"({"idle":)" + std::string(100'000, '[')).code, ErrorCode::too_large);
 }
 
 }  // namespace

@@ -9,18 +9,13 @@
 #include "server/streams/batch_sender.h"
 #include "tests/support/wait.h"
 #include "tests/unit/streams/fake_socket.h"
+#include "tests/unit/streams/feeding.h"
 
 namespace semblante::streams {
 namespace {
 
 using Clock = Stream::Clock;
 using std::chrono::milliseconds;
-
-TimedFrame frame_with(std::int16_t level) {
-  TimedFrame frame;
-  frame.state.level[3] = level;
-  return frame;
-}
 
 /// A stream that gathers for a minute, unless the test says that it is over.
 class BatchingTest : public ::testing::Test {

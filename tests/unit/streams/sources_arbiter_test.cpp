@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "server/streams/source_arbiter.h"
+#include "tests/unit/streams/feeding.h"
 
 namespace semblante::streams {
 namespace {
@@ -14,9 +15,6 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
-
-constexpr std::array all = {Source::connection, Source::request,   Source::performance,
-                            Source::fap,        Source::recording, Source::demo};
 
 bool holds(Source source) { return source != Source::request && source != Source::demo; }
 
@@ -90,7 +88,8 @@ TEST_P(ArbiterPairs, SecondIsRefusedOrTakesOver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, ArbiterPairs,
-                         ::testing::Combine(::testing::ValuesIn(all), ::testing::ValuesIn(all), ::testing::Bool()));
+                         ::testing::Combine(::testing::ValuesIn(all_sources), ::testing::ValuesIn(all_sources),
+                                            ::testing::Bool()));
 
 TEST_F(Arbiter, RefusedRequest_IsToldWhoHoldsTheStream) {
   const auto publisher = claim(Source::connection);
@@ -250,7 +249,7 @@ TEST_F(Arbiter, RandomEvents_MediaTimeNeverFalls_AndOneSourceFeeds) {
     for (int step = 0; step < 200; ++step) {
       now_ += milliseconds(below(5) == 0 ? below(4000) : below(50));
       if (feeders.empty() || below(5) == 0) {
-        const auto source = all[below(all.size())];
+        const auto source = all_sources[below(all_sources.size())];
         const auto ticket = holds(source) ? claim(source, below(2) == 0) : 0;
         if (ticket != 0) holder = ticket;
         feeders.emplace_back(source, ticket);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/streams/fake_socket.h"
+#include "tests/unit/streams/feeding.h"
 
 namespace semblante::streams {
 namespace {
@@ -103,9 +104,6 @@ class Sources : public ::testing::Test {
   FaceFrame state_;
 };
 
-constexpr std::array all = {Source::connection, Source::request,   Source::performance,
-                            Source::fap,        Source::recording, Source::demo};
-
 class Pairs : public Sources, public ::testing::WithParamInterface<std::tuple<Source, Source, bool>> {};
 
 TEST_P(Pairs, SecondIsRefusedOrTakesOver) {
@@ -162,7 +160,8 @@ TEST_P(Pairs, SecondIsRefusedOrTakesOver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Pairs,
-                         ::testing::Combine(::testing::ValuesIn(all), ::testing::ValuesIn(all), ::testing::Bool()));
+                         ::testing::Combine(::testing::ValuesIn(all_sources), ::testing::ValuesIn(all_sources),
+                                            ::testing::Bool()));
 
 TEST_F(Sources, TakingOverFromAClockThatRunsAhead_TimeDoesNotGoBack) {
   Feeder ahead(stream_, Source::connection);
@@ -187,7 +186,7 @@ TEST_F(Sources, RandomSequences_NoGapAndNoWayBackInTime) {
     std::vector<std::unique_ptr<Feeder>> feeders;
     for (int step = 0; step < 60; ++step) {
       if (feeders.empty() || below(4) == 0) {
-        auto feeder = std::make_unique<Feeder>(stream_, all[below(all.size())]);
+        auto feeder = std::make_unique<Feeder>(stream_, all_sources[below(all_sources.size())]);
         if (feeder->begin(below(2) == 0)) feeders.push_back(std::move(feeder));
       } else if (below(8) == 0) {
         feeders.erase(feeders.begin() + static_cast<std::ptrdiff_t>(below(feeders.size())));

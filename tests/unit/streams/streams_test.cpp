@@ -10,17 +10,12 @@
 #include "server/streams/performance_source.h"
 #include "server/streams/stream_hub.h"
 #include "tests/unit/streams/fake_socket.h"
+#include "tests/unit/streams/feeding.h"
 
 namespace semblante::streams {
 namespace {
 
 using std::chrono::milliseconds;
-
-TimedFrame frame_with(std::int16_t level) {
-  TimedFrame frame;
-  frame.state.level[3] = level;
-  return frame;
-}
 
 /// A stream and one connection in JSON, without a socket.
 class StreamTest : public ::testing::Test {
