@@ -6,7 +6,7 @@
 
 #include <openssl/evp.h>
 
-#include "clients/native/client/draco_decode.h"
+#include "clients/native/client/decode_mesh.h"
 
 namespace semblante::client {
 namespace {
