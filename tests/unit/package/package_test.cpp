@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/draco/draco_mesh.h"
+#include "core/geometry/smooth_normals.h"
 #include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
