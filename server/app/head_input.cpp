@@ -91,7 +91,7 @@ void add_weight_options(CLI::App& command, HeadOptions& options) {
 }  // namespace
 
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points) {
-  command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+  command.add_option("MODEL", options.model_path, "The head: " + model_file_titles())
       ->required()
       ->envname("SEMBLANTE_MODEL");
   command
@@ -114,8 +114,7 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
 
 void add_named_head_options(CLI::App& command, HeadOptions& options) {
   CLI::Option* const model =
-      command.add_option("--model", options.model_path, "A head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
-          ->envname("SEMBLANTE_MODEL");
+      command.add_option("--model", options.model_path, "A head: " + model_file_titles())->envname("SEMBLANTE_MODEL");
   CLI::Option* const points =
       command.add_option("--feature-points,--points", options.feature_points_path, "Its feature points, as JSON")
           ->needs(model)
