@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/state_codec.h"
@@ -11,7 +12,7 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t fap_count = 68;
+constexpr std::size_t fap_count = last_low_level_fap;
 constexpr std::size_t viseme_fields = 4;
 constexpr std::size_t expression_fields = 6;
 constexpr double max_rate = 1000.0;

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cassert>
 
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
 
 namespace semblante {
 namespace {
 
-constexpr std::size_t fap_count = 68;
+constexpr std::size_t fap_count = last_low_level_fap;
 
 void append(std::string& text, int value) { text.append(" ").append(std::to_string(value)); }
 

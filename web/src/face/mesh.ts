@@ -1,3 +1,5 @@
+export { featurePointCount } from '@protocol/generated/mpeg4.ts';
+
 /** Triangles that share a material: indices `start` .. `start + count - 1` of `DrawableMesh.indices`. */
 export interface MaterialGroup {
   start: number;
@@ -25,8 +27,6 @@ export interface DrawableMesh {
   /** #V: 0 none, 1 left eye, 2 right eye */
   rigid: Uint8Array;
 }
-
-export const featurePointCount = 84;
 
 /** Area-weighted vertex normals over vertices joined by position; for meshes that bring none. */
 export function smoothNormals(positions: Float32Array, indices: Uint32Array, group: Uint32Array): Float32Array {
