@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/draco/draco_mesh.h"
+#include "protocol/cpp/rig_material.h"
 #include "server/hash/sha256.h"
 
 namespace semblante {
@@ -17,26 +18,6 @@ Result<Image> take_image(const RigDocument::ImageInfo& info, const FaceParts& pa
   if (!bytes) return bytes.error();
   if (sha256(*bytes) != info.sha256) return Error{ErrorCode::mismatch, name, "has other content than its hash"};
   return Image{info.mime_type, std::move(*bytes)};
-}
-
-Material take_material(const RigDocument::MaterialInfo& info, const std::vector<RigDocument::ImageInfo>& images) {
-  const auto index_of = [&](const std::optional<Sha256>& hash) {
-    if (!hash) return -1;
-    const auto at =
-        std::find_if(images.begin(), images.end(), [&](const auto& image) { return image.sha256 == *hash; });
-    return at == images.end() ? -1 : static_cast<int>(at - images.begin());
-  };
-  Material out;
-  out.name = info.name;
-  out.base_color = info.base_color;
-  out.metallic = info.metallic;
-  out.roughness = info.roughness;
-  out.alpha_mode = static_cast<Material::AlphaMode>(info.alpha_mode);
-  out.alpha_cutoff = info.alpha_cutoff;
-  out.double_sided = info.double_sided;
-  out.base_color_image = index_of(info.base_color_image);
-  out.normal_image = index_of(info.normal_image);
-  return out;
 }
 
 /// An attribute of mesh.drc that rig.json names; empty when it names none.
@@ -104,8 +85,7 @@ Result<PackedFace> open_package(const FaceParts& parts) {
   PackedFace face;
   face.mesh = std::move(*mesh);
   face.table = std::move(*table);
-  for (const RigDocument::MaterialInfo& info : rig->materials)
-    face.materials.push_back(take_material(info, rig->images));
+  for (const RigDocument::MaterialInfo& info : rig->materials) face.materials.push_back(material_of(info, rig->images));
   for (const RigDocument::ImageInfo& info : rig->images) {
     auto image = take_image(info, parts);
     if (!image) return image.error();
