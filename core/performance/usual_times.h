@@ -30,8 +30,8 @@ inline constexpr Ramps head_ramps = usual_ramps.back().ramps;
 /// Duration of a blink that says none, ms.
 inline constexpr double blink_ms = usual_ramps[4].ramps.attack + usual_ramps[4].ramps.release;
 
-/// How far performances shut the lids: lids of a neutral face are one iris apart, 1024 units, of which the upper (FAPs 19
-/// and 20) and the lower (21 and 22) take these.
+/// How far performances shut the lids: lids of a neutral face are one iris apart, 1024 units, of which the upper (FAPs
+/// 19 and 20) and the lower (21 and 22) take these.
 inline constexpr double upper_lid_units = 940.0;
 inline constexpr double lower_lid_units = 84.0;
 
