@@ -1,12 +1,11 @@
 import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
+import { fapCount, featurePointCount } from '../../protocol/ts/generated/mpeg4.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { featurePointIndex, rigFapus, type DisplacementSet, type RigDocument } from '../../protocol/ts/rig_document.ts';
 import type { Face } from './face.ts';
 import { FaceError } from './face_error.ts';
 
 // Layout of the structures of core/kernel/semblante_kernel.h with 4-byte pointers.
-const featurePointCount = 84;
-const fapCount = 68;
 const frameBytes = 8 + (fapCount + 1) * 4;
 const rigBytes = 160;
 const visemeShareAt = 64;

@@ -1,4 +1,10 @@
-import type { Cue, Easing, PerformanceScript } from '../../protocol/ts/performance_document.ts';
+import {
+  shutLidUnits,
+  usualRamps,
+  type Cue,
+  type Easing,
+  type PerformanceScript,
+} from '../../protocol/ts/performance_document.ts';
 import { maxBlend, neutralFrame, type FaceFrame } from '../../protocol/ts/face_frame.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { idleAt, smoothStep } from './idle.ts';
@@ -14,9 +20,9 @@ export interface PerformedFace {
 const unitsPerDegree = 1745.3292519943296; // AU: 1e-5 rad
 const largestEyeYaw = 45;
 const largestEyePitch = 35;
-const upperLidUnits = 940;
-const lowerLidUnits = 84;
-const headRamp = 400;
+const upperLidUnits = shutLidUnits.upper;
+const lowerLidUnits = shutLidUnits.lower;
+const headRamp = usualRamps.head[0];
 
 /** A cue as it is played: held, where the next one on its target takes over. */
 interface Span {

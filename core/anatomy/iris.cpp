@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/geometry/triangle_shape.h"
 
 namespace semblante {
 namespace {
@@ -37,9 +38,8 @@ std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface&
     Facet facet;
     for (std::size_t i = 0; i < 3; ++i) facet.corners[i] = surface.surface_of[triangle[i]];
     if (surface.part_of[facet.corners[0].value()] != surface.part_of[marked.value()]) continue;
-    const glm::dvec3& a = surface.positions[facet.corners[0].value()];
-    const glm::dvec3 normal =
-        glm::cross(surface.positions[facet.corners[1].value()] - a, surface.positions[facet.corners[2].value()] - a);
+    const auto at = [&](std::size_t i) -> const glm::dvec3& { return surface.positions[facet.corners[i].value()]; };
+    const glm::dvec3 normal = area_vector(at(0), at(1), at(2));
     const double size = glm::length(normal);
     if (!(size > 0.0) || glm::dot(normal, axis) < 0.8 * size) continue;
     facet.normal = normal / size;

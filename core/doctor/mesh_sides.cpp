@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_shape.h"
+
 namespace semblante {
 namespace {
 
@@ -20,7 +22,7 @@ bool has_area(const Surface& surface, const Corners& c) {
   const glm::dvec3& b = surface.positions[c[1]];
   const glm::dvec3& d = surface.positions[c[2]];
   const double longest = std::max({glm::distance(a, b), glm::distance(b, d), glm::distance(d, a)});
-  return glm::length(glm::cross(b - a, d - a)) > least_height * longest * longest;
+  return glm::length(area_vector(a, b, d)) > least_height * longest * longest;
 }
 
 }  // namespace

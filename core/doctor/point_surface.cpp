@@ -11,6 +11,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
+#include "core/geometry/triangle_shape.h"
 
 namespace semblante {
 namespace {
@@ -148,7 +149,7 @@ void find_points_on_the_inside(const Subject& head, std::span<const SurfacePoint
     for (std::size_t k = 0; k < 3; ++k) c[k] = head.surface.surface_of[triangle[k]].value();
     if (!wanted[c[0]] && !wanted[c[1]] && !wanted[c[2]]) continue;
     const auto& p = head.surface.positions;
-    const glm::dvec3 normal = glm::cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]);
+    const glm::dvec3 normal = area_vector(p[c[0]], p[c[1]], p[c[2]]);
     for (const std::uint32_t corner : c)
       if (wanted[corner]) normals[corner] += normal;
   }

@@ -4,11 +4,14 @@
 
 #include "core/expressions/contact.h"
 #include "core/expressions/kernel_parts.h"
+#include "core/tables/mpeg4.h"
 
 namespace semblante {
 namespace {
 
-static_assert(SEMBLANTE_FP_COUNT == feature_point_count && SEMBLANTE_FAPU_COUNT == fapu_unit_count);
+static_assert(SEMBLANTE_FP_COUNT == feature_point_count && feature_point_count == mpeg4::feature_points.size());
+static_assert(SEMBLANTE_FAP_COUNT == mpeg4::fap_count);
+static_assert(SEMBLANTE_FAPU_COUNT == fapu_unit_count);
 static_assert(static_cast<int>(RigidMotion::left_eye) == SEMBLANTE_RIGID_LEFT_EYE);
 static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_EYE);
 static_assert(static_cast<int>(RigidMotion::left_iris) == SEMBLANTE_RIGID_LEFT_IRIS);

@@ -11,6 +11,7 @@
 
 #include "core/anatomy/role_by_name.h"
 #include "core/geometry/nearest_point.h"
+#include "core/geometry/triangle_shape.h"
 
 namespace semblante {
 namespace {
@@ -232,7 +233,7 @@ double crowding(const Model& model, const Surface& surface, PartId part, const P
     const glm::dvec3& a = surface.positions[first];
     const glm::dvec3& b = surface.positions[surface.surface_of[triangle[1]].value()];
     const glm::dvec3& c = surface.positions[surface.surface_of[triangle[2]].value()];
-    const double size = glm::length(glm::cross(b - a, c - a));
+    const double size = glm::length(area_vector(a, b, c));
     weighted += size * (a[axis] + b[axis] + c[axis]) / 3.0;
     area += size;
   }

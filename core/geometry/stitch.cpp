@@ -1,11 +1,11 @@
 #include "core/geometry/stitch.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <numeric>
 #include <tuple>
 #include <utility>
+
+#include "core/types/place.h"
 
 namespace semblante {
 namespace {
@@ -41,14 +41,6 @@ class VertexSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// A position whose equality is the equality of its bits: -0 is written as +0.
-using PlaceKey = std::array<std::uint32_t, 3>;
-
-PlaceKey key_of(const glm::vec3& p) {
-  const auto bits = [](float x) { return x == 0.0F ? 0U : std::bit_cast<std::uint32_t>(x); };
-  return {bits(p.x), bits(p.y), bits(p.z)};
-}
-
 std::vector<std::pair<std::uint32_t, std::uint32_t>> boundary_edges(std::span<const Triangle> triangles) {
   std::vector<Side> sides;
   sides.reserve(triangles.size() * 3);
@@ -81,8 +73,8 @@ std::vector<std::uint32_t> stitch_seams(std::span<const glm::vec3> positions, st
   std::vector<std::pair<PlaceKey, std::uint32_t>> ends;
   ends.reserve(boundary.size() * 2);
   for (const auto& [a, b] : boundary) {
-    ends.emplace_back(key_of(positions[a]), a);
-    ends.emplace_back(key_of(positions[b]), b);
+    ends.emplace_back(place_key(positions[a]), a);
+    ends.emplace_back(place_key(positions[b]), b);
   }
   std::sort(ends.begin(), ends.end());
   std::vector<std::uint32_t> place_of(positions.size(), 0);

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "core/draco/draco_mesh.h"
 #include "core/import/gltf_document.h"
-#include "core/import/gltf_draco.h"
 #include "core/import/gltf_materials.h"
 #include "core/import/gltf_morph_targets.h"
 #include "core/import/gltf_scene.h"
@@ -61,7 +61,7 @@ class PrimitiveData {
     if (document_.failed()) return;
     const auto bytes = document_.draco_view(view, *draco_place_);
     if (document_.failed()) return;
-    auto decoded = DracoMesh::decode(bytes, limits);
+    auto decoded = DracoMesh::decode(bytes, {limits.max_vertices, limits.max_triangles});
     if (!decoded) {
       draco_place_->fail(decoded.error().code, decoded.error().message);
     } else {
@@ -92,7 +92,14 @@ class PrimitiveData {
   }
 
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t vertex_count, std::size_t max_count) const {
-    if (draco_) return draco_->indices();
+    if (draco_) {
+      std::vector<std::uint32_t> indices;
+      indices.reserve(std::size_t{3} * draco_->triangle_count());
+      for (const Triangle& triangle : draco_->triangles()) {
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
+      }
+      return indices;
+    }
     const auto accessor = primitive_.index("indices", document_.count("accessors"));
     if (document_.failed()) return {};
     if (accessor) return document_.indices(*accessor, vertex_count, max_count);

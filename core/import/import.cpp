@@ -16,22 +16,6 @@ namespace {
 
 using import::as_text;
 
-bool has_ending(std::string_view name, std::string_view ending) {
-  if (name.size() < ending.size()) return false;
-  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
-                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
-}
-
-std::optional<ModelFormat> format_of_name(std::string_view name) {
-  if (has_ending(name, ".glb") || has_ending(name, ".vrm")) return ModelFormat::glb;
-  if (has_ending(name, ".gltf")) return ModelFormat::gltf;
-  if (has_ending(name, ".zip")) return ModelFormat::gltf_zip;
-  if (has_ending(name, ".obj")) return ModelFormat::obj;
-  if (has_ending(name, ".ply")) return ModelFormat::ply;
-  if (has_ending(name, ".stl")) return ModelFormat::stl;
-  return std::nullopt;
-}
-
 /// A binary STL has no magic: 80 bytes of anything, a count, and 50 bytes a triangle.
 bool has_size_of_binary_stl(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 84) return false;
@@ -58,24 +42,6 @@ bool looks_like_obj(std::string_view text) {
 
 }  // namespace
 
-std::string_view to_string(ModelFormat format) {
-  switch (format) {
-    case ModelFormat::glb:
-      return "glb";
-    case ModelFormat::gltf:
-      return "gltf";
-    case ModelFormat::gltf_zip:
-      return "gltf_zip";
-    case ModelFormat::obj:
-      return "obj";
-    case ModelFormat::ply:
-      return "ply";
-    case ModelFormat::stl:
-      return "stl";
-  }
-  return "";
-}
-
 std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, std::string_view file_name) {
   std::string_view text = as_text(bytes);
   if (text.starts_with("glTF")) return ModelFormat::glb;
@@ -94,7 +60,7 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
 
 Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_view file_name) {
   if (const auto format = detect_format(bytes, file_name)) return *format;
-  return Error{ErrorCode::unsupported, "", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL"};
+  return Error{ErrorCode::unsupported, "", "the file is none of " + model_file_titles()};
 }
 
 Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits) {

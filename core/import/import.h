@@ -6,15 +6,11 @@
 #include <string_view>
 
 #include "core/import/limits.h"
+#include "core/import/model_formats.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 
 namespace semblante {
-
-enum class ModelFormat { glb, gltf, gltf_zip, obj, ply, stl };
-
-/// "glb", "gltf", "gltf_zip", "obj", "ply", "stl".
-std::string_view to_string(ModelFormat format);
 
 /// The format the bytes themselves show; where they show none (text that could be anything, an empty file), the one the
 /// ending of `file_name` claims, so that its reader can say what is wrong. nullopt when neither says anything.

@@ -1,14 +1,13 @@
 #include "core/import/stl_reader.h"
 
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 
 #include "core/import/byte_reader.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/types/place.h"
 #include "core/types/printable.h"
-#include "core/types/seeded_hash.h"
 
 namespace semblante::import {
 namespace {
@@ -22,22 +21,15 @@ class Welder {
   explicit Welder(std::vector<glm::vec3>& positions) : positions_(positions) {}
 
   std::uint32_t vertex_at(glm::vec3 position) {
-    position += 0.0F;  // -0 becomes +0
     const auto next = static_cast<std::uint32_t>(positions_.size());
-    const auto [entry, is_new] = vertices_.try_emplace(position, next);
-    if (is_new) positions_.push_back(position);
+    const auto [entry, is_new] = vertices_.try_emplace(place_key(position), next);
+    if (is_new) positions_.push_back(position + 0.0F);  // -0 becomes +0
     return entry->second;
   }
 
  private:
-  struct Hash {
-    std::size_t operator()(const glm::vec3& p) const {
-      return SeededHash::of(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                            std::bit_cast<std::uint32_t>(p.z));
-    }
-  };
   std::vector<glm::vec3>& positions_;
-  std::unordered_map<glm::vec3, std::uint32_t, Hash> vertices_;
+  std::unordered_map<PlaceKey, std::uint32_t, PlaceHash> vertices_;
 };
 
 Error too_many(const char* what, std::size_t limit) {

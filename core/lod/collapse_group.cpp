@@ -9,9 +9,9 @@
 #include <OpenMesh/Tools/Decimater/Observer.hh>
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_shape.h"
 #include "core/lod/collapse_history.h"
 #include "core/lod/group_mesh.h"
-#include "core/lod/triangle_shape.h"
 
 // Needs what the mesh includes, and does not say so.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>

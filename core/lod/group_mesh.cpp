@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/lod/triangle_shape.h"
+#include "core/geometry/triangle_shape.h"
 
 namespace semblante {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_shape.h"
 #include "core/geometry/triangle_tree.h"
 #include "core/lod/corners.h"
-#include "core/lod/triangle_shape.h"
 
 namespace semblante {
 namespace {

@@ -3,34 +3,20 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/performance/performance.h"
+#include "core/performance/usual_times.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {
 namespace {
 
-/// ms; of a cue that says nothing else.
-struct Ramps {
-  double attack, release;
-};
-constexpr Ramps fap_ramps{100.0, 100.0};
-constexpr Ramps viseme_ramps{70.0, 70.0};
-constexpr Ramps expression_ramps{300.0, 500.0};
-constexpr Ramps look_ramps{80.0, 80.0};
-constexpr Ramps head_ramps{400.0, 400.0};
-constexpr Ramps blink_ramps{80.0, 160.0};
-constexpr double blink_ms = 240.0;
-
 constexpr double largest_degrees = 90.0;
 constexpr double largest_level = 32767.0;
 constexpr double nearest_look = 1.0;  ///< eye distances
 
-Ramps ramps_of(const CueTarget& target) {
-  static constexpr auto by_kind =
-      std::to_array<Ramps>({fap_ramps, viseme_ramps, expression_ramps, look_ramps, blink_ramps, head_ramps});
-  return by_kind[target.index()];
-}
+static_assert(std::variant_size_v<CueTarget> == usual_ramps.size());
 
 std::string text_of(double value) {
   std::string text = std::to_string(value);
@@ -124,7 +110,7 @@ void check_values(const Cue& cue, Checker& check) {
 
 /// Attack and release: what the cue says must fit into it; what it does not say takes what it likes of the rest.
 Ramps fitted_ramps(const Cue& cue, double duration, Checker& check) {
-  Ramps usual = cue.keys.empty() ? ramps_of(cue.target) : Ramps{0.0, 0.0};
+  Ramps usual = cue.keys.empty() ? usual_ramps[cue.target.index()].ramps : Ramps{0.0, 0.0};
   if (cue.attack) check.within(*cue.attack, 0.0, duration, "/attack");
   if (cue.release) check.within(*cue.release, 0.0, duration, "/release");
   if (check.fault()) return usual;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/performance/idle.h"
+#include "core/performance/usual_times.h"
 
 namespace semblante {
 namespace {
@@ -11,9 +12,6 @@ namespace {
 constexpr double units_per_degree = 1745.3292519943296;  ///< AU: 1e-5 rad
 constexpr double largest_eye_yaw = 45.0;                 ///< degrees
 constexpr double largest_eye_pitch = 35.0;
-/// Lids of a neutral face are one iris apart, 1024 units: what the upper and the lower one take of it.
-constexpr double upper_lid_units = 940.0;
-constexpr double lower_lid_units = 84.0;
 
 double over(double below, double weight, double value) { return below + weight * (value - below); }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/state_codec.h"
@@ -11,7 +12,6 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t fap_count = 68;
 constexpr std::size_t viseme_fields = 4;
 constexpr std::size_t expression_fields = 6;
 constexpr double max_rate = 1000.0;
@@ -187,19 +187,19 @@ class Reader {
     FapFileFrame frame;
     const auto& words = line.words;
     for (std::size_t i = 0; i < words.size(); ++i) {
-      if (i > fap_count || (words[i] != "0" && words[i] != "1")) {
+      if (i > last_low_level_fap || (words[i] != "0" && words[i] != "1")) {
         fail(ErrorCode::malformed, line, i,
-             i > fap_count ? "a mask has 68 flags (69 are taken), this has more"
-                           : "a flag of a mask is 0 or 1, not " + quoted(words[i]));
+             i > last_low_level_fap ? "a mask has 68 flags (69 are taken), this has more"
+                                    : "a flag of a mask is 0 or 1, not " + quoted(words[i]));
         break;
       }
-      if (i < fap_count) frame.present[i + 1] = words[i] == "1";
+      if (i < last_low_level_fap) frame.present[i + 1] = words[i] == "1";
     }
-    if (words.size() < fap_count) {
+    if (words.size() < last_low_level_fap) {
       fail(ErrorCode::malformed, line.number,
            "a mask has 68 flags (69 are taken), this has " + std::to_string(words.size()));
     }
-    if (words.size() > fap_count) note(FapFileOddity::extra_flag, line.number);
+    if (words.size() > last_low_level_fap) note(FapFileOddity::extra_flag, line.number);
     return frame;
   }
 
@@ -230,7 +230,7 @@ class Reader {
     std::size_t at = 1;
     if (frame.present[1]) read_viseme(line, at, viseme, frame);
     if (frame.present[2]) read_expression(line, at, expression, frame);
-    for (std::size_t fap = 3; fap <= fap_count; ++fap) {
+    for (std::size_t fap = 3; fap <= last_low_level_fap; ++fap) {
       if (!frame.present[fap]) continue;
       if (at >= line.words.size()) {
         frame.present.reset(fap);

@@ -1,18 +1,17 @@
 #include <algorithm>
 #include <cassert>
 
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
 
 namespace semblante {
 namespace {
 
-constexpr std::size_t fap_count = 68;
-
 void append(std::string& text, int value) { text.append(" ").append(std::to_string(value)); }
 
 void append_frame(std::string& text, const FapFileFrame& frame) {
-  for (std::size_t fap = 1; fap <= fap_count; ++fap) {
+  for (std::size_t fap = 1; fap <= last_low_level_fap; ++fap) {
     text.append(fap > 1 ? " " : "").append(frame.present[fap] ? "1" : "0");
   }
   text.append("\n").append(std::to_string(frame.number));
@@ -27,7 +26,7 @@ void append_frame(std::string& text, const FapFileFrame& frame) {
       append(text, field);
     }
   }
-  for (std::size_t fap = 3; fap <= fap_count; ++fap) {
+  for (std::size_t fap = 3; fap <= last_low_level_fap; ++fap) {
     if (frame.present[fap]) text.append(" ").append(write_fap_number(frame.value[fap]));
   }
   text.append("\n");

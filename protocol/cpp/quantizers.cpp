@@ -8,6 +8,9 @@
 
 namespace semblante {
 
+static_assert(last_low_level_fap == mpeg4::fap_count);
+static_assert(low_level_fap_count == last_low_level_fap - first_low_level_fap + 1);
+
 const QuantizerSteps& standard_quantizers() {
   static const QuantizerSteps steps = [] {
     QuantizerSteps result{};

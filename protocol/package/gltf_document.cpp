@@ -9,6 +9,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/draco/draco_mesh.h"
+
 namespace semblante {
 namespace {
 
@@ -86,21 +88,21 @@ class GltfDocument::Content {
     auto bytes = encode_draco(slice.vertices.size(), slice.triangles, inputs);
     if (!bytes) return bytes.error();
     // The accessors must state what a decoder will find, and Draco may split or drop vertices.
-    const auto counts = count_decoded(*bytes);
-    if (!counts) return counts.error();
+    const auto decoded = DracoMesh::decode(*bytes);
+    if (!decoded) return decoded.error();
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = slice.material;
     tinygltf::Value::Object ids;
     for (std::size_t a = 0; a < attributes.size(); ++a) {
-      primitive.attributes[attributes[a].name] = add_accessor(attributes[a], -1, counts->points);
+      primitive.attributes[attributes[a].name] = add_accessor(attributes[a], -1, decoded->point_count());
       ids.emplace(attributes[a].name, tinygltf::Value(static_cast<int>(a)));
     }
     tinygltf::Accessor indices;
     indices.type = TINYGLTF_TYPE_SCALAR;
     indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    indices.count = counts->triangles * 3;
+    indices.count = std::size_t{3} * decoded->triangle_count();
     primitive.indices = add(indices);
     tinygltf::Value::Object extension;
     extension.emplace("bufferView", tinygltf::Value(add_view(std::as_bytes(std::span(*bytes)), 0)));
@@ -211,16 +213,6 @@ class GltfDocument::Content {
   }
 
  private:
-  struct Counts {
-    std::size_t points, triangles;
-  };
-
-  static Result<Counts> count_decoded(std::span<const std::uint8_t> bytes) {
-    const auto decoded = decode_draco(bytes);
-    if (!decoded) return decoded.error();
-    return Counts{decoded->point_count, decoded->triangles.size()};
-  }
-
   int add(const tinygltf::Accessor& accessor) {
     gltf_.accessors.push_back(accessor);
     return static_cast<int>(gltf_.accessors.size()) - 1;

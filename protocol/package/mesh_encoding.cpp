@@ -5,7 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "protocol/package/draco_mesh.h"
+#include "core/draco/draco_encode.h"
+#include "core/draco/draco_mesh.h"
 #include "protocol/package/quantization.h"
 
 namespace semblante {
@@ -29,7 +30,31 @@ std::vector<Triangle> canonical(std::span<const Triangle> triangles, std::span<c
   return out;
 }
 
-Status check_decoded(const RenderMesh& mesh, const DecodedMesh& decoded, std::span<const glm::vec3> file_positions) {
+/// A mesh as a client will see it.
+struct Decoded {
+  std::vector<Triangle> triangles;
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> file_vertex;  ///< empty where the bytes carry no vertex numbers
+};
+
+/// `positions` and `file_vertex` are Draco unique ids.
+Result<Decoded> decode(std::span<const std::uint8_t> bytes, std::uint32_t positions,
+                       std::optional<std::uint32_t> file_vertex) {
+  const auto draco = DracoMesh::decode(bytes);
+  if (!draco) return draco.error();
+  Decoded out;
+  out.triangles = draco->triangles();
+  auto read = draco->vectors3(positions);
+  if (!read) return read.error();
+  out.positions = std::move(*read);
+  if (!file_vertex) return out;
+  auto numbers = draco->numbers(*file_vertex);
+  if (!numbers) return numbers.error();
+  out.file_vertex = std::move(*numbers);
+  return out;
+}
+
+Status check_decoded(const RenderMesh& mesh, const Decoded& decoded, std::span<const glm::vec3> file_positions) {
   for (const std::uint32_t number : decoded.file_vertex) {
     if (number >= file_positions.size())
       return Error{ErrorCode::internal, "mesh.drc", "a vertex number came back wrong"};
@@ -49,10 +74,10 @@ Status check_decoded(const RenderMesh& mesh, const DecodedMesh& decoded, std::sp
   const float reach = std::max(
       {std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
   const float tolerance = 0.51F * side / static_cast<float>((1 << position_bits) - 1) + 4e-7F * reach;
-  for (std::size_t v = 0; v < decoded.point_count; ++v) {
+  for (std::size_t v = 0; v < decoded.positions.size(); ++v) {
     const glm::vec3& original = file_positions[decoded.file_vertex[v]];
     for (int c = 0; c < 3; ++c) {
-      if (!(std::abs(decoded.positions[v * 3 + static_cast<std::size_t>(c)] - original[c]) <= tolerance)) {
+      if (!(std::abs(decoded.positions[v][c] - original[c]) <= tolerance)) {
         return Error{ErrorCode::internal, "mesh.drc", "a position moved by more than a quantum"};
       }
     }
@@ -97,15 +122,14 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
   attributes.push_back({Kind::generic, Type::uint8, 1, std::as_bytes(std::span(mesh.materials)), {}, 0});
   auto bytes = encode_draco(mesh.positions.size(), mesh.triangles, attributes, encoding_speed);
   if (!bytes) return bytes.error();
-  const auto shipped = decode_draco(*bytes);
+  const auto shipped = decode(*bytes, out.attributes.position, std::nullopt);
   if (!shipped) return shipped.error();
 
-  DecodedAttributes numbers_alone;
-  numbers_alone.file_vertex = static_cast<std::uint32_t>(attributes.size());
+  const auto vertex_numbers = static_cast<std::uint32_t>(attributes.size());
   attributes.push_back({Kind::generic, Type::uint32, 1, std::as_bytes(std::span(numbers)), value_of_point, 0});
   const auto trial = encode_draco(mesh.positions.size(), mesh.triangles, attributes, encoding_speed);
   if (!trial) return trial.error();
-  auto decoded = decode_draco(*trial, numbers_alone);
+  auto decoded = decode(*trial, out.attributes.position, vertex_numbers);
   if (!decoded) return decoded.error();
   if (shipped->triangles != decoded->triangles || shipped->positions != decoded->positions) {
     return Error{ErrorCode::internal, "mesh.drc", "the vertex numbers changed the order of the mesh"};

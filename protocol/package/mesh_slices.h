@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/draco/draco_encode.h"
 #include "core/types/model.h"
-#include "protocol/package/draco_mesh.h"
 #include "protocol/package/render_mesh.h"
 
 namespace semblante {

@@ -6,6 +6,7 @@
 
 #include "core/expressions/contact.h"
 #include "core/expressions/library.h"
+#include "core/geometry/smooth_normals.h"
 #include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/draco/draco_mesh.h"
+#include "protocol/cpp/rig_material.h"
 #include "protocol/hash/sha256.h"
-#include "protocol/package/draco_mesh.h"
 
 namespace semblante {
 namespace {
@@ -19,60 +20,38 @@ Result<Image> take_image(const RigDocument::ImageInfo& info, const FaceParts& pa
   return Image{info.mime_type, std::move(*bytes)};
 }
 
-Material take_material(const RigDocument::MaterialInfo& info, const std::vector<RigDocument::ImageInfo>& images) {
-  const auto index_of = [&](const std::optional<Sha256>& hash) {
-    if (!hash) return -1;
-    const auto at =
-        std::find_if(images.begin(), images.end(), [&](const auto& image) { return image.sha256 == *hash; });
-    return at == images.end() ? -1 : static_cast<int>(at - images.begin());
-  };
-  Material out;
-  out.name = info.name;
-  out.base_color = info.base_color;
-  out.metallic = info.metallic;
-  out.roughness = info.roughness;
-  out.alpha_mode = static_cast<Material::AlphaMode>(info.alpha_mode);
-  out.alpha_cutoff = info.alpha_cutoff;
-  out.double_sided = info.double_sided;
-  out.base_color_image = index_of(info.base_color_image);
-  out.normal_image = index_of(info.normal_image);
-  return out;
-}
-
-std::vector<glm::vec3> as_vectors(const std::vector<float>& values) {
-  std::vector<glm::vec3> out(values.size() / 3);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[i * 3], values[i * 3 + 1], values[i * 3 + 2]};
-  return out;
+/// An attribute of mesh.drc that rig.json names; empty when it names none.
+template <class T>
+Status take(const std::optional<std::uint32_t>& id, const DracoMesh& mesh,
+            Result<std::vector<T>> (DracoMesh::*read)(std::uint32_t) const, std::vector<T>& out) {
+  if (!id) return Unit{};
+  auto values = (mesh.*read)(*id);
+  if (!values) return Error{values.error().code, "mesh.drc", values.error().message};
+  out = std::move(*values);
+  return Unit{};
 }
 
 Result<RenderMesh> take_mesh(const FaceParts& parts, const RigDocument& rig) {
-  DecodedAttributes wanted;
-  wanted.normal = rig.mesh.attributes.normal;
-  wanted.uv = rig.mesh.attributes.uv;
-  wanted.material = rig.mesh.attributes.material;
-  auto decoded = decode_draco(parts.mesh_drc, wanted);
-  if (!decoded) return decoded.error();
-  if (decoded->point_count != rig.mesh.vertices || decoded->triangles.size() != rig.mesh.triangles) {
+  const auto decoded = DracoMesh::decode(parts.mesh_drc, {rig.mesh.vertices, rig.mesh.triangles});
+  if (!decoded) return Error{decoded.error().code, "mesh.drc", decoded.error().message};
+  if (decoded->point_count() != rig.mesh.vertices || decoded->triangle_count() != rig.mesh.triangles) {
     return Error{ErrorCode::mismatch, "mesh.drc", "has other counts than rig.json says"};
   }
-  const auto finite = [](const std::vector<float>& values) {
-    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
-  };
-  if (!finite(decoded->positions) || !finite(decoded->normals) || !finite(decoded->uvs)) {
-    return Error{ErrorCode::not_finite, "mesh.drc", "holds a number that is not finite"};
-  }
+  const RigDocument::Attributes& ids = rig.mesh.attributes;
+  if (!ids.position) return Error{ErrorCode::missing, "rig.json", "names no positions in mesh.drc"};
   RenderMesh mesh;
-  mesh.positions = as_vectors(decoded->positions);
-  mesh.normals = as_vectors(decoded->normals);
+  for (const Status& taken : {take(ids.position, *decoded, &DracoMesh::vectors3, mesh.positions),
+                              take(ids.normal, *decoded, &DracoMesh::vectors3, mesh.normals),
+                              take(ids.uv, *decoded, &DracoMesh::vectors2, mesh.uvs),
+                              take(ids.material, *decoded, &DracoMesh::bytes, mesh.materials)}) {
+    if (!taken) return taken.error();
+  }
   for (glm::vec3& normal : mesh.normals) {  // the octahedral coordinates are whole numbers, glTF wants unit length
     const float length = std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
     normal = length > 0.0F ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F);
   }
-  for (std::size_t i = 0; i + 1 < decoded->uvs.size(); i += 2)
-    mesh.uvs.emplace_back(decoded->uvs[i], decoded->uvs[i + 1]);
-  mesh.materials = std::move(decoded->materials);
   mesh.materials.resize(mesh.positions.size());
-  mesh.triangles = std::move(decoded->triangles);
+  mesh.triangles = decoded->triangles();
   for (const Triangle& triangle : mesh.triangles) {
     const std::uint8_t material = mesh.materials[triangle[0]];
     if (material >= rig.materials.size() || mesh.materials[triangle[1]] != material ||
@@ -106,8 +85,7 @@ Result<PackedFace> open_package(const FaceParts& parts) {
   PackedFace face;
   face.mesh = std::move(*mesh);
   face.table = std::move(*table);
-  for (const RigDocument::MaterialInfo& info : rig->materials)
-    face.materials.push_back(take_material(info, rig->images));
+  for (const RigDocument::MaterialInfo& info : rig->materials) face.materials.push_back(material_of(info, rig->images));
   for (const RigDocument::ImageInfo& info : rig->images) {
     auto image = take_image(info, parts);
     if (!image) return image.error();

@@ -2,8 +2,6 @@
 
 #include <unordered_map>
 
-#include <glm/geometric.hpp>
-
 #include "core/types/seeded_hash.h"
 
 namespace semblante {
@@ -21,24 +19,6 @@ struct CornerHash {
 };
 
 }  // namespace
-
-std::vector<glm::vec3> smooth_normals(const Model& model, const Surface& surface) {
-  std::vector<glm::dvec3> sums(surface.vertex_count(), glm::dvec3(0.0));
-  for (const Triangle& t : model.triangles) {
-    const glm::dvec3 a(model.positions[t[0]]);
-    const glm::dvec3 b(model.positions[t[1]]);
-    const glm::dvec3 c(model.positions[t[2]]);
-    const glm::dvec3 area = glm::cross(b - a, c - a);
-    for (const std::uint32_t corner : t) sums[surface.surface_of[corner].value()] += area;
-  }
-  std::vector<glm::vec3> normals;
-  normals.reserve(sums.size());
-  for (const glm::dvec3& sum : sums) {
-    const double length = glm::length(sum);
-    normals.emplace_back(length > 0.0 ? sum / length : glm::dvec3(0.0, 0.0, 1.0));
-  }
-  return normals;
-}
 
 RenderMesh make_render_mesh(const Model& model, const Surface& surface,
                             std::span<const std::uint8_t> triangle_materials, std::span<const glm::vec3> smooth) {

@@ -23,9 +23,6 @@ struct RenderMesh {
   std::vector<std::uint8_t> triangle_materials;  ///< #T
 };
 
-/// One normal a surface vertex (#S): area-weighted means over the stitched surface, so that UV seams do not show.
-std::vector<glm::vec3> smooth_normals(const Model& model, const Surface& surface);
-
 /// Joins corners. `smooth` (#S) are the normals where the file has none: of the full model also for a level of detail,
 /// which then shades as if it were as fine. `triangle_materials` has one entry a triangle.
 RenderMesh make_render_mesh(const Model& model, const Surface& surface,

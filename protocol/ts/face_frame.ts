@@ -1,3 +1,5 @@
+import { fapCount } from './generated/mpeg4.ts';
+
 /** FAP 1: viseme(select1) * blend/63 + viseme(select2) * (1 - blend/63). Selects 0..14 (0 is silence), blend 0..63. */
 export interface VisemeBlend {
   select1: number;
@@ -31,7 +33,7 @@ export interface TimedFrame {
 }
 
 export const firstLowLevelFap = 3;
-export const lastLowLevelFap = 68;
+export const lastLowLevelFap = fapCount;
 export const maxViseme = 14;
 export const maxExpression = 6;
 export const maxBlend = 63;

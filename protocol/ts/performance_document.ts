@@ -50,7 +50,7 @@ const maxText = 1000;
 const targetNames = ['fap', 'viseme', 'expression', 'look_at', 'blink', 'head'] as const;
 const easingNames: readonly string[] = ['linear', 'ease_in', 'ease_out', 'ease_in_out', 'step'];
 /** Attack and release of a cue that says neither, ms. */
-const usualRamps = {
+export const usualRamps = {
   fap: [100, 100],
   viseme: [70, 70],
   expression: [300, 500],
@@ -58,7 +58,9 @@ const usualRamps = {
   blink: [80, 160],
   head: [400, 400],
 } as const;
-const blinkMs = 240;
+/** Where performances shut the lids, FAP units: FAPs 19 and 20, 21 and 22. */
+export const shutLidUnits = { upper: 940, lower: 84 } as const;
+const blinkMs = usualRamps.blink[0] + usualRamps.blink[1];
 
 /**
  * Reads a performance document. Throws ProtocolError with the JSON pointer. Unlike the server it cannot see a member that

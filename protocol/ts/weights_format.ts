@@ -1,5 +1,6 @@
 import { ByteReader, EndOfBytes, VarintTooLarge } from './byte_io.ts';
 import { crc32 } from './crc32.ts';
+import { featurePointCount } from './generated/mpeg4.ts';
 import { ProtocolError } from './protocol_error.ts';
 
 /** The `weights` artefact in memory, as the kernel takes it: Eq. 7 per vertex of the mesh it belongs to. */
@@ -23,7 +24,6 @@ const maxVertices = 4_000_000;
 const maxEntries = 48_000_000;
 const maxSets = 2 ** 24;
 const maxInflation = 1032; // deflate cannot make more of one byte
-const featurePointCount = 84;
 
 /** What moves a vertex after Eq. 7 and before the head. */
 export const rigidMotion = { none: 0, leftEye: 1, rightEye: 2, leftIris: 3, rightIris: 4, tongue: 128 } as const;

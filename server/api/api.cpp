@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/import/model_formats.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/api/common.h"
 #include "server/api/play_options.h"
@@ -47,11 +48,7 @@ bool takes(BodyKind kind, std::string_view media_type) {
   if (kind == BodyKind::fap) return media_type == "text/plain" || media_type == "application/octet-stream";
   if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
   if (kind == BodyKind::example) return media_type == "application/json" || media_type == "multipart/form-data";
-  static constexpr auto uploads = std::to_array<std::string_view>(
-      {"model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "model/ply", "model/vnd.ply",
-       "application/zip", "application/x-zip-compressed", "application/octet-stream", "application/sla",
-       "application/ply", "text/plain", "multipart/form-data"});
-  return std::find(uploads.begin(), uploads.end(), media_type) != uploads.end();
+  return media_type == "multipart/form-data" || is_model_media_type(media_type);
 }
 
 std::string_view taken_types(BodyKind kind) {

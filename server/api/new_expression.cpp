@@ -83,8 +83,8 @@ std::vector<store::FeaturePointRecord> read_points(std::string_view text) {
 /// Bytes that could be a mesh; what is in them only a worker finds out.
 void check_file(std::string_view bytes, const std::string& file_name, const std::string& pointer) {
   if (bytes.empty()) refuse("empty-model", "the file is empty", pointer);
-  if (!detect_format({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file_name))
-    refuse("unsupported-model", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL", pointer);
+  const auto format = format_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file_name);
+  if (!format) refuse("unsupported-model", format.error().message, pointer);
 }
 
 ExampleRequest read_form(std::string_view body, std::string_view boundary) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/import/model_formats.h"
 #include "protocol/clips/clip.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
@@ -35,7 +36,7 @@ constexpr auto formats = std::to_array<Format>({{"performance", "json", "applica
                                                 {"fap", "fap", "text/plain"},
                                                 {"arkit-csv", "csv", "text/csv"},
                                                 {"frames-json", "json", "application/json"},
-                                                {"glb", "glb", "model/gltf-binary"},
+                                                {"glb", "glb", glb_media_type},
                                                 {"recording", "srec", "application/octet-stream"}});
 
 const Format& format_of(const http::Request& request) {

@@ -76,8 +76,8 @@ http::Response create_model(Context& context, http::Request& request) {
   {
     const MappedFile mapped(upload.path);
     if (mapped.bytes().empty()) refuse("empty-model", "the file is empty", "/file");
-    if (!detect_format(mapped.bytes(), upload.file_name))
-      refuse("unsupported-media-type", "the file is none of GLB, glTF (zipped), OBJ, PLY, STL", "/file");
+    if (const auto format = format_of(mapped.bytes(), upload.file_name); !format)
+      refuse("unsupported-media-type", format.error().message, "/file");
     hash = sha256_hex(mapped.text());
   }
   auto check = check_idempotency(context, request, hash + upload.name + upload.file_name);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "core/pipeline/levelled.h"
 #include "protocol/clips/clip.h"
-#include "protocol/package/package.h"
+#include "protocol/package/pack_head.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/files.h"
 
@@ -46,21 +48,24 @@ Clip clip_of_folder(const ClipOutput& options, const FaceSequence& sequence, con
 
 Clip clip_of_head(const ClipOutput& options, const FaceSequence& sequence, const std::string& name,
                   std::vector<std::string>& warnings) {
-  const Head head = load_head(options.head);
+  Head head = load_head(options.head);
   warnings = head.all_warnings();
   PackageOptions package_options;
   package_options.name = std::filesystem::path(options.head.model_path).stem().string();
-  const auto package = build_package(head.model, head.surface, head.rig, package_options);
-  if (!package) fail(options.head.model_path, package.error());
-  const auto& rig_json = package->rig_json.bytes;
+  const auto levelled = level_head(std::move(head), {});
+  if (!levelled) fail(options.head.model_path, levelled.error());
+  const auto packages = pack_head(*levelled, std::move(package_options));
+  if (!packages) fail(options.head.model_path, packages.error());
+  const FacePackage& package = packages->front();
+  const auto& rig_json = package.rig_json.bytes;
   FaceParts parts;
-  parts.mesh_drc = package->mesh_drc.bytes;
-  parts.weights = package->weights.bytes;
+  parts.mesh_drc = package.mesh_drc.bytes;
+  parts.weights = package.weights.bytes;
   parts.rig_json = {reinterpret_cast<const char*>(rig_json.data()), rig_json.size()};
   parts.image = [&package](const Sha256& hash) -> Result<std::vector<std::uint8_t>> {
-    const auto at = std::find_if(package->images.begin(), package->images.end(),
+    const auto at = std::find_if(package.images.begin(), package.images.end(),
                                  [&hash](const Artefact& image) { return image.sha256 == hash; });
-    if (at == package->images.end()) return Error{ErrorCode::missing, to_hex(hash), "is no image of the model"};
+    if (at == package.images.end()) return Error{ErrorCode::missing, to_hex(hash), "is no image of the model"};
     return at->bytes;
   };
   return clip_of(parts, options, sequence, name, options.head.model_path);

@@ -17,15 +17,11 @@ namespace semblante {
 namespace {
 
 constexpr std::size_t max_feature_points_bytes = std::size_t{4} << 20;
-constexpr std::array all_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
-                                    ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
 
 ImportedHead import_file(const HeadOptions& options) {
   ImportRequest request;
   request.file_name = std::filesystem::path(options.model_path).filename().string();
-  for (const ModelFormat candidate : all_formats) {
-    if (to_string(candidate) == options.format) request.format = candidate;
-  }
+  request.format = parse_model_format(options.format);
   auto head = import_head(read_file(options.model_path, request.limits.max_file_bytes), request);
   if (!head) fail(options.model_path, head.error());
   return std::move(*head);
@@ -54,7 +50,11 @@ std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
   return advice;
 }
 
-const std::vector<std::string> model_formats = {"glb", "gltf", "gltf_zip", "obj", "ply", "stl"};
+std::vector<std::string> model_format_names() {
+  std::vector<std::string> names;
+  for (const ModelFormat format : all_model_formats) names.emplace_back(to_string(format));
+  return names;
+}
 
 /// --unit, --up and --front.
 void add_placing_options(CLI::App& command, HeadOptions& options) {
@@ -91,7 +91,7 @@ void add_weight_options(CLI::App& command, HeadOptions& options) {
 }  // namespace
 
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points) {
-  command.add_option("MODEL", options.model_path, "The head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
+  command.add_option("MODEL", options.model_path, "The head: " + model_file_titles())
       ->required()
       ->envname("SEMBLANTE_MODEL");
   command
@@ -101,7 +101,7 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
       ->required(points == PointsOption::required)
       ->envname("SEMBLANTE_FEATURE_POINTS");
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
-      ->check(CLI::IsMember(model_formats))
+      ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_FORMAT");
   add_placing_options(command, options);
   command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
@@ -114,15 +114,14 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
 
 void add_named_head_options(CLI::App& command, HeadOptions& options) {
   CLI::Option* const model =
-      command.add_option("--model", options.model_path, "A head: GLB, glTF (or a zip of one), OBJ, PLY or STL")
-          ->envname("SEMBLANTE_MODEL");
+      command.add_option("--model", options.model_path, "A head: " + model_file_titles())->envname("SEMBLANTE_MODEL");
   CLI::Option* const points =
       command.add_option("--feature-points,--points", options.feature_points_path, "Its feature points, as JSON")
           ->needs(model)
           ->envname("SEMBLANTE_FEATURE_POINTS");
   model->needs(points);
   command.add_option("--model-format", options.format, "Format of the head, instead of what its content shows")
-      ->check(CLI::IsMember(model_formats))
+      ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_MODEL_FORMAT");
   add_placing_options(command, options);
   add_weight_options(command, options);

@@ -13,11 +13,11 @@
 
 #include "core/json/json_cursor.h"
 #include "core/json/read_json.h"
+#include "protocol/http/http_client.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 #include "server/cli/face_formats.h"
 #include "server/cli/files.h"
-#include "server/net/http_client.h"
 
 namespace semblante {
 namespace {
@@ -26,6 +26,7 @@ using nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 constexpr std::chrono::milliseconds look_interval{250};
+constexpr client::HttpLimits limits = {.max_body = most_bytes};
 constexpr JsonLimits answer_limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 100'000};
 constexpr std::size_t most_warnings = 1000;
 /// Between the last look and the end: what ended earlier than so many ms before its end was ended by somebody.
@@ -44,7 +45,7 @@ std::atomic<bool> interrupted{false};
 }
 
 /// What the server says is wrong, in its own words.
-std::string reason_of(const net::ClientResponse& reply) {
+std::string reason_of(const client::HttpResponse& reply) {
   const auto problem = read_json_object(reply.body, answer_limits);
   std::string text = std::to_string(reply.status);
   if (!problem) return text;
@@ -55,13 +56,17 @@ std::string reason_of(const net::ClientResponse& reply) {
   return text;
 }
 
+client::Url address_of(const PlayCommand& options) {
+  auto url = client::parse_url(options.server);
+  if (!url) fail("play: --server", url.error());
+  if (!options.server.starts_with("http://") || !url->path.empty())
+    refuse_to_play("--server: " + options.server + " must be http://HOST:PORT");
+  return *std::move(url);
+}
+
 class Playing {
  public:
-  explicit Playing(const PlayCommand& options) : options_(options) {
-    auto address = net::parse_server_address(options.server);
-    if (!address) fail("play: --server", address.error());
-    address_ = *std::move(address);
-  }
+  explicit Playing(const PlayCommand& options) : options_(options), server_(address_of(options), limits) {}
 
   void create_stream() const {
     const auto reply = ask("POST", "/v1/streams", "application/json", json{{"name", options_.stream}}.dump());
@@ -93,7 +98,7 @@ class Playing {
     if (reply.status != 202)
       refuse_to_play(options_.file + ": " + reason_of(reply) +
                      (reply.status == 409 ? " (--take-over takes its place)" : ""));
-    location_ = reply.location;
+    location_ = reply.header("location");
     for (const auto& warning : note(reply)) say(warning);
   }
 
@@ -124,14 +129,14 @@ class Playing {
   }
 
  private:
-  net::ClientResponse ask(const std::string& method, const std::string& target, const std::string& type = {},
-                          std::string body = {}) const {
-    auto reply = net::ask(address_, {method, target, type, std::move(body)});
+  client::HttpResponse ask(const std::string& method, const std::string& target, const std::string& type = {},
+                           std::string body = {}) const {
+    auto reply = server_.send({method, target, std::move(body), type, {}});
     if (!reply) fail("play: --server", reply.error());
     return *std::move(reply);
   }
   /// Keeps where the playing is; the warnings of the answer.
-  std::vector<std::string> note(const net::ClientResponse& reply) {
+  std::vector<std::string> note(const client::HttpResponse& reply) {
     const auto status = read_json_object(reply.body, answer_limits);
     if (!status) refuse_to_play("the server's answer cannot be read: " + status.error().message);
     JsonCursor::Report report;
@@ -146,7 +151,7 @@ class Playing {
   }
 
   const PlayCommand& options_;
-  net::ServerAddress address_;
+  client::HttpClient server_;
   std::string location_;
   double position_ = 0.0, duration_ = 0.0;  ///< ms; duration 0: without end
 };

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/import/model_formats.h"
 #include "server/jobs/result_facts.h"
 #include "server/store/frame_json.h"
 #include "server/store/store_error.h"
@@ -40,7 +41,7 @@ Status ResultFiles::write_report(const Report& report, const ModelFrame& frame, 
 Status ResultFiles::write_preview(const StandingHead& head, std::span<const Part> parts) {
   const auto preview = build_preview(head.model, head.surface, parts);
   if (!preview) return preview.error();
-  if (auto written = write("preview.glb", "model/gltf-binary", *preview); !written) return written;
+  if (auto written = write("preview.glb", std::string(glb_media_type), *preview); !written) return written;
   const auto& positions = head.model.positions;
   return write("positions", "application/octet-stream",
                {reinterpret_cast<const std::uint8_t*>(positions.data()), positions.size() * sizeof(glm::vec3)});

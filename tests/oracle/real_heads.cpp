@@ -62,6 +62,20 @@ Model import_head(const std::filesystem::path& file) {
   return *std::move(model);
 }
 
+void replace_positions(Model& model, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::size_t vertex = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind != "v" || vertex == model.positions.size()) continue;
+    glm::vec3& p = model.positions[vertex++];
+    words >> p.x >> p.y >> p.z;
+  }
+  if (vertex != model.positions.size()) throw std::runtime_error(file.string() + " belongs to another model");
+}
+
 std::vector<MarkedPoint> read_trusted_points(const std::filesystem::path& file) {
   const nlohmann::json document = nlohmann::json::parse(std::ifstream(file));
   std::vector<MarkedPoint> points;

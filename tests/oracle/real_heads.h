@@ -20,6 +20,10 @@ Model read_trusted_obj(const std::filesystem::path& file);
 /// Any model file, by core/import; throws when it is refused.
 Model import_head(const std::filesystem::path& file);
 
+/// Takes the positions of a trusted file of `v` lines, as many as the model has vertices: another person, or the same
+/// one in another pose, in the model's vertex order.
+void replace_positions(Model& model, const std::filesystem::path& file);
+
 /// The points of a trusted *.fps.json.
 std::vector<MarkedPoint> read_trusted_points(const std::filesystem::path& file);
 

@@ -10,6 +10,7 @@
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/shots.h"
 #include "core/expressions/library.h"
+#include "core/import/model_formats.h"
 #include "tests/pictures/contact_sheet.h"
 #include "tests/pictures/posed_head.h"
 
@@ -198,7 +199,7 @@ Status run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   semblante::pictures::Arguments arguments;
   CLI::App app{"Parametrizes a head and draws its 15 visemes and 6 expressions on sheets.", "semblante-contact-sheet"};
-  app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
+  app.add_option("model", arguments.model, semblante::model_file_titles())->required();
   app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
   app.add_option("-o,--out", arguments.out, "folder for the sheets, one a shot")->required();
   app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();

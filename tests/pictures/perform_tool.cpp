@@ -11,6 +11,7 @@
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/shots.h"
+#include "core/import/model_formats.h"
 #include "core/performance/performance.h"
 #include "protocol/cpp/performance_document.h"
 #include "tests/pictures/contact_sheet.h"
@@ -140,7 +141,7 @@ Status run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   semblante::pictures::Arguments arguments;
   CLI::App app{"Draws a performance on a head: a picture a frame, or a sheet of moments.", "semblante-perform"};
-  app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
+  app.add_option("model", arguments.model, semblante::model_file_titles())->required();
   app.add_option("performance", arguments.performance, "JSON of a performance")->required();
   app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
   app.add_option("-o,--out", arguments.out, "folder for frame-00000.png and so on; a path that ends in .png: one sheet")

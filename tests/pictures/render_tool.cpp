@@ -8,6 +8,7 @@
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/shots.h"
+#include "core/import/model_formats.h"
 #include "core/pipeline/standing.h"
 #include "tests/pictures/contact_sheet.h"
 #include "tests/pictures/posed_head.h"
@@ -87,7 +88,7 @@ Status run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   semblante::pictures::Arguments arguments;
   CLI::App app{"Draws a head from several sides, without a window.", "semblante-render"};
-  app.add_option("model", arguments.model, "GLB, glTF, OBJ, PLY or STL")->required();
+  app.add_option("model", arguments.model, semblante::model_file_titles())->required();
   app.add_option("-o,--out", arguments.out, "PNG to write: one shot, or a sheet of all; with --separate a folder")
       ->required();
   app.add_option("-s,--shot", arguments.shots,

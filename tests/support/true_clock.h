@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/native/client/url.h"
+#include "protocol/http/url.h"
 
 namespace semblante::testing {
 

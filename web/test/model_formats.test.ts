@@ -2,23 +2,17 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { acceptedFiles, anyFormat, mediaTypeOf, modelFormats } from '../src/net/model_formats.ts';
 
-const sourceOf = (path: string): string => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
-/** The string literals of the C++ text from `start` up to `end`. */
-const literals = (text: string, start: string, end: string): string[] => {
-  const from = text.indexOf(start);
-  expect(from, `${start} is gone: mend this test`).toBeGreaterThan(0);
-  return [...text.slice(from, text.indexOf(end, from)).matchAll(/"([^"]+)"/g)].map(([, literal]) => literal!);
-};
-
-test('ModelFormats_Extensions_AreThoseTheServerReads', () => {
-  const read = literals(sourceOf('core/import/import.cpp'), 'format_of_name(std::string_view name) {', '\n}');
-  expect(read.length).toBeGreaterThan(5);
-  expect(modelFormats.map(({ extension }) => extension).sort()).toEqual(read.sort());
-});
-
-test('ModelFormats_MediaTypes_AreTakenByTheServer', () => {
-  const taken = literals(sourceOf('server/api/api.cpp'), 'auto uploads = ', ';');
-  for (const { mediaType } of modelFormats) expect(taken).toContain(mediaType);
+test('ModelFormats_AreTheTableOfTheServer', () => {
+  const source = readFileSync(new URL('../../core/import/model_formats.h', import.meta.url), 'utf8');
+  const constants = { glb_media_type: /glb_media_type = "([^"]+)"/.exec(source)?.[1] };
+  const rows = [...source.matchAll(/\{"(\.\w+)", ModelFormat::\w+, (?:"([^"]+)"|(\w+)), "([^"]+)"\}/g)];
+  const table = rows.map(([, extension, literal, name, title]) => ({
+    extension,
+    mediaType: literal ?? constants[name as keyof typeof constants],
+    title,
+  }));
+  expect(table.length, 'the table has another shape: mend this test').toBeGreaterThan(5);
+  expect(modelFormats).toEqual(table);
 });
 
 test('MediaTypeOf_NamesInAnyCase_GoByTheExtension', () => {

@@ -90,6 +90,10 @@ describe('tangent table', () => {
     expect([...joinSeams(positions, normals)]).toEqual([0, 1, 0]);
   });
 
+  test('JoinSeams_MinusZero_IsThePlaceOfZero', () => {
+    expect([...joinSeams(new Float32Array([0, 1, 2, -0, 1, 2]), null)]).toEqual([0, 0]);
+  });
+
   test('SmoothNormals_DegenerateTriangle_IsNoNaN', () => {
     const normals = smoothNormals(new Float32Array(9), new Uint32Array([0, 1, 2]), new Uint32Array([0, 1, 2]));
     expect([...normals].every(Number.isFinite)).toBe(true);

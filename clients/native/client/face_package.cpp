@@ -4,7 +4,8 @@
 #include <numeric>
 #include <span>
 
-#include "clients/native/client/draco_decode.h"
+#include "clients/native/client/decode_mesh.h"
+#include "protocol/cpp/rig_material.h"
 #include "protocol/hash/sha256.h"
 
 namespace semblante::client {
@@ -18,42 +19,12 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-Material to_material(const RigDocument::MaterialInfo& info, const std::vector<RigDocument::ImageInfo>& images) {
-  Material material;
-  material.name = info.name;
-  material.base_color = info.base_color;
-  material.metallic = info.metallic;
-  material.roughness = info.roughness;
-  material.alpha_cutoff = info.alpha_cutoff;
-  material.double_sided = info.double_sided;
-  switch (info.alpha_mode) {
-    case RigDocument::MaterialInfo::AlphaMode::opaque:
-      material.alpha_mode = Material::AlphaMode::opaque;
-      break;
-    case RigDocument::MaterialInfo::AlphaMode::mask:
-      material.alpha_mode = Material::AlphaMode::mask;
-      break;
-    case RigDocument::MaterialInfo::AlphaMode::blend:
-      material.alpha_mode = Material::AlphaMode::blend;
-      break;
-  }
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    if (info.base_color_image == images[i].sha256) {
-      material.base_color_image = static_cast<int>(i);
-    }
-    if (info.normal_image == images[i].sha256) {
-      material.normal_image = static_cast<int>(i);
-    }
-  }
-  return material;
-}
-
 /// Triangles in runs of one material each; vertices keep their numbers.
 Result<Model> to_model(DecodedMesh&& mesh, const RigDocument& rig) {
   Model model;
   model.format = "drc";
   for (const RigDocument::MaterialInfo& info : rig.materials) {
-    model.materials.push_back(to_material(info, rig.images));
+    model.materials.push_back(material_of(info, rig.images));
   }
   model.images.resize(rig.images.size());
   const auto material_of = [&](const Triangle& t) {

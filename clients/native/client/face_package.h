@@ -9,12 +9,12 @@
 #include <glm/vec3.hpp>
 
 #include "clients/capi/semblante.h"
-#include "clients/native/client/http_client.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/rig_document.h"
+#include "protocol/http/http_client.h"
 
 namespace semblante::client {
 

@@ -8,9 +8,9 @@
 
 #include "clients/native/client/clock_estimate.h"
 #include "clients/native/client/stream_client.h"
-#include "clients/native/client/url.h"
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
+#include "protocol/http/url.h"
 
 namespace semblante::client {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "clients/native/client/url.h"
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
+#include "protocol/http/url.h"
 
 namespace semblante::client {
 

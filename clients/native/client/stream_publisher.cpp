@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clients/native/client/http_client.h"
 #include "protocol/cpp/kernel_values.h"
+#include "protocol/http/http_client.h"
 
 namespace semblante::client {
 

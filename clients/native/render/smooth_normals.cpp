@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "core/kernel/semblante_normals.h"
+#include "core/types/place.h"
 
 namespace semblante::render {
 
@@ -17,10 +18,7 @@ SmoothNormals::SmoothNormals(std::span<const glm::vec3> positions, std::span<con
       group[v] = group_of_triangle[t];
     }
   }
-  const auto key = [&](std::uint32_t v) {
-    const glm::vec3& p = positions[v];
-    return std::make_tuple(p.x, p.y, p.z, group[v]);
-  };
+  const auto key = [&](std::uint32_t v) { return std::pair(place_key(positions[v]), group[v]); };
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });

@@ -237,6 +237,8 @@ export interface Expression {
     for (const json& row : rows) out << "  " << row.dump() << ",\n";
     out << "];\n\n";
   };
+  out << "export const fapCount = " << data.faps["faps"].size() << ";\n"
+      << "export const featurePointCount = " << data.feature_points["feature_points"].size() << ";\n\n";
   json groups = json::array();
   for (const json& g : data.faps["groups"]) {
     groups.push_back({{"number", g["group"]}, {"name", g["name"]}, {"first", g["first"]}, {"last", g["last"]}});

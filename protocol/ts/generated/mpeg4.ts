@@ -63,6 +63,9 @@ export interface Expression {
   readonly description: string;
 }
 
+export const fapCount = 68;
+export const featurePointCount = 84;
+
 export const fapGroups: readonly FapGroup[] = [
   {"number":1,"name":"visemes and expressions","first":1,"last":2},
   {"number":2,"name":"jaw, chin and inner lip contour","first":3,"last":18},

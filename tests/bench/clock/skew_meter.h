@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clients/native/client/playout.h"
-#include "clients/native/client/url.h"
+#include "protocol/http/url.h"
 #include "tests/support/tcp_proxy.h"
 
 namespace semblante::testing {

@@ -6,10 +6,11 @@
 #include <map>
 #include <span>
 
+#include "core/draco/draco_mesh.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "protocol/cpp/weights_format.h"
-#include "protocol/package/draco_mesh.h"
+#include "protocol/package/mesh_encoding.h"
 #include "protocol/package/package.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/sample_head_model.h"
@@ -51,18 +52,18 @@ BenchHead head_of(std::string name, const Model& model, const Surface& surface, 
   options.weights = method;
   const Rig rig = taken(parametrize(model, surface, points, options));
   const FacePackage package = taken(build_package(model, surface, rig, {}));
-  DecodedMesh mesh = taken(decode_draco(package.mesh_drc.bytes));
+  const DracoMesh mesh = taken(DracoMesh::decode(package.mesh_drc.bytes));
   InfluenceTable table = taken(decode_weights(package.weights.bytes));
 
   BenchHead head;
   head.name = std::move(name);
   head.rig = make_kernel_rig(rig);
-  head.rest = std::move(mesh.positions);
+  head.rest = taken(mesh.floats(MeshAttributeIds{}.position, 3));
   head.offsets = std::move(table.rows.offsets);
   for (const FeaturePointId id : table.rows.points) head.points.push_back(id.value());
   head.weights = std::move(table.rows.weights);
   head.rigid = std::move(table.rigid);
-  head.triangles = std::move(mesh.triangles);
+  head.triangles = mesh.triangles();
   return head;
 }
 

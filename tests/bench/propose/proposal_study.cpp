@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
@@ -18,21 +17,6 @@
 namespace semblante::bench {
 namespace {
 
-/// A file of `v` lines alone: another person in the vertex order of a model.
-void replace_positions(Model& model, const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::size_t vertex = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind != "v" || vertex == model.positions.size()) continue;
-    glm::vec3& p = model.positions[vertex++];
-    words >> p.x >> p.y >> p.z;
-  }
-  if (vertex != model.positions.size()) throw std::runtime_error(file.string() + " belongs to another model");
-}
-
 ProposalStudy read_study(std::string name, const std::string& own_proportions, const std::filesystem::path& obj,
                          const std::filesystem::path& points, const std::filesystem::path& other_positions = {}) {
   ProposalStudy study;
@@ -40,7 +24,7 @@ ProposalStudy read_study(std::string name, const std::string& own_proportions, c
   study.model = oracle::import_head(obj);
   std::vector<MarkedPoint> marked = oracle::read_trusted_points(points);
   if (!other_positions.empty()) {
-    replace_positions(study.model, other_positions);
+    oracle::replace_positions(study.model, other_positions);
     std::erase_if(marked, [](const MarkedPoint& m) { return !m.vertex; });
     for (MarkedPoint& m : marked) m.position.reset();
   }

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clients/native/client/http_client.h"
+#include "protocol/http/http_client.h"
 #include "tests/integration/client/child_process.h"
 
 namespace semblante::testing {

@@ -11,11 +11,11 @@
 
 #include "clients/gateways/net/udp_socket.h"
 #include "clients/gateways/vmc/values.h"
-#include "clients/native/client/http_client.h"
 #include "clients/native/client/stream_client.h"
 #include "core/bridges/head_turn.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/quantizers.h"
+#include "protocol/http/http_client.h"
 #include "tests/integration/client/child_process.h"
 #include "tests/support/wait.h"
 #include "tests/unit/gateways/golden_packets.h"

@@ -71,6 +71,12 @@ class FullDiskTest : public ::testing::Test {
     for (int i = 0; i < frames; ++i)
       EXPECT_EQ(ask("POST", "/v1/streams/talk/frames", R"({"frames":[{"faps":{"3":80}}]})").status, 202);
   }
+  /// Room comes back: the job is done, and the server has nothing left to write.
+  void free_and_expect_done(const std::string& job) {
+    disk_.free();
+    EXPECT_EQ(wait_for_job(server_->port(), job)["state"], "done");
+    EXPECT_TRUE(wait_until_ready());
+  }
   void wait_until_durable(const std::string& recording, std::size_t frames) const {
     EXPECT_TRUE(testing::eventually([&] { return get("/v1/recordings/" + recording)["frames"] == frames; }));
   }
@@ -92,11 +98,9 @@ TEST_F(FullDiskTest, DuringAnImport_ItIsDoneWithRoom) {
   EXPECT_EQ(get("/v1/jobs/" + job)["state"], "queued");
   EXPECT_EQ(get("/v1/jobs/" + job)["stage"], "waiting for disk space");
   EXPECT_EQ(get(model)["state"], "importing");
-  disk_.free();
-  EXPECT_EQ(wait_for_job(server_->port(), job)["state"], "done");
+  free_and_expect_done(job);
   EXPECT_EQ(get(model)["state"], "ready");
   EXPECT_EQ(ask("GET", model + "/preview.glb").status, 200);
-  EXPECT_TRUE(wait_until_ready());
 }
 
 TEST_F(FullDiskTest, DuringAParametrization_ItIsDoneWithRoom) {
@@ -109,11 +113,9 @@ TEST_F(FullDiskTest, DuringAParametrization_ItIsDoneWithRoom) {
   ASSERT_TRUE(wait_until_not_ready());
   EXPECT_EQ(get(model)["state"], "ready") << "as before";
   EXPECT_EQ(get("/v1/jobs/" + job)["state"], "queued");
-  disk_.free();
-  EXPECT_EQ(wait_for_job(server_->port(), job)["state"], "done");
+  free_and_expect_done(job);
   EXPECT_EQ(get(model)["state"], "parametrized");
   EXPECT_EQ(ask("GET", model + "/face.glb").status, 200);
-  EXPECT_TRUE(wait_until_ready());
 }
 
 TEST_F(FullDiskTest, UnderAWorkerThatWrites_ItsJobIsDoneWithRoom) {
@@ -124,9 +126,7 @@ TEST_F(FullDiskTest, UnderAWorkerThatWrites_ItsJobIsDoneWithRoom) {
   disk_.fill();
   ASSERT_TRUE(wait_until_not_ready());
   EXPECT_NE(get("/v1/jobs/" + job)["state"], "done");
-  disk_.free();
-  EXPECT_EQ(wait_for_job(server_->port(), job)["state"], "done");
-  EXPECT_TRUE(wait_until_ready());
+  free_and_expect_done(job);
 }
 
 TEST_F(FullDiskTest, DuringARecording_ItEndsWithWhatWasDurable) {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "core/anatomy/part_roles.h"
@@ -100,17 +99,7 @@ Head lopsided(const Head& head) {
 
 Head with_positions_of(const Head& head, const std::string& file) {
   Head result = head;
-  std::ifstream in(file);
-  std::size_t vertex = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind != "v" || vertex == result.model.positions.size()) continue;
-    glm::vec3& p = result.model.positions[vertex++];
-    words >> p.x >> p.y >> p.z;
-  }
-  if (vertex != result.model.positions.size()) throw std::runtime_error(file + " belongs to another model");
+  oracle::replace_positions(result.model, file);
   move_points_along(result);
   return result;
 }

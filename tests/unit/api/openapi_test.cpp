@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/import/model_formats.h"
 #include "core/json/read_json.h"
 #include "server/api/routes.h"
 
@@ -50,6 +51,17 @@ std::vector<std::string> names_in(std::string_view pattern) {
   for (std::size_t at = 0; (at = pattern.find('{', at)) != std::string_view::npos; ++at)
     names.emplace_back(pattern.substr(at + 1, pattern.find('}', at) - at - 1));
   return names;
+}
+
+TEST(OpenApi, UploadOfAHead_NamesTheFormatsThereAre) {
+  const json& body = document().at("paths").at("/v1/models").at("post").at("requestBody");
+  const auto description = body.at("description").get<std::string>();
+  for (const ModelFile& file : model_files) {
+    EXPECT_TRUE(body.at("content").contains(std::string(file.media_type))) << file.media_type;
+    EXPECT_NE(description.find(file.title), std::string::npos) << file.title;
+  }
+  for (const auto& [type, schema] : body.at("content").items())
+    EXPECT_TRUE(is_model_media_type(type) || type == "multipart/form-data") << type;
 }
 
 TEST(OpenApi, NoObject_NamesAMemberTwice) {

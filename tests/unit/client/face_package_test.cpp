@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <openssl/evp.h>
 
-#include "clients/native/client/draco_decode.h"
+#include "clients/native/client/decode_mesh.h"
 #include "protocol/cpp/weights_format.h"
 
 namespace semblante::testing {

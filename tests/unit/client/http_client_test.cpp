@@ -1,4 +1,4 @@
-#include "clients/native/client/http_client.h"
+#include "protocol/http/http_client.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +74,13 @@ TEST(HttpClient, HostileServer_IsAnErrorWithinItsLimits) {
   }
 }
 
+TEST(HttpClient, TrailersAndChunkExtensions_WithinTheLimits_AreRead) {
+  const CannedServer server("HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n2;e=f\r\nhi\r\n0\r\nX: y\r\n\r\n");
+  const auto response = get_from(server);
+  ASSERT_TRUE(response) << response.error().message;
+  EXPECT_EQ(response->body, "hi");
+}
+
 TEST(HttpClient, Get_SendsHostAndPathAndReadsTheAnswer) {
   const CannedServer server("HTTP/1.1 200 OK\r\nETag: \"sha256-1\"\r\nContent-Length: 5\r\n\r\nhello");
   const auto response = HttpClient(*parse_url(server.url() + "/base/"), small_limits).get("/x?y=1");
@@ -104,8 +111,9 @@ TEST(HttpClient, FetchWithItsOwnBound_RefusesMore) {
 }
 
 TEST(Url, Malformed_IsRefused) {
-  for (const char* text : {"", "http://", "http://host:", "http://host:0", "http://host:65536", "http://host:12x",
-                           "http://user@host", "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
+  for (const char* text :
+       {"", "http://", "http://host:", "http://host:0", "http://host:65536", "http://host:12x", "http://[::1",
+        "http://user@host", "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
     const auto url = parse_url(text);
     ASSERT_FALSE(url) << text;
     EXPECT_EQ(url.error().code, ErrorCode::invalid_argument) << text;

@@ -1,5 +1,10 @@
 // What holds for every format: the quad comes out whole, and no damage to a file gets past the readers.
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -76,9 +81,34 @@ TEST(AnyFormat, Detection_NeedsNoName_WhereTheBytesSpeak) {
   EXPECT_EQ(detect_format({}, "head.glb"), ModelFormat::glb);
 }
 
+TEST(ModelFormats, EveryFormat_HasAnEnding_AndItsName) {
+  for (const ModelFormat format : all_model_formats) {
+    EXPECT_EQ(parse_model_format(to_string(format)), format);
+    EXPECT_TRUE(std::any_of(model_files.begin(), model_files.end(), [&](const ModelFile& file) {
+      return file.format == format;
+    })) << to_string(format);
+  }
+  EXPECT_EQ(parse_model_format(""), std::nullopt);
+  EXPECT_EQ(format_of_name("Ana.of.1.VRM"), ModelFormat::glb);
+  EXPECT_EQ(format_of_name("head.fbx"), std::nullopt);
+}
+
+/// Texts for people name every format: README.md of the project and of core/import.
+TEST(ModelFormats, ReadMes_NameEach) {
+  for (const char* path : {"/README.md", "/core/import/README.md"}) {
+    std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const ModelFile& format : model_files) {
+      std::string lower(format.title);
+      for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      EXPECT_TRUE(text.find(format.title) != std::string::npos || text.find(lower) != std::string::npos)
+          << path << " does not name " << format.title;
+    }
+  }
+}
+
 TEST(AnyFormat, EmptyFile_IsRefused_InEveryFormat) {
-  for (const ModelFormat format : {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip, ModelFormat::obj,
-                                   ModelFormat::ply, ModelFormat::stl}) {
+  for (const ModelFormat format : all_model_formats) {
     EXPECT_FALSE(import_model({}, format)) << to_string(format);
     EXPECT_FALSE(import_model(Bytes{0}, format)) << to_string(format);
     EXPECT_FALSE(import_model(Bytes(1000, 0xFF), format)) << to_string(format);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <sqlite3.h>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,13 @@ class FullDiskQueueTest : public ::testing::Test {
     pending_.reset();
     begin();
     queue_->start();
+  }
+
+  /// The database can be written again: the jobs end as what they were told to be.
+  void expect_cancelled_with_room(std::initializer_list<const char*> jobs) {
+    fail_database_writes(SQLITE_OK);
+    for (const char* job : jobs) ASSERT_TRUE(wait_for_end(job)) << job;
+    for (const char* job : jobs) EXPECT_EQ(store_->job(job)->state, JobState::cancelled) << job;
   }
 
   store::JobRecord add_job(const std::string& id) {
@@ -186,11 +194,7 @@ TEST_F(FullDiskQueueTest, Cancel_TakesEffect_AndIsRecordedWithRoom) {
   EXPECT_EQ(queue_->find("waits")->state, JobState::queued) << "it is not cancelled before this is durable";
   ASSERT_TRUE(testing::eventually([&] { return queue_->running() == 0; })) << "its worker is gone";
   EXPECT_FALSE(store::is_final(queue_->find("runs")->state));
-  fail_database_writes(SQLITE_OK);
-  ASSERT_TRUE(wait_for_end("runs"));
-  ASSERT_TRUE(wait_for_end("waits"));
-  EXPECT_EQ(store_->job("runs")->state, JobState::cancelled);
-  EXPECT_EQ(store_->job("waits")->state, JobState::cancelled);
+  expect_cancelled_with_room({"runs", "waits"});
   EXPECT_EQ(runs(), 1U);
 }
 
@@ -201,9 +205,7 @@ TEST_F(FullDiskQueueTest, CancelOfAJobThatWaitsForRoom) {
   queue_->enqueue(job);
   ASSERT_TRUE(wait_until_pending());
   EXPECT_EQ(queue_->cancel("a"), Cancelled::pending);
-  fail_database_writes(SQLITE_OK);
-  ASSERT_TRUE(wait_for_end("a"));
-  EXPECT_EQ(store_->job("a")->state, JobState::cancelled);
+  expect_cancelled_with_room({"a"});
   EXPECT_EQ(runs(), 0U);
 }
 
@@ -237,9 +239,7 @@ TEST_F(FullDiskQueueTest, RemovalOfAModelThatFails_LeavesNoJobBehind) {
   fail_database_writes(SQLITE_FULL);
   queue_->cancel_all_of("a");
   EXPECT_THROW(store_->remove_model("a"), store::DiskFull);
-  fail_database_writes(SQLITE_OK);
-  ASSERT_TRUE(wait_for_end("a")) << "its model is still there, and so is its job";
-  EXPECT_EQ(store_->job("a")->state, JobState::cancelled);
+  expect_cancelled_with_room({"a"});  // its model is still there, and so is its job
 }
 
 TEST_F(FullDiskQueueTest, StartsOnAFullDisk_AndTakesUpItsJobsWithRoom) {

@@ -8,10 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/draco/draco_mesh.h"
+#include "core/geometry/smooth_normals.h"
 #include "core/materials/materials.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
-#include "protocol/package/draco_mesh.h"
 #include "protocol/package/mesh_encoding.h"
 #include "protocol/package/render_mesh.h"
 
@@ -147,13 +148,15 @@ TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {
   const RenderMesh mesh = render(model, build_surface(model));
   const auto encoded = encode_mesh(mesh);
   ASSERT_TRUE(encoded.ok()) << encoded.error().message;
-  const auto decoded = decode_draco(encoded->bytes);
+  const auto decoded = DracoMesh::decode(encoded->bytes);
   ASSERT_TRUE(decoded.ok());
-  ASSERT_EQ(decoded->point_count, encoded->file_vertex.size());
-  for (std::size_t v = 0; v < decoded->point_count; ++v) {
-    for (std::size_t c = 0; c < 3; ++c) {
+  const auto positions = decoded->vectors3(encoded->attributes.position);
+  ASSERT_TRUE(positions.ok());
+  ASSERT_EQ(decoded->point_count(), encoded->file_vertex.size());
+  for (std::size_t v = 0; v < decoded->point_count(); ++v) {
+    for (int c = 0; c < 3; ++c) {
       // 14 bits over a side of 11: half a step is 0.0003.
-      EXPECT_NEAR(decoded->positions[v * 3 + c], model.positions[encoded->file_vertex[v]][static_cast<int>(c)], 5e-4);
+      EXPECT_NEAR((*positions)[v][c], model.positions[encoded->file_vertex[v]][c], 5e-4);
     }
   }
   EXPECT_THAT(encoded->file_vertex, testing::Not(testing::Contains(side * side + 1))) << "the unused vertex is dropped";
@@ -163,18 +166,6 @@ TEST(EncodeMesh, NoTriangles_IsRefused) {
   const auto encoded = encode_mesh(RenderMesh{});
   ASSERT_FALSE(encoded.ok());
   EXPECT_EQ(encoded.error().code, ErrorCode::empty);
-}
-
-TEST(DecodeDraco, EveryPrefix_IsRefusedOrReadWithoutCrashing) {
-  const Model model = make_model();
-  const auto encoded = encode_mesh(render(model, build_surface(model)));
-  ASSERT_TRUE(encoded.ok());
-  int refused = 0;
-  for (std::size_t n = 0; n < encoded->bytes.size(); ++n) {
-    refused += decode_draco(std::span(encoded->bytes).first(n)).ok() ? 0 : 1;
-  }
-  // Draco has no checksum: the last few bytes may be slack, nearly all prefixes must be noticed.
-  EXPECT_GT(refused, static_cast<int>(encoded->bytes.size()) * 9 / 10);
 }
 
 class PackageOfAGrid : public testing::Test {

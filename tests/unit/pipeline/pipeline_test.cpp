@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/import/axes.h"
+#include "core/import/model_formats.h"
 #include "core/pipeline/levelled.h"
 #include "core/pipeline/points_file.h"
 #include "tests/support/meshes.h"
@@ -53,7 +54,7 @@ TEST(ImportHead, OfNoKnownFormat_NamesTheFormats) {
   const auto head = import_head(bytes_of("once upon"), {"prose.txt", std::nullopt, {}});
   ASSERT_FALSE(head);
   EXPECT_EQ(head.error().code, ErrorCode::unsupported);
-  EXPECT_THAT(head.error().message, HasSubstr("GLB, glTF (zipped), OBJ, PLY, STL"));
+  EXPECT_THAT(head.error().message, HasSubstr(model_file_titles()));
 }
 
 TEST(ImportHead, WarningsOfTheFile_AreKeptOnce) {

@@ -1,5 +1,6 @@
 import { faps } from '@protocol/generated/mpeg4.ts';
 import { maxBlend, type FaceFrame } from '@protocol/face_frame.ts';
+import { shutLidUnits } from '@protocol/performance_document.ts';
 import { quantize, standardQuantizers } from '@protocol/quantizers.ts';
 
 /** Edits of a frame made by hand; its levels count the standard's quantizer steps. */
@@ -82,10 +83,10 @@ export function mirrorFrame(frame: FaceFrame): void {
 
 /** FAPs 19 to 22 of eyes that are shut, as performances shut them. FAP units: shares of 1024. */
 export const shutLids: readonly (readonly [number, number])[] = [
-  [19, 940],
-  [20, 940],
-  [21, 84],
-  [22, 84],
+  [19, shutLidUnits.upper],
+  [20, shutLidUnits.upper],
+  [21, shutLidUnits.lower],
+  [22, shutLidUnits.lower],
 ];
 
 /** Shuts the eyes; returns what opens them again as they were. A lid that was moved meanwhile stays where it is. */

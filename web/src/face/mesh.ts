@@ -1,3 +1,5 @@
+export { featurePointCount } from '@protocol/generated/mpeg4.ts';
+
 /** Triangles that share a material: indices `start` .. `start + count - 1` of `DrawableMesh.indices`. */
 export interface MaterialGroup {
   start: number;
@@ -25,8 +27,6 @@ export interface DrawableMesh {
   /** #V: 0 none, 1 left eye, 2 right eye */
   rigid: Uint8Array;
 }
-
-export const featurePointCount = 84;
 
 /** Area-weighted vertex normals over vertices joined by position; for meshes that bring none. */
 export function smoothNormals(positions: Float32Array, indices: Uint32Array, group: Uint32Array): Float32Array {
@@ -70,9 +70,10 @@ export function joinSeams(positions: Float32Array, normals: Float32Array | null)
   const count = positions.length / 3;
   const group = new Uint32Array(count);
   const bits = new Uint32Array(positions.buffer, positions.byteOffset, positions.length);
+  const place = (at: number): number => (positions[at] === 0 ? 0 : bits[at]!); // -0 and 0 are one place
   const seen = new Map<string, number[]>();
   for (let v = 0; v < count; v += 1) {
-    const key = `${bits[v * 3]! | 0},${bits[v * 3 + 1]! | 0},${bits[v * 3 + 2]! | 0}`;
+    const key = `${place(v * 3)},${place(v * 3 + 1)},${place(v * 3 + 2)}`;
     const candidates = seen.get(key);
     group[v] = v;
     if (!candidates) {

@@ -1,4 +1,4 @@
-import { joinSeams, type DrawableMesh } from './mesh.ts';
+import { featurePointCount, joinSeams, type DrawableMesh } from './mesh.ts';
 
 /**
  * The influence table made ready for the shader: for every entry the feature point, its weight (Eq. 7) and the slope of
@@ -35,9 +35,9 @@ export function makeTangentTable(mesh: DrawableMesh): TangentTable {
   const { positions, normals, rowOffsets, rowPoints, rowWeights, vertexCount } = mesh;
   const group = joinSeams(positions, normals);
   const ring = makeRings(mesh.indices, group, vertexCount);
-  const slope = new Float64Array(84 * 2);
-  const weight = new Float64Array(84);
-  const touched = new Uint8Array(84);
+  const slope = new Float64Array(featurePointCount * 2);
+  const weight = new Float64Array(featurePointCount);
+  const touched = new Uint8Array(featurePointCount);
   const frame = new Float64Array(6);
   const offsets = new Uint32Array(vertexCount + 1);
   let entries = new Float32Array(Math.max(rowPoints.length * 8, 64));
@@ -87,7 +87,7 @@ export function makeTangentTable(mesh: DrawableMesh): TangentTable {
     uu += ridge;
     vv += ridge;
     const determinant = uu * vv - uv * uv;
-    for (let point = 0; point < 84; point += 1) {
+    for (let point = 0; point < featurePointCount; point += 1) {
       if (touched[point] === 0) continue;
       const bu = slope[point * 2]! - weight[point]! * su;
       const bv = slope[point * 2 + 1]! - weight[point]! * sv;

@@ -8,11 +8,11 @@ interface ModelFormat {
   title: string;
 }
 
-/** The files of heads that the server reads: `format_of_name` of core/import/import.cpp, which a test compares. */
+/** The files of heads that the server reads: `model_files` of core/import/model_formats.h, which a test compares. */
 export const modelFormats: readonly ModelFormat[] = [
   { extension: '.glb', mediaType: 'model/gltf-binary', title: 'GLB' },
   { extension: '.vrm', mediaType: 'model/gltf-binary', title: 'VRM' },
-  { extension: '.gltf', mediaType: 'application/octet-stream', title: 'glTF' },
+  { extension: '.gltf', mediaType: 'model/gltf+json', title: 'glTF' },
   { extension: '.obj', mediaType: 'model/obj', title: 'OBJ' },
   { extension: '.ply', mediaType: 'model/ply', title: 'PLY' },
   { extension: '.stl', mediaType: 'model/stl', title: 'STL' },

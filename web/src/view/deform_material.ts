@@ -10,6 +10,7 @@ import {
 } from 'three';
 import type { Pose } from '@client/index.ts';
 import { rigidMotion } from '@protocol/weights_format.ts';
+import { featurePointCount } from '../face/mesh.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
 /** Texels across the entry texture: entry k lies at (k mod width, k div width). */
@@ -45,7 +46,7 @@ export function makeDeformUniforms(table: TangentTable): DeformUniforms {
   texture.needsUpdate = true;
   return {
     faceEntries: { value: texture },
-    facePoints: { value: new Float32Array(84 * 3) },
+    facePoints: { value: new Float32Array(featurePointCount * 3) },
     faceEyeRotation: { value: [new Vector4(0, 0, 0, 1), new Vector4(0, 0, 0, 1)] },
     faceEyePivot: { value: [new Vector3(), new Vector3()] },
     faceEyeTranslation: { value: [new Vector3(), new Vector3()] },
@@ -88,7 +89,7 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
 export const deformDeclarations = /* glsl */ `
 attribute uvec2 faceRow;
 uniform highp sampler2D faceEntries;
-uniform vec3 facePoints[84];
+uniform vec3 facePoints[${featurePointCount}];
 uniform vec4 faceEyeRotation[2];
 uniform vec3 faceEyePivot[2];
 uniform vec3 faceEyeTranslation[2];

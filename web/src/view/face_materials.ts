@@ -8,26 +8,14 @@ import {
   RepeatWrapping,
   type Material,
 } from 'three';
+import type { FaceMaterial } from '../face/loaded_face.ts';
 import { studioMaterial } from './materials.ts';
 
-/** What the view needs to know of a material; images as encoded files. */
-export interface MaterialFacts {
-  name: string;
-  baseColor: readonly [number, number, number, number];
-  metallic: number;
-  roughness: number;
-  alphaMode: 'opaque' | 'mask' | 'blend';
-  alphaCutoff: number;
-  doubleSided: boolean;
-  baseColorImage: Blob | null;
-  normalImage: Blob | null;
-}
-
-export function makeMaterials(facts: readonly MaterialFacts[], richSkin: boolean): Promise<Material[]> {
+export function makeMaterials(facts: readonly FaceMaterial[], richSkin: boolean): Promise<Material[]> {
   return Promise.all(facts.map((one) => makeMaterial(one, richSkin)));
 }
 
-async function makeMaterial(facts: MaterialFacts, richSkin: boolean): Promise<Material> {
+async function makeMaterial(facts: FaceMaterial, richSkin: boolean): Promise<Material> {
   const [r, g, b, a] = facts.baseColor;
   const material = new MeshStandardMaterial({
     name: facts.name,

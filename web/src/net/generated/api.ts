@@ -1800,10 +1800,11 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        /** @description GLB, zipped glTF, OBJ, PLY or STL; the bytes decide. At most 256 MiB unless the server says otherwise. The file name may come by ?filename=, by Content-Disposition, or by the form. */
+        /** @description GLB, VRM, glTF, OBJ, PLY, STL or ZIP (of a glTF or an OBJ with its files); the bytes decide. At most 256 MiB unless the server says otherwise. The file name may come by ?filename=, by Content-Disposition, or by the form. */
         requestBody: {
             content: {
                 "model/gltf-binary": unknown;
+                "model/gltf+json": unknown;
                 "application/zip": unknown;
                 "model/obj": unknown;
                 "text/plain": unknown;
@@ -2730,7 +2731,7 @@ export interface operations {
                 "application/json": components["schemas"]["ExtractionOptions"] | components["schemas"]["ExpressionEdit"];
                 "multipart/form-data": {
                     options?: components["schemas"]["ExtractionOptions"];
-                    /** @description The head in the expression: GLB, glTF (zipped), OBJ, PLY or STL */
+                    /** @description The head in the expression: GLB, VRM, glTF, OBJ, PLY, STL or ZIP */
                     expression: string;
                     /** @description The same head at rest, where no model is named */
                     neutral?: string;

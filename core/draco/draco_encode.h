@@ -2,9 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/types/model.h"
@@ -30,27 +28,5 @@ struct DracoAttribute {
 /// Edgebreaker-encodes a mesh. Attribute i gets Draco unique id i. `speed` 0 (small) .. 10 (fast).
 Result<std::vector<std::uint8_t>> encode_draco(std::size_t point_count, std::span<const Triangle> triangles,
                                                std::span<const DracoAttribute> attributes, int speed = 5);
-
-/// The attributes to read beside POSITION, by Draco unique id.
-struct DecodedAttributes {
-  std::optional<std::uint32_t> normal = std::nullopt;
-  std::optional<std::uint32_t> uv = std::nullopt;
-  std::optional<std::uint32_t> material = std::nullopt;
-  std::optional<std::uint32_t> file_vertex = std::nullopt;
-};
-
-/// A decoded mesh: what a client will see. What was not asked for is empty.
-struct DecodedMesh {
-  std::size_t point_count = 0;
-  std::vector<Triangle> triangles;         ///< corners are below point_count
-  std::vector<float> positions;            ///< #points by 3
-  std::vector<float> normals;              ///< #points by 3
-  std::vector<float> uvs;                  ///< #points by 2
-  std::vector<std::uint8_t> materials;     ///< #points
-  std::vector<std::uint32_t> file_vertex;  ///< #points
-};
-
-/// Decodes `bytes` and reads POSITION and what is asked for.
-Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, const DecodedAttributes& wanted = {});
 
 }  // namespace semblante

@@ -1,10 +1,8 @@
-#include "protocol/package/draco_mesh.h"
+#include "core/draco/draco_encode.h"
 
 #include <cassert>
-#include <cstring>
-#include <memory>
+#include <string>
 
-#include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
@@ -64,22 +62,6 @@ void add_attribute(draco::Mesh& mesh, const DracoAttribute& attribute) {
   }
 }
 
-/// The values of `attribute` (may be null: it did not come back) by point.
-template <class T>
-Status read_values(const draco::Mesh& mesh, const draco::PointAttribute* attribute, std::int8_t components,
-                   const char* name, std::vector<T>& out) {
-  if (attribute == nullptr)
-    return Error{ErrorCode::missing, "mesh.drc", "the " + std::string(name) + " did not come back"};
-  out.resize(std::size_t{mesh.num_points()} * static_cast<std::size_t>(components));
-  for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
-    if (!attribute->ConvertValue<T>(attribute->mapped_index(draco::PointIndex(p)), components,
-                                    &out[std::size_t{p} * static_cast<std::size_t>(components)])) {
-      return Error{ErrorCode::malformed, "mesh.drc", "the " + std::string(name) + " are of another type"};
-    }
-  }
-  return Unit{};
-}
-
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_draco(std::size_t point_count, std::span<const Triangle> triangles,
@@ -107,43 +89,9 @@ Result<std::vector<std::uint8_t>> encode_draco(std::size_t point_count, std::spa
   }
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeToBuffer(&buffer);
-  if (!status.ok()) return Error{ErrorCode::internal, "mesh.drc", std::string("Draco: ") + status.error_msg()};
+  if (!status.ok()) return Error{ErrorCode::internal, "Draco", status.error_msg()};
   const auto* const begin = reinterpret_cast<const std::uint8_t*>(buffer.data());
   return std::vector<std::uint8_t>(begin, begin + buffer.size());
-}
-
-Result<DecodedMesh> decode_draco(std::span<const std::uint8_t> bytes, const DecodedAttributes& wanted) {
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) return Error{ErrorCode::malformed, "mesh.drc", decoded.status().error_msg_string()};
-  const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-
-  DecodedMesh out;
-  out.point_count = mesh->num_points();
-  const auto* const positions = mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  if (const Status read = read_values(*mesh, positions, 3, "positions", out.positions); !read) return read.error();
-  const auto read_wanted = [&](const std::optional<std::uint32_t>& id, std::int8_t components, const char* name,
-                               auto& to) -> Status {
-    if (!id) return Unit{};
-    return read_values(*mesh, mesh->GetAttributeByUniqueId(*id), components, name, to);
-  };
-  for (const Status& read : {read_wanted(wanted.normal, 3, "normals", out.normals),
-                             read_wanted(wanted.uv, 2, "texture coordinates", out.uvs),
-                             read_wanted(wanted.material, 1, "materials", out.materials),
-                             read_wanted(wanted.file_vertex, 1, "vertex numbers", out.file_vertex)}) {
-    if (!read) return read.error();
-  }
-  out.triangles.reserve(mesh->num_faces());
-  for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
-    const draco::Mesh::Face& face = mesh->face(draco::FaceIndex(f));
-    out.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
-    for (const std::uint32_t corner : out.triangles.back()) {
-      if (corner >= out.point_count) return Error{ErrorCode::malformed, "mesh.drc", "a corner is no vertex"};
-    }
-  }
-  return out;
 }
 
 }  // namespace semblante

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +21,8 @@ struct DecodedMesh {
   std::vector<Triangle> triangles;      ///< #T, all indices < #V
 };
 
-/// Decodes any bytes: refuses what is not a triangle mesh with the counts and attributes that `mesh` announces,
-/// positions that are not finite, and indices out of range (Draco itself has no checksum).
+/// Decodes any bytes: refuses what is not a triangle mesh with the counts and positions that `mesh` announces. UVs and
+/// materials that are not there, or not as announced, are left out.
 Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh);
 
 }  // namespace semblante::client

@@ -1,4 +1,4 @@
-#include "clients/native/client/url.h"
+#include "protocol/http/url.h"
 
 #include <algorithm>
 #include <cctype>
@@ -39,7 +39,8 @@ Result<Url> parse_url(std::string_view text) {
     return Error{ErrorCode::invalid_argument, whole, "the port is a number from 1 to 65535"};
   }
   const auto is_bad = [](unsigned char c) { return c <= ' ' || c == '@' || c == '?' || c == '#' || c > '~'; };
-  if (url.host.empty() || std::any_of(whole.begin(), whole.end(), is_bad)) {
+  if (url.host.empty() || url.host.find_first_of("[]") != std::string::npos ||
+      std::any_of(whole.begin(), whole.end(), is_bad)) {
     return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH]"};
   }
   return url;

@@ -1,4 +1,4 @@
-#include "clients/native/client/http_client.h"
+#include "protocol/http/http_client.h"
 
 #include <algorithm>
 #include <cctype>

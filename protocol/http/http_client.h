@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "clients/native/client/url.h"
 #include "core/types/result.h"
+#include "protocol/http/url.h"
 
 namespace semblante::client {
 

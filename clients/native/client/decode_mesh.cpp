@@ -1,0 +1,51 @@
+#include "clients/native/client/decode_mesh.h"
+
+#include "core/draco/draco_mesh.h"
+#include "protocol/cpp/weights_format.h"
+
+namespace semblante::client {
+namespace {
+
+Error refused(ErrorCode code, std::string message) { return {code, "mesh.drc", std::move(message)}; }
+
+template <class T>
+std::vector<T> value_or_empty(Result<std::vector<T>> values) {
+  return values ? *std::move(values) : std::vector<T>{};
+}
+
+}  // namespace
+
+Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh) {
+  if (mesh.vertices == 0 || mesh.triangles == 0) {
+    return refused(ErrorCode::empty, "rig.json announces no vertices or no triangles");
+  }
+  if (mesh.vertices > max_weights_vertices || mesh.triangles > 2U * max_weights_vertices) {
+    return refused(ErrorCode::too_large, "more than 4 million vertices or 8 million triangles");
+  }
+  const auto draco = DracoMesh::decode(bytes, {mesh.vertices, mesh.triangles});
+  if (!draco) {
+    return refused(draco.error().code, draco.error().message);
+  }
+  if (draco->point_count() != mesh.vertices || draco->triangle_count() != mesh.triangles) {
+    return refused(ErrorCode::mismatch, "another number of vertices or triangles than rig.json says");
+  }
+  if (!mesh.attributes.position) {
+    return refused(ErrorCode::missing, "rig.json names no positions");
+  }
+  auto positions = draco->vectors3(*mesh.attributes.position);
+  if (!positions) {
+    return refused(positions.error().code, positions.error().message);
+  }
+  DecodedMesh decoded;
+  decoded.positions = *std::move(positions);
+  if (mesh.attributes.uv) {
+    decoded.uvs = value_or_empty(draco->vectors2(*mesh.attributes.uv));
+  }
+  if (mesh.attributes.material) {
+    decoded.materials = value_or_empty(draco->bytes(*mesh.attributes.material));
+  }
+  decoded.triangles = draco->triangles();
+  return decoded;
+}
+
+}  // namespace semblante::client

@@ -1,0 +1,61 @@
+#include "core/import/model_formats.h"
+
+#include <algorithm>
+
+namespace semblante {
+namespace {
+
+bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+}
+
+}  // namespace
+
+std::string_view to_string(ModelFormat format) {
+  switch (format) {
+    case ModelFormat::glb:
+      return "glb";
+    case ModelFormat::gltf:
+      return "gltf";
+    case ModelFormat::gltf_zip:
+      return "gltf_zip";
+    case ModelFormat::obj:
+      return "obj";
+    case ModelFormat::ply:
+      return "ply";
+    case ModelFormat::stl:
+      return "stl";
+  }
+  return "";
+}
+
+std::optional<ModelFormat> parse_model_format(std::string_view name) {
+  for (const ModelFormat format : all_model_formats) {
+    if (to_string(format) == name) return format;
+  }
+  return std::nullopt;
+}
+
+std::optional<ModelFormat> format_of_name(std::string_view file_name) {
+  for (const ModelFile& file : model_files) {
+    if (has_ending(file_name, file.ending)) return file.format;
+  }
+  return std::nullopt;
+}
+
+bool is_model_media_type(std::string_view media_type) {
+  return std::any_of(model_files.begin(), model_files.end(),
+                     [&](const ModelFile& file) { return file.media_type == media_type; }) ||
+         std::find(other_model_media_types.begin(), other_model_media_types.end(), media_type) !=
+             other_model_media_types.end();
+}
+
+std::string model_file_titles() {
+  std::string titles;
+  for (const ModelFile& file : model_files) titles.append(titles.empty() ? "" : ", ").append(file.title);
+  return titles;
+}
+
+}  // namespace semblante

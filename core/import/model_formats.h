@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace semblante {
+
+enum class ModelFormat { glb, gltf, gltf_zip, obj, ply, stl };
+
+inline constexpr std::string_view glb_media_type = "model/gltf-binary";
+
+/// A kind of file that holds a head.
+struct ModelFile {
+  std::string_view ending;  ///< of its name, in small letters
+  ModelFormat format;
+  std::string_view media_type;
+  std::string_view title;  ///< for people
+};
+
+/// The one table of them. The studio's (web/src/net/model_formats.ts), openapi.json and the texts for people are held
+/// against it by tests.
+inline constexpr auto model_files = std::to_array<ModelFile>({
+    {".glb", ModelFormat::glb, glb_media_type, "GLB"},
+    {".vrm", ModelFormat::glb, glb_media_type, "VRM"},
+    {".gltf", ModelFormat::gltf, "model/gltf+json", "glTF"},
+    {".obj", ModelFormat::obj, "model/obj", "OBJ"},
+    {".ply", ModelFormat::ply, "model/ply", "PLY"},
+    {".stl", ModelFormat::stl, "model/stl", "STL"},
+    {".zip", ModelFormat::gltf_zip, "application/zip", "ZIP"},
+});
+
+/// What the same files are also sent as; the bytes decide.
+inline constexpr auto other_model_media_types =
+    std::to_array<std::string_view>({"application/octet-stream", "application/ply", "application/sla",
+                                     "application/x-zip-compressed", "model/vnd.ply", "text/plain"});
+
+inline constexpr std::array all_model_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
+                                                 ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
+
+/// "glb", "gltf", "gltf_zip", "obj", "ply", "stl".
+std::string_view to_string(ModelFormat format);
+
+/// The way back; nullopt for any other text.
+std::optional<ModelFormat> parse_model_format(std::string_view name);
+
+/// By the ending of a file's name, in any case; nullopt for endings that are not in the table.
+std::optional<ModelFormat> format_of_name(std::string_view file_name);
+
+/// A media type in small letters, without parameters: one of the table, or one of the others.
+bool is_model_media_type(std::string_view media_type);
+
+/// "GLB, VRM, glTF" and so on.
+std::string model_file_titles();
+
+}  // namespace semblante

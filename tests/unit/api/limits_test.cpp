@@ -1,0 +1,147 @@
+// The limits that server/README.md and openapi.json state, against the constants that are kept.
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/performance/cue.h"
+#include "protocol/cpp/performance_document.h"
+#include "server/api/api.h"
+#include "server/api/openapi.h"
+#include "server/api/play_options.h"
+#include "server/jobs/job_run.h"
+#include "server/net/server.h"
+#include "server/recordings/recorder.h"
+#include "server/recordings/recording_export.h"
+#include "server/recordings/recording_format.h"
+#include "server/streams/flood_guard.h"
+#include "server/streams/player.h"
+#include "server/streams/stream_limits.h"
+#include "server/streams/timeline.h"
+
+namespace semblante::api {
+namespace {
+
+std::string size(std::uint64_t bytes) {
+  for (const auto& [shift, unit] : {std::pair(30U, " GiB"), std::pair(20U, " MiB"), std::pair(10U, " KiB")}) {
+    if (bytes >> shift > 0) return std::to_string(bytes >> shift) + unit;
+  }
+  return std::to_string(bytes);
+}
+
+template <class Number>
+std::string count(Number number) {
+  return std::to_string(static_cast<std::uint64_t>(number));
+}
+
+template <class Duration>
+std::string seconds(Duration duration) {
+  return count(std::chrono::duration_cast<std::chrono::seconds>(duration).count()) + " s";
+}
+
+/// The second column of the rows of "## Limits" by the first, without the commas within numbers.
+std::map<std::string, std::string> stated_limits() {
+  std::ifstream file(SEMBLANTE_SOURCE_DIR "/server/README.md");
+  std::map<std::string, std::string> rows;
+  bool within = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("## ")) within = line == "## Limits";
+    if (!within || !line.starts_with("| ")) continue;
+    const std::size_t end = line.find(" | ", 2);
+    const std::size_t next = line.find(" |", end + 3);
+    std::string value;
+    for (std::size_t i = end + 3; i < next; ++i) {
+      if (line[i] == ',' && i + 1 < next && line[i + 1] != ' ') continue;
+      value += line[i];
+    }
+    rows[line.substr(2, end - 2)] = value;
+  }
+  return rows;
+}
+
+TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
+  const ApiLimits api;
+  const net::ServerLimits net;
+  const recordings::RecorderLimits recorder;
+  const streams::StreamLimits stream;
+  const streams::FloodLimits flood;
+  const http::OutboxLimits outbox;
+  const jobs::JobConfig job;
+  const std::string rate = count(flood.frames_per_second) + " a second, " + count(flood.frames_burst) + " at once";
+  const std::vector<std::pair<std::string, std::string>> kept = {
+      {"model file", size(api.max_upload_bytes)},
+      {"JSON body", size(api.max_json_bytes)},
+      {"request header", size(net.max_header_bytes) + ", " + count(net.max_header_fields) + " fields, " +
+                             count(net.max_header_fields) + " query parameters"},
+      {"trailers of a chunked body, with the last chunk's extensions", size(net.max_header_bytes)},
+      {"line before a chunk; chunk extensions of a body, together", size(net.max_header_bytes) + " each"},
+      {"bytes of a connection that wait to be parsed", size(net.max_header_bytes)},
+      {"idle connection", seconds(net.idle_timeout)},
+      {"header of a request", seconds(net.header_timeout)},
+      {"between two pieces of a body or an answer", seconds(net.read_timeout)},
+      {"between two pieces of a body or an answer", seconds(net.write_timeout)},
+      {"models", count(api.max_models)},
+      {"displacement sets, beside the library's", count(api.max_expressions)},
+      {"files of an example, together", size(api.max_upload_bytes)},
+      {"streams", count(api.max_streams)},
+      {"performance: document, cues, keys",
+       size(max_performance_bytes) + ", " + count(max_performance_cues) + ", " + count(max_performance_keys)},
+      {"performance: cues at once on one target", count(max_overlapping_cues)},
+      {"performance: frames a second", count(streams::least_play_rate) + " to " + count(streams::most_play_rate)},
+      {"performances and .fap files that play, together", size(stream.playing_bytes) + " of memory"},
+      {"recordings", count(recorder.max_recordings) + " kept, " + count(recorder.max_running) + " at a time"},
+      {"recording", count(recordings::max_recording_ms / 3'600'000) + " h, " + size(recorder.max_bytes)},
+      {"recordings, together", size(recorder.max_total_bytes)},
+      {"free bytes of the disk that recordings leave", size(recorder.disk_reserve)},
+      {"frames on their way to the disk, of a recording", count(recorder.queued_frames)},
+      {"recording as performance, or as .fap before its rate", count(recordings::max_gathered_frames) + " frames"},
+      {"recording as frames or CSV", size(recordings::max_written_bytes)},
+      {"jobs waiting", count(job.max_queued)},
+      {"memory of a job", size(job.limits.memory_bytes)},
+      {"processor time of a job", count(job.limits.cpu_seconds) + " s"},
+      {"time of a job", seconds(job.wall_limit)},
+      {"file a job writes", size(job.limits.file_bytes)},
+      {"attempts of a job over restarts", count(job.max_attempts)},
+      {"connections of a stream", count(stream.max_connections)},
+      {"WebSocket message", size(max_binary_message_bytes) + " binary, " + size(max_json_message_bytes) + " JSON"},
+      {"frames of one publisher", rate},
+      {"frames by requests, of one stream", rate},
+      {"frames ahead of the stream's clock, of a publisher's or requests'", count(streams::most_ahead / 1000) + " s"},
+      {"state waiting for a subscriber, beside what the kernel holds (32 KiB)",
+       count(stream.pending_messages) + " messages, " + size(stream.pending_bytes)},
+      {"answers waiting for a client", count(outbox.answers) + " messages, " + size(outbox.answer_bytes)},
+      {"gap held for a resume", "30 s, " + count(stream.held_batches) + " batches; " + count(stream.resumed_frames) +
+                                    " frames, " + size(stream.resumed_bytes) + " in one go"},
+  };
+  const auto stated = stated_limits();
+  for (const auto& [what, value] : kept) {
+    const auto row = stated.find(what);
+    if (row == stated.end()) {
+      ADD_FAILURE() << "server/README.md has no limit \"" << what << '"';
+    } else {
+      EXPECT_EQ(row->second, value) << what;
+    }
+  }
+  ASSERT_TRUE(stated.contains(".fap file: bytes, frames"));
+  EXPECT_TRUE(stated.at(".fap file: bytes, frames").starts_with(size(max_fap_body_bytes) + ", "));
+}
+
+TEST(Limits, OfTheApiDocument_AreThoseThatAreKept) {
+  const auto document = nlohmann::json::parse(openapi_document());
+  const auto description = [&](const char* path) {
+    return document.at("paths").at(path).at("post").at("requestBody").at("description").get<std::string>();
+  };
+  EXPECT_NE(description("/v1/models").find("At most " + size(ApiLimits{}.max_upload_bytes)), std::string::npos);
+  EXPECT_TRUE(description("/v1/streams/{stream}/fap").starts_with("At most " + size(max_fap_body_bytes)));
+  EXPECT_TRUE(description("/v1/streams/{stream}/performances").starts_with("At most " + size(max_performance_bytes)));
+  EXPECT_EQ(document.at("components").at("schemas").at("Performance").at("properties").at("cues").at("maxItems"),
+            max_performance_cues);
+}
+
+}  // namespace
+}  // namespace semblante::api
