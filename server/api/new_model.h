@@ -21,7 +21,4 @@ Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, c
                            std::string id, std::string name, std::string file_name,
                            std::optional<store::IdempotencyRecord> key);
 
-/// A job that imports a model; stored and queued by the caller.
-store::JobRecord new_import(const std::string& model);
-
 }  // namespace semblante::api

@@ -186,10 +186,12 @@ class SqliteStore : public Store {
     return users_of_hash(db_, sha256);
   }
 
-  void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) override {
+  void create_job(const JobRecord& job, const std::vector<std::string>& files,
+                  const std::optional<IdempotencyRecord>& key) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     insert_job(db_, job);
+    insert_job_files(db_, job.id, files);
     insert_key(key);
     transaction.commit();
   }
@@ -204,7 +206,7 @@ class SqliteStore : public Store {
     return list_unfinished_jobs(db_);
   }
 
-  std::optional<JobRecord> latest_job(std::string_view model, JobKind kind) override {
+  std::optional<JobRecord> latest_job(std::string_view model, std::string_view kind) override {
     const std::lock_guard lock(mutex_);
     return find_latest_job(db_, model, kind);
   }
@@ -304,13 +306,21 @@ class SqliteStore : public Store {
     return true;
   }
 
-  std::vector<std::string> finish_without_result(const JobRecord& job) override {
+  std::vector<std::string> finish_job(const JobRecord& job) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(db_);
     write_job(db_, job);
     auto orphans = delete_job_files(db_, job.id);
-    const auto model = job.kind == JobKind::import ? find_model(db_, job.model) : std::nullopt;
-    if (model) {
+    transaction.commit();
+    return orphans;
+  }
+
+  std::vector<std::string> finish_failed_import(const JobRecord& job) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    write_job(db_, job);
+    auto orphans = delete_job_files(db_, job.id);
+    if (const auto model = find_model(db_, job.model)) {
       const bool is_first = model->vertices == 0;
       const ModelState before = model->package ? ModelState::parametrized : ModelState::ready;
       Statement(db_, "UPDATE models SET state = ?, problem = ?, revision = revision + 1, updated = ? WHERE id = ?")

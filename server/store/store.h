@@ -64,12 +64,14 @@ class Store {
   virtual std::vector<std::string> users_of(std::string_view sha256) = 0;
 
   // ---- jobs
-  virtual void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) = 0;
+  /// `files` are hashes of blobs that are the job's own until it ends.
+  virtual void create_job(const JobRecord& job, const std::vector<std::string>& files,
+                          const std::optional<IdempotencyRecord>& key) = 0;
   virtual std::optional<JobRecord> job(std::string_view id) = 0;
   /// Queued or running, oldest first: what a restart takes up again.
   virtual std::vector<JobRecord> unfinished_jobs() = 0;
-  virtual std::optional<JobRecord> latest_job(std::string_view model, JobKind kind) = 0;
-  /// State, progress, stage, problem and attempts. Nothing happens to a job that is gone.
+  virtual std::optional<JobRecord> latest_job(std::string_view model, std::string_view kind) = 0;
+  /// State, progress, stage, problem, attempts and result. Nothing happens to a job that is gone.
   virtual void update_job(const JobRecord& job) = 0;
   /// The end of an import: job, facts of the model, and its artefacts, in one step. What an import before it made goes,
   /// a package too; the user's roles stay, and marked positions follow `turn`, if there is one. Hashes no one refers to
@@ -87,11 +89,12 @@ class Store {
   /// The end of a proposal: job and points (see with_proposals) in one step, whatever became of the points since it
   /// began. False when the model is gone.
   virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;
-  /// The end of a job without a result. A first import that fails or is cancelled fails its model; a model that was
-  /// imported before is again what it was.
-  /// Hashes no one refers to any more, of the job's files, are returned.
-  virtual std::vector<std::string> finish_without_result(const JobRecord& job) = 0;
-  /// The end of an extraction: job and set in one step. Hashes as finish_without_result.
+  /// The end of a job that changes nothing else: hashes no one refers to any more, of the job's files, are returned.
+  virtual std::vector<std::string> finish_job(const JobRecord& job) = 0;
+  /// The end of an import without a result: one that is the first of its model fails the model too; a model that was
+  /// imported before is again what it was. Hashes as finish_job.
+  virtual std::vector<std::string> finish_failed_import(const JobRecord& job) = 0;
+  /// The end of an extraction: job and set in one step. Hashes as finish_job.
   virtual std::vector<std::string> finish_extraction(const JobRecord& job, const SetRecord& set) = 0;
   /// Sets the stage of a job that has not ended to `cancelling_stage`. False when it has ended or is gone.
   virtual bool request_cancel(std::string_view job) = 0;
