@@ -7,7 +7,7 @@
 
 namespace semblante::api {
 
-Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, const std::filesystem::path& file,
+Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
                            std::optional<store::IdempotencyRecord> key) {
   const std::shared_lock references(blobs.references());

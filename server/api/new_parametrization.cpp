@@ -6,8 +6,8 @@
 
 namespace semblante::api {
 
-store::JobRecord add_parametrization(store::Store& store, const std::string& model, const jobs::ParametrizeJob& options,
-                                     std::optional<store::IdempotencyRecord> key) {
+store::JobRecord add_parametrization(store::JobStore& store, const std::string& model,
+                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key) {
   auto job = jobs::new_record(options, model);
   if (key) key->resource = job.id;
   store.create_job(job, {}, key);

@@ -156,7 +156,7 @@ Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, ResultFiles&
 
 std::vector<std::string> ExtractJob::finish(store::JobRecord& job, Outcome outcome,
                                             const std::vector<store::ArtefactRecord>& /*artefacts*/,
-                                            store::Store& store) const {
+                                            store::JobStore& store) const {
   const Json taken = describe(outcome.extraction);
   Json source = source_of_set(job, *this);
   source.update(taken);

@@ -58,7 +58,7 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, ResultFiles& f
 
 std::vector<std::string> ImportJob::finish(store::JobRecord& job, Outcome outcome,
                                            const std::vector<store::ArtefactRecord>& artefacts,
-                                           store::Store& store) const {
+                                           store::JobStore& store) const {
   store::ModelRecord facts;
   facts.format = std::move(outcome.format);
   facts.vertices = outcome.vertices;
@@ -73,7 +73,7 @@ std::vector<std::string> ImportJob::finish(store::JobRecord& job, Outcome outcom
   return store.finish_import(job, facts, artefacts, outcome.turn).value_or(std::vector<std::string>{});
 }
 
-std::vector<std::string> ImportJob::finish_without_outcome(const store::JobRecord& job, store::Store& store) {
+std::vector<std::string> ImportJob::finish_without_outcome(const store::JobRecord& job, store::JobStore& store) {
   return store.finish_failed_import(job);
 }
 

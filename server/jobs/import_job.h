@@ -12,7 +12,7 @@
 #include "core/types/progress.h"
 #include "core/types/result.h"
 #include "server/jobs/model_source.h"
-#include "server/store/store.h"
+#include "server/store/job_store.h"
 
 namespace semblante::jobs {
 
@@ -31,9 +31,9 @@ struct ImportJob {
   /// `report.json` (what the mesh alone shows).
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
-                                  const std::vector<store::ArtefactRecord>& artefacts, store::Store& store) const;
+                                  const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
   /// A model whose first import ends so has failed too.
-  static std::vector<std::string> finish_without_outcome(const store::JobRecord& job, store::Store& store);
+  static std::vector<std::string> finish_without_outcome(const store::JobRecord& job, store::JobStore& store);
 
   bool operator==(const ImportJob&) const = default;
 };

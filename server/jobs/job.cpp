@@ -88,7 +88,7 @@ Result<JobOutcome> run_alternative(const JobRequest& request, ResultFiles& files
 
 template <std::size_t index = 0>
 std::vector<std::string> finish_alternative_without_outcome(std::size_t kind, const store::JobRecord& record,
-                                                            store::Store& store) {
+                                                            store::JobStore& store) {
   if constexpr (index < std::variant_size_v<Job>) {
     if (kind != index) return finish_alternative_without_outcome<index + 1>(kind, record, store);
     using Type = std::variant_alternative_t<index, Job>;
@@ -104,7 +104,7 @@ Result<JobOutcome> run(const JobRequest& request, ResultFiles& files, const Prog
 }
 
 Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome outcome,
-                                        const std::vector<store::ArtefactRecord>& artefacts, store::Store& store) {
+                                        const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) {
   const auto job = read_job(record);
   if (!job) return job.error();
   return std::visit(
@@ -117,7 +117,7 @@ Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome out
       *job);
 }
 
-std::vector<std::string> finish_without_outcome(const store::JobRecord& record, store::Store& store) {
+std::vector<std::string> finish_without_outcome(const store::JobRecord& record, store::JobStore& store) {
   return finish_alternative_without_outcome(find_job_kind(record.kind).value_or(job_kinds.size()), record, store);
 }
 

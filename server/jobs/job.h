@@ -20,7 +20,7 @@ namespace semblante::jobs {
 /// What a type of job must have. Its members are what is asked for, as the store keeps it. It, its Request (what a
 /// worker is told) and its Outcome (what a worker found) have to_json() and from_json(), found beside the type.
 template <class T>
-concept JobType = requires(const T& job, store::JobRecord& record, const JobSources& sources, store::Store& store,
+concept JobType = requires(const T& job, store::JobRecord& record, const JobSources& sources, store::JobStore& store,
                            const typename T::Request& request, typename T::Outcome outcome, ResultFiles& files,
                            const std::vector<store::ArtefactRecord>& artefacts, const Progress& progress) {
   /// In the store, in answers and in metrics.
@@ -39,7 +39,7 @@ concept JobType = requires(const T& job, store::JobRecord& record, const JobSour
 /// A type may also have finish_without_outcome(record, store), where a job that failed or was cancelled changes more
 /// than itself. It gives hashes as finish().
 template <class T>
-concept HasFinishWithoutOutcome = requires(const store::JobRecord& record, store::Store& store) {
+concept HasFinishWithoutOutcome = requires(const store::JobRecord& record, store::JobStore& store) {
   { T::finish_without_outcome(record, store) } -> std::same_as<std::vector<std::string>>;
 };
 
@@ -84,9 +84,9 @@ Result<JobRequest> make_request(const store::JobRecord& record, const JobSources
 Result<JobOutcome> run(const JobRequest& request, ResultFiles& files, const Progress& progress);
 /// T::finish() of the job's type. Error `internal`: as read_job(), or the outcome is of another type.
 Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome outcome,
-                                        const std::vector<store::ArtefactRecord>& artefacts, store::Store& store);
+                                        const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store);
 /// Stores the end of a job that failed or was cancelled. Hashes as T::finish().
-std::vector<std::string> finish_without_outcome(const store::JobRecord& record, store::Store& store);
+std::vector<std::string> finish_without_outcome(const store::JobRecord& record, store::JobStore& store);
 
 /// The members of the request or the outcome; which type it is of is not among them.
 nlohmann::json to_value(const JobRequest& request);

@@ -9,7 +9,8 @@
 #include "core/frame/frame_guess.h"
 #include "core/types/result.h"
 #include "server/store/blob_store.h"
-#include "server/store/store.h"
+#include "server/store/job_store.h"
+#include "server/store/model_store.h"
 
 namespace semblante::jobs {
 
@@ -34,7 +35,7 @@ struct MarkedSource {
 
 /// What a job is made into a request with.
 struct JobSources {
-  store::Store& store;
+  store::ModelStore& store;
   const store::BlobStore& blobs;
 };
 

@@ -104,7 +104,7 @@ Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, Resu
 
 std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome outcome,
                                                 const std::vector<store::ArtefactRecord>& artefacts,
-                                                store::Store& store) const {
+                                                store::JobStore& store) const {
   const store::PackageRecord package{job.id,      store::timestamp_now(),   metric, weights,
                                      weight_bits, std::move(outcome.levels)};
   return store

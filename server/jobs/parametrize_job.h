@@ -11,7 +11,7 @@
 #include "core/types/progress.h"
 #include "core/types/result.h"
 #include "server/jobs/model_source.h"
-#include "server/store/store.h"
+#include "server/store/job_store.h"
 
 namespace semblante::jobs {
 
@@ -34,7 +34,7 @@ struct ParametrizeJob {
   /// Files: those of the package and `report.json`, and of a model that the feature points turn those of an import.
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
-                                  const std::vector<store::ArtefactRecord>& artefacts, store::Store& store) const;
+                                  const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
   bool operator==(const ParametrizeJob&) const = default;
 };

@@ -60,10 +60,10 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, ResultFiles&
   return outcome;
 }
 
-/// The points of the model are merged, not put: see Store::finish_proposal.
+/// The points of the model are merged, not put: see JobStore::finish_proposal.
 std::vector<std::string> ProposeJob::finish(store::JobRecord& job, Outcome outcome,
                                             const std::vector<store::ArtefactRecord>& /*artefacts*/,
-                                            store::Store& store) const {
+                                            store::JobStore& store) const {
   nlohmann::json result = {{"proposed", outcome.proposals.size()}, {"not_proposed", nlohmann::json::object()}};
   for (const auto& [id, reason] : outcome.not_proposed) result["not_proposed"][id] = reason;
   job.result = result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

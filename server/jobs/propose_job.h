@@ -10,7 +10,7 @@
 #include "core/types/progress.h"
 #include "core/types/result.h"
 #include "server/jobs/model_source.h"
-#include "server/store/store.h"
+#include "server/store/job_store.h"
 
 namespace semblante::jobs {
 
@@ -27,7 +27,7 @@ struct ProposeJob {
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
-                                  const std::vector<store::ArtefactRecord>& artefacts, store::Store& store) const;
+                                  const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
   bool operator==(const ProposeJob&) const = default;
 };
