@@ -70,9 +70,13 @@ Result<NamedSet> parse_displacement_set(std::string_view json) {
 Result<std::vector<Displacement>> parse_set_displacements(std::string_view json) {
   const auto tree = read_json_object(json, set_limits);
   if (!tree) return tree.error();
+  return displacements_from_json(*tree);
+}
+
+Result<std::vector<Displacement>> displacements_from_json(const nlohmann::json& json) {
   std::optional<Error> fault;
   std::vector<Displacement> displacements;
-  read_displacements(JsonCursor(*tree, fault), displacements);
+  read_displacements(JsonCursor(json, fault), displacements);
   if (fault) return *fault;
   return displacements;
 }

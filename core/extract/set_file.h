@@ -20,6 +20,9 @@ Result<NamedSet> parse_displacement_set(std::string_view json);
 /// The displacements alone, {"2.1": [x, y, z], ...}, with the checks of parse_displacement_set.
 Result<std::vector<Displacement>> parse_set_displacements(std::string_view json);
 
+/// The same of a document that has been read.
+Result<std::vector<Displacement>> displacements_from_json(const nlohmann::json& json);
+
 /// What parse_set_displacements reads; points rising.
 nlohmann::ordered_json displacements_to_json(const std::vector<Displacement>& displacements);
 

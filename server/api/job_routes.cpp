@@ -34,9 +34,9 @@ std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vert
   return budgets;
 }
 
-ParametrizationOptions read_options(const JsonBody& body, std::uint32_t vertices) {
+jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) {
   refuse_unknown_members(body, {"metric", "weights", "weight_bits", "lods"});
-  ParametrizationOptions options;
+  jobs::ParametrizeJob options;
   if (body.contains("metric")) {
     if (!body["metric"].is_string() || !parse_distance_metric(body["metric"].get<std::string>()))
       refuse("invalid-field", "it must be \"edge\" or \"unfolded\"", "/metric");
@@ -98,13 +98,9 @@ http::Response create_proposals(Context& context, http::Request& request) {
   }
   if (const auto fault = find_too_few_known(placed)) refuse("missing-feature-points", fault->message, fault->where);
   refuse_unless_room(context.jobs);
-  store::JobRecord job;
-  job.id = store::random_id();
-  job.model = model.id;
-  job.kind = store::JobKind::propose;
-  job.created = job.updated = store::timestamp_now();
+  const auto job = jobs::new_record(jobs::ProposeJob{}, model.id);
   if (check.record) check.record->resource = job.id;
-  context.store.create_job(job, check.record);
+  context.store.create_job(job, {}, check.record);
   context.jobs.enqueue(job);
   return accepted(job);
 }

@@ -39,11 +39,10 @@ void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
   writer.sample(std::uint64_t{jobs.waiting()}, {{"state", "waiting"}});
   writer.sample(std::uint64_t{jobs.running()}, {{"state", "running"}});
   writer.family("semblante_jobs_ended_total", MetricType::counter, "Jobs that ended since the server started.");
-  using store::JobKind;
   using store::JobState;
-  for (const auto kind : {JobKind::import, JobKind::parametrize, JobKind::propose, JobKind::extract})
+  for (const auto& kind : jobs::job_kinds)
     for (const auto state : {JobState::done, JobState::failed, JobState::cancelled})
-      writer.sample(jobs.ended(kind, state), {{"kind", to_string(kind)}, {"state", to_string(state)}});
+      writer.sample(jobs.ended(kind.name, state), {{"kind", kind.name}, {"state", to_string(state)}});
 }
 
 /// Streams are summed up: their ids are chosen by clients.

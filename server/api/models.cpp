@@ -66,13 +66,14 @@ FrameWish frame_wish(const JsonBody& frame, const FrameWish& before) {
 std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const JsonBody& body) {
   const FrameWish wish = frame_wish(body, model.frame_wish);
   // An import that failed or was cancelled has left what was said undone: saying it again tries again.
-  const auto last_import = context.store.latest_job(model.id, store::JobKind::import);
+  const auto last_import = context.store.latest_job(model.id, jobs::ImportJob::kind_name);
   const bool is_done = last_import && last_import->state == store::JobState::done;
   const bool is_running = model.state == store::ModelState::importing;
   if (wish == model.frame_wish && (is_done || is_running)) return std::nullopt;
   if (is_running) refuse("conflict", "the model is still being imported", "/frame");
-  for (const auto kind : {store::JobKind::parametrize, store::JobKind::propose}) {
-    const auto last = context.store.latest_job(model.id, kind);
+  for (const auto& kind : jobs::job_kinds) {
+    if (!kind.needs_frame_to_stay) continue;
+    const auto last = context.store.latest_job(model.id, kind.name);
     if (last && !store::is_final(last->state))
       refuse("conflict", "a job works on the model as it stands: wait for job " + last->id + " or cancel it", "/frame");
   }
@@ -85,7 +86,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
     frame = apply_wish(std::move(frame), {wish.unit, {}, {}});
   } else {
     refuse_unless_room(context.jobs);
-    job = new_import(model.id);
+    job = jobs::new_record(jobs::ImportJob{}, model.id);
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
     refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");

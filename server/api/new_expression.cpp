@@ -23,7 +23,7 @@ namespace {
 
 /// What a request for an extraction says, however it was sent.
 struct ExampleRequest {
-  store::ExtractionRecord wish;
+  jobs::ExtractJob wish;
   std::string model;
   std::string_view expression, neutral;  ///< bytes of files; point into the request's body
 };
@@ -138,7 +138,7 @@ void check_model(Context& context, const ExampleRequest& example) {
   }
 }
 
-std::string default_name(const store::ExtractionRecord& wish) {
+std::string default_name(const jobs::ExtractJob& wish) {
   auto name = wish.target.empty() ? std::filesystem::path(wish.expression_file).stem().string() : wish.target;
   return name.empty() ? "Untitled" : name;
 }
@@ -185,20 +185,17 @@ http::Response create_by_example(Context& context, const http::Request& request,
   if (!example.model.empty()) check_model(context, example);
   refuse_too_many(context);
   refuse_unless_room(context.jobs);
+  jobs::ExtractJob wish = std::move(example.wish);
+  if (wish.name.empty()) wish.name = default_name(wish);
   store::JobRecord job;
-  job.id = store::random_id();
-  job.model = example.model;
-  job.kind = store::JobKind::extract;
-  job.created = job.updated = store::timestamp_now();
-  job.extraction = std::move(example.wish);
-  if (job.extraction->name.empty()) job.extraction->name = default_name(*job.extraction);
-  if (check.record) check.record->resource = job.id;
   {
     // Until the job that refers to them is there, nobody may take the files for forgotten.
     const std::shared_lock shared(context.blobs.references());
-    job.extraction->expression_sha256 = keep(context, example.expression);
-    job.extraction->neutral_sha256 = keep(context, example.neutral);
-    context.store.create_job(job, check.record);
+    wish.expression_sha256 = keep(context, example.expression);
+    wish.neutral_sha256 = keep(context, example.neutral);
+    job = jobs::new_record(wish, example.model);
+    if (check.record) check.record->resource = job.id;
+    context.store.create_job(job, wish.files(), check.record);
   }
   context.jobs.enqueue(job);
   return accepted(job);

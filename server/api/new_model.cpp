@@ -3,9 +3,11 @@
 #include <shared_mutex>
 #include <utility>
 
+#include "server/jobs/job.h"
+
 namespace semblante::api {
 
-Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, const std::filesystem::path& file,
+Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
                            std::optional<store::IdempotencyRecord> key) {
   const std::shared_lock references(blobs.references());
@@ -19,21 +21,12 @@ Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, c
   model.created = model.updated = store::timestamp_now();
   model.source_bytes = blob->bytes;
   model.source_sha256 = blob->sha256;
-  made.job = new_import(model.id);
+  made.job = jobs::new_record(jobs::ImportJob{}, model.id);
   if (key) key->resource = made.job.id;
   const store::ArtefactRecord source{"source", blob->sha256, blob->bytes, "application/octet-stream"};
   if (!store.create_model(model, source, made.job, key))
     return Error{ErrorCode::mismatch, "", "there is a model " + model.id + " already"};
   return made;
-}
-
-store::JobRecord new_import(const std::string& model) {
-  store::JobRecord job;
-  job.id = store::random_id();
-  job.model = model;
-  job.kind = store::JobKind::import;
-  job.created = job.updated = store::timestamp_now();
-  return job;
 }
 
 }  // namespace semblante::api

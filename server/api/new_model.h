@@ -6,7 +6,7 @@
 
 #include "core/types/result.h"
 #include "server/store/blob_store.h"
-#include "server/store/store.h"
+#include "server/store/model_store.h"
 
 namespace semblante::api {
 
@@ -17,11 +17,8 @@ struct NewModel {
 
 /// Takes over the file of a new model and stores model and import job, durably. `id` empty: a random one. The job is
 /// not queued yet. Errors: io.
-Result<NewModel> add_model(store::Store& store, const store::BlobStore& blobs, const std::filesystem::path& file,
+Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
                            std::optional<store::IdempotencyRecord> key);
-
-/// A job that imports a model; stored and queued by the caller.
-store::JobRecord new_import(const std::string& model);
 
 }  // namespace semblante::api

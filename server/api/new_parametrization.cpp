@@ -2,22 +2,15 @@
 
 #include <utility>
 
+#include "server/jobs/job.h"
+
 namespace semblante::api {
 
-store::JobRecord add_parametrization(store::Store& store, const std::string& model,
-                                     const ParametrizationOptions& options,
-                                     std::optional<store::IdempotencyRecord> key) {
-  store::JobRecord job;
-  job.id = store::random_id();
-  job.model = model;
-  job.kind = store::JobKind::parametrize;
-  job.created = job.updated = store::timestamp_now();
-  job.metric = options.metric;
-  job.weights = options.weights;
-  job.weight_bits = options.weight_bits;
-  job.lods = options.lods;
+store::JobRecord add_parametrization(store::JobStore& store, const std::string& model,
+                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key) {
+  auto job = jobs::new_record(options, model);
   if (key) key->resource = job.id;
-  store.create_job(job, key);
+  store.create_job(job, {}, key);
   return job;
 }
 

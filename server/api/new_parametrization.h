@@ -1,20 +1,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
-#include "server/store/store.h"
+#include "server/jobs/parametrize_job.h"
+#include "server/store/job_store.h"
 
 namespace semblante::api {
 
-struct ParametrizationOptions {
-  std::string metric = "edge", weights = "paper";
-  int weight_bits = 12;
-  std::vector<std::uint32_t> lods;  ///< as JobRecord::lods
-};
-
 /// Stores a parametrize job, durably. It is not queued yet.
-store::JobRecord add_parametrization(store::Store& store, const std::string& model,
-                                     const ParametrizationOptions& options,
-                                     std::optional<store::IdempotencyRecord> key);
+store::JobRecord add_parametrization(store::JobStore& store, const std::string& model,
+                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key);
 
 }  // namespace semblante::api

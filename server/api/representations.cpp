@@ -111,7 +111,7 @@ Json represent(const store::ModelRecord& model, const std::vector<store::Artefac
 
 Json represent(const store::JobRecord& job) {
   return {{"id", job.id},
-          {"kind", std::string(store::to_string(job.kind))},
+          {"kind", job.kind},
           {"model", job.model.empty() ? Json(nullptr) : Json(job.model)},
           {"state", std::string(store::to_string(job.state))},
           {"progress", job.progress},

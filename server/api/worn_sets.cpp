@@ -49,27 +49,20 @@ std::vector<store::WornSet> worn_from_json(Context& context, const JsonBody& cha
 }
 
 std::optional<store::JobRecord> make_package_again(Context& context, const store::ModelRecord& model) {
-  store::JobRecord job;
   // A package that is being made may have been begun without what is worn from now on: the same is asked for again.
-  const auto latest = context.store.latest_job(model.id, store::JobKind::parametrize);
-  if (latest && (latest->state == store::JobState::queued || latest->state == store::JobState::running)) {
-    job.metric = latest->metric;
-    job.weights = latest->weights;
-    job.weight_bits = latest->weight_bits;
-    job.lods = latest->lods;
-  } else if (model.package) {
-    job.metric = model.package->metric;
-    job.weights = model.package->weights;
-    job.weight_bits = model.package->weight_bits;
-    if (const auto before = context.store.job(model.package->parametrization)) job.lods = before->lods;
-  } else {
-    return std::nullopt;
+  const auto latest = context.store.latest_job(model.id, jobs::ParametrizeJob::kind_name);
+  if (latest && !store::is_final(latest->state)) {
+    if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*latest)) return jobs::new_record(*asked, model.id);
   }
-  job.id = store::random_id();
-  job.model = model.id;
-  job.kind = store::JobKind::parametrize;
-  job.created = job.updated = store::timestamp_now();
-  return job;
+  if (!model.package) return std::nullopt;
+  jobs::ParametrizeJob again;
+  again.metric = model.package->metric;
+  again.weights = model.package->weights;
+  again.weight_bits = model.package->weight_bits;
+  if (const auto before = context.store.job(model.package->parametrization)) {
+    if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*before)) again.lods = asked->lods;
+  }
+  return jobs::new_record(again, model.id);
 }
 
 }  // namespace semblante::api

@@ -46,7 +46,7 @@ std::string list_of(const Names& names) {
   return text;
 }
 
-void report_missing(store::Store& store, const Reconciled& blobs, const Reconciled& recordings) {
+void report_missing(store::ArtefactStore& store, const Reconciled& blobs, const Reconciled& recordings) {
   if (!blobs.missing.empty()) {
     std::set<std::string> users;
     for (const auto& hash : blobs.missing)
@@ -88,7 +88,7 @@ void report_moved(const std::filesystem::path& data, const store::Trash& trash, 
 }
 
 /// Notes that this database works here now.
-void count_start(const std::filesystem::path& data, store::Store& store) {
+void count_start(const std::filesystem::path& data, store::DatabaseFacts& store) {
   try {
     if (const auto noted = write_last_database(data, store.count_start()); !noted)
       log::warning("the start cannot be noted: " + noted.error().message);

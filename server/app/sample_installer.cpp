@@ -57,7 +57,7 @@ void SampleInstaller::take_next_step() {
   if (!model || model->source_sha256 != hash_ || model->state == store::ModelState::failed) {
     import();
   } else if (model->state == store::ModelState::ready) {
-    const auto job = store_.latest_job(sample_model_id, store::JobKind::parametrize);
+    const auto job = store_.latest_job(sample_model_id, jobs::ParametrizeJob::kind_name);
     if (!job || store::is_final(job->state)) parametrize();
   }
 }
@@ -93,7 +93,7 @@ void SampleInstaller::parametrize() {
     }
     store_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
   }
-  api::ParametrizationOptions options;
+  jobs::ParametrizeJob options;
   options.weights = "smooth";  // the first face people see wears the better skin
   options.lods = default_budgets(model->vertices);
   queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), options, std::nullopt));
@@ -101,7 +101,7 @@ void SampleInstaller::parametrize() {
 
 void SampleInstaller::job_finished(const store::JobRecord& job) {
   if (file_.empty() || job.model != sample_model_id || job.state != store::JobState::done) return;
-  if (job.kind == store::JobKind::import)
+  if (job.kind == jobs::ImportJob::kind_name)
     begin();
   else
     log::info("the sample head is ready");

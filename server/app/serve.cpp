@@ -83,7 +83,7 @@ Result<std::unique_ptr<store::Store>> open_store(const std::filesystem::path& fi
 
 /// Throws StoreError unless a change can be made durable and something more has room: the store alone may have some
 /// left in its own files.
-void check_writable(store::Store& store, const std::filesystem::path& data) {
+void check_writable(store::DatabaseFacts& store, const std::filesystem::path& data) {
   constexpr std::uint64_t least_free = std::uint64_t{1} << 20U;
   store.check_writable();
   if (store::free_bytes(data) < least_free) throw store::DiskFull("less than 1 MiB is free in " + data.string());
@@ -101,7 +101,7 @@ void make_folders(store::PendingWrites& pending, store::BlobStore& blobs, store:
   });
 }
 
-void open_streams(store::Store& store, streams::StreamHub& hub, const ServeOptions& options) {
+void open_streams(store::StreamStore& store, streams::StreamHub& hub, const ServeOptions& options) {
   if (options.demo) {
     streams::StreamInfo demo;
     demo.id = "demo";

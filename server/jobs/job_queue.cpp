@@ -9,7 +9,6 @@
 
 namespace semblante::jobs {
 
-using store::JobKind;
 using store::JobRecord;
 using store::JobState;
 
@@ -65,8 +64,9 @@ std::size_t JobQueue::running() const {
   return running_.size();
 }
 
-std::uint64_t JobQueue::ended(JobKind kind, JobState state) const {
-  return ended_[static_cast<std::size_t>(kind) * states + static_cast<std::size_t>(state)];
+std::uint64_t JobQueue::ended(std::string_view kind, JobState state) const {
+  const auto index = find_job_kind(kind);
+  return index ? ended_[*index][static_cast<std::size_t>(state)].load() : 0;
 }
 
 void JobQueue::enqueue(const JobRecord& job) {
@@ -157,10 +157,10 @@ void JobQueue::publish(const JobRecord& job) {
 }
 
 void JobQueue::conclude(const JobRecord& job) {
-  ++ended_[static_cast<std::size_t>(job.kind) * states + static_cast<std::size_t>(job.state)];
+  if (const auto kind = find_job_kind(job.kind)) ++ended_[*kind][static_cast<std::size_t>(job.state)];
   if (job.state != JobState::done)
-    log::info("job " + job.id + " (" + std::string(store::to_string(job.kind)) + " of " + job.model + ") " +
-              std::string(store::to_string(job.state)) + ": " + http::problem_from_json(job.problem).detail);
+    log::info("job " + job.id + " (" + job.kind + " of " + job.model + ") " + std::string(store::to_string(job.state)) +
+              ": " + http::problem_from_json(job.problem).detail);
   {
     const std::lock_guard lock(mutex_);
     shortages_.erase(job.id);
@@ -234,7 +234,7 @@ std::optional<JobRecord> JobQueue::run_once(Running& running, JobRun& attempt) {
   }
   store_.update_job(running.job);
   publish(running.job);
-  const auto on_progress = [&](const WorkerLine& line) {
+  const auto on_progress = [&](const WorkerProgress& line) {
     JobRecord copy;
     {
       const std::lock_guard lock(mutex_);

@@ -66,8 +66,8 @@ class JobQueue {
 
   [[nodiscard]] std::size_t waiting() const;
   [[nodiscard]] std::size_t running() const;
-  /// How many jobs of a kind have ended so (done, failed, cancelled) since the queue was made.
-  [[nodiscard]] std::uint64_t ended(store::JobKind kind, store::JobState state) const;
+  /// How many jobs of a kind (a name in job_kinds) have ended so (done, failed, cancelled) since the queue was made.
+  [[nodiscard]] std::uint64_t ended(std::string_view kind, store::JobState state) const;
 
  private:
   struct Running {
@@ -105,8 +105,7 @@ class JobQueue {
   store::PendingWrites& pending_;
   const JobConfig config_;
   Watcher on_finished_;
-  static constexpr std::size_t kinds = 4, states = 5;
-  std::array<std::atomic<std::uint64_t>, kinds * states> ended_{};
+  std::array<std::array<std::atomic<std::uint64_t>, store::job_state_count>, job_kinds.size()> ended_{};
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;

@@ -66,7 +66,7 @@ bool JobQueue::record(Unrecorded unrecorded) {
 void JobQueue::write_next(const JobRecord& next, std::uint64_t room_needed) {
   if (store::is_final(next.state)) {
     const std::unique_lock alone(blobs_.references());
-    for (const auto& hash : store_.finish_without_result(next)) blobs_.remove(hash);
+    for (const auto& hash : finish_without_outcome(next, store_)) blobs_.remove(hash);
     return;
   }
   if (store::free_bytes(blobs_.temporary()) < room_needed)

@@ -13,7 +13,6 @@
 namespace semblante::jobs {
 namespace {
 
-using store::JobKind;
 using store::JobRecord;
 using store::JobState;
 
@@ -65,55 +64,15 @@ JobRecord ended_job(JobRecord job, JobState state, const http::Problem& problem)
   return job;
 }
 
-Result<WorkerRequest> JobRun::make_request(const JobRecord& job) const {
-  WorkerRequest request;
-  request.kind = job.kind;
-  request.output_directory = (blobs_.temporary() / ("job-" + job.id)).string();
-  request.extraction = job.extraction;
-  if (job.extraction && !job.extraction->expression_sha256.empty()) {
-    const auto expression = blobs_.find(job.extraction->expression_sha256);
-    if (!expression) return Error{ErrorCode::io, "", "the bytes of the expression are not in the data folder any more"};
-    request.expression_source = expression->string();
-  }
-  if (job.extraction && job.model.empty()) {
-    const auto neutral = blobs_.find(job.extraction->neutral_sha256);
-    if (!neutral) return Error{ErrorCode::io, "", "the bytes of the neutral head are not in the data folder any more"};
-    request.source = neutral->string();
-    request.file_name = job.extraction->neutral_file;
-    request.points = job.extraction->points;
-    return request;
-  }
-  const auto model = store_.model(job.model);
-  if (!model) return Error{ErrorCode::missing, "", "the model of this job is gone"};
-  const auto source = blobs_.find(model->source_sha256);
-  if (!source) return Error{ErrorCode::io, "", "the bytes of the model are not in the data folder any more"};
-  request.source = source->string();
-  request.file_name = model->file_name;
-  request.name = model->name;
-  request.metric = job.metric;
-  request.weights = job.weights;
-  request.weight_bits = job.weight_bits;
-  request.frame = model->frame;
-  request.frame_wish = model->frame_wish;
-  request.lods = job.lods;
-  if (job.kind != JobKind::import) {
-    request.points = store_.feature_points(job.model);
-    request.parts = model->parts;
-  }
-  if (job.kind == JobKind::parametrize) request.worn = store_.worn_sets(job.model);
-  if (job.kind == JobKind::propose)
-    std::erase_if(request.points, [](const auto& point) { return point.proposal.has_value(); });
-  return request;
-}
-
 std::optional<JobRecord> JobRun::run(const JobRecord& job, const OnProgress& on_progress,
                                      const std::function<Wish()>& wish) {
   has_begun_ = true;
-  const auto request = make_request(job);
-  if (!request) return ended_job(job, JobState::failed, http::problem_from(request.error()));
-  const OutputFolder folder(request->output_directory);
+  auto asked = make_request(job, {store_, blobs_});
+  if (!asked) return ended_job(job, JobState::failed, http::problem_from(asked.error()));
+  const WorkerRequest request{(blobs_.temporary() / ("job-" + job.id)).string(), std::move(*asked)};
+  const OutputFolder folder(request.output_directory);
   try {
-    return work(job, *request, on_progress, wish);
+    return work(job, request, on_progress, wish);
   } catch (const store::DiskFull&) {
     // It may have been cut short anywhere: what it wrote is the least it needs.
     room_needed_ = 2 * (folder.bytes() + adopted_bytes_) + least_room;
@@ -127,8 +86,8 @@ std::optional<JobRecord> JobRun::work(const JobRecord& job, const WorkerRequest&
   const auto on_line = [&](std::string_view text) {
     auto line = worker_line_from_json(text);
     if (!line) return;
-    if (line->kind == WorkerLine::Kind::progress)
-      on_progress(*line);
+    if (const auto* progress = std::get_if<WorkerProgress>(&*line))
+      on_progress(*progress);
     else
       last_line = std::move(*line);
   };
@@ -140,13 +99,13 @@ std::optional<JobRecord> JobRun::work(const JobRecord& job, const WorkerRequest&
                                        config_.wall_limit, on_line, wish);
   if (!exit) return ended_job(job, JobState::failed, http::make_problem("internal", exit.error().message));
   if (exit->kind == WorkerExit::Kind::stopped) return std::nullopt;
-  if (exit->kind == WorkerExit::Kind::exited && last_line && last_line->kind == WorkerLine::Kind::problem) {
-    if (last_line->problem.slug == "insufficient-storage") throw store::DiskFull(last_line->problem.detail);
-    return ended_job(job, JobState::failed, last_line->problem);
+  if (exit->kind == WorkerExit::Kind::exited && last_line) {
+    if (const auto* problem = std::get_if<http::Problem>(&*last_line)) {
+      if (problem->slug == "insufficient-storage") throw store::DiskFull(problem->detail);
+      return ended_job(job, JobState::failed, *problem);
+    }
+    if (exit->code == 0) return keep_result(job, request, std::get<WorkerResult>(std::move(*last_line)));
   }
-  if (exit->kind == WorkerExit::Kind::exited && exit->code == 0 && last_line)
-    return job.kind == JobKind::extract ? keep_set(job, last_line->result)
-                                        : keep_result(job, request, std::move(last_line->result));
   const bool cancelled = exit->kind == WorkerExit::Kind::cancelled;
   if (!cancelled && !exit->last_words.empty())
     log::warning("the worker of job " + job.id + " said: " + exit->last_words);
@@ -182,16 +141,15 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
 
 JobRecord JobRun::keep_result(JobRecord job, const WorkerRequest& request, WorkerResult result) {
   try {
-    // Alone where something goes with the same commit: what the result before it used, and no one else.
-    std::shared_lock shared(blobs_.references(), std::defer_lock);
-    std::unique_lock alone(blobs_.references(), std::defer_lock);
-    if (job.kind == JobKind::propose)
-      shared.lock();
-    else
-      alone.lock();
+    // What the result before it used, and no one else does, goes with the same commit.
+    const std::unique_lock alone(blobs_.references());
     if (const auto problem = adopt_artefacts(request, result)) return ended_job(job, JobState::failed, *problem);
-    commit(job, result);
-    return job;
+    JobRecord done = job;
+    set_done(done);
+    const auto hashes = finish(done, std::move(result.outcome), result.artefacts, store_);
+    if (!hashes) return ended_job(job, JobState::failed, http::problem_from(hashes.error()));
+    for (const auto& hash : *hashes) blobs_.remove(hash);
+    return done;
   } catch (const store::StoreError&) {
     discard(result);
     throw;
@@ -212,57 +170,8 @@ std::optional<http::Problem> JobRun::adopt_artefacts(const WorkerRequest& reques
   return std::nullopt;
 }
 
-void JobRun::commit(JobRecord& job, WorkerResult& result) {
-  set_done(job);
-  if (job.kind == JobKind::import) {
-    store::ModelRecord facts;
-    facts.format = result.format;
-    facts.vertices = result.vertices;
-    facts.triangles = result.triangles;
-    facts.box_min = result.box_min;
-    facts.box_max = result.box_max;
-    facts.parts = std::move(result.parts);
-    facts.warnings = std::move(result.warnings);
-    facts.findings = result.findings;
-    facts.frame = std::move(result.frame);
-    facts.morph_targets = std::move(result.morph_targets);
-    remove(store_.finish_import(job, facts, result.artefacts, result.turn));
-    return;
-  }
-  if (job.kind == JobKind::propose) {
-    job.result = proposal_result(result);
-    store_.finish_proposal(job, result.proposals);
-    return;
-  }
-  const store::PackageRecord package{job.id,      store::timestamp_now(), job.metric,
-                                     job.weights, job.weight_bits,        result.levels};
-  const store::FrameUpdate frame{std::move(result.frame), result.turn, result.box_min, result.box_max};
-  remove(store_.finish_parametrization(job, package, result.parts, result.warnings, result.findings, result.artefacts,
-                                       frame));
-}
-
-JobRecord JobRun::keep_set(JobRecord job, const WorkerResult& result) {
-  const store::ExtractionRecord& wish = *job.extraction;
-  store::SetRecord set;
-  set.id = store::random_id();
-  set.name = wish.name;
-  set.kind = wish.kind;
-  set.created = set.updated = store::timestamp_now();
-  set.displacements = result.displacements;
-  set_done(job);
-  set.source = extraction_source(job, result);
-  job.result = extraction_result(set.id, result);
-  const std::unique_lock alone(blobs_.references());
-  remove(store_.finish_extraction(job, set));
-  return job;
-}
-
-void JobRun::remove(const std::optional<std::vector<std::string>>& hashes) const {
-  if (!hashes) return;
-  for (const auto& hash : *hashes) blobs_.remove(hash);
-}
-
 void JobRun::discard(const WorkerResult& result) const {
+  if (result.artefacts.empty()) return;
   const std::unique_lock alone(blobs_.references());
   try {
     const auto list = store_.referenced_hashes();

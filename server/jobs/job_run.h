@@ -29,7 +29,7 @@ store::JobRecord ended_job(store::JobRecord job, store::JobState state, const ht
 /// One attempt at a job: its worker process, and the commit of what that made. Used by one thread.
 class JobRun {
  public:
-  using OnProgress = std::function<void(const WorkerLine&)>;
+  using OnProgress = std::function<void(const WorkerProgress&)>;
 
   JobRun(store::Store& store, store::BlobStore& blobs, const JobConfig& config)
       : store_(store), blobs_(blobs), config_(config) {}
@@ -45,16 +45,12 @@ class JobRun {
   [[nodiscard]] std::uint64_t room_needed() const { return room_needed_; }
 
  private:
-  Result<WorkerRequest> make_request(const store::JobRecord& job) const;
   std::optional<store::JobRecord> work(const store::JobRecord& job, const WorkerRequest& request,
                                        const OnProgress& on_progress, const std::function<Wish()>& wish);
   http::Problem problem_of(const WorkerExit& exit) const;
   store::JobRecord keep_result(store::JobRecord job, const WorkerRequest& request, WorkerResult result);
   /// A problem when one cannot be kept for another reason than a full disk.
   std::optional<http::Problem> adopt_artefacts(const WorkerRequest& request, WorkerResult& result);
-  void commit(store::JobRecord& job, WorkerResult& result);
-  store::JobRecord keep_set(store::JobRecord job, const WorkerResult& result);
-  void remove(const std::optional<std::vector<std::string>>& hashes) const;
   /// Removes those of the artefacts' blobs that no fact refers to.
   void discard(const WorkerResult& result) const;
 

@@ -8,9 +8,9 @@
 namespace semblante::jobs {
 namespace {
 
-std::vector<std::optional<PartRole>> roles_by_user(const WorkerRequest& request) {
+std::vector<std::optional<PartRole>> roles_by_user(const std::vector<store::PartRecord>& parts) {
   std::vector<std::optional<PartRole>> roles;
-  for (const auto& part : request.parts) {
+  for (const auto& part : parts) {
     const auto* found = std::find(part_role_names.begin(), part_role_names.end(), part.role);
     roles.push_back(part.role_by_user && found != part_role_names.end()
                         ? std::optional(static_cast<PartRole>(found - part_role_names.begin()))
@@ -19,9 +19,9 @@ std::vector<std::optional<PartRole>> roles_by_user(const WorkerRequest& request)
   return roles;
 }
 
-Result<std::vector<MarkedPoint>> marked_points(const WorkerRequest& request) {
+Result<std::vector<MarkedPoint>> marked_points(const std::vector<store::FeaturePointRecord>& records) {
   std::vector<MarkedPoint> points;
-  for (const auto& record : request.points) {
+  for (const auto& record : records) {
     const auto id = parse_feature_point(record.id);
     if (!id) return Error{ErrorCode::invalid_argument, "/points/" + record.id, "it is none of the 84 feature points"};
     MarkedPoint point{*id, record.vertex, std::nullopt};
@@ -47,21 +47,23 @@ Error about_the_file(Error error) {
   return error;
 }
 
-Result<ImportedHead> import_source(const WorkerRequest& request, const Progress& progress) {
-  const auto bytes = read_file(request.source);
+Result<ImportedHead> import_source(const ModelSource& source, const Progress& progress) {
+  const auto bytes = read_file(source.path);
   if (!bytes) return bytes.error();
-  auto head = import_head(*bytes, {request.file_name, std::nullopt, {}}, progress);
+  auto head = import_head(*bytes, {source.file_name, std::nullopt, {}}, progress);
   if (!head) return about_the_file(head.error());
   return head;
 }
 
-Result<MarkedHead> mark_source(ImportedHead head, const WorkerRequest& request, const Progress& progress) {
-  auto points = marked_points(request);
+Result<MarkedHead> mark_source(ImportedHead head, const MarkedSource& source, const Progress& progress) {
+  auto points = marked_points(source.points);
   if (!points) return points.error();
   // The positions of the points are those of the model as its import left it: without a frame, as it lies in the file.
-  auto standing = stand_head(std::move(head), {request.frame_wish, request.frame.value_or(ModelFrame{}), {}}, progress);
+  auto standing =
+      stand_head(std::move(head), {source.model.frame_wish, source.model.frame.value_or(ModelFrame{}), {}}, progress);
   if (!standing) return standing.error();
-  return mark_head(std::move(*standing), {std::move(*points), roles_by_user(request)}, part_of(progress, 0.5, 1.0));
+  return mark_head(std::move(*standing), {std::move(*points), roles_by_user(source.parts)},
+                   part_of(progress, 0.5, 1.0));
 }
 
 }  // namespace semblante::jobs

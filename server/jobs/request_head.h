@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/pipeline/marked.h"
-#include "server/jobs/worker_protocol.h"
+#include "server/jobs/model_source.h"
 
 namespace semblante::jobs {
 
@@ -16,10 +16,10 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 /// feature points and fields of the request, and problem_from names them so.
 Error about_the_file(Error error);
 
-/// Stage 1 of core/pipeline on the request's source.
-Result<ImportedHead> import_source(const WorkerRequest& request, const Progress& progress);
+/// Stage 1 of core/pipeline on a job's model.
+Result<ImportedHead> import_source(const ModelSource& source, const Progress& progress);
 
-/// Stages 2 and 3 for the jobs after an import: the head stands as the import found, and gets the request's points.
-Result<MarkedHead> mark_source(ImportedHead head, const WorkerRequest& request, const Progress& progress);
+/// Stages 2 and 3 for the jobs after an import: the head stands as the import found, and gets the points of the source.
+Result<MarkedHead> mark_source(ImportedHead head, const MarkedSource& source, const Progress& progress);
 
 }  // namespace semblante::jobs

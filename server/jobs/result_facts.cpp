@@ -7,19 +7,15 @@
 
 namespace semblante::jobs {
 
-void describe(const Model& model, WorkerResult& result) {
-  result.format = model.format;
-  result.vertices = static_cast<std::uint32_t>(model.positions.size());
-  result.triangles = static_cast<std::uint32_t>(model.triangles.size());
-  if (model.positions.empty()) return;
+std::pair<std::array<double, 3>, std::array<double, 3>> box_of(const Model& model) {
+  if (model.positions.empty()) return {};
   glm::vec3 low = model.positions.front();
   glm::vec3 high = low;
   for (const auto& position : model.positions) {
     low = glm::min(low, position);
     high = glm::max(high, position);
   }
-  result.box_min = {low.x, low.y, low.z};
-  result.box_max = {high.x, high.y, high.z};
+  return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
 }
 
 std::vector<store::PartRecord> records_of(std::span<const Part> parts) {

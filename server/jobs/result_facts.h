@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -8,12 +10,12 @@
 #include "core/doctor/report.h"
 #include "core/types/model.h"
 #include "core/types/rig.h"
-#include "server/jobs/worker_protocol.h"
+#include "server/store/records.h"
 
 namespace semblante::jobs {
 
-/// Format, counts and box of the model.
-void describe(const Model& model, WorkerResult& result);
+/// The least and the greatest corner of the model's positions; both the origin for a model without any.
+std::pair<std::array<double, 3>, std::array<double, 3>> box_of(const Model& model);
 
 std::vector<store::PartRecord> records_of(std::span<const Part> parts);
 

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/import/model_formats.h"
-#include "server/jobs/result_facts.h"
 #include "server/store/frame_json.h"
 #include "server/store/store_error.h"
 
@@ -21,19 +20,19 @@ static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 Status ResultFiles::write(const std::string& name, const std::string& content_type,
                           std::span<const std::uint8_t> bytes) {
   errno = 0;
-  std::ofstream stream(request_.output_directory + "/" + name, std::ios::binary);
+  std::ofstream stream(directory_ + "/" + name, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!stream.flush()) {
     store::throw_if_disk_full(name, errno);
     return Error{ErrorCode::io, "", name + " cannot be written"};
   }
-  result_.artefacts.push_back({name, "", bytes.size(), content_type});
+  written_.push_back({name, "", bytes.size(), content_type});
   return Unit{};
 }
 
-Status ResultFiles::write_report(const Report& report, const ModelFrame& frame, std::vector<ReportSection> more) {
-  result_.findings = counts_of(report);
-  more.insert(more.begin(), ReportSection{"frame", store::frame_to_json(frame, request_.frame_wish)});
+Status ResultFiles::write_report(const Report& report, const ModelFrame& frame, const FrameWish& wish,
+                                 std::vector<ReportSection> more) {
+  more.insert(more.begin(), ReportSection{"frame", store::frame_to_json(frame, wish)});
   const auto json = semblante::write_report(report, more);
   return write("report.json", "application/json", {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
 }
@@ -48,8 +47,8 @@ Status ResultFiles::write_preview(const StandingHead& head, std::span<const Part
 }
 
 Status ResultFiles::write_packages(std::span<const FacePackage> packages) {
-  for (const FacePackage& package : packages) {
-    if (auto written = write_package(package); !written) return written;
+  for (std::size_t lod = 0; lod < packages.size(); ++lod) {
+    if (auto written = write_package(lod, packages[lod]); !written) return written;
   }
   const auto& images = packages.front().images;
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -59,9 +58,7 @@ Status ResultFiles::write_packages(std::span<const FacePackage> packages) {
   return Unit{};
 }
 
-Status ResultFiles::write_package(const FacePackage& package) {
-  const std::size_t lod = result_.levels.size();
-  result_.levels.push_back({package.vertices, package.triangles});
+Status ResultFiles::write_package(std::size_t lod, const FacePackage& package) {
   struct File {
     std::string_view name, content_type;
     const Artefact& artefact;

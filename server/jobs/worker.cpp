@@ -5,11 +5,12 @@
 #include <iterator>
 #include <new>
 #include <unistd.h>
+#include <utility>
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
-#include "server/jobs/worker_tasks.h"
+#include "server/jobs/result_files.h"
 #include "server/store/store_error.h"
 
 namespace semblante::jobs {
@@ -27,25 +28,8 @@ void say(const WorkerLine& line) {
   std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
 }
 
-Result<WorkerResult> run(const WorkerRequest& request, const Progress& progress) {
-  switch (request.kind) {
-    case store::JobKind::import:
-      return run_import(request, progress);
-    case store::JobKind::parametrize:
-      return run_parametrize(request, progress);
-    case store::JobKind::propose:
-      return run_propose(request, progress);
-    case store::JobKind::extract:
-      return run_extract(request, progress);
-  }
-  return Error{ErrorCode::internal, "", "there is no such job"};
-}
-
 int report(http::Problem problem) {
-  WorkerLine line;
-  line.kind = WorkerLine::Kind::problem;
-  line.problem = std::move(problem);
-  say(line);
+  say(std::move(problem));
   return 2;
 }
 
@@ -66,19 +50,14 @@ int run_worker() {
   const auto request = worker_request_from_json(text);
   if (!request) return report(http::make_problem("internal", "the worker was asked nothing it knows"));
   const Progress progress = [](double share, std::string_view stage) {
-    WorkerLine line;
-    line.progress = share;
-    line.stage = std::string(stage);
-    say(line);
+    say(WorkerProgress{share, std::string(stage)});
     return true;
   };
   try {
-    auto result = run(*request, progress);
-    if (!result) return report(http::problem_from(result.error()));
-    WorkerLine line;
-    line.kind = WorkerLine::Kind::done;
-    line.result = std::move(*result);
-    say(line);
+    ResultFiles files(request->output_directory);
+    auto outcome = run(request->job, files, progress);
+    if (!outcome) return report(http::problem_from(outcome.error()));
+    say(WorkerResult{std::move(*outcome), files.written()});
     return 0;
   } catch (const std::bad_alloc&) {
     return report(http::make_problem("worker-limit", "the model needs more memory than a job is given"));

@@ -67,24 +67,4 @@ std::string write_levels(const std::vector<LevelRecord>& levels) { return nlohma
 
 std::vector<LevelRecord> read_levels(std::string_view text) { return read_as<std::vector<LevelRecord>>(text); }
 
-std::string write_extraction(const std::optional<ExtractionRecord>& extraction) {
-  if (!extraction) return {};
-  return nlohmann::json(*extraction).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::optional<ExtractionRecord> read_extraction(std::string_view text) {
-  if (text.empty()) return std::nullopt;
-  const auto document = read_json(text);
-  if (!document) return std::nullopt;
-  try {
-    return document->get<ExtractionRecord>();
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
-  }
-}
-
-std::string write_lods(const std::vector<std::uint32_t>& lods) { return nlohmann::json(lods).dump(); }
-
-std::vector<std::uint32_t> read_lods(std::string_view text) { return read_as<std::vector<std::uint32_t>>(text); }
-
 }  // namespace semblante::store

@@ -16,13 +16,8 @@ std::string write_proposal(const ProposalRecord& proposal);
 /// The reverse; a text that is not of this form gives a proposal of which nothing is known.
 ProposalRecord read_proposal(std::string_view json);
 
-/// Lists of their own columns, likewise: levels of a package, and the budgets of them that a job was asked for.
+/// A list of its own column, likewise: the levels of a package.
 std::string write_levels(const std::vector<LevelRecord>& levels);
 std::vector<LevelRecord> read_levels(std::string_view json);
-/// What an extraction job is asked; empty text for none, and the reverse for a text that is not of this form.
-std::string write_extraction(const std::optional<ExtractionRecord>& extraction);
-std::optional<ExtractionRecord> read_extraction(std::string_view json);
-std::string write_lods(const std::vector<std::uint32_t>& lods);
-std::vector<std::uint32_t> read_lods(std::string_view json);
 
 }  // namespace semblante::store

@@ -38,52 +38,6 @@ void from_json(const nlohmann::json& json, FindingCounts& counts) {
   json.at("notes").get_to(counts.notes);
 }
 
-void to_json(nlohmann::json& json, const ExtractionRecord& e) {
-  json = {{"name", e.name},
-          {"kind", e.kind},
-          {"align", e.align},
-          {"least", e.least},
-          {"strength", e.strength},
-          {"target", e.target},
-          {"from", e.from},
-          {"expression_file", e.expression_file},
-          {"expression_sha256", e.expression_sha256},
-          {"neutral_file", e.neutral_file},
-          {"neutral_sha256", e.neutral_sha256},
-          {"points", e.points}};
-}
-
-void from_json(const nlohmann::json& json, ExtractionRecord& e) {
-  json.at("name").get_to(e.name);
-  json.at("kind").get_to(e.kind);
-  json.at("align").get_to(e.align);
-  json.at("least").get_to(e.least);
-  json.at("strength").get_to(e.strength);
-  json.at("target").get_to(e.target);
-  json.at("from").get_to(e.from);
-  json.at("expression_file").get_to(e.expression_file);
-  json.at("expression_sha256").get_to(e.expression_sha256);
-  json.at("neutral_file").get_to(e.neutral_file);
-  json.at("neutral_sha256").get_to(e.neutral_sha256);
-  json.at("points").get_to(e.points);
-}
-
-void to_json(nlohmann::json& json, const WornSet& worn) {
-  json = {{"slot", worn.slot},
-          {"set", worn.set},
-          {"name", worn.name},
-          {"revision", worn.revision},
-          {"displacements", worn.displacements}};
-}
-
-void from_json(const nlohmann::json& json, WornSet& worn) {
-  json.at("slot").get_to(worn.slot);
-  json.at("set").get_to(worn.set);
-  json.at("name").get_to(worn.name);
-  json.at("revision").get_to(worn.revision);
-  json.at("displacements").get_to(worn.displacements);
-}
-
 void to_json(nlohmann::json& json, const LevelRecord& level) {
   json = {{"vertices", level.vertices}, {"triangles", level.triangles}};
 }

@@ -23,12 +23,6 @@ void from_json(const nlohmann::json& json, ProposalRecord& proposal);
 void to_json(nlohmann::json& json, const FeaturePointRecord& point);
 void from_json(const nlohmann::json& json, FeaturePointRecord& point);
 
-void to_json(nlohmann::json& json, const ExtractionRecord& extraction);
-void from_json(const nlohmann::json& json, ExtractionRecord& extraction);
-
-void to_json(nlohmann::json& json, const WornSet& worn);
-void from_json(const nlohmann::json& json, WornSet& worn);
-
 void to_json(nlohmann::json& json, const LevelRecord& level);
 void from_json(const nlohmann::json& json, LevelRecord& level);
 

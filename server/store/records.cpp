@@ -17,20 +17,6 @@ std::string_view to_string(ModelState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-namespace {
-
-constexpr std::array<std::string_view, 4> job_kind_names = {"import", "parametrize", "propose", "extract"};
-
-}  // namespace
-
-std::string_view to_string(JobKind kind) { return job_kind_names[static_cast<std::size_t>(kind)]; }
-
-std::optional<JobKind> parse_job_kind(std::string_view text) {
-  const auto* const found = std::find(job_kind_names.begin(), job_kind_names.end(), text);
-  if (found == job_kind_names.end()) return std::nullopt;
-  return static_cast<JobKind>(found - job_kind_names.begin());
-}
-
 std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> current,
                                                const std::vector<FeaturePointRecord>& proposals) {
   std::erase_if(current, [](const FeaturePointRecord& point) { return point.proposal.has_value(); });
@@ -46,7 +32,8 @@ std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> c
 }
 
 std::string_view to_string(JobState state) {
-  static constexpr std::array<std::string_view, 5> names = {"queued", "running", "done", "failed", "cancelled"};
+  static constexpr std::array<std::string_view, job_state_count> names = {"queued", "running", "done", "failed",
+                                                                          "cancelled"};
   return names[static_cast<std::size_t>(state)];
 }
 

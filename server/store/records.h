@@ -38,11 +38,13 @@ struct FrameUpdate {
   std::optional<ModelFrame> frame;
   std::optional<Turn> turn;  ///< from how it stood to how it stands now: boxes are new, and marked positions follow
   std::array<double, 3> box_min{}, box_max{};
+
+  bool operator==(const FrameUpdate&) const = default;
 };
 
 enum class ModelState { importing, ready, parametrized, failed };
-enum class JobKind { import, parametrize, propose, extract };
 enum class JobState { queued, running, done, failed, cancelled };
+inline constexpr std::size_t job_state_count = 5;
 
 /// An immutable thing a model has, by name; the bytes are in the blob folder under the hash.
 struct ArtefactRecord {
@@ -152,36 +154,20 @@ struct FeaturePointRecord {
   bool operator==(const FeaturePointRecord&) const = default;
 };
 
-/// What an extraction is asked: either a morph target of the model, or a file of the expression beside it; without a
-/// model the neutral head is a file too.
-struct ExtractionRecord {
-  std::string name;                 ///< of the set to be
-  std::string kind = "expression";  ///< as set_kind_names
-  bool align = false;
-  double least = 1.0, strength = 1.0;  ///< as ExtractOptions
-  std::string target, from;
-  std::string expression_file, expression_sha256;
-  std::string neutral_file, neutral_sha256;
-  std::vector<FeaturePointRecord> points;  ///< of the neutral file
-
-  bool operator==(const ExtractionRecord&) const = default;
-};
-
+/// What jobs of all kinds have in common. What a job is asked and what came of it depend on its kind (server/jobs): the
+/// store keeps both as JSON that it does not look into.
 struct JobRecord {
   std::string id;
-  std::string model;  ///< empty: an extraction from two files
-  JobKind kind = JobKind::import;
+  std::string model;  ///< empty: it is of none
+  std::string kind;   ///< a name in server/jobs
   JobState state = JobState::queued;
   double progress = 0.0;  ///< 0..1
   std::string stage;
   std::string created, updated;
-  std::string problem;  ///< JSON of the problem document, or empty
-  std::string metric = "edge", weights = "paper";
-  int weight_bits = 12;
-  std::vector<std::uint32_t> lods;  ///< budgets of levels of detail, falling
-  std::uint32_t attempts = 0;       ///< how often a worker began it
-  std::string result;               ///< JSON of what it has to say beside what it changed, or empty
-  std::optional<ExtractionRecord> extraction;
+  std::string problem;         ///< JSON of the problem document, or empty
+  std::uint32_t attempts = 0;  ///< how often a worker began it
+  std::string request = "{}";  ///< JSON object of what it is asked; never changes
+  std::string result;          ///< JSON of what it has to say beside what it changed, or empty
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -232,8 +218,6 @@ struct DatabaseIdentity {
 };
 
 std::string_view to_string(ModelState state);
-std::string_view to_string(JobKind kind);
-std::optional<JobKind> parse_job_kind(std::string_view text);
 std::string_view to_string(JobState state);
 std::string_view to_string(RecordingState state);
 /// Stage of a job that does not run any more but for its cancellation. In the store it outlives the process: the next

@@ -13,14 +13,15 @@
 namespace semblante::store {
 
 void insert_job(Database& db, const JobRecord& job);
+void insert_job_files(Database& db, std::string_view job, const std::vector<std::string>& hashes);
 /// What changes of a job while it runs.
 void write_job(Database& db, const JobRecord& job);
-/// See Store::request_cancel.
+/// See JobStore::request_cancel.
 bool mark_cancelled(Database& db, std::string_view id);
 /// Hashes that nothing refers to any more are returned.
 std::vector<std::string> delete_job_files(Database& db, std::string_view job);
 std::optional<JobRecord> find_job(Database& db, std::string_view id);
-std::optional<JobRecord> find_latest_job(Database& db, std::string_view model, JobKind kind);
+std::optional<JobRecord> find_latest_job(Database& db, std::string_view model, std::string_view kind);
 /// Queued and running ones, in order of creation.
 std::vector<JobRecord> list_unfinished_jobs(Database& db);
 

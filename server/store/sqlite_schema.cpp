@@ -85,6 +85,27 @@ CREATE TABLE identity(id TEXT NOT NULL, starts INTEGER NOT NULL) STRICT;
 INSERT INTO identity SELECT lower(hex(randomblob(16))), EXISTS(SELECT 1 FROM sqlite_sequence WHERE seq > 0);
 )sql";
 
+/// What a job is asked is one JSON text, whose form its kind decides; a kind has a name in place of a number. The
+/// columns are changed and not the table, since dropping it would take the rows of job_files along.
+constexpr const char* with_job_requests = R"sql(
+ALTER TABLE jobs ADD COLUMN request TEXT NOT NULL DEFAULT '{}';
+UPDATE jobs SET request = json_object('metric', metric, 'weights', weights, 'weight_bits', weight_bits,
+  'lods', json(CASE WHEN json_valid(lods) THEN lods ELSE '[]' END)) WHERE kind = 1;
+UPDATE jobs SET request = extraction WHERE kind = 3 AND extraction <> '';
+ALTER TABLE jobs DROP COLUMN metric;
+ALTER TABLE jobs DROP COLUMN weights;
+ALTER TABLE jobs DROP COLUMN weight_bits;
+ALTER TABLE jobs DROP COLUMN lods;
+ALTER TABLE jobs DROP COLUMN extraction;
+ALTER TABLE jobs ADD COLUMN kind_name TEXT NOT NULL DEFAULT '';
+UPDATE jobs SET kind_name = CASE kind WHEN 0 THEN 'import' WHEN 1 THEN 'parametrize' WHEN 2 THEN 'propose'
+  ELSE 'extract' END;
+DROP INDEX jobs_by_model;
+ALTER TABLE jobs DROP COLUMN kind;
+ALTER TABLE jobs RENAME COLUMN kind_name TO kind;
+CREATE INDEX jobs_by_model ON jobs(model, kind);
+)sql";
+
 /// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
 /// change.
 constexpr std::array migrations = {
@@ -98,6 +119,7 @@ constexpr std::array migrations = {
     with_recordings,
     "ALTER TABLE streams ADD COLUMN quantizer_scale REAL NOT NULL DEFAULT 1",
     with_identity,
+    with_job_requests,
 };
 constexpr int schema_version = migrations.size();
 

@@ -70,7 +70,7 @@ class FullDiskQueueTest : public ::testing::Test {
   store::JobRecord add_job(const std::string& id) {
     store::JobRecord job;
     job.id = id;
-    job.kind = store::JobKind::import;
+    job.kind = ImportJob::kind_name;
     job.model = id;
     job.created = job.updated = store::timestamp_now();
     const auto blob = blobs_->put(id);
@@ -144,16 +144,14 @@ TEST_F(FullDiskQueueTest, EndThatCannotBeRecorded_IsNotShown_AndIsRecordedWithRo
   EXPECT_EQ(ended_[0].first.state, JobState::failed);
   EXPECT_EQ(ended_[0].second->state, JobState::failed) << "durable before anybody hears of it";
   EXPECT_EQ(store_->model("a")->state, store::ModelState::failed);
-  EXPECT_EQ(queue_->ended(store::JobKind::import, JobState::failed), 1U);
+  EXPECT_EQ(queue_->ended(ImportJob::kind_name, JobState::failed), 1U);
 }
 
 TEST_F(FullDiskQueueTest, ResultThatCannotBeCommitted_IsMadeAgainWithRoom) {
   queue_->start();
   queue_->enqueue(add_job("a"));
   ASSERT_TRUE(testing::eventually([&] { return runs() == 1; }));
-  WorkerLine line;
-  line.kind = WorkerLine::Kind::done;
-  std::ofstream(folder_ / "result") << to_json_line(line);
+  std::ofstream(folder_ / "result") << to_json_line(WorkerResult{ImportJob::Outcome{}, {}});
   fail_database_writes(SQLITE_FULL);
   allow_end();
   ASSERT_TRUE(wait_until_pending());
@@ -166,12 +164,21 @@ TEST_F(FullDiskQueueTest, ResultThatCannotBeCommitted_IsMadeAgainWithRoom) {
   EXPECT_EQ(runs(), 2U);
 }
 
+TEST_F(FullDiskQueueTest, OutcomeOfAnotherKindOfJob_FailsTheJob) {
+  std::ofstream(folder_ / "result") << to_json_line(WorkerResult{ProposeJob::Outcome{}, {}});
+  allow_end();
+  queue_->start();
+  queue_->enqueue(add_job("a"));
+  ASSERT_TRUE(wait_for_end("a"));
+  EXPECT_EQ(queue_->find("a")->state, JobState::failed);
+  EXPECT_EQ(http::problem_from_json(queue_->find("a")->problem).slug, "internal");
+  EXPECT_EQ(store_->model("a")->state, store::ModelState::failed);
+}
+
 TEST_F(FullDiskQueueTest, DiskFullAgainAndAgain_FailsTheJobInTheEnd) {
   // A worker that finds no room, while the store has some.
-  WorkerLine line;
-  line.kind = WorkerLine::Kind::problem;
-  line.problem = http::make_problem("insufficient-storage", "positions: No space left on device");
-  std::ofstream(folder_ / "result") << to_json_line(line);
+  std::ofstream(folder_ / "result") << to_json_line(
+      http::make_problem("insufficient-storage", "positions: No space left on device"));
   allow_end();
   queue_->start();
   queue_->enqueue(add_job("a"));

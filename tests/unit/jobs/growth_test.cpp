@@ -27,27 +27,24 @@ void expect_linear_line(const std::string& what, std::size_t most,
 }
 
 TEST(JobsGrowth, WorkerLines) {
-  const std::string start =
-      R"({"done":{"format":"obj","vertices":1,"triangles":1,"min":[0,0,0],"max":[1,1,1],"morph_targets":[],"levels":[],)";
-  expect_linear_line("warnings", 400'000, [&](std::size_t n) {
-    return start + R"("parts":[],"artefacts":[],"warnings":[)" + list(n, "\"careful\"") + "]}}";
-  });
+  const std::string import =
+      R"({"done":{"kind":"import","artefacts":[],"outcome":{"format":"obj","vertices":1,"triangles":1,"min":[0,0,0],)"
+      R"("max":[1,1,1],"morph_targets":[],"findings":{"errors":0,"warnings":0,"notes":0},"parts":[],)";
+  expect_linear_line("warnings", 400'000,
+                     [&](std::size_t n) { return import + R"("warnings":[)" + list(n, "\"careful\"") + "]}}}"; });
   expect_linear_line("empty objects", 400'000, [](std::size_t n) { return R"({"done":[)" + list(n, "{}") + "]}"; });
-  expect_linear_line("what was taken of an extraction", 100'000, [&](std::size_t n) {
-    std::string taken = "{";
-    for (std::size_t i = 0; i < n; ++i)
-      taken.append(i == 0 ? "\\\"" : ",\\\"").append(std::to_string(i)).append("\\\":1");
-    return start + R"("parts":[],"artefacts":[],"warnings":[],"taken":")" + taken + "}\"}}";
+  const std::string extract = R"({"done":{"kind":"extract","artefacts":[],"outcome":{"displacements":{},)";
+  expect_linear_line("points at rest", 400'000, [&](std::size_t n) {
+    return extract + R"("skipped":{},"at_no_vertex":[],"not_marked":[],"head_motion":null,"at_rest":[)" +
+           list(n, "\"2.1\"") + "]}}}";
   });
-}
-
-TEST(JobsGrowth, TakenThatIsNoObject_IsRefused) {
-  const std::string start =
-      R"({"done":{"format":"obj","vertices":1,"triangles":1,"min":[0,0,0],"max":[1,1,1],"morph_targets":[],"levels":[],)"
-      R"("parts":[],"artefacts":[],"warnings":[],"taken":)";
-  EXPECT_TRUE(worker_line_from_json(start + R"("{\"points\":{}}"}})"));
-  for (const std::string taken : {R"("[]")", R"("{")", R"("{\"a\":1,\"a\":1}")"})
-    EXPECT_FALSE(worker_line_from_json(start + taken + "}}")) << taken;
+  expect_linear_line("skipped points", 100'000, [&](std::size_t n) {
+    std::string skipped;
+    for (std::size_t i = 0; i < n; ++i)
+      skipped.append(i == 0 ? "\"" : ",\"").append(std::to_string(i)).append("\":\"ES\"");
+    return extract + R"("at_rest":[],"at_no_vertex":[],"not_marked":[],"head_motion":null,"skipped":{)" + skipped +
+           "}}}}";
+  });
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class JobQueueTest : public ::testing::Test {
     store::JobRecord job;
     job.id = id;
     job.model = model;
-    job.kind = store::JobKind::parametrize;
+    job.kind = ParametrizeJob::kind_name;
+    job.request = new_record(ParametrizeJob{}, model).request;
     job.created = job.updated = store::timestamp_now();
     if (!store_->model(model)) {
       const auto blob = blobs_->put(model);
@@ -34,7 +35,7 @@ class JobQueueTest : public ::testing::Test {
       record.source_sha256 = blob->sha256;
       store_->create_model(record, {"source", blob->sha256, blob->bytes, ""}, job, std::nullopt);
     } else {
-      store_->create_job(job, std::nullopt);
+      store_->create_job(job, {}, std::nullopt);
     }
     return job;
   }

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "server/jobs/worker_protocol.h"
 #include "tests/support/wait.h"
 
 namespace semblante::jobs {
@@ -69,28 +68,6 @@ TEST_F(WorkerProcessTest, CancelStopAndTime_EndIt) {
   EXPECT_EQ(run("trap '' TERM; while :; do sleep 0.1; done", Wish::cancel)->kind, WorkerExit::Kind::cancelled);
   EXPECT_EQ(run("exec sleep 30", Wish::stop)->kind, WorkerExit::Kind::stopped);
   EXPECT_EQ(run("exec sleep 30", Wish::go_on, std::chrono::seconds(0))->kind, WorkerExit::Kind::timed_out);
-}
-
-TEST(WorkerProtocol, BrokenLines_AreRefused) {
-  for (const auto* line : {"", "x", "[]", "{}", R"({"progress":"half","stage":""})", R"({"done":{}})", R"({"done":7})"})
-    EXPECT_FALSE(worker_line_from_json(line)) << line;
-  for (const auto* request : {"", "{}", R"({"kind":"import"})"})
-    EXPECT_FALSE(worker_request_from_json(request)) << request;
-}
-
-TEST(WorkerProtocol, Request_ComesBackAsItWas) {
-  WorkerRequest request;
-  request.kind = store::JobKind::parametrize;
-  request.source = "/a b/\"c\"";
-  request.points = {{"2.1", 7, std::nullopt}, {"7.1", std::nullopt, {{1.5, -2.0, 0.1}}}};
-  request.parts = {{"face", "skin", true, 8, 4, {0, 0, 0}, {1, 1, 1}}};
-  request.weight_bits = 9;
-  const auto back = worker_request_from_json(to_json(request));
-  ASSERT_TRUE(back) << back.error().message;
-  EXPECT_EQ(back->source, request.source);
-  EXPECT_EQ(back->points, request.points);
-  EXPECT_EQ(back->parts, request.parts);
-  EXPECT_EQ(back->weight_bits, 9);
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ TEST_F(FullDiskStoreTest, Writes_ThrowDiskFull_AndChangeNothing) {
   ASSERT_TRUE(store_->create_stream(stream("kept"), std::nullopt));
   JobRecord job;
   job.id = "x";
-  job.kind = JobKind::extract;
-  store_->create_job(job, std::nullopt);
+  job.kind = "extract";
+  store_->create_job(job, {}, std::nullopt);
   store_->create_set({"s", "Grin", "viseme", 1, "t", "t", "{}", "{}"}, std::nullopt);
   RecordingRecord recording;
   recording.id = "r";
@@ -59,7 +59,7 @@ TEST_F(FullDiskStoreTest, Writes_ThrowDiskFull_AndChangeNothing) {
       [&] { store_->create_stream(stream("other"), std::nullopt); },
       [&] { store_->remove_stream("kept"); },
       [&] { store_->update_job(failed); },
-      [&] { store_->finish_without_result(failed); },
+      [&] { store_->finish_job(failed); },
       [&] {
         store_->finish_extraction(failed, {"t", "Smile", "viseme", 1, "t", "t", "{}", "{}"});
       },
@@ -127,8 +127,8 @@ TEST_F(FullDiskStoreTest, ANewStore_CannotBeMadeOnAFullDisk) {
 TEST_F(FullDiskStoreTest, RequestedCancel_StaysUntilTheJobEnds) {
   JobRecord job;
   job.id = "x";
-  job.kind = JobKind::extract;
-  store_->create_job(job, std::nullopt);
+  job.kind = "extract";
+  store_->create_job(job, {}, std::nullopt);
   EXPECT_TRUE(store_->request_cancel("x"));
   job.state = JobState::running;
   job.stage = "starting";
@@ -136,7 +136,7 @@ TEST_F(FullDiskStoreTest, RequestedCancel_StaysUntilTheJobEnds) {
   EXPECT_EQ(store_->job("x")->stage, cancelling_stage) << "whatever its queue says meanwhile";
   job.state = JobState::cancelled;
   job.stage = "";
-  store_->finish_without_result(job);
+  store_->finish_job(job);
   EXPECT_EQ(store_->job("x")->stage, "");
   EXPECT_FALSE(store_->request_cancel("x")) << "it has ended";
   EXPECT_FALSE(store_->request_cancel("absent"));

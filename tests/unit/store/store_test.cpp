@@ -230,8 +230,8 @@ TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   JobRecord job;
   job.id = "p";
   job.model = "m";
-  job.kind = JobKind::parametrize;
-  store_->create_job(job, std::nullopt);
+  job.kind = "parametrize";
+  store_->create_job(job, {}, std::nullopt);
   job.state = JobState::done;
   std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
                                      {"eye", "left_eye", false, 4, 2, {}, {}}};
@@ -251,8 +251,8 @@ TEST_F(StoreTest, NewPackage_GivesTheOldHashesFree) {
     JobRecord job;
     job.id = id;
     job.model = "m";
-    job.kind = JobKind::parametrize;
-    store_->create_job(job, std::nullopt);
+    job.kind = "parametrize";
+    store_->create_job(job, {}, std::nullopt);
     return *store_->finish_parametrization(job, {id, "now", "edge", "paper", 12, {}}, {}, {}, std::nullopt,
                                            {{"mesh.drc", std::string(64, hash), 3, "x"}}, {});
   };
@@ -268,8 +268,8 @@ TEST_F(StoreTest, ReportOfTheParametrization_ReplacesThatOfTheImport) {
   JobRecord job;
   job.id = "p";
   job.model = "m";
-  job.kind = JobKind::parametrize;
-  store_->create_job(job, std::nullopt);
+  job.kind = "parametrize";
+  store_->create_job(job, {}, std::nullopt);
   const auto freed = store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12, {}}, {}, {}, FindingCounts{},
                                                     {{"report.json", std::string(64, 'e'), 3, "application/json"}}, {});
   EXPECT_EQ(freed, std::vector<std::string>{std::string(64, 'c')});
@@ -374,7 +374,7 @@ TEST_F(StoreTest, FailedImport_FailsItsModel) {
   auto job = add("m");
   job.state = JobState::failed;
   job.problem = R"({"type":"/problems/malformed-model"})";
-  store_->finish_without_result(job);
+  store_->finish_failed_import(job);
   EXPECT_EQ(store_->model("m")->state, ModelState::failed);
   EXPECT_EQ(store_->model("m")->problem, job.problem);
 }
@@ -388,7 +388,7 @@ TEST_F(StoreTest, FailedImportAnew_LeavesTheModelAsItWas) {
   job.problem = R"({"type":"/problems/cancelled"})";
   ASSERT_TRUE(store_->edit_frame("m", {}, {}, job, store_->model("m")->revision));
   EXPECT_EQ(store_->model("m")->state, ModelState::importing);
-  store_->finish_without_result(job);
+  store_->finish_failed_import(job);
   EXPECT_EQ(store_->model("m")->state, ModelState::ready);
   EXPECT_EQ(store_->model("m")->problem, "");
   EXPECT_EQ(store_->job("again")->problem, job.problem);
@@ -396,15 +396,15 @@ TEST_F(StoreTest, FailedImportAnew_LeavesTheModelAsItWas) {
 
 TEST_F(StoreTest, LevelsAndWhatWasAskedFor_AreKept) {
   import(add("m"));
-  for (const auto& lods : {std::vector<std::uint32_t>{}, std::vector<std::uint32_t>{10000, 5000}}) {
+  for (const std::string request : {"{}", R"({"lods":[10000,5000]})"}) {
     JobRecord job;
     job.id = random_id();
     job.model = "m";
-    job.kind = JobKind::parametrize;
-    job.lods = lods;
-    store_->create_job(job, std::nullopt);
+    job.kind = "parametrize";
+    job.request = request;
+    store_->create_job(job, {}, std::nullopt);
     reopen();
-    EXPECT_EQ(store_->job(job.id)->lods, lods);
+    EXPECT_EQ(store_->job(job.id)->request, request);
     PackageRecord package;
     package.parametrization = job.id;
     package.levels = {{26719, 52220}, {9998, 17000}};
@@ -418,8 +418,8 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   JobRecord job;
   job.id = "p";
   job.model = "m";
-  job.kind = JobKind::parametrize;
-  store_->create_job(job, std::nullopt);
+  job.kind = "parametrize";
+  store_->create_job(job, {}, std::nullopt);
   ASSERT_TRUE(store_->finish_parametrization(job, PackageRecord{"p", "now", "edge", "paper", 12, {}}, {}, {},
                                              std::nullopt, {}, {}));
   store_.reset();
@@ -428,7 +428,12 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   EXPECT_EQ(
       sqlite3_exec(database,
                    "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
-                   "ALTER TABLE packages DROP COLUMN levels; ALTER TABLE jobs DROP COLUMN lods; "
+                   "ALTER TABLE packages DROP COLUMN levels; "
+                   "DROP INDEX jobs_by_model; ALTER TABLE jobs DROP COLUMN kind; ALTER TABLE jobs DROP COLUMN request; "
+                   "ALTER TABLE jobs ADD COLUMN kind INTEGER NOT NULL DEFAULT 1; "
+                   "ALTER TABLE jobs ADD COLUMN metric TEXT NOT NULL DEFAULT 'edge'; "
+                   "ALTER TABLE jobs ADD COLUMN weights TEXT NOT NULL DEFAULT 'paper'; "
+                   "ALTER TABLE jobs ADD COLUMN weight_bits INTEGER NOT NULL DEFAULT 12; "
                    "ALTER TABLE streams DROP COLUMN viseme_share; "
                    "ALTER TABLE streams DROP COLUMN batch_interval; ALTER TABLE streams DROP COLUMN quantizer_scale; "
                    "DROP TABLE recordings; DROP TABLE identity; PRAGMA user_version=2",
@@ -437,11 +442,11 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   sqlite3_close(database);
   reopen();
   EXPECT_TRUE(store_->model("m")->package->levels.empty());
-  EXPECT_TRUE(store_->job("p")->lods.empty());
+  EXPECT_EQ(store_->job("p")->request, R"({"metric":"edge","weights":"paper","weight_bits":12,"lods":[]})");
   job.id = "q";
-  job.lods = {500};
-  store_->create_job(job, std::nullopt);
-  EXPECT_EQ(store_->job("q")->lods, job.lods);
+  job.request = R"({"lods":[500]})";
+  store_->create_job(job, {}, std::nullopt);
+  EXPECT_EQ(store_->job("q")->request, job.request);
 }
 
 TEST_F(StoreTest, Sets_AreKeptEditedByRevisionAndRemoved) {
@@ -479,7 +484,7 @@ TEST_F(StoreTest, WornSets_StayThroughImportsAndGoWithTheirModel) {
   JobRecord job;
   job.id = "p";
   job.model = "m";
-  job.kind = JobKind::parametrize;
+  job.kind = "parametrize";
   EXPECT_TRUE(store_->edit_worn("m", {joy, a}, job, revision));
   EXPECT_TRUE(store_->job("p"));
   reopen();
@@ -488,7 +493,7 @@ TEST_F(StoreTest, WornSets_StayThroughImportsAndGoWithTheirModel) {
   JobRecord again;
   again.id = "again";
   again.model = "m";
-  store_->create_job(again, std::nullopt);
+  store_->create_job(again, {}, std::nullopt);
   import(again);
   EXPECT_TRUE(store_->edit_worn("m", {{"a", "", "", 1, ""}}, std::nullopt, store_->model("m")->revision));
   EXPECT_EQ(store_->worn_sets("m"), std::vector<WornSet>{joy});
@@ -500,10 +505,9 @@ TEST_F(StoreTest, Extraction_KeepsItsFilesUntilItEnds) {
   const std::string neutral(64, 'd'), expression(64, 'e');
   JobRecord job;
   job.id = "x";
-  job.kind = JobKind::extract;
-  job.extraction = ExtractionRecord{"Grin", "viseme",    true,       2.5,        0.5,     "t",
-                                    "f",    "smile.obj", expression, "head.obj", neutral, {{"2.1", 5, std::nullopt}}};
-  store_->create_job(job, std::nullopt);
+  job.kind = "extract";
+  job.request = R"({"name":"Grin"})";
+  store_->create_job(job, {expression, neutral}, std::nullopt);
   reopen();
   EXPECT_EQ(store_->unfinished_jobs(), std::vector<JobRecord>{job});
   EXPECT_EQ(store_->referenced_hashes(), (std::vector<std::string>{neutral, expression}));
@@ -512,7 +516,7 @@ TEST_F(StoreTest, Extraction_KeepsItsFilesUntilItEnds) {
             (std::vector<std::string>{neutral, expression}));
   EXPECT_TRUE(store_->set("s"));
   EXPECT_TRUE(store_->referenced_hashes().empty());
-  EXPECT_TRUE(store_->finish_without_result(job).empty());
+  EXPECT_TRUE(store_->finish_job(job).empty());
   EXPECT_TRUE(store_->job("x"));
 }
 
@@ -521,9 +525,8 @@ TEST_F(StoreTest, RemovedModel_GivesTheFilesOfItsExtractionsFree) {
   JobRecord job;
   job.id = "x";
   job.model = "m";
-  job.kind = JobKind::extract;
-  job.extraction.emplace().expression_sha256 = std::string(64, 'e');
-  store_->create_job(job, std::nullopt);
+  job.kind = "extract";
+  store_->create_job(job, {std::string(64, 'e')}, std::nullopt);
   const auto orphans = store_->remove_model("m");
   ASSERT_TRUE(orphans);
   EXPECT_NE(std::find(orphans->begin(), orphans->end(), std::string(64, 'e')), orphans->end());
@@ -557,9 +560,8 @@ TEST_F(StoreTest, UsersOfAHash_AreModelsAndJobs) {
   add("n");
   JobRecord job;
   job.id = "x";
-  job.kind = JobKind::extract;
-  job.extraction.emplace().expression_sha256 = std::string(64, 'a');
-  store_->create_job(job, std::nullopt);
+  job.kind = "extract";
+  store_->create_job(job, {std::string(64, 'a')}, std::nullopt);
   EXPECT_EQ(store_->users_of(std::string(64, 'a')), (std::vector<std::string>{"job x", "model m", "model n"}));
   EXPECT_TRUE(store_->users_of(std::string(64, 'b')).empty());
 }

@@ -1,0 +1,59 @@
+#include "server/jobs/model_source.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "server/store/frame_json.h"
+#include "server/store/record_json.h"
+
+namespace semblante::jobs {
+
+Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what) {
+  const auto path = blobs.find(sha256);
+  if (!path) return Error{ErrorCode::io, "", "the bytes of " + what + " are not in the data folder any more"};
+  return path->string();
+}
+
+Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources) {
+  auto model = sources.store.model(job.model);
+  if (!model) return Error{ErrorCode::missing, "", "the model of this job is gone"};
+  return std::move(*model);
+}
+
+Result<ModelSource> source_of(const store::ModelRecord& model, const JobSources& sources) {
+  auto path = path_of(sources.blobs, model.source_sha256, "the model");
+  if (!path) return path.error();
+  return ModelSource{std::move(*path), model.file_name, model.frame, model.frame_wish};
+}
+
+Result<MarkedSource> marked_source_of(const store::ModelRecord& model, const JobSources& sources) {
+  auto source = source_of(model, sources);
+  if (!source) return source.error();
+  return MarkedSource{std::move(*source), sources.store.feature_points(model.id), model.parts};
+}
+
+void to_json(nlohmann::json& json, const ModelSource& source) {
+  json = {
+      {"path", source.path}, {"file_name", source.file_name}, {"frame_wish", store::wish_to_json(source.frame_wish)}};
+  if (source.frame) json["frame"] = store::frame_to_json(*source.frame, {});
+}
+
+void from_json(const nlohmann::json& json, ModelSource& source) {
+  json.at("path").get_to(source.path);
+  json.at("file_name").get_to(source.file_name);
+  source.frame_wish = store::wish_from_json(json.at("frame_wish"));
+  if (json.contains("frame")) source.frame = store::frame_from_json(json["frame"]);
+}
+
+void to_json(nlohmann::json& json, const MarkedSource& source) {
+  json = {{"model", source.model}, {"points", source.points}, {"parts", source.parts}};
+}
+
+void from_json(const nlohmann::json& json, MarkedSource& source) {
+  json.at("model").get_to(source.model);
+  json.at("points").get_to(source.points);
+  json.at("parts").get_to(source.parts);
+}
+
+}  // namespace semblante::jobs

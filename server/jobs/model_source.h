@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/frame/frame_guess.h"
+#include "core/types/result.h"
+#include "server/store/blob_store.h"
+#include "server/store/job_store.h"
+#include "server/store/model_store.h"
+
+namespace semblante::jobs {
+
+/// The file of a model, as a worker is told of it, and how the model stands.
+struct ModelSource {
+  std::string path;
+  std::string file_name;            ///< as uploaded: a hint of the format
+  std::optional<ModelFrame> frame;  ///< how the model stands so far; none before its first import
+  FrameWish frame_wish;
+
+  bool operator==(const ModelSource&) const = default;
+};
+
+/// A model with what is marked on it.
+struct MarkedSource {
+  ModelSource model;
+  std::vector<store::FeaturePointRecord> points;
+  std::vector<store::PartRecord> parts;  ///< of the import; roles set by the user are kept
+
+  bool operator==(const MarkedSource&) const = default;
+};
+
+/// What a job is made into a request with.
+struct JobSources {
+  store::ModelStore& store;
+  const store::BlobStore& blobs;
+};
+
+/// The path of a blob that a job needs. Error: io, "the bytes of <what> are not in the data folder any more".
+Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what);
+/// The model of a job. Error: missing.
+Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources);
+/// The file of a stored model. Error: io.
+Result<ModelSource> source_of(const store::ModelRecord& model, const JobSources& sources);
+/// The same with the feature points and parts of the model as they are now. Error: io.
+Result<MarkedSource> marked_source_of(const store::ModelRecord& model, const JobSources& sources);
+
+// The reading ones throw nlohmann::json::exception on another form.
+void to_json(nlohmann::json& json, const ModelSource& source);
+void from_json(const nlohmann::json& json, ModelSource& source);
+void to_json(nlohmann::json& json, const MarkedSource& source);
+void from_json(const nlohmann::json& json, MarkedSource& source);
+
+}  // namespace semblante::jobs

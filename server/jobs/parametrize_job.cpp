@@ -1,0 +1,166 @@
+#include "server/jobs/parametrize_job.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/doctor/examine.h"
+#include "core/extract/set_file.h"
+#include "core/pipeline/levelled.h"
+#include "protocol/package/pack_head.h"
+#include "server/jobs/request_head.h"
+#include "server/jobs/result_facts.h"
+#include "server/jobs/result_files.h"
+#include "server/report/levels_json.h"
+#include "server/store/frame_json.h"
+#include "server/store/record_json.h"
+
+namespace semblante::jobs {
+namespace {
+
+Result<RigRequest> rig_request(const ParametrizeJob& options) {
+  const auto weights = parse_weight_method(options.weights);
+  if (!weights)
+    return Error{ErrorCode::invalid_argument, "/weights", "there are no weights \"" + options.weights + "\""};
+  const auto metric = parse_distance_metric(options.metric);
+  if (!metric) return Error{ErrorCode::invalid_argument, "/metric", "there is no metric \"" + options.metric + "\""};
+  return RigRequest{*weights, *metric};
+}
+
+/// The sets were checked when the store got them: one that cannot be read is a fault of ours.
+Result<std::vector<NamedSet>> sets_of(const std::vector<store::WornSet>& worn) {
+  std::vector<NamedSet> sets;
+  for (const auto& record : worn) {
+    auto displacements = parse_set_displacements(record.displacements);
+    if (!displacements) return Error{ErrorCode::internal, displacements.error().where, displacements.error().message};
+    NamedSet set;
+    set.name = record.slot;
+    set.displacements = std::move(*displacements);
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+Result<LevelledHead> make_head(const ParametrizeJob::Request& request, const RigRequest& rig, const Progress& progress,
+                               Report& report) {
+  auto imported = import_source(request.head.model, part_of(progress, 0.02, 0.06));
+  if (!imported) return imported.error();
+  auto marked = mark_source(std::move(*imported), request.head, part_of(progress, 0.06, 0.08));
+  if (!marked) return marked.error();
+  auto rigged = rig_head(std::move(*marked), rig, part_of(progress, 0.08, 0.72));
+  if (!rigged) return rigged.error();
+  if (auto told = report_progress(progress, 0.72, "report"); !told) return told.error();
+  report = examine(rigged->model, rigged->surface, rigged->rig, rig.weights);
+  return level_head(std::move(*rigged), request.options.lods, part_of(progress, 0.74, 0.82));
+}
+
+}  // namespace
+
+Result<ParametrizeJob::Request> ParametrizeJob::request(const store::JobRecord& job, const JobSources& sources) const {
+  const auto model = model_of(job, sources);
+  if (!model) return model.error();
+  auto head = marked_source_of(*model, sources);
+  if (!head) return head.error();
+  auto worn = sets_of(sources.store.worn_sets(model->id));
+  if (!worn) return worn.error();
+  return Request{model->name, std::move(*head), *this, std::move(*worn)};
+}
+
+Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, ResultFiles& files,
+                                                    const Progress& progress) {
+  const auto rig = rig_request(request.options);
+  if (!rig) return rig.error();
+  Report report;
+  const auto head = make_head(request, *rig, progress, report);
+  if (!head) return head.error();
+  const auto errors = measure_levels(*head, part_of(progress, 0.82, 0.86));
+  if (!errors) return errors.error();
+  const auto packages =
+      pack_head(*head, {request.model_name, request.options.weight_bits, request.worn}, part_of(progress, 0.86, 0.96));
+  if (!packages) return packages.error();
+
+  if (auto told = report_progress(progress, 0.96, "writing"); !told) return told.error();
+  Outcome outcome;
+  outcome.parts = records_of(head->rig.parts);
+  outcome.warnings = head->warnings.all();
+  outcome.findings = counts_of(report);
+  outcome.frame.frame = head->frame;
+  std::tie(outcome.frame.box_min, outcome.frame.box_max) = box_of(head->model);
+  for (const FacePackage& package : *packages) outcome.levels.push_back({package.vertices, package.triangles});
+  if (auto written = files.write_packages(*packages); !written) return written.error();
+  const double eye_separation = 1024.0 * head->rig.fapu[FapuUnit::es].value_or(0.0);
+  auto levels = levels_of_detail_json(head->levels, *errors, head->poses, eye_separation, head->missed);
+  if (auto written = files.write_report(report, head->frame, request.head.model.frame_wish,
+                                        {{"levels_of_detail", std::move(levels)}});
+      !written)
+    return written.error();
+  if (head->turn) {
+    outcome.frame.turn = rows_of(*head->turn);
+    if (auto written = files.write_preview(*head, head->rig.parts); !written) return written.error();
+  }
+  return outcome;
+}
+
+std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome outcome,
+                                                const std::vector<store::ArtefactRecord>& artefacts,
+                                                store::JobStore& store) const {
+  const store::PackageRecord package{job.id,      store::timestamp_now(),   metric, weights,
+                                     weight_bits, std::move(outcome.levels)};
+  return store
+      .finish_parametrization(job, package, outcome.parts, outcome.warnings, outcome.findings, artefacts, outcome.frame)
+      .value_or(std::vector<std::string>{});
+}
+
+void to_json(nlohmann::json& json, const ParametrizeJob& job) {
+  json = {{"metric", job.metric}, {"weights", job.weights}, {"weight_bits", job.weight_bits}, {"lods", job.lods}};
+}
+
+void from_json(const nlohmann::json& json, ParametrizeJob& job) {
+  json.at("metric").get_to(job.metric);
+  json.at("weights").get_to(job.weights);
+  json.at("weight_bits").get_to(job.weight_bits);
+  json.at("lods").get_to(job.lods);
+}
+
+void to_json(nlohmann::json& json, const ParametrizeJob::Request& request) {
+  json = {{"name", request.model_name},
+          {"head", request.head},
+          {"options", request.options},
+          {"worn", nlohmann::json::object()}};
+  for (const auto& set : request.worn) json["worn"][set.name] = displacements_to_json(set.displacements);
+}
+
+void from_json(const nlohmann::json& json, ParametrizeJob::Request& request) {
+  json.at("name").get_to(request.model_name);
+  json.at("head").get_to(request.head);
+  json.at("options").get_to(request.options);
+  for (const auto& [slot, value] : json.at("worn").items()) {
+    auto displacements = displacements_from_json(value);
+    if (!displacements) throw std::invalid_argument("/worn/" + slot + ": " + displacements.error().message);
+    NamedSet set;
+    set.name = slot;
+    set.displacements = std::move(*displacements);
+    request.worn.push_back(std::move(set));
+  }
+}
+
+void to_json(nlohmann::json& json, const ParametrizeJob::Outcome& outcome) {
+  json = {{"parts", outcome.parts},       {"warnings", outcome.warnings}, {"findings", outcome.findings},
+          {"min", outcome.frame.box_min}, {"max", outcome.frame.box_max}, {"levels", outcome.levels}};
+  if (outcome.frame.frame) json["frame"] = store::frame_to_json(*outcome.frame.frame, {});
+  if (outcome.frame.turn) json["turn"] = *outcome.frame.turn;
+}
+
+void from_json(const nlohmann::json& json, ParametrizeJob::Outcome& outcome) {
+  json.at("parts").get_to(outcome.parts);
+  json.at("warnings").get_to(outcome.warnings);
+  json.at("findings").get_to(outcome.findings);
+  json.at("min").get_to(outcome.frame.box_min);
+  json.at("max").get_to(outcome.frame.box_max);
+  json.at("levels").get_to(outcome.levels);
+  if (json.contains("frame")) outcome.frame.frame = store::frame_from_json(json["frame"]);
+  if (json.contains("turn")) outcome.frame.turn = json["turn"].get<store::Turn>();
+}
+
+}  // namespace semblante::jobs
