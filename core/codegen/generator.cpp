@@ -11,6 +11,8 @@ namespace semblante::codegen {
 namespace {
 
 void write_text(const std::string& path, const std::string& text) {
+  // What did not change keeps its time, so that nothing is compiled again for it.
+  if (std::filesystem::exists(path) && read_text(path) == text) return;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream file(path, std::ios::binary);

@@ -132,6 +132,8 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       if (const auto at = target.find("{stream}"); at != std::string::npos) target.replace(at, 8, "hello");
       if (const auto at = target.find("{expression}"); at != std::string::npos)
         target.replace(at, 12, set["id"].get<std::string>());
+      if (const auto at = target.find("{recording}"); at != std::string::npos)
+        target.replace(at, 11, recording_of(port(), "hello"));
       auto upper = method;
       for (auto& c : upper) c = static_cast<char>(std::toupper(c));
       const auto reply = request(port(), upper, target, example.dump(), json_type);
@@ -139,7 +141,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 11U);
+  EXPECT_EQ(sent, 12U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

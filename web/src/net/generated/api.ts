@@ -672,6 +672,73 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        Version: {
+            /** @constant */
+            name: "semblante";
+            version: string;
+            /** @constant */
+            api: "v1";
+        };
+        ProblemKind: {
+            type: string;
+            title: string;
+            status: number;
+        };
+        Models: {
+            models: components["schemas"]["Model"][];
+            /** @description Give it as `after` for the next page; null on the last */
+            next: string | null;
+        };
+        NewModel: {
+            model: components["schemas"]["Model"];
+            job: components["schemas"]["Job"];
+        };
+        Expressions: {
+            visemes: [
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string
+            ];
+            expressions: [
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string
+            ];
+            /** @description Without displacements */
+            sets: components["schemas"]["Expression"][];
+            /** @description The `after` of the next page */
+            next: string | null;
+        };
+        Streams: {
+            streams: components["schemas"]["Stream"][];
+        };
+        FramesReceipt: {
+            accepted: number;
+            /** @description Of the last frame */
+            sequence: number;
+            /** @description Values that were beyond the range of their FAP, and coefficients of arkit and weights of oculus outside 0..1: it is the nearer end that was taken */
+            clamped: number;
+        };
+        PlayingFapFile: components["schemas"]["Playing"] & {
+            /** @description What the file does that the usual form does not, by line */
+            warnings: string[];
+        };
         Status: {
             /** @constant */
             status: "ok";
@@ -1228,12 +1295,19 @@ export interface components {
                 };
             };
         };
-        /** @description A set made by hand. What a GET gives beside these members is read over */
+        /** @description A set made by hand. The members without a type are what a GET gives beside: they are read over */
         ExpressionEdit: {
             name: string;
             /** @default expression */
             kind?: components["schemas"]["SetKind"];
             displacements: components["schemas"]["Displacements"];
+            id?: unknown;
+            built_in?: unknown;
+            revision?: unknown;
+            created?: unknown;
+            updated?: unknown;
+            source?: unknown;
+            href?: unknown;
         };
         ExtractionOptions: {
             /** @description Otherwise that of the target or the file */
@@ -1352,13 +1426,15 @@ export interface components {
             /** @description For ?after; null: these are all */
             next: string | null;
         };
+        /** @description As in the body of POST /v1/streams/{id}/frames; time: ms after the first frame of the recording */
+        RecordedFrame: components["schemas"]["FaceFrame"] & {
+            time: number;
+            sequence: number;
+            /** @description ms */
+            media_time: number;
+        };
         RecordedFrames: {
-            frames: (components["schemas"]["FaceFrame"] & {
-                time: number;
-                sequence: number;
-                /** @description ms */
-                media_time: number;
-            })[];
+            frames: components["schemas"]["RecordedFrame"][];
             /** @description Where the next of them are */
             next: string | null;
         };
@@ -1500,6 +1576,24 @@ export interface components {
         };
     };
     responses: {
+        /** @description `storage-unavailable`: the server cannot read or write its data folder. Nothing was changed, unless the detail says so */
+        StorageUnavailable: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description `insufficient-storage`: the server's disk is full, and the request needs room. Nothing was changed, unless the detail says so. Where something is made or played, also `limit-exceeded`: the server holds as many as it takes */
+        InsufficientStorage: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description What was recorded, in the form that `format` asks for */
         RecordingContent: {
             headers: {
@@ -1639,7 +1733,7 @@ export interface operations {
                 };
             };
             421: components["responses"]["Problem"];
-            503: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1658,13 +1752,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        /** @constant */
-                        name: "semblante";
-                        version: string;
-                        /** @constant */
-                        api: "v1";
-                    };
+                    "application/json": components["schemas"]["Version"];
                 };
             };
             421: components["responses"]["Problem"];
@@ -1690,6 +1778,7 @@ export interface operations {
                 };
             };
             421: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1743,11 +1832,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        type: string;
-                        title: string;
-                        status: number;
-                    };
+                    "application/json": components["schemas"]["ProblemKind"];
                 };
             };
             404: components["responses"]["Problem"];
@@ -1774,14 +1859,11 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        models: components["schemas"]["Model"][];
-                        /** @description Give it as `after` for the next page; null on the last */
-                        next: string | null;
-                    };
+                    "application/json": components["schemas"]["Models"];
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1804,12 +1886,17 @@ export interface operations {
         requestBody: {
             content: {
                 "model/gltf-binary": unknown;
-                "application/zip": unknown;
+                "model/gltf+json": unknown;
                 "model/obj": unknown;
-                "text/plain": unknown;
                 "model/stl": unknown;
                 "model/ply": unknown;
+                "model/vnd.ply": unknown;
+                "application/zip": unknown;
+                "application/x-zip-compressed": unknown;
                 "application/octet-stream": unknown;
+                "application/sla": unknown;
+                "application/ply": unknown;
+                "text/plain": unknown;
                 "multipart/form-data": {
                     file: string;
                     name?: string;
@@ -1825,10 +1912,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        model: components["schemas"]["Model"];
-                        job: components["schemas"]["Job"];
-                    };
+                    "application/json": components["schemas"]["NewModel"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -1838,7 +1922,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1876,6 +1961,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1903,6 +1989,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1978,6 +2066,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2015,6 +2105,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2076,6 +2167,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2121,6 +2214,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2191,6 +2286,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2241,6 +2338,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2297,6 +2395,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2353,6 +2452,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2407,6 +2507,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2455,6 +2556,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2511,6 +2613,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2560,6 +2663,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2585,6 +2689,7 @@ export interface operations {
                 };
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2611,6 +2716,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2637,6 +2744,7 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             406: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2660,41 +2768,11 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        visemes: [
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string
-                        ];
-                        expressions: [
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string
-                        ];
-                        /** @description Without displacements */
-                        sets: components["schemas"]["Expression"][];
-                        /** @description The `after` of the next page */
-                        next: string | null;
-                    };
+                    "application/json": components["schemas"]["Expressions"];
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2768,7 +2846,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2810,6 +2889,7 @@ export interface operations {
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2868,6 +2948,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2896,6 +2978,8 @@ export interface operations {
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2914,9 +2998,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        streams: components["schemas"]["Stream"][];
-                    };
+                    "application/json": components["schemas"]["Streams"];
                 };
             };
             421: components["responses"]["Problem"];
@@ -2982,7 +3064,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3040,6 +3123,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3091,13 +3176,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        accepted: number;
-                        /** @description Of the last frame */
-                        sequence: number;
-                        /** @description Values that were beyond the range of their FAP, and coefficients of arkit and weights of oculus outside 0..1: it is the nearer end that was taken */
-                        clamped: number;
-                    };
+                    "application/json": components["schemas"]["FramesReceipt"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -3149,10 +3228,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Playing"] & {
-                        /** @description What the file does that the usual form does not, by line */
-                        warnings: string[];
-                    };
+                    "application/json": components["schemas"]["PlayingFapFile"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -3162,7 +3238,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3243,7 +3320,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3350,7 +3428,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3404,7 +3483,8 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3436,6 +3516,7 @@ export interface operations {
             };
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3486,7 +3567,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3514,6 +3596,7 @@ export interface operations {
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3539,6 +3622,7 @@ export interface operations {
                 };
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3562,6 +3646,8 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3575,7 +3661,13 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        /** @description Not read */
+        requestBody?: {
+            content: {
+                /** @example {} */
+                "application/json": Record<string, never>;
+            };
+        };
         responses: {
             /** @description It has ended */
             200: {
@@ -3589,6 +3681,8 @@ export interface operations {
             404: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3642,7 +3736,8 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3681,6 +3776,7 @@ export interface operations {
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
