@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -10,6 +11,10 @@ namespace semblante::codegen {
 namespace {
 
 void write_text(const std::string& path, const std::string& text) {
+  // What did not change keeps its time, so that nothing is compiled again for it.
+  if (std::filesystem::exists(path) && read_text(path) == text) return;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
@@ -33,13 +38,14 @@ nlohmann::ordered_json read_json(const std::string& path) {
 }
 
 int run_generator(int argc, char** argv, Generator generate) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: %s SOURCE_FOLDER\n", argv[0]);
+  if (argc != 2 && argc != 3) {
+    std::fprintf(stderr, "usage: %s SOURCE_FOLDER [OUTPUT_FOLDER]\n", argv[0]);
     return 2;
   }
   try {
     const std::string source_folder = argv[1];
-    for (const GeneratedFile& file : generate(source_folder)) write_text(source_folder + "/" + file.path, file.text);
+    const std::string output_folder = argc == 3 ? argv[2] : source_folder;
+    for (const GeneratedFile& file : generate(source_folder)) write_text(output_folder + "/" + file.path, file.text);
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "%s: %s\n", argv[0], fault.what());
     return 1;

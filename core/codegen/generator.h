@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-/// What every generator of committed files has in common. It runs at development time only, so that faults are
-/// exceptions with a message for developers.
+/// What every generator of source files has in common. It runs at development time or within a build only, so that
+/// faults are exceptions with a message for developers.
 namespace semblante::codegen {
 
 struct GeneratedFile {
-  std::string path;  ///< below the source folder
+  std::string path;  ///< below the source folder, or below the folder that is given for output
   std::string text;
 };
 
@@ -18,7 +18,8 @@ struct GeneratedFile {
 /// std::exception on any fault of the data.
 using Generator = std::vector<GeneratedFile> (*)(const std::string& source_folder);
 
-/// `main` of a generator: writes its files below the source folder that argv names. Returns the exit status.
+/// `main` of a generator: writes its files below the source folder that argv names, or below the second folder of argv
+/// where there is one. Returns the exit status.
 int run_generator(int argc, char** argv, Generator generate);
 
 /// The paths of the files whose committed text is not what the generator makes: none where all are up to date.

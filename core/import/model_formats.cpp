@@ -45,13 +45,6 @@ std::optional<ModelFormat> format_of_name(std::string_view file_name) {
   return std::nullopt;
 }
 
-bool is_model_media_type(std::string_view media_type) {
-  return std::any_of(model_files.begin(), model_files.end(),
-                     [&](const ModelFile& file) { return file.media_type == media_type; }) ||
-         std::find(other_model_media_types.begin(), other_model_media_types.end(), media_type) !=
-             other_model_media_types.end();
-}
-
 std::string model_file_titles() {
   std::string titles;
   for (const ModelFile& file : model_files) titles.append(titles.empty() ? "" : ", ").append(file.title);

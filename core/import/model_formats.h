@@ -48,9 +48,6 @@ std::optional<ModelFormat> parse_model_format(std::string_view name);
 /// By the ending of a file's name, in any case; nullopt for endings that are not in the table.
 std::optional<ModelFormat> format_of_name(std::string_view file_name);
 
-/// A media type in small letters, without parameters: one of the table, or one of the others.
-bool is_model_media_type(std::string_view media_type);
-
 /// "GLB, VRM, glTF" and so on.
 std::string model_file_titles();
 

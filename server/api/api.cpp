@@ -1,11 +1,10 @@
 #include "server/api/api.h"
 
 #include <algorithm>
-#include <array>
 
-#include "core/import/model_formats.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
@@ -25,37 +24,35 @@ constexpr unsigned connections_retry_after = 10;
 
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
-const Route* find_method(const Match& match, std::string_view method) {
-  if (method == "HEAD") method = "GET";
-  const auto found = std::find_if(match.routes.begin(), match.routes.end(),
-                                  [&](const Route* route) { return route->method == method; });
-  return found == match.routes.end() ? nullptr : *found;
+bool takes(const RouteBody& body, std::string_view media_type) {
+  // A body without a Content-Type is taken for what it should be.
+  if (media_type.empty() || body.kind == BodyKind::none) return true;
+  return std::find(body.types.begin(), body.types.end(), media_type) != body.types.end();
 }
 
-std::string allowed_methods(const Match& match) {
-  std::string list = "OPTIONS";
-  for (const auto* route : match.routes) {
-    list.append(", ").append(route->method);
-    if (route->method == "GET") list.append(", HEAD");
+/// "a", "a or b", "a, b or c".
+std::string in_words(std::span<const std::string_view> types) {
+  std::string text;
+  for (const auto& type : types) text.append(text.empty() ? "" : &type == &types.back() ? " or " : ", ").append(type);
+  return text;
+}
+
+http::BodyPlan plan_body(const Route& route, std::string_view media_type, const ApiLimits& limits) {
+  const auto& body = route.body;
+  switch (body.kind) {
+    case BodyKind::none:
+      return {limits.max_json_bytes, false, false, route.runs == Runs::at_once};
+    case BodyKind::json:
+      if (media_type == "multipart/form-data") break;
+      return {limits.max_json_bytes, false, body.announced};
+    case BodyKind::performance:
+      return {max_performance_bytes, true, body.announced};
+    case BodyKind::fap:
+      return {max_fap_body_bytes, true, body.announced};
+    case BodyKind::upload:
+      break;
   }
-  return list;
-}
-
-/// What the body of a route may be sent as; a body without a Content-Type is taken for what it should be.
-bool takes(BodyKind kind, std::string_view media_type) {
-  if (media_type.empty() || kind == BodyKind::none) return true;
-  if (kind == BodyKind::json || kind == BodyKind::performance) return media_type == "application/json";
-  if (kind == BodyKind::fap) return media_type == "text/plain" || media_type == "application/octet-stream";
-  if (kind == BodyKind::merge) return media_type == "application/json" || media_type == "application/merge-patch+json";
-  if (kind == BodyKind::example) return media_type == "application/json" || media_type == "multipart/form-data";
-  return media_type == "multipart/form-data" || is_model_media_type(media_type);
-}
-
-std::string_view taken_types(BodyKind kind) {
-  if (kind == BodyKind::fap) return "text/plain or application/octet-stream";
-  if (kind == BodyKind::upload) return "application/octet-stream, a type of the model's own, or multipart/form-data";
-  if (kind == BodyKind::example) return "application/json or multipart/form-data";
-  return "application/json";
+  return {limits.max_upload_bytes, true, body.announced};
 }
 
 bool is_page(const ApiConfig& config, std::string_view path) {
@@ -77,12 +74,13 @@ std::vector<metrics::RequestKind> request_kinds() {
   return kinds;
 }
 
-/// Index into request_kinds(). HEAD counts as the GET it stands for.
-std::size_t kind_of(const ApiConfig& config, const http::Request& head) {
-  const auto match = match_path(head.path);
-  if (const auto* route = find_method(match, head.method)) return static_cast<std::size_t>(route - routes().data());
-  const bool page = match.routes.empty() && is_page(config, head.path) && is_safe(head.method);
-  return routes().size() + (page ? 0 : 1);
+/// Index into request_kinds() of what is no route.
+std::size_t page_kind() { return routes().size(); }
+std::size_t other_kind() { return routes().size() + 1; }
+
+/// The route that find_route() has found, if there is one.
+const Route* route_of(const http::Request& request) {
+  return request.route < routes().size() ? &routes()[request.route] : nullptr;
 }
 
 }  // namespace
@@ -92,31 +90,39 @@ Api::Api(Context context) : context_(std::move(context)) {
   context_.idempotency_keys = std::make_shared<KeyLocks>();
 }
 
+void Api::find_route(http::Request& head) {
+  auto match = match_route(head.method, head.path);
+  const bool page = match.allow.empty() && is_page(context_.config, head.path) && is_safe(head.method);
+  if (match.route != nullptr)
+    head.route = static_cast<std::size_t>(match.route - routes().data());
+  else
+    head.route = page ? page_kind() : other_kind();
+  head.allow = std::move(match.allow);
+  head.params = std::move(match.params);
+}
+
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
   const auto& access = context_.config.access;
   if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
     return to_response(*problem);
-  const auto match = match_path(head.path);
-  if (match.routes.empty()) {
-    if (is_page(context_.config, head.path) && is_safe(head.method)) return http::BodyPlan{};
-    return to_response(make_problem("not-found", "there is no route " + head.path));
-  }
+  if (head.route == page_kind()) return http::BodyPlan{};
+  if (head.allow.empty()) return to_response(make_problem("not-found", "there is no route " + head.path));
   if (head.method == "OPTIONS") {
     http::Response response;
     response.status = 204;
-    response.headers["Allow"] = allowed_methods(match);
+    response.headers["Allow"] = head.allow;
     if (access.origin_allowed(head)) {
-      response.headers["Access-Control-Allow-Methods"] = allowed_methods(match);
+      response.headers["Access-Control-Allow-Methods"] = head.allow;
       response.headers["Access-Control-Allow-Headers"] =
           "Content-Type, Content-Disposition, If-Match, If-None-Match, Idempotency-Key, Range";
       response.headers["Access-Control-Max-Age"] = "600";
     }
     return response;
   }
-  const auto* route = find_method(match, head.method);
+  const auto* route = route_of(head);
   if (route == nullptr) {
-    auto response = to_response(make_problem("method-not-allowed", head.path + " knows " + allowed_methods(match)));
-    response.headers["Allow"] = allowed_methods(match);
+    auto response = to_response(make_problem("method-not-allowed", head.path + " knows " + head.allow));
+    response.headers["Allow"] = head.allow;
     return response;
   }
   if (!route->produces.empty() && route->produces != "*/*" &&
@@ -124,35 +130,15 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
   const auto content_type = http::essence(head.header("Content-Type").value_or(""));
   if (!takes(route->body, content_type))
-    return to_response(make_problem(
-        "unsupported-media-type",
-        content_type + " is not read here; send it with Content-Type: " + std::string(taken_types(route->body))));
-
-  const auto& limits = context_.config.limits;
-  switch (route->body) {
-    case BodyKind::none:
-      return http::BodyPlan{limits.max_json_bytes, false, false, route->runs == Runs::at_once};
-    case BodyKind::json:
-    case BodyKind::merge:
-      return http::BodyPlan{limits.max_json_bytes, false, route->method != "POST"};
-    case BodyKind::performance:
-      return http::BodyPlan{max_performance_bytes, true, true};
-    case BodyKind::fap:
-      return http::BodyPlan{max_fap_body_bytes, true, true};
-    case BodyKind::example:
-      if (content_type != "multipart/form-data") return http::BodyPlan{limits.max_json_bytes, false, true};
-      [[fallthrough]];
-    case BodyKind::upload:
-      return http::BodyPlan{limits.max_upload_bytes, true, true};
-  }
-  return http::BodyPlan{};
+    return to_response(
+        make_problem("unsupported-media-type",
+                     content_type + " is not read here; send it with Content-Type: " + in_words(route->body.types)));
+  return plan_body(*route, content_type, context_.config.limits);
 }
 
 http::Response Api::handle(http::Request& request) {
-  auto match = match_path(request.path);
-  const auto* route = find_method(match, request.method);
+  const auto* route = route_of(request);
   if (route == nullptr) return http::static_file(context_.config.web_root, request);
-  request.params = std::move(match.params);
   try {
     return route->handler(context_, request);
   } catch (const Refused& refused) {
@@ -178,10 +164,11 @@ http::Problem Api::unwritten_body(int error_number) {
 
 std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_websocket(const http::Request& head) {
   if (auto problem = context_.config.access.refuse_changing(head)) return to_response(*problem);
-  const auto match = match_path(head.path);
-  if (match.routes.empty() || match.routes.front()->pattern != "/v1/streams/{stream}")
+  // A stream's WebSocket is at the stream's own address.
+  const auto* route = route_of(head);
+  if (route == nullptr || route->handler != get_stream)
     return to_response(make_problem("not-found", head.path + " is no stream"));
-  const auto& id = match.params.at("stream");
+  const auto& id = head.params.at("stream");
   auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""));
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
@@ -193,7 +180,9 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
 
 void Api::decorate(const http::Request& head, http::Response& response) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - head.received;
-  context_.requests->count(kind_of(context_.config, head), response.status, took.count());
+  // Of a request that could not be read, no route was looked for.
+  const auto kind = head.route == http::no_route ? other_kind() : head.route;
+  context_.requests->count(kind, response.status, took.count());
   response.headers.try_emplace("X-Content-Type-Options", "nosniff");
   const auto origin = head.header("Origin");
   if (!origin) return;

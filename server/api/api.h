@@ -56,11 +56,12 @@ struct Context {
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The
-/// handlers are plain functions on plain values (routes.h lists them); no sockets here.
+/// handlers are plain functions on plain values; no sockets here.
 class Api : public http::Application {
  public:
   explicit Api(Context context);
 
+  void find_route(http::Request& head) override;
   std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override;
   http::Response handle(http::Request& request) override;
   std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> open_websocket(const http::Request& head) override;

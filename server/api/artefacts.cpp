@@ -1,6 +1,6 @@
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/levels.h"
-#include "server/api/routes.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {
@@ -18,11 +18,8 @@ http::Response file_response(Context& context, const http::Request& request, con
   return http::apply_conditions(request, std::move(response));
 }
 
-}  // namespace
-
-http::Response get_model_artefact(Context& context, http::Request& request) {
+http::Response model_artefact(Context& context, const http::Request& request, const std::string& name) {
   const auto model = model_of(context, request);
-  const auto name = request.path.substr(request.path.rfind('/') + 1);
   const std::size_t level = model.package && is_of_package(name) ? level_of(request, *model.package) : 0;
   const auto artefact = context.store.artefact(model.id, store::artefact_name(level, name));
   if (!artefact) {
@@ -31,6 +28,27 @@ http::Response get_model_artefact(Context& context, http::Request& request) {
   }
   // The name stays, what it names changes with each parametrization: to be asked for again, cheaply, by the tag.
   return file_response(context, request, *artefact, "no-cache");
+}
+
+}  // namespace
+
+http::Response get_preview(Context& context, http::Request& request) {
+  return model_artefact(context, request, "preview.glb");
+}
+http::Response get_mesh(Context& context, http::Request& request) {
+  return model_artefact(context, request, "mesh.drc");
+}
+http::Response get_weights(Context& context, http::Request& request) {
+  return model_artefact(context, request, "weights");
+}
+http::Response get_rig(Context& context, http::Request& request) {
+  return model_artefact(context, request, "rig.json");
+}
+http::Response get_face(Context& context, http::Request& request) {
+  return model_artefact(context, request, "face.glb");
+}
+http::Response get_report(Context& context, http::Request& request) {
+  return model_artefact(context, request, "report.json");
 }
 
 http::Response get_artefact(Context& context, http::Request& request) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,11 +28,8 @@ store::ModelRecord model_of(Context& context, const http::Request& request);
 /// or with the pointer of a member named twice or of a value over a limit) or 422 when it is no object.
 JsonBody body_object(const http::Request& request);
 
-/// Refuses members of `object` that are none of `known`, by pointer.
+/// Refuses members of `object` that are none of `known` (generated/body_members.h), by pointer.
 void refuse_unknown_members(const JsonBody& object, std::span<const std::string_view> known);
-inline void refuse_unknown_members(const JsonBody& object, std::initializer_list<std::string_view> known) {
-  refuse_unknown_members(object, std::span(known.begin(), known.size()));
-}
 
 /// Names that clients give: of models, recordings, sets, points.
 inline constexpr std::size_t max_name_bytes = 200;
@@ -57,6 +53,14 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
 
 /// `?limit=` of a list: 50 unless told, at most 200.
 std::size_t page_size(const http::Request& request);
+
+/// Cuts records that were asked for with one more than a page has to the page. Gives where the next one begins.
+template <class Record>
+std::optional<std::string> cut_to_page(std::vector<Record>& records, std::size_t limit) {
+  if (records.size() <= limit) return std::nullopt;
+  records.resize(limit);
+  return records.back().id;
+}
 
 /// The last segment of a path of any system, without what a file name cannot hold; at most 200 bytes.
 std::string clean_file_name(std::string_view name);

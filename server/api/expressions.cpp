@@ -7,18 +7,25 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
-#include "server/api/routes.h"
 #include "server/api/sets.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {
 namespace {
 
-Json represent_built_in(const NamedSet& set) {
-  return {{"id", set.name},     {"name", set.name},  {"kind", std::string(to_string(set.kind))},
-          {"built_in", true},   {"revision", 1},     {"created", nullptr},
-          {"updated", nullptr}, {"source", nullptr}, {"href", "/v1/expressions/" + set.name}};
+answer::Expression represent_built_in(const NamedSet& set) {
+  return {.id = set.name,
+          .name = set.name,
+          .kind = to_string(set.kind),
+          .built_in = true,
+          .revision = 1,
+          .created = std::nullopt,
+          .updated = std::nullopt,
+          .source = std::nullopt,
+          .href = "/v1/expressions/" + set.name};
 }
 
 store::SetRecord own_set_of(Context& context, const http::Request& request) {
@@ -47,32 +54,30 @@ Rig rig_of(Context& context, const std::string& id) {
 }
 
 /// The set on one face: model units, stopped where lips meet.
-Json on_model(const NamedSet& set, const std::string& model, const Rig& rig) {
-  Json json = {{"model", model}, {"displacements", Json::object()}, {"skipped", Json::object()}};
-  auto& skipped = json["skipped"];
+answer::Expression::OnModel on_model(const NamedSet& set, const std::string& model, const Rig& rig) {
   const auto worn = on_face(set.view(), rig.fapu, rig.points);
+  answer::Members<std::string> skipped;
   std::vector<Displacement> marked;
   for (const Displacement& d : worn.displacements) {
     if (std::any_of(rig.points.begin(), rig.points.end(), [&](const FeaturePoint& p) { return p.id == d.point; }))
       marked.push_back(d);
     else
-      skipped[to_string(d.point)] = "not marked";
+      skipped.emplace_back(to_string(d.point), "not marked");
   }
   for (const MissingUnit& missing : worn.skipped)
-    skipped[to_string(missing.point)] =
-        std::string(fapu_unit_names[static_cast<std::size_t>(missing.unit)]) + " is not known";
-  json["displacements"] = displacements_to_json(marked);
-  return json;
+    skipped.emplace_back(to_string(missing.point),
+                         std::string(fapu_unit_names[static_cast<std::size_t>(missing.unit)]) + " is not known");
+  return {.model = model, .displacements = {displacements_to_json(marked).dump()}, .skipped = std::move(skipped)};
 }
 
-http::Response full_set(Context& context, const http::Request& request, const NamedSet& set, Json json,
+http::Response full_set(Context& context, const http::Request& request, const NamedSet& set, answer::Expression answer,
                         std::string etag) {
-  json["displacements"] = displacements_to_json(set.displacements);
+  answer.displacements = answer::JsonText{displacements_to_json(set.displacements).dump()};
   if (const auto model = request.query_value("model")) {
-    json["on_model"] = on_model(set, std::string(*model), rig_of(context, std::string(*model)));
+    answer.on_model = on_model(set, std::string(*model), rig_of(context, std::string(*model)));
     etag.clear();  // the answer depends on another resource too
   }
-  auto response = json_response(200, json);
+  auto response = json_response(200, answer);
   if (etag.empty()) etag = "\"sha256-" + sha256_hex(std::get<std::string>(response.body)) + "\"";
   response.headers["ETag"] = etag;
   return response;
@@ -99,8 +104,7 @@ NamedSet read_set(const store::SetRecord& record) {
 
 NamedSet set_from_body(const http::Request& request) {
   const auto body = body_object(request);
-  refuse_unknown_members(
-      body, {"name", "kind", "displacements", "id", "built_in", "revision", "created", "updated", "source", "href"});
+  refuse_unknown_members(body, body_members::expression_edit);
   checked_text(body.value("name", JsonBody(nullptr)), 200, "/name");
   auto set = parse_displacement_set(request.body);
   if (!set) refuse("invalid-field", set.error().message, set.error().where);
@@ -108,28 +112,24 @@ NamedSet set_from_body(const http::Request& request) {
 }
 
 http::Response new_set_response(const store::SetRecord& set, int status) {
-  Json json = represent(set);
-  json["displacements"] = Json::parse(set.displacements);
-  auto response = json_response(status, json);
+  auto answer = represent(set);
+  answer.displacements = answer::JsonText{set.displacements};
+  auto response = json_response(status, answer);
   response.headers["ETag"] = set_etag(set);
   response.headers["Location"] = "/v1/expressions/" + set.id;
   return response;
 }
 
-http::Response list_expressions(Context& context, http::Request& request) {
+http::Response get_expressions(Context& context, http::Request& request) {
   const auto limit = page_size(request);
   const auto after = request.query_value("after").value_or("");
   auto sets = context.store.sets(after, limit + 1);
   if (!sets) refuse("invalid-argument", "there is no expression to go on after", "?after");
-  Json json = {{"visemes", Json::array()}, {"expressions", Json::array()}, {"sets", Json::array()}, {"next", nullptr}};
-  for (const auto& set : viseme_library()) json["visemes"].push_back(std::string(set.name));
-  for (const auto& set : expression_library()) json["expressions"].push_back(std::string(set.name));
-  if (sets->size() > limit) {
-    sets->resize(limit);
-    json["next"] = sets->back().id;
-  }
-  for (const auto& set : *sets) json["sets"].push_back(represent(set));
-  return json_response(200, json);
+  answer::Expressions page{.visemes = {}, .expressions = {}, .sets = {}, .next = cut_to_page(*sets, limit)};
+  for (const auto& set : viseme_library()) page.visemes.emplace_back(set.name);
+  for (const auto& set : expression_library()) page.expressions.emplace_back(set.name);
+  for (const auto& set : *sets) page.sets.push_back(represent(set));
+  return json_response(200, page);
 }
 
 http::Response get_expression(Context& context, http::Request& request) {

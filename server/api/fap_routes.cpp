@@ -5,8 +5,8 @@
 
 #include "protocol/cpp/fap_file_frames.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
-#include "server/api/routes.h"
 #include "server/streams/fap_source.h"
 
 namespace semblante::api {
@@ -23,7 +23,7 @@ bool second_word(const http::Request& request, const std::string& name, const st
 
 }  // namespace
 
-http::Response post_fap(Context& context, http::Request& request) {
+http::Response play_fap_file(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
   const auto info = context.hub.info(stream);
   if (!info) refuse("not-found", "there is no stream " + stream);

@@ -10,8 +10,8 @@
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/mirror_points.h"
-#include "server/api/routes.h"
 #include "server/api/vertex_positions.h"
 #include "server/http/conditional.h"
 
@@ -119,32 +119,32 @@ void refuse_other_frames(const JsonBody& body) {
     refuse("invalid-field", "it must be 0: vertices count from 0", "/vertex_index_base");
 }
 
+/// A point as it is marked, with the position of its vertex, or the vertex at its position where one is meant.
+answer::FeaturePoints::PointsValue represent_point(const store::FeaturePointRecord& point,
+                                                   const VertexPositions& positions) {
+  auto vertex = point.vertex;
+  // Of touching lips either could be meant: who sends the answer back must not settle it by chance.
+  const bool on_rim = rim_of_point(*parse_feature_point(point.id)).opening != nullptr;
+  if (!vertex && point.position)
+    vertex = on_rim ? positions.only_one_at(*point.position) : positions.at(*point.position);
+  answer::FeaturePoints::PointsValue value{.vertex = vertex, .position = point.position};
+  if (!point.position) value.position = positions.of(*point.vertex);
+  if (!point.proposal) return value;
+  const auto& proposal = *point.proposal;
+  value.proposed = true;
+  if (!proposal.method.empty()) value.method = proposal.method;
+  if (!proposal.confidence.empty()) value.confidence = proposal.confidence;
+  if (proposal.expected_error > 0.0) value.expected_error = proposal.expected_error;
+  if (!proposal.remark.empty()) value.remark = proposal.remark;
+  return value;
+}
+
 http::Response represent_points(Context& context, const store::ModelRecord& model) {
   const VertexPositions positions(context, model);
-  Json json = {{"model", model.id}, {"points", Json::object()}};
-  for (const auto& point : context.store.feature_points(model.id)) {
-    auto& item = json["points"][point.id];
-    auto vertex = point.vertex;
-    // Of touching lips either could be meant: who sends the answer back must not settle it by chance.
-    const bool on_rim = rim_of_point(*parse_feature_point(point.id)).opening != nullptr;
-    if (!vertex && point.position)
-      vertex = on_rim ? positions.only_one_at(*point.position) : positions.at(*point.position);
-    item["vertex"] = vertex ? Json(*vertex) : Json(nullptr);
-    if (point.position)
-      item["position"] = *point.position;
-    else if (const auto position = positions.of(*point.vertex))
-      item["position"] = *position;
-    else
-      item["position"] = nullptr;
-    if (point.proposal) {
-      item["proposed"] = true;
-      if (!point.proposal->method.empty()) item["method"] = point.proposal->method;
-      if (!point.proposal->confidence.empty()) item["confidence"] = point.proposal->confidence;
-      if (point.proposal->expected_error > 0.0) item["expected_error"] = point.proposal->expected_error;
-      if (!point.proposal->remark.empty()) item["remark"] = point.proposal->remark;
-    }
-  }
-  auto response = json_response(200, json);
+  answer::FeaturePoints answer{.model = model.id, .points = {}};
+  for (const auto& point : context.store.feature_points(model.id))
+    answer.points.emplace_back(point.id, represent_point(point, positions));
+  auto response = json_response(200, answer);
   response.headers["ETag"] = points_etag(model);
   return response;
 }

@@ -41,7 +41,7 @@ std::optional<http::FeedItem> JobEvents::take() {
   const auto event = store::is_final(job->state) ? store::to_string(job->state) : std::string_view("progress");
   std::string text("id: ");
   text.append(std::to_string(++number_)).append("\nevent: ").append(event).append("\ndata: ");
-  text.append(represent(*job).dump(-1, ' ', false, Json::error_handler_t::replace)).append("\n\n");
+  text.append(to_json(represent(*job)).dump(-1, ' ', false, Json::error_handler_t::replace)).append("\n\n");
   return http::FeedItem{std::make_shared<const std::string>(std::move(text))};
 }
 

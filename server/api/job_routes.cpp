@@ -5,9 +5,10 @@
 #include "core/propose/propose.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
-#include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 
 namespace semblante::api {
@@ -35,7 +36,7 @@ std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vert
 }
 
 jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) {
-  refuse_unknown_members(body, {"metric", "weights", "weight_bits", "lods"});
+  refuse_unknown_members(body, body_members::create_parametrization);
   jobs::ParametrizeJob options;
   if (body.contains("metric")) {
     if (!body["metric"].is_string() || !parse_distance_metric(body["metric"].get<std::string>()))
@@ -87,7 +88,7 @@ http::Response create_parametrization(Context& context, http::Request& request) 
 
 http::Response create_proposals(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
-  refuse_unknown_members(body_object(request), {});
+  refuse_unknown_members(body_object(request), body_members::create_proposals);
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) return earlier_job(context, *check.earlier);
   check_if_match(request, points_etag(model));

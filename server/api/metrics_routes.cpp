@@ -1,7 +1,7 @@
 #include <array>
 
 #include "server/api/common.h"
-#include "server/api/routes.h"
+#include "server/api/generated/handlers.h"
 #include "server/metrics/process_metrics.h"
 #include "server/metrics/request_counts.h"
 #include "server/metrics/text_writer.h"

@@ -7,8 +7,9 @@
 #include "core/json/json_pointer.h"
 #include "core/types/rig.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/new_model.h"
-#include "server/api/routes.h"
 #include "server/api/sets.h"
 #include "server/http/conditional.h"
 
@@ -48,7 +49,8 @@ void read_wish(const JsonBody& frame, const char* key, const std::string& what, 
 FrameWish frame_wish(const JsonBody& frame, const FrameWish& before) {
   if (!frame.is_object()) refuse("invalid-field", "frame is an object of unit, up and front", "/frame");
   for (const auto& [key, value] : frame.items())
-    if (key != "unit" && key != "up" && key != "front")
+    if (std::find(body_members::frame_wish.begin(), body_members::frame_wish.end(), key) ==
+        body_members::frame_wish.end())
       refuse("invalid-field", "there is no field \"" + key + "\" in a frame", "/frame/" + pointer_segment(key));
   FrameWish wish = before;
   const std::string directions = "one of +X, -X, +Y, -Y, +Z and -Z, or null";
@@ -118,13 +120,9 @@ http::Response list_models(Context& context, http::Request& request) {
   const auto after = request.query_value("after").value_or("");
   auto models = context.store.models(after, limit + 1);
   if (!models) refuse("invalid-argument", "there is no model to go on after", "?after");
-  Json json = {{"models", Json::array()}, {"next", nullptr}};
-  if (models->size() > limit) {
-    models->resize(limit);
-    json["next"] = models->back().id;
-  }
-  for (const auto& model : *models) json["models"].push_back(represent(model, context.store.artefacts(model.id)));
-  return json_response(200, json);
+  answer::Models page{.models = {}, .next = cut_to_page(*models, limit)};
+  for (const auto& model : *models) page.models.push_back(represent(model, context.store.artefacts(model.id)));
+  return json_response(200, page);
 }
 
 http::Response get_model(Context& context, http::Request& request) {
@@ -135,7 +133,7 @@ http::Response patch_model(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   check_if_match(request, model_etag(model));
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "roles", "frame", "expressions"});
+  refuse_unknown_members(body, body_members::model_edit);
   std::optional<std::string> name;
   if (body.contains("name")) name = checked_text(body["name"], max_name_bytes, "/name");
   std::vector<store::RoleChange> roles;

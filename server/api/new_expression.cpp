@@ -11,8 +11,9 @@
 #include "core/import/import.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
-#include "server/api/routes.h"
 #include "server/api/sets.h"
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
@@ -45,7 +46,7 @@ std::string text_or_empty(const JsonBody& options, const char* key) {
 
 /// The members that all sources have.
 ExampleRequest read_options(const JsonBody& options) {
-  refuse_unknown_members(options, {"name", "kind", "model", "target", "from", "align", "least", "strength"});
+  refuse_unknown_members(options, body_members::extraction_options);
   ExampleRequest example;
   example.wish.name = text_or_empty(options, "name");
   if (options.contains("kind")) {

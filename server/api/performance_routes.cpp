@@ -6,8 +6,8 @@
 #include "core/performance/performance.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
-#include "server/api/routes.h"
 #include "server/streams/performance_source.h"
 
 namespace semblante::api {
@@ -21,7 +21,7 @@ namespace {
 
 }  // namespace
 
-http::Response post_performance(Context& context, http::Request& request) {
+http::Response play_performance(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
   const auto info = context.hub.info(stream);
   if (!info) refuse("not-found", "there is no stream " + stream);

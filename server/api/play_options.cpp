@@ -61,9 +61,9 @@ http::Response play_into(Context& context, const std::string& stream,
     if (code == ErrorCode::too_large) refuse("limit-exceeded", message);
     refuse(code == ErrorCode::missing ? "not-found" : "conflict", message);
   }
-  auto body = represent(*playing);
-  if (warnings) body["warnings"] = *warnings;
-  auto response = json_response(202, body);
+  const auto body = represent(*playing);
+  auto response = warnings ? json_response(202, answer::PlayingFapFile{.playing = body, .warnings = *warnings})
+                           : json_response(202, body);
   response.headers["Location"] = "/v1/streams/" + stream + "/performances/" + playing->id;
   return response;
 }

@@ -10,9 +10,9 @@
 #include "protocol/clips/clip.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
 #include "server/api/recordings_common.h"
-#include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
 #include "server/recordings/recording_export.h"
@@ -155,12 +155,12 @@ http::Response content_of(Context& context, const http::Request& request, const 
   return response;
 }
 
-Json represent(const recordings::RecordingReader& reader, const recordings::RecordingFrame& frame) {
+answer::RecordedFrame represent(const recordings::RecordingReader& reader, const recordings::RecordingFrame& frame) {
   const auto time = static_cast<std::uint32_t>(frame.media_time - reader.begin());
-  Json json = Json::parse(encode_json_value({time, to_values(frame.state, quantizers_of(reader.header()))}));
-  json["sequence"] = frame.sequence;
-  json["media_time"] = frame.media_time;
-  return json;
+  return {.face_frame = {encode_json_value({time, to_values(frame.state, quantizers_of(reader.header()))})},
+          .time = time,
+          .sequence = frame.sequence,
+          .media_time = frame.media_time};
 }
 
 }  // namespace
@@ -188,7 +188,7 @@ http::Response get_recording_frames(Context& context, http::Request& request) {
     const auto frame = reader->at(whole_number(request, "at", 0, max_ms));
     if (!frame) refuse_damaged(frame.error());
     if (!*frame) refuse("conflict", "there is no frame in the recording yet");
-    return json_response(200, {{"frames", {represent(*reader, **frame)}}, {"next", nullptr}});
+    return json_response(200, answer::RecordedFrames{.frames = {represent(*reader, **frame)}, .next = std::nullopt});
   }
   const auto from = whole_number(request, "from", 0, max_ms);
   const auto to = whole_number(request, "to", max_ms, max_ms);
@@ -201,23 +201,23 @@ http::Response get_recording_frames(Context& context, http::Request& request) {
       after = after * 10 + static_cast<std::uint64_t>(c - '0');
     }
   }
-  Json json = {{"frames", Json::array()}, {"next", nullptr}};
+  answer::RecordedFrames part{.frames = {}, .next = std::nullopt};
   recordings::RecordingCursor cursor(reader, from);
   std::uint64_t last = 0;
   std::uint32_t last_time = 0;
   for (; cursor.frame() != nullptr && cursor.time() <= to; cursor.advance()) {
     if (cursor.frame()->sequence <= after) continue;
-    if (json["frames"].size() == limit) {
-      json["next"] = "/v1/recordings/" + recording.record.id + "/frames?from=" + std::to_string(last_time) +
-                     "&to=" + std::to_string(to) + "&after=" + std::to_string(last) + "&limit=" + std::to_string(limit);
+    if (part.frames.size() == limit) {
+      part.next = "/v1/recordings/" + recording.record.id + "/frames?from=" + std::to_string(last_time) +
+                  "&to=" + std::to_string(to) + "&after=" + std::to_string(last) + "&limit=" + std::to_string(limit);
       break;
     }
-    json["frames"].push_back(represent(*reader, *cursor.frame()));
+    part.frames.push_back(represent(*reader, *cursor.frame()));
     last = cursor.frame()->sequence;
     last_time = cursor.time();
   }
   if (cursor.error()) refuse_damaged(*cursor.error());
-  return json_response(200, json);
+  return json_response(200, part);
 }
 
 }  // namespace semblante::api

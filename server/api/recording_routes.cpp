@@ -6,9 +6,10 @@
 #include "protocol/cpp/quantizers.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
 #include "server/api/recordings_common.h"
-#include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/recordings/recording_source.h"
 
@@ -34,14 +35,10 @@ http::Response list_of(Context& context, const http::Request& request, const std
   const auto limit = page_size(request);
   auto records = context.store.recordings(stream, request.query_value("after").value_or(""), limit + 1);
   if (!records) refuse("invalid-argument", "there is no such recording", "?after");
-  Json json = {{"recordings", Json::array()}, {"next", nullptr}};
-  if (records->size() > limit) {
-    records->resize(limit);
-    json["next"] = records->back().id;
-  }
+  answer::Recordings page{.recordings = {}, .next = cut_to_page(*records, limit)};
   for (auto& record : *records)
-    json["recordings"].push_back(represent(context.recorder->with_progress(std::move(record))));
-  return json_response(200, json);
+    page.recordings.push_back(represent(context.recorder->with_progress(std::move(record))));
+  return json_response(200, page);
 }
 
 }  // namespace
@@ -83,38 +80,38 @@ std::uint32_t whole_number(const http::Request& request, const std::string& name
   return value;
 }
 
-Json represent(const RecordingStatus& recording) {
+answer::Recording represent(const RecordingStatus& recording) {
   const auto& r = recording.record;
   const bool runs = r.state == store::RecordingState::recording;
   const std::string self = "/v1/recordings/" + r.id;
-  const auto or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
-  return {{"id", r.id},
-          {"stream", r.stream},
-          {"name", r.name},
-          {"model", or_null(r.model)},
-          {"created", r.created},
-          {"state", std::string(to_string(r.state))},
-          {"ended", or_null(r.ended)},
-          {"duration", r.duration},
-          {"durable_until", r.frames > 0 ? Json(r.duration) : Json(nullptr)},
-          {"frames", r.frames},
-          {"lost", std::max(r.lost, recording.dropped)},
-          {"bytes", r.bytes},
-          {"epoch", r.epoch},
-          {"media_time", r.frames > 0 ? Json(r.media_time) : Json(nullptr)},
-          {"max_duration", r.max_duration ? Json(*r.max_duration) : Json(nullptr)},
-          {"links",
-           {{"self", self},
-            {"stop", runs ? Json(self + "/stop") : Json(nullptr)},
-            {"content", self + "/content"},
-            {"frames", self + "/frames"}}}};
+  std::optional<answer::Recording::Ended> ended;
+  if (!r.ended.empty()) ended = r.ended;
+  return {.id = r.id,
+          .stream = r.stream,
+          .name = r.name,
+          .model = text_or_null(r.model),
+          .created = r.created,
+          .state = to_string(r.state),
+          .ended = std::move(ended),
+          .duration = r.duration,
+          .durable_until = r.frames > 0 ? std::optional(r.duration) : std::nullopt,
+          .frames = r.frames,
+          .lost = std::max(r.lost, recording.dropped),
+          .bytes = r.bytes,
+          .epoch = r.epoch,
+          .media_time = r.frames > 0 ? std::optional(r.media_time) : std::nullopt,
+          .max_duration = r.max_duration,
+          .links = {.self = self,
+                    .stop = runs ? std::optional(self + "/stop") : std::nullopt,
+                    .content = self + "/content",
+                    .frames = self + "/frames"}};
 }
 
 http::Response create_recording(Context& context, http::Request& request) {
   auto header = context.hub.header(request.params.at("stream"));
   if (!header) refuse("not-found", "there is no stream " + request.params.at("stream"));
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"name", "max_duration"});
+  refuse_unknown_members(body, body_members::create_recording);
   recordings::RecordingStart start;
   start.name = body.contains("name") ? checked_text(body["name"], max_name_bytes, "/name") : header->title;
   start.header = std::move(*header);
@@ -163,12 +160,12 @@ http::Response delete_recording(Context& context, http::Request& request) {
   return response;
 }
 
-http::Response post_play(Context& context, http::Request& request) {
+http::Response play_recording(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
   const auto info = context.hub.info(stream);
   if (!info) refuse("not-found", "there is no stream " + stream);
   const auto body = body_object(request);
-  refuse_unknown_members(body, {"recording", "from", "loop", "take_over"});
+  refuse_unknown_members(body, body_members::play_recording);
   const auto flag = [&](const char* name) {
     if (!body.contains(name)) return false;
     if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);

@@ -22,6 +22,6 @@ std::shared_ptr<const recordings::RecordingReader> read_recording(Context& conte
 std::uint32_t whole_number(const http::Request& request, const std::string& name, std::uint32_t otherwise,
                            std::uint32_t most);
 
-Json represent(const recordings::RecordingStatus& recording);
+answer::Recording represent(const recordings::RecordingStatus& recording);
 
 }  // namespace semblante::api

@@ -11,16 +11,13 @@
 namespace semblante::api {
 namespace {
 
-Json json_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json::parse(text, nullptr, false); }
-
-Json box(const std::array<double, 3>& low, const std::array<double, 3>& high) { return {{"min", low}, {"max", high}}; }
-
 constexpr auto package_names = std::to_array<std::string_view>({"mesh.drc", "weights", "rig.json", "face.glb"});
 
 /// The artefacts of one level, by the name a client asks for.
-Json artefacts_of_level(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts,
-                        std::size_t lod) {
-  Json json = Json::object();
+answer::Members<answer::Artefact> artefacts_of_level(const store::ModelRecord& model,
+                                                     const std::vector<store::ArtefactRecord>& artefacts,
+                                                     std::size_t lod) {
+  answer::Members<answer::Artefact> level;
   for (const auto name : package_names) {
     const auto kept_as = store::artefact_name(lod, name);
     const auto artefact =
@@ -28,30 +25,53 @@ Json artefacts_of_level(const store::ModelRecord& model, const std::vector<store
     if (artefact == artefacts.end()) continue;
     auto href = "/v1/models/" + model.id + "/" + std::string(name);
     if (lod > 0) href += "?lod=" + std::to_string(lod);
-    json[name] = {{"href", href},
-                  {"sha256", artefact->sha256},
-                  {"bytes", artefact->bytes},
-                  {"content_type", artefact->content_type}};
+    level.emplace_back(name, answer::Artefact{.href = std::move(href),
+                                              .sha256 = artefact->sha256,
+                                              .bytes = artefact->bytes,
+                                              .content_type = artefact->content_type});
   }
-  return json;
+  return level;
 }
 
-Json represent_package(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
-  if (!model.package) return nullptr;
-  Json json = {{"parametrization", model.package->parametrization},
-               {"created", model.package->created},
-               {"metric", model.package->metric},
-               {"weights", model.package->weights},
-               {"weight_bits", model.package->weight_bits},
-               {"artefacts", artefacts_of_level(model, artefacts, 0)},
-               {"levels", Json::array()}};
-  const auto& levels = model.package->levels;
-  for (std::size_t lod = 0; lod < levels.size(); ++lod)
-    json["levels"].push_back({{"lod", lod},
-                              {"vertices", levels[lod].vertices},
-                              {"triangles", levels[lod].triangles},
-                              {"artefacts", artefacts_of_level(model, artefacts, lod)}});
-  return json;
+std::optional<answer::Model::Package> represent_package(const store::ModelRecord& model,
+                                                        const std::vector<store::ArtefactRecord>& artefacts) {
+  if (!model.package) return std::nullopt;
+  std::vector<answer::Level> levels;
+  for (const auto& level : model.package->levels) {
+    const auto lod = levels.size();
+    levels.push_back({.lod = lod,
+                      .vertices = level.vertices,
+                      .triangles = level.triangles,
+                      .artefacts = artefacts_of_level(model, artefacts, lod)});
+  }
+  return answer::Model::Package{.parametrization = model.package->parametrization,
+                                .created = model.package->created,
+                                .metric = model.package->metric,
+                                .weights = model.package->weights,
+                                .weight_bits = static_cast<std::uint64_t>(model.package->weight_bits),
+                                .artefacts = artefacts_of_level(model, artefacts, 0),
+                                .levels = std::move(levels)};
+}
+
+std::vector<answer::Part> represent_parts(const store::ModelRecord& model) {
+  std::vector<answer::Part> parts;
+  for (const auto& part : model.parts)
+    parts.push_back({.index = parts.size(),
+                     .name = part.name,
+                     .role = part.role,
+                     .role_by_user = part.role_by_user,
+                     .vertices = part.vertices,
+                     .triangles = part.triangles,
+                     .bounds = {.min = part.box_min, .max = part.box_max}});
+  return parts;
+}
+
+answer::Model::Links links_of(const store::ModelRecord& model, bool imported) {
+  const auto self = "/v1/models/" + model.id;
+  return {.self = self,
+          .feature_points = self + "/feature-points",
+          .preview = imported ? std::optional(self + "/preview.glb") : std::nullopt,
+          .report = model.findings ? std::optional(self + "/report.json") : std::nullopt};
 }
 
 }  // namespace
@@ -60,134 +80,130 @@ bool is_of_package(std::string_view name) {
   return std::find(package_names.begin(), package_names.end(), name) != package_names.end();
 }
 
-Json represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
-  const auto self = "/v1/models/" + model.id;
-  Json json;
-  json["id"] = model.id;
-  json["name"] = model.name;
-  json["state"] = std::string(store::to_string(model.state));
-  json["problem"] = json_or_null(model.problem);
-  json["created"] = model.created;
-  json["updated"] = model.updated;
-  json["source"] = {{"format", model.format.empty() ? Json(nullptr) : Json(model.format)},
-                    {"file_name", model.file_name},
-                    {"bytes", model.source_bytes},
-                    {"sha256", model.source_sha256}};
-  json["counts"] = {{"vertices", model.vertices}, {"triangles", model.triangles}, {"parts", model.parts.size()}};
+answer::Model represent(const store::ModelRecord& model, const std::vector<store::ArtefactRecord>& artefacts) {
   const bool imported = model.state == store::ModelState::ready || model.state == store::ModelState::parametrized;
-  json["bounds"] = imported ? box(model.box_min, model.box_max) : Json(nullptr);
-  auto& parts = json["parts"] = Json::array();
-  for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    const auto& part = model.parts[i];
-    parts.push_back({{"index", i},
-                     {"name", part.name},
-                     {"role", part.role},
-                     {"role_by_user", part.role_by_user},
-                     {"vertices", part.vertices},
-                     {"triangles", part.triangles},
-                     {"bounds", box(part.box_min, part.box_max)}});
-  }
-  json["frame"] = nullptr;
-  if (model.frame) json["frame"] = store::frame_to_json(*model.frame, model.frame_wish);
-  auto& targets = json["morph_targets"] = Json::array();
-  for (const auto& target : model.morph_targets)
-    targets.push_back({{"name", target.name}, {"vertices", target.vertices}});
-  json["warnings"] = model.warnings;
-  json["findings"] = nullptr;
+  std::optional<answer::Bounds> bounds;
+  if (imported) bounds = {.min = model.box_min, .max = model.box_max};
+  std::optional<answer::JsonText> frame;
+  if (model.frame)
+    frame = answer::JsonText{
+        store::frame_to_json(*model.frame, model.frame_wish).dump(-1, ' ', false, JsonBody::error_handler_t::replace)};
+  std::optional<answer::FindingCounts> findings;
   if (model.findings)
-    json["findings"] = {
-        {"errors", model.findings->errors}, {"warnings", model.findings->warnings}, {"notes", model.findings->notes}};
-  json["feature_point_count"] = model.feature_point_count;
-  json["package"] = represent_package(model, artefacts);
-  auto& worn = json["expressions"] = Json::object();
+    findings = {.errors = model.findings->errors, .warnings = model.findings->warnings, .notes = model.findings->notes};
+  std::vector<answer::Model::MorphTargetsItem> targets;
+  for (const auto& target : model.morph_targets) targets.push_back({.name = target.name, .vertices = target.vertices});
+  answer::Members<answer::Model::ExpressionsValue> worn;
   for (const auto& set : model.worn)
-    worn[set.slot] = {{"expression", set.set}, {"name", set.name}, {"revision", set.revision}};
-  json["links"] = {{"self", self},
-                   {"feature_points", self + "/feature-points"},
-                   {"preview", imported ? Json(self + "/preview.glb") : Json(nullptr)},
-                   {"report", model.findings ? Json(self + "/report.json") : Json(nullptr)}};
-  return json;
+    worn.emplace_back(
+        set.slot, answer::Model::ExpressionsValue{.expression = set.set, .name = set.name, .revision = set.revision});
+  return {.id = model.id,
+          .name = model.name,
+          .state = store::to_string(model.state),
+          .problem = json_or_null(model.problem),
+          .created = model.created,
+          .updated = model.updated,
+          .source = {.format = text_or_null(model.format),
+                     .file_name = model.file_name,
+                     .bytes = model.source_bytes,
+                     .sha256 = model.source_sha256},
+          .counts = {.vertices = model.vertices, .triangles = model.triangles, .parts = model.parts.size()},
+          .bounds = bounds,
+          .parts = represent_parts(model),
+          .frame = std::move(frame),
+          .expressions = std::move(worn),
+          .morph_targets = std::move(targets),
+          .warnings = model.warnings,
+          .findings = findings,
+          .feature_point_count = model.feature_point_count,
+          .package = represent_package(model, artefacts),
+          .links = links_of(model, imported)};
 }
 
-Json represent(const store::JobRecord& job) {
-  return {{"id", job.id},
-          {"kind", job.kind},
-          {"model", job.model.empty() ? Json(nullptr) : Json(job.model)},
-          {"state", std::string(store::to_string(job.state))},
-          {"progress", job.progress},
-          {"stage", job.stage},
-          {"created", job.created},
-          {"updated", job.updated},
-          {"problem", json_or_null(job.problem)},
-          {"result", json_or_null(job.result)}};
+answer::Job represent(const store::JobRecord& job) {
+  return {.id = job.id,
+          .kind = job.kind,
+          .model = text_or_null(job.model),
+          .state = store::to_string(job.state),
+          .progress = job.progress,
+          .stage = job.stage,
+          .created = job.created,
+          .updated = job.updated,
+          .problem = json_or_null(job.problem),
+          .result = json_or_null(job.result)};
 }
 
 namespace {
 
-Json by_coding(const streams::StreamInfo& stream) {
-  Json json = Json::object();
-  for (std::size_t i = 0; i < streams::coding_count; ++i)
-    json[std::string(streams::coding_names[i])] = stream.subscribers_by_coding[i];
-  return json;
+answer::Stream::SubscribersByCoding by_coding(const streams::StreamInfo& stream) {
+  const auto of = [&](streams::Coding coding) {
+    return stream.subscribers_by_coding[static_cast<std::size_t>(coding)];
+  };
+  return {
+      .packed = of(streams::Coding::packed), .plain = of(streams::Coding::plain), .json = of(streams::Coding::json)};
 }
 
 /// ms: the bound of the bucket that the hundredth part of all is above; null before anything was sent, and beyond the
 /// last bound.
-Json lateness_p99(const metrics::LatenessValues& lateness) {
+std::optional<double> lateness_p99(const metrics::LatenessValues& lateness) {
   const auto count = lateness.count();
-  if (count == 0) return nullptr;
+  if (count == 0) return std::nullopt;
   std::uint64_t below = 0;
   for (std::size_t i = 0; i < metrics::lateness_bounds.upper.size(); ++i) {
     below += lateness.buckets[i];
     if (static_cast<double>(below) >= 0.99 * static_cast<double>(count))
       return metrics::lateness_bounds.upper[i] * 1000.0;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 }  // namespace
 
-Json represent(const streams::StreamInfo& stream) {
-  Json json = {{"id", stream.id}};
-  settings::write_stream_settings(json, stream.settings);
-  json.update({{"created", stream.created},
-               {"epoch", stream.epoch},
-               {"sequence", stream.sequence},
-               {"subscribers", stream.subscribers},
-               {"publishers", stream.publishers},
-               {"source", stream.source},
-               {"active_source", stream.active_source
-                                     ? Json(streams::source_names[static_cast<std::size_t>(*stream.active_source)])
-                                     : Json(nullptr)},
-               {"subscribers_by_coding", by_coding(stream)},
-               {"bytes_sent", stream.counts.bytes_sent},
-               {"messages_coalesced", stream.counts.messages_replaced},
-               {"lateness_p99", lateness_p99(stream.counts.lateness)},
-               {"clamped_values", stream.clamped_values},
-               {"playing", stream.playing ? represent(*stream.playing) : Json(nullptr)}});
-  return json;
+answer::Stream represent(const streams::StreamInfo& stream) {
+  const auto& settings = stream.settings;
+  std::optional<answer::Stream::ActiveSource> active;
+  if (stream.active_source) active = streams::source_names[static_cast<std::size_t>(*stream.active_source)];
+  return {.id = stream.id,
+          .title = settings.title,
+          .model = text_or_null(settings.model),
+          .created = stream.created,
+          .epoch = stream.epoch,
+          .sequence = stream.sequence,
+          .subscribers = stream.subscribers,
+          .publishers = stream.publishers,
+          .source = stream.source,
+          .active_source = std::move(active),
+          .batch_interval = settings.batch_interval,
+          .quantizer_scale = settings.quantizer_scale,
+          .subscribers_by_coding = by_coding(stream),
+          .bytes_sent = stream.counts.bytes_sent,
+          .messages_coalesced = stream.counts.messages_replaced,
+          .lateness_p99 = lateness_p99(stream.counts.lateness),
+          .clamped_values = stream.clamped_values,
+          .viseme_share = settings.viseme_share,
+          .playing = stream.playing ? std::optional(represent(*stream.playing)) : std::nullopt};
 }
 
-Json represent(const streams::PlayStatus& playing) {
-  return {{"id", playing.id},
-          {"kind", playing.kind},
-          {"name", playing.name},
-          {"duration", playing.duration > 0.0 ? Json(playing.duration) : Json(nullptr)},
-          {"position", std::round(playing.position)},
-          {"fps", playing.rate},
-          {"loop", playing.loop}};
+answer::Playing represent(const streams::PlayStatus& playing) {
+  return {.id = playing.id,
+          .kind = playing.kind,
+          .name = playing.name,
+          .duration = playing.duration > 0.0 ? std::optional(playing.duration) : std::nullopt,
+          .position = std::round(playing.position),
+          .fps = playing.rate,
+          .loop = playing.loop};
 }
 
-Json represent(const store::SetRecord& set) {
-  return {{"id", set.id},
-          {"name", set.name},
-          {"kind", set.kind},
-          {"built_in", false},
-          {"revision", set.revision},
-          {"created", set.created},
-          {"updated", set.updated},
-          {"source", json_or_null(set.source)},
-          {"href", "/v1/expressions/" + set.id}};
+answer::Expression represent(const store::SetRecord& set) {
+  return {.id = set.id,
+          .name = set.name,
+          .kind = set.kind,
+          .built_in = false,
+          .revision = set.revision,
+          .created = set.created,
+          .updated = set.updated,
+          .source = json_or_null(set.source),
+          .href = "/v1/expressions/" + set.id};
 }
 
 std::string set_etag(const store::SetRecord& set) { return "\"set-" + std::to_string(set.revision) + "\""; }

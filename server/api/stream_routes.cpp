@@ -6,7 +6,8 @@
 #include "protocol/cpp/json_codec.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
-#include "server/api/routes.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
 #include "server/settings/stream_settings.h"
 
 namespace semblante::api {
@@ -26,10 +27,7 @@ std::string checked_slug(const JsonBody& value) {
 
 /// The settings in the body of a request that creates the stream `id`.
 settings::StreamSettings checked_settings(Context& context, const JsonBody& body, const std::string& id) {
-  std::vector<std::string_view> known = {"name"};
-  const settings::StreamSettings any;
-  settings::for_each_setting(any, [&](std::string_view name, const auto&) { known.push_back(name); });
-  refuse_unknown_members(body, known);
+  refuse_unknown_members(body, body_members::create_stream);
   auto read = settings::read_stream_settings(body, id);
   if (!read) refuse("invalid-field", read.error().message, read.error().where);
   if (!read->model.empty() && !context.store.model(read->model))
@@ -53,9 +51,9 @@ http::Response created(const streams::StreamInfo& info) {
 }  // namespace
 
 http::Response list_streams(Context& context, http::Request&) {
-  Json json = {{"streams", Json::array()}};
-  for (const auto& stream : context.hub.list()) json["streams"].push_back(represent(stream));
-  return json_response(200, json);
+  answer::Streams all{.streams = {}};
+  for (const auto& stream : context.hub.list()) all.streams.push_back(represent(stream));
+  return json_response(200, all);
 }
 
 http::Response create_stream(Context& context, http::Request& request) {
@@ -113,9 +111,9 @@ http::Response post_frames(Context& context, http::Request& request) {
     if (error.code == ErrorCode::too_large) refuse_for_now(error.message, throttled_retry_after);
     refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
   }
-  return json_response(202, {{"accepted", receipt->accepted},
-                             {"sequence", receipt->sequence},
-                             {"clamped", receipt->clamped + clamped_coefficients}});
+  return json_response(202, answer::FramesReceipt{.accepted = receipt->accepted,
+                                                  .sequence = receipt->sequence,
+                                                  .clamped = receipt->clamped + clamped_coefficients});
 }
 
 }  // namespace semblante::api

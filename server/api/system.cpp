@@ -2,14 +2,14 @@
 
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/openapi.h"
-#include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {
 
-http::Response get_health(Context&, http::Request&) { return json_response(200, {{"status", "ok"}}); }
+http::Response get_health(Context&, http::Request&) { return json_response(200, answer::Status{}); }
 
 http::Response get_ready(Context& context, http::Request&) {
   if (!context.store.healthy()) refuse("storage-unavailable", "the store does not answer");
@@ -18,11 +18,11 @@ http::Response get_ready(Context& context, http::Request&) {
     const auto pending = pending_in_words(status);
     refuse("storage-unavailable", pending.empty() ? why : why + "; " + pending);
   }
-  return json_response(200, {{"status", "ok"}});
+  return json_response(200, answer::Status{});
 }
 
 http::Response get_version(Context& context, http::Request&) {
-  return json_response(200, {{"name", "semblante"}, {"version", context.config.version}, {"api", "v1"}});
+  return json_response(200, answer::Version{.version = context.config.version});
 }
 
 http::Response get_openapi(Context&, http::Request& request) {
@@ -39,8 +39,9 @@ http::Response get_problem(Context&, http::Request& request) {
   const auto& slug = request.params.at("slug");
   for (const auto& kind : http::problem_kinds())
     if (kind.slug == slug)
-      return json_response(
-          200, {{"type", "/problems/" + slug}, {"title", std::string(kind.title)}, {"status", kind.status}});
+      return json_response(200, answer::ProblemKind{.type = "/problems/" + slug,
+                                                    .title = std::string(kind.title),
+                                                    .status = static_cast<std::uint64_t>(kind.status)});
   refuse("not-found", "there is no problem " + slug);
 }
 

@@ -6,9 +6,9 @@
 #include "core/import/import.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
 #include "server/api/new_model.h"
-#include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
@@ -62,8 +62,8 @@ Upload take_upload(const http::Request& request) {
 }
 
 http::Response accepted(Context& context, const store::ModelRecord& model, const store::JobRecord& job) {
-  auto response =
-      json_response(202, {{"model", represent(model, context.store.artefacts(model.id))}, {"job", represent(job)}});
+  auto response = json_response(
+      202, answer::NewModel{.model = represent(model, context.store.artefacts(model.id)), .job = represent(job)});
   response.headers["Location"] = "/v1/models/" + model.id;
   return response;
 }

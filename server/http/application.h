@@ -23,6 +23,9 @@ struct BodyPlan {
 class Application {
  public:
   virtual ~Application() = default;
+  /// On the connection's strand, as soon as the header is there, before everything below: writes into the request which
+  /// of the application's routes it is for. Must not block.
+  virtual void find_route(Request& /*head*/) {}
   /// On the connection's strand, when the header is there and the body is not: must not block. An answer here refuses
   /// the request without reading its body.
   virtual std::variant<BodyPlan, Response> plan(const Request& head) = 0;

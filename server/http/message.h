@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -38,15 +39,20 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+/// `Request::route` of one whose route was not looked for.
+constexpr std::size_t no_route = SIZE_MAX;
+
 /// One request as plain values: what a handler sees, whoever read it from whatever socket.
 struct Request {
-  std::string method;                         ///< "GET", as sent
-  std::string path;                           ///< percent-decoded, without the query
-  std::map<std::string, std::string> query;   ///< percent-decoded; of a repeated key the first counts
-  Headers headers;                            ///< without hop-by-hop meaning
-  std::string body;                           ///< when it was small enough to keep in memory
-  std::shared_ptr<TemporaryFile> body_file;   ///< when the route wanted it on disk
-  std::uint64_t body_size = 0;                ///< bytes, in memory or on disk
+  std::string method;                        ///< "GET", as sent
+  std::string path;                          ///< percent-decoded, without the query
+  std::map<std::string, std::string> query;  ///< percent-decoded; of a repeated key the first counts
+  Headers headers;                           ///< without hop-by-hop meaning
+  std::string body;                          ///< when it was small enough to keep in memory
+  std::shared_ptr<TemporaryFile> body_file;  ///< when the route wanted it on disk
+  std::uint64_t body_size = 0;               ///< bytes, in memory or on disk
+  std::size_t route = no_route;              ///< index of the application's: what it is for (Application::find_route)
+  std::string allow;  ///< the methods that the path has, as in Allow; empty: there is no such path
   std::map<std::string, std::string> params;  ///< of the route pattern: {"model", "k3f..."}
   std::chrono::steady_clock::time_point received = std::chrono::steady_clock::now();  ///< its header
 

@@ -111,6 +111,7 @@ class Session {
     const Busy busy(*state_);
 
     auto& request = parser.request();
+    state_->application.find_route(request);
     if (is_websocket_upgrade(parser, request)) co_return co_await upgrade(request);
 
     auto plan = answered(request, [&] { return state_->application.plan(request); });

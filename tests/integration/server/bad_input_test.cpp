@@ -112,6 +112,8 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
   const auto model = import_grid(port());
   const auto set =
       json_of(request(port(), "POST", "/v1/expressions", R"({"name":"own","displacements":{}})", json_type));
+  request(port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type);
+  const auto kept = recording_of(port(), "kept");
   std::size_t sent = 0;
   // Put before post: a parametrization needs points, proposals need eight.
   for (const std::string method : {"put", "patch", "post"}) {
@@ -132,6 +134,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       if (const auto at = target.find("{stream}"); at != std::string::npos) target.replace(at, 8, "hello");
       if (const auto at = target.find("{expression}"); at != std::string::npos)
         target.replace(at, 12, set["id"].get<std::string>());
+      if (const auto at = target.find("{recording}"); at != std::string::npos) target.replace(at, 11, kept);
       auto upper = method;
       for (auto& c : upper) c = static_cast<char>(std::toupper(c));
       const auto reply = request(port(), upper, target, example.dump(), json_type);
@@ -139,7 +142,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 11U);
+  EXPECT_EQ(sent, 12U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

@@ -1,7 +1,5 @@
-// Every route of openapi.json answers as it says; no route is missing from it; every limit and every bad input gets a
-// problem document that names what is wrong.
-
-#include "server/api/routes.h"
+// Every route of openapi.json answers as it says (test_client.h holds each answer against it); every limit and every
+// bad input gets a problem document that names what is wrong.
 
 #include <algorithm>
 #include <csignal>
@@ -50,38 +48,6 @@ class Routes : public ::testing::Test {
   static inline TemporaryFolder* folder_ = nullptr;
   static inline ServerProcess* server_ = nullptr;
 };
-
-TEST_F(Routes, OpenApi_ListsExactlyTheRoutes) {
-  const auto document = json_of(request(port(), "GET", "/openapi.json"));
-  ASSERT_EQ(document.value("openapi", ""), "3.1.0");
-  std::vector<std::string> documented;
-  for (const auto& [path, item] : document["paths"].items())
-    for (const auto& [method, operation] : item.items()) {
-      auto name = method;
-      for (auto& c : name) c = static_cast<char>(std::toupper(c));
-      documented.push_back(name + " " + path);
-    }
-  std::vector<std::string> served;
-  for (const auto& route : api::routes())
-    served.push_back(std::string(route.method) + " " + std::string(route.pattern));
-  EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(served));
-}
-
-/// Whether a document says that this operation gives this status and media type.
-void expect_documented(const json& document, const std::string& method, const std::string& path, const Reply& reply) {
-  const auto& responses = document["paths"][path][method]["responses"];
-  const auto status = std::to_string(reply.status);
-  ASSERT_TRUE(responses.contains(status)) << method << " " << path << " answered " << status << ": " << reply.body;
-  auto response = responses[status];
-  if (response.contains("$ref")) {
-    const auto ref = response["$ref"].get<std::string>();
-    response = document["components"]["responses"][ref.substr(ref.rfind('/') + 1)];
-  }
-  if (!response.contains("content") || reply.status == 304) return;
-  const auto type = reply.headers.at("content-type").substr(0, reply.headers.at("content-type").find(';'));
-  EXPECT_TRUE(response["content"].contains(type) || response["content"].contains("*/*"))
-      << method << " " << path << " answered with " << type;
-}
 
 void wait_for_frames(int port, const std::string& recording) {
   EXPECT_TRUE(testing::eventually([&] {
@@ -157,7 +123,6 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       // It takes over, and goes on until what follows has recorded it.
       if (method + path == "post/v1/streams/{stream}/plays") good["{performance}"] = json_of(reply)["id"];
       if (method + path == "post/v1/streams/{stream}/recordings") wait_for_frames(port(), json_of(reply)["id"]);
-      expect_documented(document, method, path, reply);
       // A finished job cannot be cancelled any more; all else succeeds.
       if (upper + path != "DELETE/v1/jobs/{job}") {
         EXPECT_LT(reply.status, 300) << reply.body;
@@ -175,7 +140,6 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
                                         {"{slug}", "absent"}}),
                                   body.text, fields);
       expect_problem(absent, 404, "not-found");
-      expect_documented(document, method, path, absent);
     }
   }
 }

@@ -13,9 +13,12 @@
 #include <unistd.h>
 
 #include <arpa/inet.h>
+#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+
+#include "tests/support/api_exchange.h"
 
 extern char** environ;
 
@@ -158,6 +161,40 @@ Reply parse_reply(const std::string& text) {
   return reply;
 }
 
+namespace {
+
+/// Fails the test when the answer is not one that openapi.json describes. Every exchange with a server comes here.
+void expect_documented(std::string_view request_text, const Reply& reply) {
+  if (reply.status == 0 || reply.status == 101) return;
+  const auto length = reply.headers.find("content-length");
+  const bool head = request_text.starts_with("HEAD ");
+  if (!head && length != reply.headers.end() && std::to_string(reply.body.size()) != length->second) return;  // cut off
+  const auto field = [&](const char* name) {
+    const auto found = reply.headers.find(name);
+    return found == reply.headers.end() ? std::string() : found->second;
+  };
+  ApiExchange exchange;
+  const auto first = request_text.substr(0, request_text.find("\r\n"));
+  const auto space = first.find(' ');
+  if (space != std::string_view::npos) {
+    exchange.method = first.substr(0, space);
+    exchange.target = first.substr(space + 1, first.find(' ', space + 1) - space - 1);
+  }
+  // Read like an answer: what follows the first line has the same form.
+  const auto sent = parse_reply(std::string(request_text));
+  const auto type = sent.headers.find("content-type");
+  if (type != sent.headers.end()) exchange.request_type = type->second;
+  exchange.request_body = sent.body;
+  exchange.status = reply.status;
+  exchange.type = field("content-type");
+  exchange.body = reply.body;
+  for (const auto& fault : exchange_faults(exchange))
+    ADD_FAILURE() << first << " is answered " << reply.status << ", against openapi.json: " << fault << "\n"
+                  << reply.body.substr(0, 2000);
+}
+
+}  // namespace
+
 std::string raw_exchange(int port, std::string_view bytes, std::chrono::milliseconds limit) {
   const int socket = connect_to(port);
   send_all(socket, bytes);
@@ -166,6 +203,7 @@ std::string raw_exchange(int port, std::string_view bytes, std::chrono::millisec
   while (read_some(socket, text, end)) {
   }
   ::close(socket);
+  expect_documented(bytes, parse_reply(text));
   return text;
 }
 
@@ -190,6 +228,7 @@ WebSocket::WebSocket(int port, const std::string& target, const std::string& sub
   while (buffer_.find("\r\n\r\n") == std::string::npos && read_some(socket_, buffer_, end)) {
   }
   handshake_ = parse_reply(buffer_);
+  expect_documented(text, handshake_);
   const auto header_end = buffer_.find("\r\n\r\n");
   buffer_.erase(0, header_end == std::string::npos ? buffer_.size() : header_end + 4);
 }

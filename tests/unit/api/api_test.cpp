@@ -9,12 +9,21 @@ namespace semblante::api {
 namespace {
 
 TEST(Routes, Path_FindsItsPatternAndNames) {
-  const auto match = match_path("/v1/models/abc/feature-points");
-  ASSERT_EQ(match.routes.size(), 2U);
+  const auto match = match_route("PUT", "/v1/models/abc/feature-points");
+  ASSERT_NE(match.route, nullptr);
+  EXPECT_EQ(match.route->method, "PUT");
+  EXPECT_EQ(match.route->pattern, "/v1/models/{model}/feature-points");
   EXPECT_EQ(match.params.at("model"), "abc");
-  EXPECT_EQ(match_path("/v1/models").routes.size(), 2U);
-  for (const auto* path : {"/", "/v1", "/v1/models/", "/v1/models/a/b", "/v1/models//feature-points", "/healthz/x", ""})
-    EXPECT_TRUE(match_path(path).routes.empty()) << path;
+  EXPECT_EQ(match.allow, "OPTIONS, GET, HEAD, PUT");
+  EXPECT_EQ(match_route("HEAD", "/v1/models").route, match_route("GET", "/v1/models").route);
+  const auto wrong_method = match_route("PATCH", "/v1/models");
+  EXPECT_EQ(wrong_method.route, nullptr);
+  EXPECT_EQ(wrong_method.allow, "OPTIONS, GET, HEAD, POST");
+  for (const auto* path :
+       {"/", "/v1", "/v1/models/", "/v1/models/a/b", "/v1/models//feature-points", "/healthz/x", ""}) {
+    EXPECT_EQ(match_route("GET", path).route, nullptr) << path;
+    EXPECT_TRUE(match_route("GET", path).allow.empty()) << path;
+  }
 }
 
 TEST(Mirror, Partners_AreNearestVerticesAcrossTheMarkedMiddle) {

@@ -13,6 +13,7 @@
 
 #include "server/api/api.h"
 #include "server/store/sqlite_store.h"
+#include "tests/support/api_exchange.h"
 
 namespace semblante::api {
 namespace {
@@ -90,12 +91,21 @@ class IdempotencyTest : public ::testing::Test {
       request.body = body;
     }
     Answer answer;
+    test::ApiExchange exchange{method, path, "", as_file ? "" : body, 500, "", ""};
     try {
+      api_->find_route(request);
       const auto response = api_->handle(request);
       answer.status = response.status;
       if (const auto found = response.headers.find("Location"); found != response.headers.end())
         answer.location = found->second;
       if (const auto* text = std::get_if<std::string>(&response.body)) answer.body = *text;
+      exchange.status = response.status;
+      if (const auto found = response.headers.find("Content-Type"); found != response.headers.end())
+        exchange.type = found->second;
+      exchange.body = answer.body;
+      for (const auto& fault : test::exchange_faults(exchange))
+        ADD_FAILURE() << method << " " << path << " is answered " << answer.status
+                      << ", against openapi.json: " << fault;
     } catch (const std::exception& fault) {  // the network layer makes a 500 of it
       answer.status = 500;
       answer.fault = fault.what();

@@ -42,6 +42,14 @@ TEST_F(GeneratorTest, WhatWasWritten_IsUpToDate_UntilItIsChanged) {
   EXPECT_THAT(out_of_date(folder_, two_files), ElementsAre("two.ts"));
 }
 
+TEST_F(GeneratorTest, OutputFolder_IsMadeAndTakesTheFiles) {
+  std::string name = "generator", output = folder_ + "/build/generated";
+  std::vector<char*> arguments = {name.data(), folder_.data(), output.data()};
+  ASSERT_EQ(run_generator(3, arguments.data(), two_files), 0);
+  EXPECT_EQ(read_text(output + "/one.h"), "1\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/one.h"));
+}
+
 TEST_F(GeneratorTest, Faults_AreAnExitStatus) {
   EXPECT_EQ(run(faulty), 1);
   std::string name = "generator";

@@ -672,6 +672,73 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        Version: {
+            /** @constant */
+            name: "semblante";
+            version: string;
+            /** @constant */
+            api: "v1";
+        };
+        ProblemKind: {
+            type: string;
+            title: string;
+            status: number;
+        };
+        Models: {
+            models: components["schemas"]["Model"][];
+            /** @description Give it as `after` for the next page; null on the last */
+            next: string | null;
+        };
+        NewModel: {
+            model: components["schemas"]["Model"];
+            job: components["schemas"]["Job"];
+        };
+        Expressions: {
+            visemes: [
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string
+            ];
+            expressions: [
+                string,
+                string,
+                string,
+                string,
+                string,
+                string,
+                string
+            ];
+            /** @description Without displacements */
+            sets: components["schemas"]["Expression"][];
+            /** @description The `after` of the next page */
+            next: string | null;
+        };
+        Streams: {
+            streams: components["schemas"]["Stream"][];
+        };
+        FramesReceipt: {
+            accepted: number;
+            /** @description Of the last frame */
+            sequence: number;
+            /** @description Values that were beyond the range of their FAP, and coefficients of arkit and weights of oculus outside 0..1: it is the nearer end that was taken */
+            clamped: number;
+        };
+        PlayingFapFile: components["schemas"]["Playing"] & {
+            /** @description What the file does that the usual form does not, by line */
+            warnings: string[];
+        };
         Status: {
             /** @constant */
             status: "ok";
@@ -1228,12 +1295,19 @@ export interface components {
                 };
             };
         };
-        /** @description A set made by hand. What a GET gives beside these members is read over */
+        /** @description A set made by hand. The members without a type are what a GET gives beside: they are read over */
         ExpressionEdit: {
             name: string;
             /** @default expression */
             kind?: components["schemas"]["SetKind"];
             displacements: components["schemas"]["Displacements"];
+            id?: unknown;
+            built_in?: unknown;
+            revision?: unknown;
+            created?: unknown;
+            updated?: unknown;
+            source?: unknown;
+            href?: unknown;
         };
         ExtractionOptions: {
             /** @description Otherwise that of the target or the file */
@@ -1352,13 +1426,15 @@ export interface components {
             /** @description For ?after; null: these are all */
             next: string | null;
         };
+        /** @description As in the body of POST /v1/streams/{id}/frames; time: ms after the first frame of the recording */
+        RecordedFrame: components["schemas"]["FaceFrame"] & {
+            time: number;
+            sequence: number;
+            /** @description ms */
+            media_time: number;
+        };
         RecordedFrames: {
-            frames: (components["schemas"]["FaceFrame"] & {
-                time: number;
-                sequence: number;
-                /** @description ms */
-                media_time: number;
-            })[];
+            frames: components["schemas"]["RecordedFrame"][];
             /** @description Where the next of them are */
             next: string | null;
         };
@@ -1500,6 +1576,24 @@ export interface components {
         };
     };
     responses: {
+        /** @description `storage-unavailable`: the server cannot read or write its data folder. Nothing was changed, unless the detail says so */
+        StorageUnavailable: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description `insufficient-storage`: the server's disk is full, and the request needs room. Nothing was changed, unless the detail says so. Where something is made or played, also `limit-exceeded`: the server holds as many as it takes */
+        InsufficientStorage: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description What was recorded, in the form that `format` asks for */
         RecordingContent: {
             headers: {
@@ -1639,7 +1733,7 @@ export interface operations {
                 };
             };
             421: components["responses"]["Problem"];
-            503: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1658,13 +1752,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        /** @constant */
-                        name: "semblante";
-                        version: string;
-                        /** @constant */
-                        api: "v1";
-                    };
+                    "application/json": components["schemas"]["Version"];
                 };
             };
             421: components["responses"]["Problem"];
@@ -1690,6 +1778,7 @@ export interface operations {
                 };
             };
             421: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1743,11 +1832,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        type: string;
-                        title: string;
-                        status: number;
-                    };
+                    "application/json": components["schemas"]["ProblemKind"];
                 };
             };
             404: components["responses"]["Problem"];
@@ -1774,14 +1859,11 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        models: components["schemas"]["Model"][];
-                        /** @description Give it as `after` for the next page; null on the last */
-                        next: string | null;
-                    };
+                    "application/json": components["schemas"]["Models"];
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1805,12 +1887,16 @@ export interface operations {
             content: {
                 "model/gltf-binary": unknown;
                 "model/gltf+json": unknown;
-                "application/zip": unknown;
                 "model/obj": unknown;
-                "text/plain": unknown;
                 "model/stl": unknown;
                 "model/ply": unknown;
+                "model/vnd.ply": unknown;
+                "application/zip": unknown;
+                "application/x-zip-compressed": unknown;
                 "application/octet-stream": unknown;
+                "application/sla": unknown;
+                "application/ply": unknown;
+                "text/plain": unknown;
                 "multipart/form-data": {
                     file: string;
                     name?: string;
@@ -1826,10 +1912,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        model: components["schemas"]["Model"];
-                        job: components["schemas"]["Job"];
-                    };
+                    "application/json": components["schemas"]["NewModel"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -1839,7 +1922,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1877,6 +1961,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1904,6 +1989,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -1979,6 +2066,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2016,6 +2105,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2077,6 +2167,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2122,6 +2214,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2192,6 +2286,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2242,6 +2338,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2298,6 +2395,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2354,6 +2452,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2408,6 +2507,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2456,6 +2556,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2512,6 +2613,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2561,6 +2663,7 @@ export interface operations {
             404: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2586,6 +2689,7 @@ export interface operations {
                 };
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2612,6 +2716,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2638,6 +2744,7 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             406: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2661,41 +2768,11 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        visemes: [
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string
-                        ];
-                        expressions: [
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string,
-                            string
-                        ];
-                        /** @description Without displacements */
-                        sets: components["schemas"]["Expression"][];
-                        /** @description The `after` of the next page */
-                        next: string | null;
-                    };
+                    "application/json": components["schemas"]["Expressions"];
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2769,7 +2846,8 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2811,6 +2889,7 @@ export interface operations {
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2869,6 +2948,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2897,6 +2978,8 @@ export interface operations {
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
             412: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -2915,9 +2998,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        streams: components["schemas"]["Stream"][];
-                    };
+                    "application/json": components["schemas"]["Streams"];
                 };
             };
             421: components["responses"]["Problem"];
@@ -2983,7 +3064,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3041,6 +3123,8 @@ export interface operations {
             };
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3092,13 +3176,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": {
-                        accepted: number;
-                        /** @description Of the last frame */
-                        sequence: number;
-                        /** @description Values that were beyond the range of their FAP, and coefficients of arkit and weights of oculus outside 0..1: it is the nearer end that was taken */
-                        clamped: number;
-                    };
+                    "application/json": components["schemas"]["FramesReceipt"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -3150,10 +3228,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Playing"] & {
-                        /** @description What the file does that the usual form does not, by line */
-                        warnings: string[];
-                    };
+                    "application/json": components["schemas"]["PlayingFapFile"];
                 };
             };
             400: components["responses"]["Problem"];
@@ -3163,7 +3238,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3244,7 +3320,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3351,7 +3428,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3405,7 +3483,8 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3437,6 +3516,7 @@ export interface operations {
             };
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3487,7 +3567,8 @@ export interface operations {
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3515,6 +3596,7 @@ export interface operations {
                 };
             };
             400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3540,6 +3622,7 @@ export interface operations {
                 };
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3563,6 +3646,8 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3576,7 +3661,13 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        /** @description Not read */
+        requestBody?: {
+            content: {
+                /** @example {} */
+                "application/json": Record<string, never>;
+            };
+        };
         responses: {
             /** @description It has ended */
             200: {
@@ -3590,6 +3681,8 @@ export interface operations {
             404: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3643,7 +3736,8 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
-            507: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3682,6 +3776,7 @@ export interface operations {
             400: components["responses"]["Problem"];
             404: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };

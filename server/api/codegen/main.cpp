@@ -1,0 +1,23 @@
+// semblante-codegen-api SOURCE_FOLDER OUTPUT_FOLDER: writes what is generated from server/api/openapi.json.
+#include "core/codegen/generator.h"
+#include "server/api/codegen/render.h"
+
+namespace semblante::codegen {
+namespace {
+
+std::vector<GeneratedFile> api_files(const std::string& source_folder) {
+  const std::string path = source_folder + "/server/api/openapi.json";
+  const Json document = read_json(path);
+  const std::string folder = "server/api/generated/";
+  return {{folder + "handlers.h", render_handlers(document)},
+          {folder + "route_table.cpp", render_route_table(document)},
+          {folder + "answers.h", render_answers_header(document)},
+          {folder + "answers.cpp", render_answers_source(document)},
+          {folder + "body_members.h", render_body_members(document)},
+          {folder + "openapi.cpp", render_document(read_text(path))}};
+}
+
+}  // namespace
+}  // namespace semblante::codegen
+
+int main(int argc, char** argv) { return semblante::codegen::run_generator(argc, argv, semblante::codegen::api_files); }

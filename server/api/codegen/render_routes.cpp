@@ -1,0 +1,70 @@
+#include <set>
+#include <stdexcept>
+
+#include "server/api/codegen/render.h"
+
+namespace semblante::codegen {
+namespace {
+
+/// The one media type of the good answers that content negotiation has to know; "" where they have no body, "*/*"
+/// where there are several types or bytes are given as they are stored.
+std::string produced_type(const Json& document, const Operation& operation) {
+  std::set<std::string> types;
+  for (const auto& [status, node] : operation.json->at("responses").items()) {
+    // A part of something else, by Range, is of its type.
+    if (status[0] != '2' || status == "206") continue;
+    const Json& response = follow(document, node);
+    if (!response.contains("content")) continue;
+    for (const auto& [type, media] : response["content"].items()) types.insert(media.contains("schema") ? type : "*/*");
+  }
+  if (types.empty()) return "";
+  return types.size() == 1 ? *types.begin() : "*/*";
+}
+
+std::string body_of(const Operation& operation) {
+  if (!operation.json->contains("requestBody")) return "{}";
+  const Json& body = operation.json->at("requestBody");
+  const std::string kind = body.value("x-body", std::string("json"));
+  if (kind != "json" && kind != "upload" && kind != "performance" && kind != "fap")
+    throw std::runtime_error(operation.function + ": there is no x-body " + kind);
+  const bool announced = operation.json->at("responses").contains("411");
+  if (announced && !body.value("required", false))
+    throw std::runtime_error(operation.function + ": 411 for a body that may be left out");
+  return "{BodyKind::" + kind + ", " + operation.function + "_types, " + (announced ? "true" : "false") + "}";
+}
+
+}  // namespace
+
+std::string render_handlers(const Json& document) {
+  std::string text =
+      generated_notice() + "#pragma once\n\n#include \"server/api/api.h\"\n\nnamespace semblante::api {\n\n";
+  for (const auto& operation : operations(document))
+    text += "http::Response " + operation.function + "(Context&, http::Request&);\n";
+  return text + "\n}  // namespace semblante::api\n";
+}
+
+std::string render_route_table(const Json& document) {
+  std::string types, rows;
+  for (const auto& operation : operations(document)) {
+    if (operation.json->contains("requestBody")) {
+      std::string list;
+      for (const auto& [type, media] : operation.json->at("requestBody").at("content").items())
+        list += (list.empty() ? "" : ", ") + quoted(type);
+      types += "constexpr auto " + operation.function + "_types = std::to_array<std::string_view>({" + list + "});\n";
+    }
+    const auto runs = operation.json->value("x-runs", std::string("on-worker"));
+    if (runs != "on-worker" && runs != "at-once")
+      throw std::runtime_error(operation.function + ": there is no x-runs " + runs);
+    rows += "    {" + quoted(operation.method) + ", " + quoted(operation.pattern) + ", " + body_of(operation) + ", " +
+            quoted(produced_type(document, operation)) + ", " + operation.function +
+            ", Runs::" + (runs == "at-once" ? "at_once" : "on_worker") + "},\n";
+  }
+  return generated_notice() +
+         "#include <array>\n\n#include \"server/api/generated/handlers.h\"\n#include \"server/api/routes.h\"\n\n"
+         "namespace semblante::api {\nnamespace {\n\n" +
+         types + "\nconstexpr auto table = std::to_array<Route>({\n" + rows +
+         "});\n\n}  // namespace\n\nstd::span<const Route> routes() { return table; }\n\n}  // namespace "
+         "semblante::api\n";
+}
+
+}  // namespace semblante::codegen
