@@ -10,7 +10,7 @@ import {
 } from 'three';
 import { studioMaterial } from './materials.ts';
 
-/** What the view needs to know of a material; images as encoded files. */
+/** The material properties that the view uses; images as encoded files. */
 export interface MaterialFacts {
   name: string;
   baseColor: readonly [number, number, number, number];
@@ -41,7 +41,7 @@ async function makeMaterial(facts: MaterialFacts, richSkin: boolean): Promise<Ma
   if (facts.baseColorImage) material.map = await makeTexture(facts.baseColorImage, true);
   if (facts.normalImage) {
     material.normalMap = await makeTexture(facts.normalImage, false);
-    // Without tangents three.js derives the frame from the picture; glTF's green points up.
+    // Without tangents three.js derives the tangent frame from screen space; the green channel of glTF points up.
     material.normalScale = new Vector2(1, -1);
   }
   return studioMaterial(material, richSkin);
