@@ -5,7 +5,7 @@ export type EasingName = 'linear' | 'ease_in' | 'ease_out' | 'ease_in_out' | 'st
 /** x1, y1, x2, y2: a cubic Bezier curve from (0, 0) to (1, 1) */
 export type Easing = EasingName | readonly [number, number, number, number];
 
-/** What a cue drives; numbers for names. Degrees as in section 9 of SPEC.md. */
+/** The target of a cue, with numbers in place of names. Degrees as in section 9 of SPEC.md. */
 export type CueTarget =
   | { kind: 'fap'; fap: number }
   | { kind: 'viseme'; viseme: number; other: number }
@@ -36,7 +36,7 @@ export interface IdleLife {
 
 export interface PerformanceScript {
   name: string;
-  /** ms; 0: nothing but idle life, which has no end */
+  /** Duration, ms; 0: idle life only, endless. */
   duration: number;
   idle: IdleLife | null;
   cues: readonly Cue[];
@@ -49,7 +49,7 @@ const maxMs = 86_400_000;
 const maxText = 1000;
 const targetNames = ['fap', 'viseme', 'expression', 'look_at', 'blink', 'head'] as const;
 const easingNames: readonly string[] = ['linear', 'ease_in', 'ease_out', 'ease_in_out', 'step'];
-/** Attack and release of a cue that says neither, ms. */
+/** Default attack and release, ms. */
 const usualRamps = {
   fap: [100, 100],
   viseme: [70, 70],
@@ -61,8 +61,8 @@ const usualRamps = {
 const blinkMs = 240;
 
 /**
- * Reads a performance document. Throws ProtocolError with the JSON pointer. Unlike the server it cannot see a member that
- * is there twice, and it does not count how many cues act at once.
+ * Reads a performance document. Throws ProtocolError with the JSON pointer. Unlike the server it does not detect
+ * duplicate members, and it does not limit the number of simultaneous cues.
  */
 export function readPerformance(text: string): PerformanceScript {
   const root = parseJsonObject(text, maxBytes);
@@ -110,7 +110,7 @@ function readIdle(at: JsonCursor | undefined): IdleLife | null {
   };
 }
 
-/** The number of a name in a table of the standard, or the number itself. */
+/** Reads a number, or a name in a table of the standard as its number. */
 function numbered(at: JsonCursor, names: readonly string[], first: number, least: number): number {
   if (at.isText) {
     const found = names.indexOf(at.text(64)) + first;
@@ -230,7 +230,7 @@ function readKeys(at: JsonCursor | undefined, least: number, most: number): [num
   });
 }
 
-/** What the cue says must fit into it; what it does not say takes what it likes of the rest. */
+/** Attack and release: given values must fit into the duration; defaults are shortened to the remaining time. */
 function fitRamps(at: JsonCursor, usual: readonly [number, number], duration: number): [number, number] {
   const attack = at.optional('attack')?.number(0, duration);
   const release = at.optional('release')?.number(0, duration);

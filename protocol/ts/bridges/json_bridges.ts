@@ -9,10 +9,10 @@ import { findOculus, fromOculus, oculusCount } from './oculus.ts';
 const withRotations = arkitCount + arkitRotationNames.length;
 const rotations = new Map(arkitRotationNames.map((name, i) => [name as string, arkitCount + i]));
 
-/** What is beyond 1e6 is clamped by the bridge anyway. */
+/** Reads a coefficient, clamped to +-1e6; the bridge clamps it further. */
 const coefficient = (at: JsonCursor): number => clamp(at.number(), -1e6, 1e6);
 
-/** FAPs 48 (pitch, down), 49 (yaw, to the left: the angle is to the right) and 50 (roll) from radians. */
+/** Sets FAPs 48 (pitch, down), 49 (yaw to the left; the angle's sign is to the right) and 50 (roll) from radians. */
 function turnHead(values: FaceValues, yaw: number, pitch: number, roll: number): void {
   for (const [number, angle] of [[48, pitch], [49, -yaw], [50, roll]] as const) {
     const { min, max } = faps[number - 1]!;
@@ -57,7 +57,7 @@ function readOculus(at: JsonCursor): FaceValues['viseme'] {
   return fromOculus(weights).frame.viseme;
 }
 
-/** What the members `arkit` and `oculus` of a frame make of a face; undefined where it has neither. */
+/** Reads the members `arkit` and `oculus` of a frame; undefined when it has neither. */
 export function readJsonBridges(frame: JsonCursor): FaceValues | undefined {
   const arkit = frame.optional('arkit');
   const oculus = frame.optional('oculus');
