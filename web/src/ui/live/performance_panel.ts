@@ -129,7 +129,7 @@ export class PerformancePanel {
       this.script,
       script
         ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
-        : h('p', { class: 'muted small' }, 'A timeline of visemes, expressions, gaze and blinks. All subscribers see it.'),
+        : h('p', { class: 'muted small' }, 'A timeline of visemes, expressions, gaze and blinks, for all subscribers.'),
       script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
       fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
     );

@@ -35,10 +35,10 @@ export async function askForStream(): Promise<{ title: string; options: NewStrea
     title,
     h('label', { for: 'stream-batch' }, 'Batch interval, ms'),
     batch,
-    h('p', { class: 'small', id: 'stream-batch-note' }, '0 sends each frame immediately; a longer interval saves bytes and adds latency.'),
+    h('p', { class: 'small', id: 'stream-batch-note' }, '0 sends each frame at once; longer saves bytes, adds latency.'),
     h('label', { for: 'stream-share' }, 'Viseme share, %'),
     share,
-    h('p', { class: 'small', id: 'stream-share-note' }, 'The weight of the viseme where a viseme and an expression move the same point.'),
+    h('p', { class: 'small', id: 'stream-share-note' }, 'Its weight where an expression moves the same point.'),
   );
   if (!accepted) return null;
   const options: NewStream = { batch_interval: batch.valueAsNumber };
