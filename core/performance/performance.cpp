@@ -11,7 +11,7 @@ namespace {
 constexpr double units_per_degree = 1745.3292519943296;  ///< AU: 1e-5 rad
 constexpr double largest_eye_yaw = 45.0;                 ///< degrees
 constexpr double largest_eye_pitch = 35.0;
-/// Lids of a neutral face are one iris apart, 1024 units: what the upper and the lower one take of it.
+/// The lids of a neutral face are one iris diameter (1024 units) apart: the motion of the upper lid to close.
 constexpr double upper_lid_units = 940.0;
 constexpr double lower_lid_units = 84.0;
 
@@ -40,7 +40,7 @@ void Performance::set_viseme(double ms, semblante_frame& frame) const {
   std::array<double, SEMBLANTE_VISEME_COUNT> weights{};
   weights[0] = 1.0;
   std::size_t active = 0;
-  bool whole = false;  // one cue alone says it all: its very pair is kept
+  bool whole = false;  // a single cue at full weight: its pair is used unchanged
   VisemeTarget pair;
   double share = 0.0;
   visemes_.visit(ms, [&](std::size_t i, const Span& span) {
@@ -66,7 +66,7 @@ void Performance::set_viseme(double ms, semblante_frame& frame) const {
         second = v;
       }
     }
-    if (first == 0) std::swap(first, second);  // silence is what a viseme is blended with
+    if (first == 0) std::swap(first, second);  // a viseme is blended with silence
     if (weights[first] <= 0.0) return;
     pair = {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(weights[second] > 0.0 ? second : 0)};
     share = weights[first] / (weights[first] + weights[second]);
@@ -104,7 +104,7 @@ Performance::Gaze Performance::gaze_at(double ms) const {
   Gaze gaze;
   double yaw = 0.0;
   double pitch = 0.0;
-  double held = 0.0;  // how much a look has the eyes
+  double held = 0.0;  // the weight of look cues on the eyes
   looks_.visit(ms, [&](std::size_t i, const Span& span) {
     const Look& look = look_ways_[i];
     const double weight = span.weight(ms);

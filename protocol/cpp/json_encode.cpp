@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// 200, not 200.0, where it is a whole number.
+/// Writes integers as 200 instead of 200.0.
 Json number(double value) {
   const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
   return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);

@@ -16,7 +16,7 @@ json easing_of(const Easing& easing) {
   return names[static_cast<std::size_t>(easing.kind)];
 }
 
-/// 40 rather than 40.0.
+/// Writes integers as 40 instead of 40.0.
 json number(double value) {
   if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
   return value;
@@ -78,7 +78,7 @@ std::string write_performance(const PerformanceScript& script) {
                     {"eyes", number(script.idle->eyes)}};
   }
   std::string text = head.dump();
-  text.back() = ',';  // of the closing brace: the cues follow, a line each
+  text.back() = ',';  // replaces the closing brace: the cues follow, one per line
   text += "\n \"cues\": [";
   for (std::size_t i = 0; i < script.cues.size(); ++i) {
     text += i == 0 ? "\n  " : ",\n  ";

@@ -200,7 +200,7 @@ class Reader {
     const at = words.length - 2;
     const rate = this.number(line, at);
     if (!(rate >= 0.001 && rate <= 1000)) {
-      failAt('out_of_range', line, at, 'the frames a second must be from 0.001 to 1000');
+      failAt('out_of_range', line, at, 'the frames per second must be 0.001 to 1000');
     }
     if (at > 2) this.note('blank_in_name', line.number);
     const name = words.slice(1, at).join('_').replace(/[^\x21-\x5e\x60-\x7e]+/g, '_').slice(0, maxNameLength);

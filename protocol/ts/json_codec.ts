@@ -108,7 +108,7 @@ function readFrames(at: JsonCursor, steps: QuantizerSteps): TimedFrame[] {
   return at.elements(1, limits.max_frames_per_message).map((element) => {
     const given = element.optional('time');
     const read = given?.integer(0, limits.max_frame_time) ?? time;
-    if (read < time) given?.fail('out_of_range', 'times must not fall');
+    if (read < time) given?.fail('out_of_range', 'times must not decrease');
     time = read;
     return { time, state: readFrame(element, steps) };
   });

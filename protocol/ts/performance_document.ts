@@ -70,7 +70,7 @@ export function readPerformance(text: string): PerformanceScript {
   const format = root.member('format');
   if (format.text(64) !== 'semblante.performance') format.fail('unsupported', 'must be "semblante.performance"');
   const version = root.member('version');
-  if (version.number() !== 1) version.fail('unsupported', 'this reader knows version 1');
+  if (version.number() !== 1) version.fail('unsupported', 'the supported version is 1');
   root.optional('note')?.text(maxText);
   const idle = readIdle(root.optional('idle'));
   const list = idle ? root.optional('cues') : root.member('cues');
@@ -95,7 +95,7 @@ export function readPerformance(text: string): PerformanceScript {
 
 function known(at: JsonCursor, names: readonly string[]): void {
   for (const [name, member] of at.members()) {
-    if (!names.includes(name)) member.fail('invalid_argument', 'there is no such member here');
+    if (!names.includes(name)) member.fail('invalid_argument', 'unknown member');
   }
 }
 
@@ -164,7 +164,8 @@ function readLook(at: JsonCursor): CueTarget {
     const distance = at.optional('distance')?.number(1) ?? Infinity;
     return { kind, yaw: degrees(at, 'yaw'), pitch: degrees(at, 'pitch'), distance, headShare };
   }
-  for (const name of ['yaw', 'pitch', 'distance']) at.optional(name)?.fail('invalid_argument', 'a point says it already');
+  for (const name of ['yaw', 'pitch', 'distance'])
+    at.optional(name)?.fail('invalid_argument', 'is not allowed beside point');
   const xyz = point.elements(3, 3);
   const x = xyz[0]!.number(-1e6, 1e6);
   const y = xyz[1]!.number(-1e6, 1e6);
@@ -202,7 +203,7 @@ function readCue(at: JsonCursor): Cue {
   const value = at.optional('value');
   const most = kind === 'fap' ? 32767 * faps[target.fap - 1]!.quantizerStep : 1;
   const least = kind === 'fap' ? -most : 0;
-  if (given) value?.fail('invalid_argument', 'the keys say it already');
+  if (given) value?.fail('invalid_argument', 'is not allowed beside keys');
   else if (kind === 'fap' && !value) at.fail('missing', 'has neither value nor keys');
   const keys = readKeys(given, least, most);
   const length = at.optional('duration');
@@ -224,7 +225,7 @@ function readKeys(at: JsonCursor | undefined, least: number, most: number): [num
   return (at?.elements(1, maxKeys) ?? []).map((key) => {
     const [time, value] = key.elements(2, 2);
     const ms = time!.number(0, maxMs);
-    if (ms <= before) time!.fail('out_of_range', 'times of keys must rise');
+    if (ms <= before) time!.fail('out_of_range', 'times of keys must increase');
     before = ms;
     return [ms, value!.number(least, most)];
   });

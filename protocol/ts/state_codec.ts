@@ -93,7 +93,7 @@ function readChanges(from: ByteReader, state: FaceFrame, where: string): void {
 function readGroup(from: ByteReader, group: FapGroup, state: FaceFrame, where: string): void {
   const mask = from.varint();
   if (mask === 0 || mask >= 2 ** (group.last - group.first + 1)) {
-    throw new ProtocolError('out_of_range', `${where}/faps`, 'a mask names no FAP of its group');
+    throw new ProtocolError('out_of_range', `${where}/faps`, 'a mask is zero or has bits outside its group');
   }
   for (let fap = group.first; fap <= group.last; ++fap) {
     if (!(mask & (1 << (fap - group.first)))) continue;

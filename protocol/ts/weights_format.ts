@@ -86,8 +86,8 @@ function readHeader(bytes: Uint8Array): WeightsHeader {
   if (header.setCount === 0 || header.setCount > Math.min(header.vertexCount, maxSets)) {
     fail('out_of_range', 'set_count', 'not between 1 and the number of vertices');
   }
-  if (packedBytes > bytes.length - headerBytes) fail('truncated', 'payload', 'ends before the announced size');
-  if (packedBytes < bytes.length - headerBytes) fail('malformed', 'payload', 'bytes after the announced size');
+  if (packedBytes > bytes.length - headerBytes) fail('truncated', 'payload', 'ends before the declared size');
+  if (packedBytes < bytes.length - headerBytes) fail('malformed', 'payload', 'bytes after the declared size');
   if (header.rawBytes > maxInflation * packedBytes) {
     fail('malformed', 'raw_bytes', 'more than the packed bytes can hold');
   }
@@ -118,7 +118,7 @@ async function inflate(packed: Uint8Array, size: number): Promise<Uint8Array> {
   } catch {
     filled = -1;
   }
-  if (filled !== size) fail('malformed', 'payload', 'not the announced zlib stream');
+  if (filled !== size) fail('malformed', 'payload', 'not a zlib stream of the declared size');
   return raw;
 }
 
@@ -226,7 +226,7 @@ function readRigid(from: ByteReader, { version, vertexCount }: WeightsHeader): U
     const motion = from.u8();
     const run = from.varint();
     if (!isKnown(motion, version)) fail('out_of_range', 'rigid', 'unknown rigid motion');
-    if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'length of a run');
+    if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'invalid length of a run');
     rigid.fill(motion, v, v + run);
     v += run;
   }

@@ -33,7 +33,7 @@ function readArkit(at: JsonCursor): FaceValues {
       const shape =
         findArkit(name) ??
         rotations.get(name.charAt(0).toLowerCase() + name.slice(1)) ??
-        value.fail('invalid_argument', "is none of ARKit's 52 shapes and no angle of head or eyes");
+        value.fail('invalid_argument', "is not one of ARKit's 52 shapes or an angle of head or eyes");
       all[shape] = coefficient(value);
     }
   }
@@ -50,7 +50,7 @@ function readOculus(at: JsonCursor): FaceValues['viseme'] {
     for (const [name, value] of at.members()) {
       const viseme =
         findOculus(name) ??
-        value.fail('invalid_argument', 'is none of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou');
+        value.fail('invalid_argument', 'is not one of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou');
       weights[viseme] = coefficient(value);
     }
   }
@@ -62,7 +62,7 @@ export function readJsonBridges(frame: JsonCursor): FaceValues | undefined {
   const arkit = frame.optional('arkit');
   const oculus = frame.optional('oculus');
   if (!arkit && !oculus) return undefined;
-  if (oculus && frame.optional('viseme')) oculus.fail('invalid_argument', 'says what `viseme` says: give one of them');
+  if (oculus && frame.optional('viseme')) oculus.fail('invalid_argument', 'is not allowed beside `viseme`');
   const values = arkit ? readArkit(arkit) : neutralValues();
   if (oculus) values.viseme = readOculus(oculus);
   return values;
