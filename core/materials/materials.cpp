@@ -31,9 +31,7 @@ constexpr std::array<PlainMaterial, 9> plain_materials = {{
     {"teeth", {0.84F, 0.80F, 0.72F, 1.0F}, 0.30F},
     {"mouth", {0.48F, 0.13F, 0.12F, 1.0F}, 0.40F},
     {"hair", {0.035F, 0.022F, 0.016F, 1.0F}, 0.70F},
-    {"lashes",
-     {0.035F, 0.022F, 0.016F, 0.35F},
-     0.70F},  // strips that need a texture to show single hairs: translucent instead of opaque
+    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips of untextured hairs: translucent, not opaque
     {"fluid", {1.0F, 1.0F, 1.0F, 0.06F}, 0.05F},
 }};
 
