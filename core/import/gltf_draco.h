@@ -15,10 +15,10 @@ class Mesh;
 
 namespace semblante::import {
 
-/// A decoded KHR_draco_mesh_compression primitive. Face indices have been checked against the points.
+/// A decoded KHR_draco_mesh_compression primitive with validated face indices.
 class DracoMesh {
  public:
-  /// Decodes what announces no more than the limits, and no more than its bytes could hold.
+  /// Decodes a mesh whose declared sizes are within the limits and possible for its number of bytes.
   static Result<DracoMesh> decode(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
 
   DracoMesh(DracoMesh&&) noexcept;
