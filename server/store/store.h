@@ -54,46 +54,46 @@ class Store {
   // ---- artefacts
   virtual std::optional<ArtefactRecord> artefact(std::string_view model, std::string_view name) = 0;
   virtual std::vector<ArtefactRecord> artefacts(std::string_view model) = 0;
-  /// By content, among those clients may fetch (all but "source" and "positions").
+  /// By content hash, among the artefacts that clients may fetch (all except "source" and "positions").
   virtual std::optional<ArtefactRecord> public_artefact(std::string_view sha256) = 0;
   /// Bytes of all artefacts, each content counted once.
   virtual std::uint64_t artefact_bytes() = 0;
-  /// Every hash the facts refer to: blobs that a start must find or keep.
+  /// All hashes referenced by the database: the blobs that the server must keep.
   virtual std::vector<std::string> referenced_hashes() = 0;
-  /// Who refers to a hash: "model <id>", "job <id>".
+  /// The users of a hash: "model <id>", "job <id>".
   virtual std::vector<std::string> users_of(std::string_view sha256) = 0;
 
   // ---- jobs
   virtual void create_job(const JobRecord& job, const std::optional<IdempotencyRecord>& key) = 0;
   virtual std::optional<JobRecord> job(std::string_view id) = 0;
-  /// Queued or running, oldest first: what a restart takes up again.
+  /// Queued or running jobs, oldest first, which a restart resumes.
   virtual std::vector<JobRecord> unfinished_jobs() = 0;
   virtual std::optional<JobRecord> latest_job(std::string_view model, JobKind kind) = 0;
-  /// State, progress, stage, problem and attempts. Nothing happens to a job that is gone.
+  /// Updates state, progress, stage, problem and attempts. Does nothing for a deleted job.
   virtual void update_job(const JobRecord& job) = 0;
-  /// The end of an import: job, facts of the model, and its artefacts, in one step. What an import before it made goes,
-  /// a package too; the user's roles stay, and marked positions follow `turn`, if there is one. Hashes no one refers to
-  /// any more are returned; nullopt when the model is gone.
+  /// Ends an import: stores job, facts of the model and its artefacts in one transaction. Removes the results of an
+  /// earlier import, including a package; keeps the user's roles and rotates marked positions by `turn`, if given.
+  /// Returns the hashes without remaining references; nullopt when the model is deleted.
   virtual std::optional<std::vector<std::string>> finish_import(const JobRecord& job, const ModelRecord& facts,
                                                                 const std::vector<ArtefactRecord>& artefacts,
                                                                 const std::optional<Turn>& turn) = 0;
-  /// The end of a parametrization, likewise: replaces the package that was there and artefacts of
-  /// the import of the same names; roles are the final guesses, and what the points showed of the frame is kept. Hashes
-  /// no one refers to any more are returned; nullopt when the model is gone.
+  /// Ends a parametrization in one transaction: replaces an earlier package and the artefacts of the
+  /// import with the same names; stores the final roles and the frame found by the points. Returns the hashes without
+  /// remaining references; nullopt when the model is deleted.
   virtual std::optional<std::vector<std::string>> finish_parametrization(
       const JobRecord& job, const PackageRecord& package, const std::vector<PartRecord>& parts,
       const std::vector<std::string>& warnings, const std::optional<FindingCounts>& findings,
       const std::vector<ArtefactRecord>& artefacts, const FrameUpdate& frame) = 0;
-  /// The end of a proposal: job and points (see with_proposals) in one step, whatever became of the points since it
-  /// began. False when the model is gone.
+  /// Ends a proposal: stores job and points in one transaction, merged with the current points (see with_proposals).
+  /// False when the model is deleted.
   virtual bool finish_proposal(const JobRecord& job, const std::vector<FeaturePointRecord>& proposals) = 0;
-  /// The end of a job without a result. A first import that fails or is cancelled fails its model; a model that was
-  /// imported before is again what it was.
-  /// Hashes no one refers to any more, of the job's files, are returned.
+  /// Ends a job without a result. If it was the model's first import, the model is marked as failed; a model that was
+  /// imported before returns to its previous state.
+  /// Returns the hashes of the job's files without remaining references.
   virtual std::vector<std::string> finish_without_result(const JobRecord& job) = 0;
-  /// The end of an extraction: job and set in one step. Hashes as finish_without_result.
+  /// Ends an extraction: stores job and set in one transaction. Returns hashes like finish_without_result.
   virtual std::vector<std::string> finish_extraction(const JobRecord& job, const SetRecord& set) = 0;
-  /// Sets the stage of a job that has not ended to `cancelling_stage`. False when it has ended or is gone.
+  /// Sets the stage of a job to `cancelling_stage`. False when the job has ended or is deleted.
   virtual bool request_cancel(std::string_view job) = 0;
 
   // ---- displacement sets
