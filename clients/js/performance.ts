@@ -26,7 +26,7 @@ interface Span {
 }
 
 /** The contribution of a look cue, degrees: gaze, convergence of each eye, and the slower turn of the head. */
-interface Look {
+interface LookOffset {
   yaw: number;
   pitch: number;
   eyeYaw: [number, number];
@@ -45,7 +45,7 @@ export class Performance {
   readonly script: PerformanceScript;
   private readonly tracks = new Map<string, Span[]>();
   private readonly longest = new Map<string, number>();
-  private readonly looks = new Map<Cue, Look>();
+  private readonly looks = new Map<Cue, LookOffset>();
 
   constructor(script: PerformanceScript) {
     this.script = script;
@@ -239,10 +239,10 @@ function tracksOf({ target }: Cue): string[] {
   }
 }
 
-function wayOf(cue: Cue): Look {
+function wayOf(cue: Cue): LookOffset {
   if (cue.target.kind !== 'look_at') throw new TypeError('no look');
   const { yaw, pitch, distance, headShare } = cue.target;
-  const look: Look = {
+  const look: LookOffset = {
     yaw,
     pitch,
     eyeYaw: [0, 0],
