@@ -7,7 +7,7 @@ import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
 /** A moment of a recording that is displayed. */
-export interface Look {
+export interface ShownMoment {
   id: string;
   /** ms after the first frame. */
   at: number;
@@ -32,7 +32,7 @@ export class RecordingsModel {
   readonly target = new Signal('');
   /** The request in progress: the id of its recording, or `record`; null: none. */
   readonly busy = new Signal<string | null>(null);
-  readonly look = new Signal<Look | null>(null);
+  readonly look = new Signal<ShownMoment | null>(null);
   private looking = false;
 
   constructor(
@@ -138,7 +138,7 @@ export class RecordingsModel {
     if (this.looking) return;
     this.looking = true;
     await this.studio.attempt('That moment cannot be shown', async () => {
-      for (let shown: Look | null = null; this.look.value && shown !== this.look.value; ) {
+      for (let shown: ShownMoment | null = null; this.look.value && shown !== this.look.value; ) {
         shown = this.look.value;
         const frame = await this.studio.api.recordedFrame(shown.id, shown.at);
         if (this.look.value) this.driver.byRecording(frame);
