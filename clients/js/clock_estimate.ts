@@ -1,18 +1,18 @@
-/** Round trips older than this (ms) no longer count. */
+/** Age limit of the round trips that the estimate uses, ms. */
 const window = 60_000;
-/** How fast two clocks part at most beyond what is known of them, ms per ms. */
+/** Bound of the unknown part of the drift between the two clocks, ms per ms. */
 const driftSlack = 300e-6;
 const greatestDrift = 500e-6;
-/** Clocks are compared over this time (ms) at least before their drift is told, and this at most. */
+/** Minimum and maximum time over which the drift is measured, ms. */
 const driftLeastSpan = 120_000;
 const driftSpan = 600_000;
 const driftStep = 30_000;
-/** Frames come at most so far (ms) ahead of the stream's clock: the server takes none that are farther. */
+/** How far frames can be ahead of the stream's clock, ms: the server refuses frames that are farther ahead. */
 const farthestAhead = 10_000;
-/** Without any round trip the earliest arrival within this time (ms) counts. */
+/** Without any round trip, the estimate uses the earliest arrival within this time, ms. */
 const heardWindow = 10_000;
 
-/** The stream's clock minus ours was between these two when ours was at `at`. */
+/** Bounds of the stream's clock minus the client's clock, at the client's time `at`. */
 interface Bounds {
   at: number;
   low: number;
@@ -20,35 +20,35 @@ interface Bounds {
 }
 
 /**
- * The stream's clock as a client knows it: its distance from the client's own clock, from the round trips of hello and
- * header and of ping and pong. Times in ms; the client's clock may have any origin but must not be set by hand.
- * protocol/SPEC.md, 7.1; clients/native/client/clock_estimate.h is the same, and protocol/vectors/clock holds the two
- * together.
+ * A client's estimate of the stream's clock: its offset from the client's own clock, from the round trips of hello and
+ * header and of ping and pong. Times in ms; the client's clock may have any origin but must be monotonic.
+ * Specification: protocol/SPEC.md, 7.1. clients/native/client/clock_estimate.h is the same in C++;
+ * protocol/vectors/clock tests both.
  */
 export class ClockEstimate {
-  /** How much faster the stream's clock goes than ours, ms per ms; 0 until it is known. */
+  /** Drift: how much faster the stream's clock runs than the client's, ms per ms; 0 until it is known. */
   drift = 0;
-  /** Of the newest answer, ms; NaN before the first. */
+  /** Round trip of the newest pong or header, ms; NaN before the first. */
   roundTrip = NaN;
-  /** The estimate is off by at most this, ms; NaN before the first answer. */
+  /** Bound of the estimate's error, ms; NaN before the first round trip. */
   uncertainty = NaN;
-  /** How often the clocks turned out to have been set, or one of them to have slept. */
+  /** Number of detected clock steps: a clock was set, or a machine slept. */
   steps = 0;
 
   private answers: Bounds[] = [];
-  /** Estimates `driftStep` apart. */
+  /** Past estimates, `driftStep` apart. */
   private past: { at: number; offset: number }[] = [];
   private nowAt = NaN;
   private offset = NaN;
   private heardAt = NaN;
 
   /**
-   * A message sent at `sent` was answered by one that came at `received` and says that the stream's clock was at
-   * `mediaTime`, whole ms, in between.
+   * Adds a round trip: a request sent at `sent` and its response received at `received`, which says that the stream's
+   * clock was at `mediaTime` (whole ms) at some moment in between.
    */
   answered(sent: number, received: number, mediaTime: number): void {
     if (!(received >= sent)) return;
-    // The answer says whole ms, cut off.
+    // The media time is truncated to whole ms.
     const bounds = { at: received, low: mediaTime - received, high: mediaTime + 1 - sent };
     if (this.answers.length > 0) {
       const before = this.boundsAt(received);
@@ -69,12 +69,12 @@ export class ClockEstimate {
     this.measureDrift();
   }
 
-  /** The newest frame of a message that came at `received` is of `mediaTime`. All there is until the first answer. */
+  /** Adds a message received at `received` whose newest frame has `mediaTime`; used until the first round trip. */
   heard(received: number, mediaTime: number): void {
     const offset = mediaTime - received;
     if (this.answers.length > 0) {
       if (offset <= this.offset + this.uncertainty + farthestAhead) return;
-      // No server sends this: our clock has slept. Until the next answer the frames are all we know.
+      // No server sends frames this far ahead: the client's clock has slept. Use arrivals until the next round trip.
       const steps = this.steps + 1;
       this.clear();
       this.steps = steps;
@@ -85,7 +85,7 @@ export class ClockEstimate {
     }
   }
 
-  /** Forgets everything: another stream or epoch. */
+  /** Resets the estimate, for another stream or epoch. */
   clear(): void {
     this.answers = [];
     this.past = [];
@@ -93,7 +93,7 @@ export class ClockEstimate {
     this.drift = this.steps = 0;
   }
 
-  /** The stream's clock when ours is at `local`; NaN before anything came. */
+  /** The stream's clock at the client's time `local`; NaN before the first message. */
   at(local: number): number {
     return local + this.offset + this.drift * (local - this.nowAt);
   }
@@ -121,8 +121,8 @@ export class ClockEstimate {
 }
 
 /**
- * ms from one ping to the next: quick at first, since the clock is all but unknown then, and less rare where answers
- * jitter. `sent`: pings sent since the header. `steady`: the longest.
+ * Time to the next ping, ms: short at first, while the clock is uncertain, and shorter when round trips jitter. `sent`:
+ * pings sent since the header. `steady`: the longest interval.
  */
 export function pingPause(sent: number, uncertainty: number, steady = 5000): number {
   if (sent < 5) return 200;

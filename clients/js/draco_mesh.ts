@@ -2,8 +2,8 @@ import type { RigDocument } from '../../protocol/ts/rig_document.ts';
 import { FaceError } from './face_error.ts';
 
 /**
- * What we use of a Draco decoder: the module that `createDecoderModule()` of npm's draco3d, or `DracoDecoderModule()` of
- * three.js's draco_wasm_wrapper.js resolves to. Passed in, so that a page that has one already loads no second.
+ * The used part of a Draco decoder module, as `createDecoderModule()` of npm's draco3d or `DracoDecoderModule()` of
+ * three.js's draco_wasm_wrapper.js resolve to. The caller passes the module, so that a page loads it only once.
  */
 export interface DracoModule {
   Decoder: new () => DracoDecoder;
@@ -43,7 +43,7 @@ interface DracoDecoder {
   GetTrianglesUInt32Array(mesh: DracoMesh, bytes: number, pointer: number): boolean;
 }
 
-/** The neutral face as decoded; vertex order is that of the weights. */
+/** The decoded neutral face, in the vertex order of the weights. */
 export interface FaceMesh {
   /** #V by 3, model units */
   positions: Float32Array;
@@ -51,7 +51,7 @@ export interface FaceMesh {
   normals: Float32Array | null;
   /** #V by 2, or null */
   uvs: Float32Array | null;
-  /** #V: index into the rig's materials; null: all have the first */
+  /** #V: index into the rig's materials; null: all vertices have the first material */
   materials: Uint8Array | null;
   /** #V: number of the vertex in the model's file, or null */
   fileVertices: Uint32Array | null;
@@ -59,7 +59,7 @@ export interface FaceMesh {
   triangles: Uint32Array;
 }
 
-/** Throws FaceError when the bytes are not the mesh that the rig announces. */
+/** Decodes mesh.drc. Throws FaceError when the mesh is malformed or does not match the rig. */
 export function decodeMesh(draco: DracoModule, bytes: Uint8Array, rig: RigDocument): FaceMesh {
   const decoder = new draco.Decoder();
   const buffer = new draco.DecoderBuffer();
@@ -74,14 +74,14 @@ export function decodeMesh(draco: DracoModule, bytes: Uint8Array, rig: RigDocume
     const vertices = mesh.num_points();
     const triangles = mesh.num_faces();
     if (vertices !== rig.mesh.vertices || triangles !== rig.mesh.triangles) {
-      throw new FaceError('mismatch', `mesh.drc has ${vertices} vertices, rig.json says ${rig.mesh.vertices}`);
+      throw new FaceError('mismatch', `mesh.drc has ${vertices} vertices, rig.json declares ${rig.mesh.vertices}`);
     }
 
     const read = (type: number, count: number, fill: (size: number, at: number) => boolean): Uint8Array => {
       const size = count * (type === draco.DT_UINT8 ? 1 : 4);
       const at = draco._malloc(size);
       try {
-        if (at === 0 || !fill(size, at)) throw new FaceError('malformed', 'mesh.drc: an attribute cannot be read');
+        if (at === 0 || !fill(size, at)) throw new FaceError('malformed', 'mesh.drc: an attribute cannot be decoded');
         return draco.HEAPU8.slice(at, at + size);
       } finally {
         draco._free(at);
@@ -91,7 +91,7 @@ export function decodeMesh(draco: DracoModule, bytes: Uint8Array, rig: RigDocume
       if (id === null) return null;
       const found = decoder.GetAttributeByUniqueId(mesh, id);
       if (found.ptr === 0 || found.num_components() !== components) {
-        throw new FaceError('malformed', `mesh.drc: no attribute ${id} of ${components} for ${name}`);
+        throw new FaceError('malformed', `mesh.drc: no attribute ${id} with ${components} components for ${name}`);
       }
       return read(type, vertices * components, (size, at) =>
         decoder.GetAttributeDataArrayForAllPoints(mesh, found, type, size, at),
@@ -124,10 +124,10 @@ export function decodeMesh(draco: DracoModule, bytes: Uint8Array, rig: RigDocume
 
 function checkMesh(mesh: FaceMesh, vertices: number, materialCount: number): void {
   for (const corner of mesh.triangles) {
-    if (corner >= vertices) throw new FaceError('out_of_range', `mesh.drc: a triangle names vertex ${corner}`);
+    if (corner >= vertices) throw new FaceError('out_of_range', `mesh.drc: a triangle has vertex ${corner}`);
   }
   for (const material of mesh.materials ?? []) {
-    if (material >= materialCount) throw new FaceError('out_of_range', `mesh.drc: a vertex names material ${material}`);
+    if (material >= materialCount) throw new FaceError('out_of_range', `mesh.drc: a vertex has material ${material}`);
   }
   for (const coordinate of mesh.positions) {
     if (!Number.isFinite(coordinate)) throw new FaceError('not_finite', 'mesh.drc: a position is not finite');

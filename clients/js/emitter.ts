@@ -1,8 +1,8 @@
-/** Typed events. A handler that is called may take itself away. */
+/** Typed events. A handler may remove itself while it is called. */
 export class Emitter<Events extends object> {
   private readonly handlers = new Map<keyof Events, Set<(event: never) => void>>();
 
-  /** Returns the function that takes the handler away again. */
+  /** Adds a handler. Returns the function that removes it. */
   on<Name extends keyof Events>(name: Name, handler: (event: Events[Name]) => void): () => void {
     const set = this.handlers.get(name) ?? new Set();
     this.handlers.set(name, set);

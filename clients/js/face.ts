@@ -4,7 +4,7 @@ import { decodeMesh, type DracoModule, type FaceMesh } from './draco_mesh.ts';
 import { FaceError } from './face_error.ts';
 import { sha256 } from './sha256.ts';
 
-/** A face package, checked: the parts belong together and every index is within bounds. */
+/** A validated face package: its parts match each other and all indices are within bounds. */
 export interface Face {
   rig: RigDocument;
   mesh: FaceMesh;
@@ -13,26 +13,26 @@ export interface Face {
 
 export interface LoadOptions {
   draco: DracoModule;
-  /** Default: the platform's. */
+  /** Default: the platform's fetch. */
   fetch?: typeof fetch;
   signal?: AbortSignal;
   /**
-   * A level of detail: the largest of no more vertices (the smallest, when all have more), or by its number, 0 the full
-   * mesh. `face.rig.levels` says which there are. Default: the full mesh.
+   * The level of detail: the largest with at most `maxVertices` (else the smallest), or by number (0 is the full mesh).
+   * `face.rig.levels` lists the available levels. Default: the full mesh.
    */
   level?: { maxVertices: number } | { lod: number };
 }
 
 /**
- * Fetches the package of a model from a server ("http://127.0.0.1:8080"). Throws FaceError or ProtocolError when a part
- * is missing, is not what it says, or does not belong to the others.
+ * Fetches the face package of a model from a server ("http://127.0.0.1:8080"). Throws FaceError or ProtocolError when a
+ * part is missing, malformed, or does not match the others.
  */
 export async function loadFace(baseUrl: string, modelId: string, options: LoadOptions): Promise<Face> {
   const folder = `${baseUrl.replace(/\/$/, '')}/v1/models/${encodeURIComponent(modelId)}`;
   try {
     return await fetchFace(folder, options);
   } catch (error) {
-    // The package may have been replaced between two of the three requests: then all three are asked for once more.
+    // A mismatch may mean that the package was replaced between the three requests: repeat all three once.
     if (error instanceof FaceError && error.code === 'mismatch') return fetchFace(folder, options);
     throw error;
   }
@@ -44,7 +44,7 @@ async function fetchFace(folder: string, options: LoadOptions): Promise<Face> {
     const address = `${folder}/${name}${levelQuery(options.level)}`;
     const response = await load(address, options.signal ? { signal: options.signal } : {});
     if (!response.ok) {
-      throw new FaceError('http', `${address} answers ${response.status} ${response.statusText}`, response.status);
+      throw new FaceError('http', `${address}: status ${response.status} ${response.statusText}`, response.status);
     }
     return new Uint8Array(await response.arrayBuffer());
   };
@@ -57,7 +57,7 @@ function levelQuery(level: LoadOptions['level']): string {
   return 'lod' in level ? `?lod=${level.lod}` : `?max_vertices=${level.maxVertices}`;
 }
 
-/** The same from bytes that are there already. */
+/** Assembles a face from the bytes of its parts. Throws like `loadFace`. */
 export async function assembleFace(
   rigJson: Uint8Array,
   weights: Uint8Array,
@@ -66,12 +66,12 @@ export async function assembleFace(
 ): Promise<Face> {
   const rig = readRig(new TextDecoder().decode(rigJson));
   const [meshHash, weightsHash] = await Promise.all([sha256(meshDrc), sha256(weights)]);
-  if (meshHash !== rig.mesh.sha256) throw new FaceError('mismatch', 'mesh.drc is not the mesh that rig.json names');
-  if (weightsHash !== rig.weights.sha256) throw new FaceError('mismatch', 'weights are not those that rig.json names');
+  if (meshHash !== rig.mesh.sha256) throw new FaceError('mismatch', 'mesh.drc has not the hash in rig.json');
+  if (weightsHash !== rig.weights.sha256) throw new FaceError('mismatch', 'the weights have not the hash in rig.json');
   const influence = await decodeWeights(weights);
   if (influence.meshSha256 !== meshHash) throw new FaceError('mismatch', 'the weights belong to another mesh');
   if (influence.vertexCount !== rig.mesh.vertices) {
-    throw new FaceError('mismatch', `weights for ${influence.vertexCount} vertices, a mesh of ${rig.mesh.vertices}`);
+    throw new FaceError('mismatch', `weights of ${influence.vertexCount} vertices, mesh of ${rig.mesh.vertices}`);
   }
   return { rig, mesh: decodeMesh(draco, meshDrc, rig), influence };
 }

@@ -1,6 +1,6 @@
 import type { IdleLife } from '../../protocol/ts/performance_document.ts';
 
-/** What idle life adds at one moment. Degrees, as the FAPs count them; the lids 0..1. */
+/** The motion that idle life adds at one moment. Degrees, with the signs of the FAPs; lid closure 0..1. */
 export interface IdleMotion {
   lidClosure: number;
   eyeYaw: number;
@@ -10,7 +10,7 @@ export interface IdleMotion {
   headRoll: number;
 }
 
-// The numbers of core/performance/idle.cpp, to which the golden frames hold both.
+// The same numbers as in core/performance/idle.cpp; the golden frames test both.
 const glanceYaw = 7;
 const glancePitch = 3.5;
 const driftPitch = 3;
@@ -37,7 +37,7 @@ function mix(x: number): number {
   return (x ^ (x >>> 16)) >>> 0;
 }
 
-/** 0..1 from a seed and a place. */
+/** A pseudo-random number 0..1 from a seed and indices. */
 function uniform(seed: number, of: number, block: number, index: number): number {
   const base = mix((seed + Math.imul(of, 0x9e3779b9)) >>> 0);
   return mix((mix((base + block) >>> 0) + index) >>> 0) / 4294967296;
@@ -46,7 +46,7 @@ function uniform(seed: number, of: number, block: number, index: number): number
 interface Event {
   block: number;
   index: number;
-  /** ms since it */
+  /** ms since the event */
   since: number;
 }
 
@@ -75,7 +75,7 @@ function newestEvent(seed: number, of: number, mean: number, ms: number): Event 
 function closureAt(idle: IdleLife, ms: number): number {
   if (idle.blinksPerMinute <= 0) return 0;
   const mean = 60_000 / idle.blinksPerMinute;
-  if (!Number.isFinite(mean * eventsPerBlock)) return 0; // never, in numbers as small as a document may have
+  if (!Number.isFinite(mean * eventsPerBlock)) return 0; // a rate so small that no event ever occurs
   const blink = newestEvent(idle.seed, channel.blinkGaps, mean, ms);
   if (blink.block === 0 && blink.index === 0) return 0;
   if (blink.since < blinkClosing) return smoothStep(blink.since / blinkClosing);
@@ -109,7 +109,7 @@ function drift(idle: IdleLife, of: number, ms: number): number {
   return 0.7 * noise(idle.seed, of, 2900, ms) + 0.3 * noise(idle.seed, of + 1, 1300, ms);
 }
 
-/** A function of settings and time (ms, not negative) alone, as core/performance/idle.h has it. */
+/** Idle motion at a time (ms, not negative): a pure function, the same as in core/performance/idle.h. */
 export function idleAt(idle: IdleLife, time: number): IdleMotion {
   const ms = Math.max(time, 0);
   const motion: IdleMotion = {

@@ -30,7 +30,7 @@ interface KernelExports {
 }
 
 export interface KernelOptions {
-  /** Poses held at once. Default: 3. */
+  /** Number of poses that the kernel holds. Default: 3. */
   poseCount?: number;
   /** Default: true. */
   withVertices?: boolean;
@@ -38,7 +38,9 @@ export interface KernelOptions {
   withNormals?: boolean;
 }
 
-/** A frame on one model: where the feature points went and how single parts moved. Views of the kernel's memory. */
+/**
+ * A pose: displacements of the feature points and motions of the rigid parts. The arrays are views of kernel memory.
+ */
 export interface Pose {
   /** 84 by 3: displacement of each feature point, model units */
   readonly featurePoints: Float32Array;
@@ -48,9 +50,9 @@ export interface Pose {
   readonly headRotation: Float32Array;
   readonly eyePivots: Float32Array;
   readonly headPivot: Float32Array;
-  /** left, right: of the pupil's radius */
+  /** left, right: growth of the pupil's radius, model units */
   readonly pupilGrowth: Float32Array;
-  /** 1: radians that a border of the tongue turns upwards */
+  /** 1 element: upward angle of the tongue's borders, radians */
   readonly tongueRoll: Float32Array;
   /** left, right: axis, pupil radius (0: no iris), iris radius, bend */
   readonly irises: Float32Array;
@@ -58,21 +60,20 @@ export interface Pose {
   readonly tongue: Float32Array;
 }
 
-/** Compiles the kernel once; each face is an instance of its own. `source`: bytes or the response of a fetch. */
+/** Compiles the kernel, for any number of faces. `source`: the bytes or the response of a fetch. */
 export async function compileKernel(source: BufferSource | Response | Promise<Response>): Promise<WebAssembly.Module> {
   const given = await source;
   return WebAssembly.compile(given instanceof Response ? await given.arrayBuffer() : given);
 }
 
 /**
- * One face in the kernel (core/kernel, as WebAssembly): frames become poses (Eq. 5, 6), poses become vertices (Eq. 7).
- * Holds `poseCount` poses, by number. All memory is taken here, so that nothing is
- * allocated afterwards and the views stay valid.
+ * One face in the WebAssembly build of core/kernel: evaluates frames to poses (Eq. 5, 6) and poses to vertices (Eq. 7).
+ * Holds `poseCount` poses, identified by number. All memory is allocated at creation, so that the views stay valid.
  */
 export class Kernel {
-  /** #V by 3: what `deform` wrote. Only for reading: `deform` writes no more than what changed since. */
+  /** #V by 3: output of `deform`. Read only: `deform` updates only the vertices that changed since the last call. */
   readonly positions: Float32Array;
-  /** #V by 3, unit length: the normals of `positions`. Empty unless asked for. */
+  /** #V by 3, unit length: the normals of `positions`. Empty without the option `withNormals`. */
   readonly normals: Float32Array;
   readonly poses: readonly Pose[];
 
@@ -80,7 +81,7 @@ export class Kernel {
   private readonly frameNumbers: Uint8Array;
   private readonly frameFaps: Float32Array;
   private readonly spans: Float32Array;
-  /** all of the kernel's memory */
+  /** the whole memory of the kernel */
   private readonly bytes: Uint8Array;
   private readonly share: Float32Array;
   private readonly shareOfRig: number;
@@ -88,21 +89,21 @@ export class Kernel {
     frame: number;
     spans: number;
     rig: number;
-    /** the prepared face; 0 when there are no vertices */
+    /** address of the prepared face; 0 without vertices */
     face: number;
     positions: number;
-    /** semblante_triangles; 0 when no normals are asked for */
+    /** address of semblante_triangles; 0 without normals */
     triangles: number;
     normals: number;
     poses: number[];
-    /** the pose that `positions` is in */
+    /** address of the pose of the current `positions` */
     shown: number;
   };
 
   /**
-   * `withVertices: false` leaves the influence table out (the GPU moves the vertices): `deform` must not be called and
-   * `positions` is empty. `withNormals: true` makes `deform` compute `normals` too, from the triangles (which takes
-   * about as long as the vertices do). Throws FaceError `memory` when there is none.
+   * `withVertices: false` omits the influence table, for deformation on the GPU: `deform` must not be called and
+   * `positions` is empty. `withNormals: true` makes `deform` also compute `normals` from the triangles, which takes
+   * about as long as the vertices. Throws FaceError `memory` when the memory is exhausted.
    */
   static async create(
     module: WebAssembly.Module,
@@ -118,7 +119,7 @@ export class Kernel {
     const { influence, mesh, rig } = face;
     const vertices = (options.withVertices ?? true) ? influence.vertexCount : 0;
     const entries = vertices === 0 ? 0 : influence.rowPoints.length;
-    const turned = options.withNormals ? vertices : 0; // vertices that get a normal
+    const turned = options.withNormals ? vertices : 0; // number of vertices with a normal
     const corners = turned > 0 ? mesh.triangles.length : 0;
     let size = 0;
     const place = (bytes: number): number => {
@@ -171,7 +172,7 @@ export class Kernel {
       ]);
     }
     if (turned > 0) {
-      // Without normals of its own, a mesh is smooth wherever vertices share a place.
+      // A mesh without normals is treated as smooth: all vertices at one position share their normal.
       if (mesh.normals) floats(normals, turned * 3).set(mesh.normals);
       new Uint32Array(memory, base + cornersAt, corners).set(mesh.triangles);
       const numbers = [turned, corners / 3, base + cornersAt, base + joined];
@@ -209,15 +210,17 @@ export class Kernel {
   }
 
   /**
-   * The share of the viseme where an expression moves the same feature point (Eq. 5), 0..1, of what is evaluated from now
-   * on; null: the rig's own. Throws RangeError.
+   * Sets the viseme share of Eq. 5 (the weight of the viseme where an expression moves the same feature point, 0..1)
+   * for later calls of `evaluate`; null: the rig's own. Throws RangeError.
    */
   setVisemeShare(share: number | null): void {
-    if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share is 0 to 1');
+    if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share must be between 0 and 1');
     this.share[0] = share ?? this.shareOfRig;
   }
 
-  /** Eq. 5 and 6. `steps`: FAP units per level, of the stream the frame came from. */
+  /**
+   * Evaluates a frame to a pose (Eq. 5, 6). `steps`: the quantizer steps of the frame's stream, FAP units per level.
+   */
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps = standardQuantizers): void {
     const { viseme, expression, levels } = frame;
     const numbers = this.frameNumbers;
@@ -232,13 +235,13 @@ export class Kernel {
     this.exports.semblante_evaluate(this.at.rig, this.at.frame, this.poseAt(pose));
   }
 
-  /** The pose t of the way from a to b, 0..1. `out` may be a or b. */
+  /** Interpolates linearly between poses a and b, `t` 0..1. `out` may be a or b. */
   interpolate(a: number, b: number, t: number, out: number): void {
     this.exports.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
   }
 
   /**
-   * The same without corners: on a curve through four poses that lie `spans` apart (0: none there), see semblante_ease.h.
+   * Interpolates on a smooth curve through four poses, `spans` ms apart (0: that pose is absent); see semblante_ease.h.
    */
   ease(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void {
     const [before, from, to, after] = poses;
@@ -254,9 +257,9 @@ export class Kernel {
     );
   }
 
-  /** Eq. 7, then eyes and tongue, then head, into `positions`; their normals into `normals`, where asked for. */
+  /** Deforms the mesh: Eq. 7, then eyes and tongue, then head. Writes `positions` and, if enabled, `normals`. */
   deform(pose: number): void {
-    if (this.positions.length === 0) throw new RangeError('this kernel was made without vertices');
+    if (this.positions.length === 0) throw new RangeError('this kernel was created without vertices');
     const { face, positions, triangles, normals, shown } = this.at;
     const moved = this.exports.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
     if (moved > 0 && triangles > 0) this.exports.semblante_normals(triangles, positions, normals);
@@ -270,16 +273,16 @@ export class Kernel {
   }
 }
 
-/** Lays the face at `face` out for speed; returns where. */
+/** Prepares the face at address `face` for fast deformation; returns the address of the prepared face. */
 function prepare(exports: KernelExports, face: number): number {
   const bytes = exports.semblante_prepared_size(face);
-  if (bytes === 0) throw new FaceError('malformed', 'weights: the feature points of a vertex do not rise');
+  if (bytes === 0) throw new FaceError('malformed', 'weights: feature points of a vertex are not increasing');
   return exports.semblante_prepare(face, alloc(exports, bytes));
 }
 
 function alloc(exports: KernelExports, bytes: number): number {
   const at = exports.semblante_alloc(bytes) >>> 0;
-  if (at === 0) throw new FaceError('memory', `no ${bytes} bytes of memory for the kernel`);
+  if (at === 0) throw new FaceError('memory', `cannot allocate ${bytes} bytes for the kernel`);
   return at;
 }
 
@@ -294,7 +297,7 @@ export function flatten(sets: readonly DisplacementSet[]): Float32Array {
   return flat;
 }
 
-/** The float members of semblante_rig, in order. An unknown FAPU is 0. */
+/** The float members of semblante_rig in order. A missing FAPU is 0. */
 function rigNumbers(rig: RigDocument): number[] {
   const fapu = rigFapus.map((unit) => rig.fapu[unit] ?? 0);
   const irises = rig.irises.flatMap((iris) =>

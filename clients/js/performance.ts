@@ -9,7 +9,7 @@ import { maxBlend, neutralFrame, type FaceFrame } from '../../protocol/ts/face_f
 import { quantize, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { idleAt, smoothStep } from './idle.ts';
 
-/** The face at a moment, in FAP units. */
+/** The face at one moment, in FAP units. */
 export interface PerformedFace {
   viseme: FaceFrame['viseme'];
   expression: FaceFrame['expression'];
@@ -24,15 +24,15 @@ const upperLidUnits = shutLidUnits.upper;
 const lowerLidUnits = shutLidUnits.lower;
 const headRamp = usualRamps.head[0];
 
-/** A cue as it is played: held, where the next one on its target takes over. */
+/** The playback span of a cue; `held` when the next cue on its target takes over from it. */
 interface Span {
   cue: Cue;
   end: number;
   held: boolean;
 }
 
-/** What a look adds, degrees: gaze, convergence of each eye, and the head's slower part. */
-interface Look {
+/** The contribution of a look cue, degrees: gaze, convergence of each eye, and the slower turn of the head. */
+interface LookOffset {
   yaw: number;
   pitch: number;
   eyeYaw: [number, number];
@@ -44,14 +44,14 @@ interface Look {
 }
 
 /**
- * A performance to be played in a page: the face as a function of time, by the rules of section 9 of SPEC.md and equal to
- * the server's. Cheap for playing on; any time may be asked for.
+ * A performance played locally: the face as a function of time by the rules of section 9 of SPEC.md, with the same
+ * results as the server. Any time may be requested; increasing times are fastest.
  */
 export class Performance {
   readonly script: PerformanceScript;
   private readonly tracks = new Map<string, Span[]>();
   private readonly longest = new Map<string, number>();
-  private readonly looks = new Map<Cue, Look>();
+  private readonly looks = new Map<Cue, LookOffset>();
 
   constructor(script: PerformanceScript) {
     this.script = script;
@@ -72,12 +72,12 @@ export class Performance {
     }
   }
 
-  /** ms; 0 when it has no end */
+  /** Duration, ms; 0 for an endless performance. */
   get duration(): number {
     return this.script.duration;
   }
 
-  /** The face `ms` after the beginning; `idleMs` is the time of idle life, which runs on when the cues are looped. */
+  /** The face at `ms` after the start; `idleMs` is the time of idle life, which a loop of the cues does not restart. */
   at(ms: number, idleMs = ms): PerformedFace {
     const faps = new Float64Array(69);
     const { idle } = this.script;
@@ -99,7 +99,7 @@ export class Performance {
     return { viseme: this.viseme(ms), expression: this.expression(ms), faps };
   }
 
-  /** The same as a stream would send it. */
+  /** The face as the frame that a stream would send. */
   frameAt(ms: number, idleMs = ms, steps: QuantizerSteps = standardQuantizers): FaceFrame {
     const { viseme, expression, faps } = this.at(ms, idleMs);
     const frame = neutralFrame();
@@ -113,7 +113,7 @@ export class Performance {
     return Math.max(cue.attack, this.looks.get(cue)?.headAttack ?? 0);
   }
 
-  /** A cue that begins before this one has let go, and outlasts it, takes over from it. */
+  /** Marks cue `i` as held if the next cue starts before the end of its release and ends later than it. */
   private hold(track: Span[], i: number): void {
     const span = track[i]!;
     const { end } = span;
@@ -245,10 +245,10 @@ function tracksOf({ target }: Cue): string[] {
   }
 }
 
-function wayOf(cue: Cue): Look {
+function wayOf(cue: Cue): LookOffset {
   if (cue.target.kind !== 'look_at') throw new TypeError('no look');
   const { yaw, pitch, distance, headShare } = cue.target;
-  const look: Look = {
+  const look: LookOffset = {
     yaw,
     pitch,
     eyeYaw: [0, 0],
@@ -294,7 +294,7 @@ function valueOf({ time, keys, value, easing }: Cue, ms: number): number {
   return below + ease(easing, (since - from) / (to - from)) * (above - below);
 }
 
-/** How a value goes from 0 to 1. */
+/** The easing function: maps progress 0..1 to 0..1. */
 export function ease(easing: Easing, x: number): number {
   if (easing === 'step' || x >= 1) return 1;
   if (x <= 0) return 0;

@@ -5,38 +5,38 @@ import { ClockEstimate } from './clock_estimate.ts';
 import { Playout, type PlayoutStats } from './playout.ts';
 import type { StreamClient } from './stream_client.ts';
 
-/** What the player needs of the kernel: poses by number. */
+/** The part of the kernel that the player uses: poses by number. */
 export interface PoseMaker {
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps): void;
-  /** Of Eq. 5, for what is evaluated from now on, as a stream's header names it; null: the model's own. */
+  /** Sets the viseme share of Eq. 5 from the stream's header for later calls of `evaluate`; null: the model's own. */
   setVisemeShare?(share: number | null): void;
   interpolate(a: number, b: number, t: number, out: number): void;
-  /** Needed for the interpolation `eased`; poses before, from, to, after with the spans between them. */
+  /** Required for `eased` interpolation: the poses before, from, to, after, and the spans between them. */
   ease?(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void;
 }
 
 export interface PlayerOptions {
-  /** ms; default performance.now(). The same as that of the client that is followed. */
+  /** The clock, ms; default performance.now(). Must be the clock of the followed client. */
   now?: () => number;
   /**
-   * How far behind the stream's clock to play, ms; left out, as little as the network allows. Players with the same delay
-   * show the same moment, wherever they are.
+   * Fixed playout delay behind the stream's clock, ms; default: the smallest that the network allows. Players with the
+   * same delay show the same moment.
    */
   delay?: number;
   /**
-   * `linear` (default): each pair of frames by a straight way, as the paper does. `eased`: the same frames at the same
-   * times on a curve without corners that never leaves the range of a pair; wants one frame more ahead and
-   * `easedPoseCount` poses.
+   * `linear` (default): linear interpolation between frames, as in the paper. `eased`: interpolation on a smooth curve
+   * through the same frames that never leaves the range of a pair; needs one more frame ahead and `easedPoseCount`
+   * poses.
    */
   interpolation?: 'linear' | 'eased';
   /**
-   * Media time to show now, ms: where the sound is. NaN while there is none: then the display's clock counts. See
-   * `updateTo`.
+   * An external clock, such as the position of the sound: the media time to show now, ms. NaN means not available; the
+   * display's clock is used then. See `updateTo`.
    */
   clock?: () => number;
 }
 
-/** The player writes the pose to show into this number; it uses 1 and 2, when eased 1 to 4, for itself. */
+/** The number of the pose that the player writes; it uses poses 1 and 2 (`eased`: 1 to 4) internally. */
 export const shownPose = 0;
 const fromPose = 1;
 const toPose = 2;
@@ -45,16 +45,16 @@ const afterPose = 4;
 const easedPoses = [beforePose, fromPose, toPose, afterPose] as const;
 export const easedPoseCount = 5;
 
-/** A display's step that is so far (ms) from what the clock says is not believed: the page was held up, or hidden. */
+/** A display step that differs by more than this, ms, from the clock is ignored: the page was blocked or hidden. */
 const strangeStep = 50;
-/** Who shows nothing for longer than this (ms) may have slept: the stream's clock is asked for anew. */
+/** After a pause without display frames longer than this, ms, the machine may have slept: measure the clock again. */
 const longPause = 5000;
 const maxHeldFrames = 2048;
 
 /**
- * Plays the frames of a stream at the display's rate: a little behind the stream's clock (`Playout` says how much), the
- * feature points interpolated linearly, so that every vertex is interpolated as the paper does, or eased. Adapts its
- * speed by at most 5 %, jumps beyond half a second, never goes back. Given a clock, it shows exactly what that says.
+ * Plays the frames of a stream at the display's rate, with the delay that `Playout` computes. Interpolates the feature
+ * points linearly (and so every vertex, as in the paper) or eased. Adapts its speed by at most 5 %, jumps when it is
+ * off by more than half a second, never goes back. With an external clock it shows exactly the clock's media time.
  */
 export class Player {
   private readonly poses: PoseMaker;
@@ -67,22 +67,22 @@ export class Player {
   private visemeShare: number | null = null;
   private lastUpdate = NaN;
 
-  // Frames not yet over; the first is the last one at or before the playhead.
+  // The frames in use; the first is the last one at or before the playhead.
   private times: number[] = [];
   private states: FaceFrame[] = [];
-  /** When the motion towards each of them begins. */
+  /** Media time at which the motion towards each frame begins. */
   private begins: number[] = [];
 
-  // Which frames are in the poses `fromPose` and `toPose`, by media time.
+  // Media times of the frames in the poses `fromPose` and `toPose`.
   private fromTime = NaN;
   private toTime = NaN;
   private shownT = NaN;
 
-  // Eased: the frame before the one in `fromPose`, and what the curve of the present pair was decided to be.
+  // Eased: the frame before the one in `fromPose`, and the curve chosen for the current pair.
   private beforeTime = NaN;
   private beforeState: FaceFrame | undefined;
   private readonly spans = [0, 0, 0];
-  /** Time of the frame at which the last curve came to rest, since none followed it yet. */
+  /** Time of the frame at which the last curve ended with zero velocity, because no frame followed yet. */
   private restedAt = NaN;
 
   constructor(poses: PoseMaker, options: PlayerOptions = {}) {
@@ -91,10 +91,10 @@ export class Player {
     this.eased = options.interpolation === 'eased';
     this.clock = options.clock;
     this.playout = new Playout({ ...(options.delay === undefined ? {} : { delay: options.delay }), eased: this.eased });
-    if (this.eased && !poses.ease) throw new TypeError('these poses cannot be eased');
+    if (this.eased && !poses.ease) throw new TypeError('eased interpolation needs PoseMaker.ease');
   }
 
-  /** Media time that is shown, ms; NaN before the first frame. */
+  /** Displayed media time, ms; NaN before the first frame. */
   get playhead(): number {
     return this.playout.playhead;
   }
@@ -104,12 +104,12 @@ export class Player {
     return this.playout.delay;
   }
 
-  /** How it goes; `clock` has what is known of the stream's clock. */
+  /** Statistics of the playout; `clock` is the estimate of the stream's clock. */
   get stats(): Readonly<PlayoutStats> & { readonly clock: ClockEstimate } {
     return { ...this.playout.stats, clock: this.playout.clock };
   }
 
-  /** Plays what a client receives, by the clock that it measures. Returns the function that stops listening. */
+  /** Plays the frames of a client, with the client's clock estimate. Returns the function that stops this. */
   follow(client: StreamClient): () => void {
     this.client = client;
     this.playout.clock = client.streamClock;
@@ -123,11 +123,11 @@ export class Player {
       stops.forEach((stop) => stop());
       this.client = null;
       this.playout.clock = new ClockEstimate();
-      this.takeVisemeShare(null); // the stream's, not the face's
+      this.takeVisemeShare(null); // the share belongs to the stream, not to the face
     };
   }
 
-  /** A header came: another epoch is another time line. */
+  /** Handles a header; another epoch is another time line. */
   begin(header: Header): void {
     this.steps = quantizersOf(header);
     if (this.playout.begin(header)) this.clear();
@@ -138,7 +138,7 @@ export class Player {
     if (share === this.visemeShare) return;
     this.visemeShare = share;
     this.poses.setVisemeShare?.(share);
-    this.fromTime = this.toTime = this.shownT = NaN; // what was evaluated had another
+    this.fromTime = this.toTime = this.shownT = NaN; // the evaluated poses used the old share
   }
 
   pushKeyframe(keyframe: Keyframe): void {
@@ -149,7 +149,7 @@ export class Player {
     this.push(frames.frames, frames.media_time);
   }
 
-  /** Forgets the frames, not the pose that is shown. */
+  /** Drops all frames; keeps the displayed pose. */
   clear(): void {
     this.times = [];
     this.states = [];
@@ -161,8 +161,8 @@ export class Player {
   }
 
   /**
-   * Moves on by a display frame and writes the pose `shownPose`. Allocates nothing. Returns whether the pose changed:
-   * a page may skip drawing when it did not.
+   * Advances by one display frame and writes the pose `shownPose`. Allocates nothing. Returns whether the pose changed;
+   * if not, a page may skip drawing.
    */
   update(deltaSeconds: number): boolean {
     const now = this.now();
@@ -172,16 +172,16 @@ export class Player {
     const mediaTime = this.clock?.() ?? NaN;
     if (Number.isFinite(mediaTime)) return this.updateTo(mediaTime);
     if (this.times.length === 0) return false;
-    // The display's own step is more even than the moments at which it calls.
+    // The display's frame interval is more regular than the times of its callbacks.
     const step = deltaSeconds * 1000;
     this.playout.advance(now, Math.abs(step - passed) > strangeStep ? passed : step);
     return this.showPlayhead();
   }
 
   /**
-   * The same by another's clock, such as the sound's: shows the face of that media time (ms), as far as frames go. A clock
-   * that steps back by up to half a second is waited for; one that goes back further is followed, to the oldest frame
-   * that is held.
+   * Like `update`, with an external clock such as the sound's: shows the face at that media time (ms), limited to the
+   * available frames. When the clock goes back by up to half a second, the playhead waits; when it goes back further,
+   * the playhead follows it, at most to the oldest frame held.
    */
   updateTo(mediaTime: number): boolean {
     if (this.times.length === 0 || !Number.isFinite(mediaTime)) return false;
@@ -202,7 +202,7 @@ export class Player {
     const known = this.times.at(-1) ?? -Infinity;
     const before = this.times.length;
     for (const { time, state } of frames) {
-      if (mediaTime + time <= (this.times.at(-1) ?? known)) continue; // sent again after a lost connection
+      if (mediaTime + time <= (this.times.at(-1) ?? known)) continue; // repeated after a reconnection
       this.begins.push(this.times.at(-1) ?? mediaTime + time);
       this.times.push(mediaTime + time);
       this.states.push(state);
@@ -211,7 +211,7 @@ export class Player {
     if (count === before) return;
     const first = this.times[before]!;
     this.begins[before] = this.playout.arrived(first, this.times[Math.max(before, count - 2)]!, this.times[count - 1]!, this.now());
-    // A hidden page gets no display frames: only the newest frames matter when it is seen again.
+    // A hidden page gets no display frames; only the newest frames matter when it is visible again.
     if (count > maxHeldFrames) {
       for (const list of [this.times, this.begins, this.states]) list.splice(0, maxHeldFrames / 2);
     }
@@ -231,7 +231,7 @@ export class Player {
       this.toTime = to;
       this.shownT = NaN;
     }
-    // After a rest the face moves as fast as between two messages, not slowly through all of the rest.
+    // After a rest the motion takes as long as between two messages instead of the whole length of the rest.
     const span = this.times.length > 1 ? to - this.begins[1]! : 0;
     const t = span > 0 ? Math.max(0, Math.min(1, (this.playhead - (to - span)) / span)) : 0;
     if (this.eased && another) this.chooseCurve(span);
@@ -243,14 +243,14 @@ export class Player {
   }
 
   /**
-   * Where the curve comes from and goes to, decided once a pair and kept: a frame that arrives in the middle must not
-   * bend what is shown already. Where none follows yet the curve comes to rest, and the next one begins at rest.
+   * Chooses the curve of a pair once: a frame that arrives later must not change a curve that is being shown. If no
+   * frame follows yet, the curve ends with zero velocity, and the next one begins with zero velocity.
    */
   private chooseCurve(span: number): void {
     const from = this.times[0]!;
     const before = this.restedAt === from || !this.beforeState ? 0 : from - this.beforeTime;
     const after = this.times.length > 2 ? this.times[2]! - this.times[1]! : 0;
-    // After a silence the pair's own span is shortened: its neighbours are no part of that motion.
+    // After a rest the span of the pair is shortened; its neighbours do not belong to the same motion.
     const whole = this.times.length > 1 && span === this.times[1]! - from;
     this.spans[0] = whole ? before : 0;
     this.spans[1] = span;

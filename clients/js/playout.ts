@@ -2,55 +2,56 @@ import type { Header } from '../../protocol/ts/messages.ts';
 import { ClockEstimate } from './clock_estimate.ts';
 
 export interface PlayoutOptions {
-  /** ms behind the stream's clock, whatever the network does; without it the delay adapts to how late frames come. */
+  /** Fixed delay behind the stream's clock, ms; without it the delay adapts to the lateness of the frames. */
   delay?: number;
-  /** One frame more is wanted beyond the shown moment: a curve has to know where it goes after the pair it is in. */
+  /** Whether one more frame ahead is needed, for `eased` interpolation. */
   eased?: boolean;
 }
 
-/** How a playout goes. Times in ms. */
+/** Statistics of a playout. Times in ms. */
 export interface PlayoutStats {
-  /** Behind the stream's clock now, and where that is going. */
+  /** Current delay behind the stream's clock, and the target that it approaches. */
   delay: number;
   wantedDelay: number;
-  /** Mean change from one arrival to the next (RFC 3550). */
+  /** Interarrival jitter (RFC 3550). */
   jitter: number;
-  /** What is shown minus what should be, by our own estimate; below 0 while held. */
+  /** Playhead minus its target by the clock estimate; below 0 while the playhead is held. */
   error: number;
-  /** How often frames were not there in time, and for how long together. */
+  /** How often frames arrived too late, and the total time without frames. */
   starved: number;
   starvedTime: number;
   snaps: number;
 }
 
 const maxSpeedChange = 0.05;
-/** Of that, for the delay's sake. */
+/** The part of `maxSpeedChange` that may be used for changes of the delay. */
 const delayRate = 0.04;
-/** ms in which an error is played away, as far as the speed allows. */
+/** Time in which an error is corrected, within the limits of the speed, ms. */
 const correctionTime = 1000;
-/** Farther behind than this (ms) it jumps. */
+/** When the playhead is farther behind than this, ms, it jumps. */
 const snapThreshold = 500;
 const leastDelay = 60;
 const greatestDelay = 2000;
-/** ms added to the lateness that is to be waited for. */
+/** Safety margin added to the measured lateness, ms. */
 const margin = 15;
 /**
- * Lateness is kept as the worst of each second for this many of them; the second worst of those counts, and in the first
- * few seconds the worst.
+ * The maximum lateness of each second is kept for this many seconds. The second largest of them determines the delay;
+ * in the first few seconds, the largest.
  */
 const secondsKept = 60;
 const secondsForSecondWorst = 5;
-/** Frames farther apart than this (ms), or than 2.5 frames of a slow stream, have a rest between them. */
+/** Frames farther apart than this, ms, or than 2.5 frames of a slow stream, have a rest (no motion) between them. */
 const leastRest = 250;
-/** After a rest the motion towards the next frame takes this long (ms), if it arrives in time. */
+/** Duration of the motion towards the first frame after a rest, ms, if that frame arrives in time. */
 const motionAfterRest = 100;
 
 const clamp = (value: number, low: number, high: number): number => Math.max(low, Math.min(high, value));
 
 /**
- * Which media time to show when: the stream's clock less a delay that frames need to be there in time, at a speed that
- * changes by little, never back. Knows times only. Times in ms, "now" is of the client's clock. protocol/SPEC.md, 7.2;
- * clients/native/client/playout.h is the same, and protocol/vectors/clock holds the two together.
+ * Computes the media time to show: the stream's clock minus the delay that lets frames arrive in time. The playhead's
+ * speed varies little and is never negative. Handles times only, not frames. Times in ms; `now` is the client's clock.
+ * Specification: protocol/SPEC.md, 7.2. clients/native/client/playout.h is the same in C++; protocol/vectors/clock
+ * tests both.
  */
 export class Playout {
   clock = new ClockEstimate();
@@ -65,11 +66,11 @@ export class Playout {
   private readonly fixedDelay: number | undefined;
   private readonly eased: boolean;
   private epoch: number | null = null;
-  // As the header says; 0: unknown.
+  // From the header; 0: unknown.
   private messageInterval = 0;
   private frameInterval = 0;
   private measuredInterval = 0;
-  /** What is older than this was sent before we were there: its lateness says nothing. */
+  /** Frames up to this media time were sent before the subscription; their lateness is meaningless. */
   private historyUntil = 0;
   private beforeNewest = NaN;
   private transit = NaN;
@@ -81,7 +82,7 @@ export class Playout {
     this.eased = options.eased ?? false;
   }
 
-  /** A header came, at first or after a lost connection. Another epoch is another time line: true if so. */
+  /** Handles the header of a new connection. Returns true for another epoch, which is another time line. */
   begin(header: Header): boolean {
     this.frameInterval = header.fps_hint > 0 ? 1000 / header.fps_hint : 0;
     this.messageInterval = header.batch_interval > 0 ? header.batch_interval : this.frameInterval;
@@ -92,7 +93,7 @@ export class Playout {
     return another;
   }
 
-  /** Forgets the frames; the clock stays. */
+  /** Drops the frames; keeps the clock estimate. */
   clear(): void {
     this.playhead = this.newest = this.beforeNewest = this.transit = this.delay = this.wantedDelay = NaN;
     this.measuredInterval = 0;
@@ -100,9 +101,9 @@ export class Playout {
   }
 
   /**
-   * Frames came: the media times of the first and the last, and of the one before the last (equal to the first when
-   * there is one only). Frames at or before the newest known are not to be given. Returns the media time at which the
-   * motion towards the first of them begins: mostly that of the frame before.
+   * Handles arrived frames: media times of the first, the last but one (equal to the first if there is only one) and
+   * the last. The caller omits frames at or before `newest`. Returns the media time at which the motion towards the
+   * first frame begins: usually that of the frame before.
    */
   arrived(first: number, beforeLast: number, last: number, now: number): number {
     this.clock.heard(now, last);
@@ -121,11 +122,11 @@ export class Playout {
     const rested = first - before > this.rest();
     this.measureInterval(first - before);
     const wanted = clock - this.delay;
-    // The playhead stands at the newest frame there was, and should be farther.
+    // The playhead is held at the previously newest frame, behind its target.
     const held = this.playhead >= before && wanted > this.playhead;
     if (before >= this.historyUntil) this.countLateness(clock - (rested ? first - motionAfterRest : base), now);
     if (rested) {
-      // Nothing moved in between: going on at the right moment is no jump that could be seen.
+      // Nothing moved in between, so continuing at the target is not a visible jump.
       if (held) this.playhead = Math.max(this.playhead, Math.min(wanted, first - motionAfterRest / 2));
       return Math.max(before, first - motionAfterRest, held ? this.playhead : before);
     }
@@ -133,18 +134,18 @@ export class Playout {
     this.stats.starved += 1;
     this.stats.starvedTime += wanted - this.playhead;
     if (this.fixedDelay === undefined) {
-      // What was shown late stays so much behind and is caught up slowly, if it is little enough.
+      // A small lag is kept and corrected slowly.
       const behind = clock - this.playhead;
       this.delay = behind - this.wantedDelay > snapThreshold ? this.wantedDelay : behind;
     }
     return before;
   }
 
-  /** Moves on by a display frame that is shown `elapsed` after the one before. */
+  /** Advances by one display frame, `elapsed` after the previous one. */
   advance(now: number, elapsed: number): void {
     if (Number.isNaN(this.playhead)) return;
     elapsed = Math.max(0, elapsed);
-    const step = clamp(this.wantedDelay - this.delay, -delayRate * elapsed, delayRate * elapsed); // of the delay
+    const step = clamp(this.wantedDelay - this.delay, -delayRate * elapsed, delayRate * elapsed); // change of the delay
     this.delay += step;
     const wanted = this.clock.at(now) - this.delay;
     const error = wanted - (this.playhead + elapsed - step);
@@ -164,8 +165,8 @@ export class Playout {
   }
 
   /**
-   * Shows this moment, as far as frames go: another clock leads, such as the sound's. Back only from farther than the
-   * snap threshold.
+   * Sets the playhead by an external clock, such as the sound's, limited to the available frames. It goes back only by
+   * more than the snap threshold.
    */
   moveTo(mediaTime: number): void {
     if (Number.isNaN(this.newest)) return;

@@ -1,6 +1,6 @@
 /**
- * SHA-256 as 64 lower-case hexadecimal digits. Uses the platform's own where there is one; pages that are not served
- * securely (http on a local network) have none, and get the plain version below.
+ * SHA-256 as 64 lower-case hexadecimal digits. Uses Web Crypto if available; pages outside a secure context (http on a
+ * local network) lack it and use the implementation below.
  */
 export async function sha256(bytes: Uint8Array): Promise<string> {
   const subtle = globalThis.crypto?.subtle as SubtleCrypto | undefined;
@@ -14,7 +14,7 @@ function primes(count: number): number[] {
   return found;
 }
 
-// FIPS 180-4, section 4.2.2 and 5.3.3: the first 32 bits of the fractions of cube and square roots of primes.
+// FIPS 180-4, sections 4.2.2 and 5.3.3: first 32 bits of the fractional parts of cube and square roots of primes.
 const fraction = (value: number): number => Math.floor((value - Math.floor(value)) * 2 ** 32);
 const roundConstants = Uint32Array.from(primes(64), (p) => fraction(Math.cbrt(p)));
 const initialState = Uint32Array.from(primes(8), (p) => fraction(Math.sqrt(p)));

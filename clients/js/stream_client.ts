@@ -23,15 +23,15 @@ import { Emitter } from './emitter.ts';
 export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
 
 export interface StreamEvents {
-  /** connecting, open (header came), waiting (to connect again), closed (for good) */
+  /** connecting, open (header received), waiting (to reconnect), closed (permanently) */
   state: ConnectionState;
   header: Header;
   keyframe: Keyframe;
   frames: Frames;
   end: End;
-  /** The server refused something we sent. */
+  /** The server refused a message of this client. */
   error: StreamError;
-  /** Something the server sent could not be read. The client connects again where that helps. */
+  /** A message of the server could not be decoded. The client reconnects if necessary. */
   fault: ProtocolError;
   clock: ClockSample;
 }
@@ -39,28 +39,30 @@ export interface StreamEvents {
 /** One measurement of the server's clock. Times in ms. */
 export interface ClockSample {
   roundTrip: number;
-  /** Server's wall clock minus ours (`now()`). */
+  /** Server's wall clock minus the client's clock (`now()`). */
   offset: number;
-  /** Of the stream, at the moment the pong came, by the same estimate. */
+  /** Media time of the stream when the pong arrived, by the clock estimate. */
   mediaTime: number;
 }
 
 export interface StreamOptions {
   role?: StreamRole;
   subprotocol?: 'binary' | 'json';
-  /** Of a publisher: to replace the one there is. Default false. */
+  /** For a publisher: replace the current publisher. Default false. */
   takeOver?: boolean;
-  /** Default: the platform's. Node 18 has none: pass that of a package. */
+  /** Default: the platform's WebSocket. Node 18 has none: pass the class of a package. */
   WebSocket?: new (url: string, protocols: string[]) => WebSocket;
   /** ms; default performance.now() */
   now?: () => number;
-  /** First and longest pause before connecting again, ms. Default 250 and 10000; each try doubles it. */
+  /** First and longest pause before a reconnection, ms. Default 250 and 10000; each attempt doubles the pause. */
   backoff?: { first: number; longest: number };
-  /** ms between pings at the most, 0: none. Default 5000. They come quicker after connecting, and where answers jitter. */
+  /**
+   * Maximum time between pings, ms; 0: no pings. Default 5000. Shorter after connecting and when round trips jitter.
+   */
   pingInterval?: number;
 }
 
-/** More waiting than this in the socket, and a publisher's frames are left out rather than queued. */
+/** When the socket has more buffered bytes than this, a publisher's frames are dropped instead of queued. */
 const maxBufferedBytes = 256 * 1024;
 
 /** "http://host:8080", "demo" -> "ws://host:8080/v1/streams/demo" */
@@ -69,8 +71,8 @@ export function streamUrl(baseUrl: string, streamId: string): string {
 }
 
 /**
- * One stream, subscribed or published to. Connects again after a loss, with pauses that grow, and resumes where it
- * stopped. The events tell everything; nothing is thrown after `connect`.
+ * A connection to one stream, as subscriber or publisher. Reconnects after a loss with exponential backoff and resumes
+ * the stream. All results and errors are events; nothing is thrown after `connect`.
  */
 export class StreamClient extends Emitter<StreamEvents> {
   readonly url: string;
@@ -78,7 +80,7 @@ export class StreamClient extends Emitter<StreamEvents> {
   header: Header | null = null;
   /** FAP units per level in the frames of this stream. */
   steps: QuantizerSteps = standardQuantizers;
-  /** What is known of the stream's clock, against `now()`. */
+  /** Estimate of the stream's clock relative to `now()`. */
   readonly streamClock = new ClockEstimate();
 
   private readonly options: Required<StreamOptions>;
@@ -90,7 +92,7 @@ export class StreamClient extends Emitter<StreamEvents> {
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private pingTimer: ReturnType<typeof setTimeout> | undefined;
   private pingId = 0;
-  /** Since the header, or since the clock was to be measured anew. */
+  /** Pings sent since the header, or since `measureClock`. */
   private pings = 0;
   private helloTime = NaN;
 
@@ -136,10 +138,10 @@ export class StreamClient extends Emitter<StreamEvents> {
     socket.onclose = () => {
       if (socket === this.socket) this.lost();
     };
-    socket.onerror = () => undefined; // a close follows
+    socket.onerror = () => undefined; // a close event follows
   }
 
-  /** Closes for good; `connect` opens again. */
+  /** Closes without reconnecting; `connect` opens again. */
   close(): void {
     const socket = this.socket;
     this.socket = null;
@@ -150,15 +152,15 @@ export class StreamClient extends Emitter<StreamEvents> {
   }
 
   /**
-   * Sends frames, for a publisher. `mediaTime` in ms, 0: now; the frames' own times are after it. Returns false, and
-   * sends nothing, while the stream is not open or the connection does not keep up.
+   * Sends frames as a publisher. `mediaTime` in ms, 0: now; the times of the frames are relative to it. Returns false
+   * and sends nothing while the stream is not open or the connection is congested.
    */
   publish(frames: TimedFrame[], mediaTime = 0): boolean {
     if (this.state !== 'open' || !this.socket || frames.length === 0) return false;
     if (this.socket.bufferedAmount > maxBufferedBytes) return false;
     let rest = frames;
     if (!this.encoder) {
-      // What follows is differences, so the first frame on a connection is a whole state.
+      // Later messages are differences, so the first frame of a connection must be a keyframe.
       this.encoder = new FrameEncoder();
       const { time, state } = frames[0]!;
       this.send({ type: 'keyframe', sequence: 0, media_time: mediaTime === 0 ? 0 : mediaTime + time, state });
@@ -168,14 +170,14 @@ export class StreamClient extends Emitter<StreamEvents> {
     return true;
   }
 
-  /** Asks for the clocks; the answer is the event `clock`. */
+  /** Sends a ping; its pong becomes the event `clock`. */
   ping(): void {
     if (this.state !== 'open') return;
     this.pingId = (this.pingId + 1) >>> 0;
     this.send({ type: 'ping', id: this.pingId, client_time: this.options.now() });
   }
 
-  /** Asks for the clocks a few times at once: after a pause in which this machine may have slept. */
+  /** Sends several pings quickly, after a pause in which the machine may have slept. */
   measureClock(): void {
     if (this.state !== 'open' || this.options.pingInterval <= 0) return;
     this.pings = 0;
@@ -211,9 +213,9 @@ export class StreamClient extends Emitter<StreamEvents> {
       message = typeof data === 'string' ? decodeJson(data, this.steps) : this.decoder.decode(new Uint8Array(data));
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
-      if (error.code === 'unsupported' && error.where === '/type') return; // of a later version: not for us
+      if (error.code === 'unsupported' && error.where === '/type') return; // a message type of a later version: ignored
       this.emit('fault', error);
-      // Whatever was missed is missing in every later difference: only a new start helps.
+      // All later differences depend on the lost message, so only a new connection helps.
       this.socket?.close(4000, 'unreadable message');
       return;
     }
@@ -241,16 +243,16 @@ export class StreamClient extends Emitter<StreamEvents> {
         return this.emit('frames', message);
       case 'end':
         this.emit('end', message);
-        // A stream that is over is not asked for again; one whose server stops is.
+        // Do not reconnect to a stream that has ended; do reconnect when the server restarts.
         if (message.reason === 'finished' || message.reason === 'deleted' || message.reason === 'replaced') this.close();
         return;
       case 'error':
-        this.encoder = null; // the server may lack a frame that the next would be a difference to
+        this.encoder = null; // the server may lack the base frame of the next difference
         return this.emit('error', message);
       case 'pong':
         return this.emit('clock', this.clockOf(message));
       default:
-        return; // hello and ping are not for clients
+        return; // hello and ping are sent by clients only
     }
   }
 
@@ -265,7 +267,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.socket = null;
     clearTimeout(this.pingTimer);
     const { first, longest } = this.options.backoff;
-    // Half of the pause is chance, so that a thousand clients do not come back in the same moment.
+    // Half of the pause is random, so that many clients do not reconnect at the same moment.
     const pause = Math.min(longest, first * 2 ** this.attempts) * (0.5 + Math.random() / 2);
     this.attempts += 1;
     this.become('waiting');

@@ -16,11 +16,11 @@ namespace semblante {
 inline constexpr std::size_t arkit_count = 52;
 using ArkitCoefficients = std::array<float, arkit_count>;
 
-/// "jawOpen"; lives as long as the program.
+/// The name, such as "jawOpen", with static lifetime.
 std::string_view arkit_name(std::size_t index);
-/// By ARKit's name ("jawOpen") or Live Link's ("JawOpen"); empty for any other.
+/// The index by ARKit's name ("jawOpen") or Live Link's ("JawOpen"); nullopt for any other.
 std::optional<std::size_t> find_arkit(std::string_view name);
-/// The shape of the other side; itself where a shape has both sides or none.
+/// The shape of the other side; the shape itself if it is symmetric.
 std::size_t arkit_mirror(std::size_t index);
 
 struct FrameFromArkit {
@@ -28,13 +28,13 @@ struct FrameFromArkit {
   std::size_t clamped = 0;  ///< coefficients that were outside 0..1 and were taken as 0 or 1
 };
 
-/// Coefficients -> low-level FAPs for any head. Refused with `not_finite` and the name of the shape where a coefficient
-/// is NaN or infinite. The rules beyond the sum of what each shape does: README.md.
+/// Converts coefficients to FAPs for any head. Error: `not_finite` with the name of the shape for a coefficient that is
+/// NaN or infinite. README.md has the rules beyond the sum of the shapes' effects.
 Result<FrameFromArkit> frame_from_arkit(std::span<const float, arkit_count> coefficients);
 
-/// What ARKit would say of a face, each in 0..1: read from how far each FP is along the axes of the FAPs, wherever that
-/// comes from (FAPs 1 and 2 by the library's sets, shared as Eq. 5 says, low-level FAPs over both). Not the inverse of
-/// frame_from_arkit: see README.md. Continuous in the frame, the same on every call. The frame's FAPs must be finite.
+/// Converts a face to ARKit coefficients, each in 0..1, fitted to the displacements of the FPs along the axes of the
+/// FAPs (FAPs 1 and 2 by the library's sets and Eq. 5, low-level FAPs over both). Not the inverse of frame_from_arkit:
+/// see README.md. Continuous in the frame and deterministic. The frame's FAPs must be finite.
 ArkitCoefficients arkit_from_frame(const semblante_frame& frame);
 
 }  // namespace semblante

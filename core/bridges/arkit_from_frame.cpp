@@ -18,20 +18,20 @@ using Coefficients = std::array<double, arkit_count>;
 constexpr std::size_t most_sweeps = 40;
 constexpr double least_step = 1e-4;
 constexpr std::size_t lid_rounds = 16;
-/// Millimetres squared by which a coefficient of 1 is drawn to 0: makes the answer one where shapes are alike.
+/// Regularization of a coefficient towards 0, square millimetres: makes the solution unique for similar shapes.
 constexpr double ridge = 0.05;
 
 double unit_interval(double value) { return std::clamp(value, 0.0, 1.0); }
 
-/// Is a FAP read by the fit: mouth, jaw, brows, cheeks and nose. Eyes, lids, tongue and head have rules of their own.
+/// Whether the fit uses a FAP: mouth, jaw, brows, cheeks and nose. Eyes, lids, tongue and head have separate rules.
 bool is_fitted(const mpeg4::Fap& fap) {
   return fap.kind == mpeg4::FapKind::translation &&
          (fap.group == 2 || fap.group == 4 || fap.group == 5 || fap.group == 8 || fap.group == 9);
 }
 
-/// Shapes that the fit weighs against each other, and what each does at the fitted FAPs, in millimetres on a usual
-/// head. In place of jawOpen and mouthClose it has "parted" (jawOpen alone) and "shut" (both): each at least 0, so
-/// mouthClose never exceeds jawOpen.
+/// The fitted shapes and their effects on the fitted FAPs, in millimetres on a usual head. jawOpen and mouthClose are
+/// replaced by "parted" (jawOpen only) and "shut" (both), each at least 0, so that mouthClose never exceeds
+/// jawOpen.
 class Fit {
  public:
   Fit() {
@@ -59,8 +59,8 @@ class Fit {
     }
   }
 
-  /// Coordinate descent on half the squared error + cost, both sides of a pair at once, so that a face that is the same
-  /// on both sides is read so. Continuous steps from a fixed start until they are too small to matter.
+  /// Coordinate descent on half the squared error + cost. The two sides of a pair are solved together, so that a
+  /// symmetric face has symmetric coefficients. Starts from a fixed point and ends when the steps are negligible.
   [[nodiscard]] Coefficients solve(const Faps& displacement) const {
     const std::size_t count = shapes_.size();
     std::vector<double> wanted;
@@ -99,7 +99,7 @@ class Fit {
 
  private:
   static double millimetres(std::size_t n) {
-    // The chin boss (18) is at the end of its range long before a jaw is: how far it is says less.
+    // FAP 18 (chin boss) has less weight: its range ends long before the jaw's.
     return generated::arkit_millimetres[static_cast<std::size_t>(mpeg4::fap(n).unit)] / 1024.0 * (n == 18 ? 0.3 : 1.0);
   }
   static bool has_own_rule(std::size_t s) {
@@ -122,8 +122,8 @@ class Fit {
   std::vector<double> gram_;                  ///< #shapes_ squared
 };
 
-/// Blink, squint and wide from where the two lids are, given what gaze and the other shapes make of them. The lower lid
-/// tells a squint from a blink.
+/// Blink, squint and wide from the positions of the two lids minus the effects of gaze and the other shapes. The lower
+/// lid distinguishes a squint from a blink.
 void read_lids(const arkit::Eye& eye, const Faps& displacement, Coefficients& x) {
   double upper_given = 0.0;
   double lower_given = 0.0;

@@ -23,11 +23,11 @@ inline constexpr std::size_t mouth_funnel = shape("mouthFunnel");
 inline constexpr std::size_t mouth_pucker = shape("mouthPucker");
 inline constexpr std::size_t tongue_out = shape("tongueOut");
 
-/// The visemes of FAP 1 that carry what no low-level FAP moves.
+/// The visemes of FAP 1 used for motion without a low-level FAP.
 inline constexpr std::uint8_t viseme_a = 10;
 inline constexpr std::uint8_t viseme_u = 14;
 
-/// What moves one eye and its lids; FAPs and shapes of that side.
+/// The FAPs and shapes of one eye and its lids.
 struct Eye {
   std::size_t blink, look_down, look_in, look_out, look_up, squint, wide;
   std::size_t upper_lid, lower_lid, yaw, pitch;  ///< FAPs
@@ -40,14 +40,14 @@ inline constexpr Eye eyes[2] = {
      shape("eyeLookUpRight"), shape("eyeSquintRight"), shape("eyeWideRight"), 20, 22, 24, 26, -1.0},
 };
 
-/// Lids that have met: FAPs 19 and 21 (20 and 22) sum to IRISD, which is how far the lids of a neutral face are apart.
+/// Sum of FAPs 19 and 21 (20 and 22) for closed lids: IRISD, the distance between the lids of a neutral face.
 inline constexpr double lids_shut = 1024.0;
-/// Where lids meet that close from rest: how far the lower one comes up.
+/// The motion of the lower lid when the lids close from rest.
 inline constexpr double lower_lid_shut = (1.0 - generated::arkit_upper_lid_share) * lids_shut;
-/// FAP units of an eye that looks as far as a coefficient of 1 says.
+/// The rotation of an eye at a look coefficient of 1, FAP units.
 inline constexpr double full_turn = generated::arkit_eye_full_turn_degrees * 3.14159265358979323846 / 180.0 * 1e5;
 
-/// What shape `index` does to a FAP, FAP units.
+/// The change of a FAP by shape `index` at coefficient 1, FAP units.
 constexpr double amount(std::size_t index, std::size_t fap) {
   const generated::ArkitShape& shape = generated::arkit_shapes[index];
   for (std::size_t i = shape.first; i < shape.first + shape.count; ++i) {

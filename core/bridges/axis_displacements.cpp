@@ -19,7 +19,7 @@ std::vector<Dense> dense_of(std::span<const DisplacementSet> sets) {
   return result;
 }
 
-/// Two entries of a library, each with its weight; an entry that is not there says nothing.
+/// Two entries of a library with their weights; a missing entry has no effect.
 class Blend {
  public:
   Blend(const std::vector<Dense>& sets, std::size_t first, double first_weight, std::size_t second,

@@ -14,7 +14,7 @@ namespace {
 using Faps = std::array<double, SEMBLANTE_FAP_COUNT + 1>;
 using Coefficients = std::array<double, arkit_count>;
 
-/// mouthClose takes back what jawOpen parts, no more; and a tongue needs room to come out.
+/// Limits mouthClose to jawOpen, and raises jawOpen where tongueOut needs an open mouth.
 void settle_the_mouth(Coefficients& c) {
   const double closed = std::min(c[arkit::mouth_close], c[arkit::jaw_open]);
   const double parted = std::max(c[arkit::jaw_open] - closed, generated::arkit_tongue_parting * c[arkit::tongue_out]);
@@ -33,8 +33,8 @@ Faps sum_of_shapes(const Coefficients& c) {
   return faps;
 }
 
-/// A blink takes the lids from wherever they are to where they meet; added to them it would pass them through each
-/// other, since trackers report a blink and a look down of one and the same lid.
+/// A blink moves the lids from their current position to the closed position. Adding it would move the lids through
+/// each other, because trackers report both a blink and a look down for one motion of the lid.
 void close_lids(const arkit::Eye& eye, const Coefficients& c, Faps& faps) {
   double& upper = faps[eye.upper_lid];
   double& lower = faps[eye.lower_lid];
@@ -52,7 +52,7 @@ void turn_eye(const arkit::Eye& eye, const Coefficients& c, Faps& faps) {
   faps[eye.pitch] = (c[eye.look_down] - c[eye.look_up]) * arkit::full_turn;
 }
 
-/// Lips press into each other a little and no more, however many shapes close them.
+/// Limits how far the lips press into each other when several shapes close them.
 void stop_lips(Faps& faps) {
   constexpr std::array<std::array<std::size_t, 2>, 3> facing = {{{4, 5}, {8, 10}, {9, 11}}};
   for (const auto& [upper, lower] : facing) {
@@ -62,7 +62,7 @@ void stop_lips(Faps& faps) {
   }
 }
 
-/// Where a viseme puts the FP of a FAP along its axis, FAP units.
+/// The displacement of a FAP's FP along its axis by a viseme, FAP units.
 double reach(std::uint8_t viseme, std::size_t fap) {
   semblante_frame frame{};
   frame.viseme1 = viseme;
@@ -70,17 +70,17 @@ double reach(std::uint8_t viseme, std::size_t fap) {
   return axis_displacements(frame)[fap];
 }
 
-/// Most points of the face have no FAP for most ways they can go: a jaw that opens by FAPs alone draws a chin to a tip.
-/// So FAP 1 carries along what only a viseme can move, an open jaw by "a", lips pushed forward by "u", as far as the
-/// jaw and the lip go; the low-level FAPs win on their own axes. Only one of the two can act at a strength below full,
-/// so the stronger does, by as much as it is stronger: nothing jumps.
+/// Most FPs have no FAP for most directions: a jaw opened by FAPs only would pull the chin to a point. So FAP 1 adds
+/// the motion of a viseme, "a" for an open jaw, "u" for protruded lips, in proportion to jaw and lip; low-level FAPs
+/// override it on their axes. FAP 1 can show only one of the two at partial strength: the stronger one, by the
+/// difference of the two, so that the result is continuous.
 void carry_by_viseme(const Coefficients& c, const Faps& faps, semblante_frame& frame) {
   static const double open = reach(arkit::viseme_a, 3);
   static const double forward = reach(arkit::viseme_u, 16);
   const auto share = [](double amount, double full) { return full > 0.0 ? std::clamp(amount / full, 0.0, 1.0) : 0.0; };
   const double pushed = c[arkit::mouth_pucker] * arkit::amount(arkit::mouth_pucker, 16) +
                         c[arkit::mouth_funnel] * arkit::amount(arkit::mouth_funnel, 16);
-  // An "a" parts the lips where no FAP holds them: with lips shut it carries the chin, and that a little.
+  // An "a" also parts the lips at points without a FAP; with closed lips it only lowers the chin, a little.
   const double shut = c[arkit::jaw_open] > 0.0 ? c[arkit::mouth_close] / c[arkit::jaw_open] : 0.0;
   const double carried = 1.0 - (1.0 - generated::arkit_carried_when_shut) * shut;
   const double more_open = carried * share(faps[3], open) - share(pushed, forward);
@@ -90,8 +90,8 @@ void carry_by_viseme(const Coefficients& c, const Faps& faps, semblante_frame& f
   frame.viseme_blend = static_cast<std::uint8_t>(blend);
 }
 
-/// What a viseme moves and no coefficient does must be held: a FAP of 0 would leave it to the viseme. Not the tongue,
-/// which follows an open jaw well.
+/// Sets the smallest level for FAPs that only the viseme would move: a FAP of 0 would not override the viseme. Except
+/// the tongue, which follows an open jaw well.
 void hold_against_viseme(semblante_frame& frame) {
   semblante_frame viseme{};
   viseme.viseme1 = frame.viseme1;

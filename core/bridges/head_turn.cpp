@@ -11,8 +11,8 @@ constexpr std::size_t head_pitch = 48;
 constexpr std::size_t head_yaw = 49;
 constexpr std::size_t head_roll = 50;
 
-/// FAPs 23, 24 and 49 turn to the face's left, so a yaw to the right is negative there; 25, 26 and 48 turn down; 50
-/// towards the right shoulder.
+/// FAPs 23, 24 and 49 are positive to the face's left, so a yaw to the right is negative; 25, 26 and 48 are positive
+/// down; 50 towards the right shoulder.
 void set_angle(semblante_frame& frame, std::size_t number, double radians) {
   const mpeg4::Fap& fap = mpeg4::fap(number);
   const double units = radians / mpeg4::radians_per_au;

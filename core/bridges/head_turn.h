@@ -4,8 +4,8 @@
 
 namespace semblante {
 
-/// How a head is turned, as Live Link Face sends it beside the 52: radians; yaw is positive towards the face's right,
-/// pitch is positive down, roll is positive towards the face's right shoulder.
+/// The rotation of the head, as Live Link Face sends it beside the 52 coefficients: radians; yaw is positive towards
+/// the face's right, pitch is positive down, roll is positive towards the face's right shoulder.
 struct HeadTurn {
   float yaw = 0.0F;
   float pitch = 0.0F;
@@ -16,8 +16,8 @@ struct HeadTurn {
 void turn_head(semblante_frame& frame, const HeadTurn& turn);
 HeadTurn head_turn_of(const semblante_frame& frame);
 
-/// The eyes' angles that Live Link Face sends as well, in the same sense. They say what the eyeLook coefficients say,
-/// so they are written and never read.
+/// The angles of the eyes that Live Link Face also sends, with the same signs. They repeat the eyeLook coefficients, so
+/// they are written but not read.
 struct EyeTurn {
   float yaw = 0.0F;
   float pitch = 0.0F;

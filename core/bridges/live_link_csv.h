@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// One row of a take: what ARKit saw at one moment.
+/// One row of a take: ARKit's face at one moment.
 struct LiveLinkRow {
   double seconds = 0.0;  ///< from the first row; never falls
   ArkitCoefficients coefficients{};
@@ -24,7 +24,7 @@ struct LiveLinkTake {
   std::vector<std::string> warnings;  ///< columns that were skipped or are not there, in words
 };
 
-/// Frames a second that the app's timecodes count in; a take of 30 frames a second steps by two.
+/// Frames per second of the app's timecodes; a take of 30 frames per second steps by two.
 inline constexpr double live_link_timecode_rate = 60.0;
 inline constexpr std::size_t max_live_link_bytes = std::size_t{64} << 20U;
 inline constexpr std::size_t max_live_link_rows = 500'000;
@@ -35,14 +35,14 @@ inline constexpr std::size_t max_live_link_columns = 256;
 /// shapes is a moment without a face: it repeats the row before. Errors name the line ("line 12").
 Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate = live_link_timecode_rate);
 
-/// What the app would have seen of a face.
+/// Converts a face to the row that the app would write.
 LiveLinkRow live_link_row_of(double seconds, const semblante_frame& face);
 
-/// The two parts of such a file, for who writes it piece by piece.
+/// Header and rows of the file, for incremental writing.
 void append_live_link_header(std::string& to);
 void append_live_link_row(std::string& to, const LiveLinkRow& row, double timecode_rate = live_link_timecode_rate);
 
-/// The same file again: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines ended by LF.
+/// Writes the file: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines ended by LF.
 std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate = live_link_timecode_rate);
 
 }  // namespace semblante

@@ -16,7 +16,7 @@ Error at_line(std::size_t line, ErrorCode code, std::string message) {
   return {code, "line " + std::to_string(line), std::move(message)};
 }
 
-/// Other people's text in a message: short, and nothing a terminal would act on.
+/// Makes untrusted text safe for a message: shortened, without control characters.
 std::string shown(std::string_view text) {
   std::string result(text.substr(0, 40));
   for (char& c : result) {
@@ -62,7 +62,7 @@ std::optional<double> seconds_of(std::string_view timecode, double rate) {
     const std::size_t end = i + 1 < part.size() ? timecode.find(':') : timecode.size();
     if (end == std::string_view::npos) return std::nullopt;
     const std::string_view text = timecode.substr(0, end);
-    // Digits, and a fraction in the last alone: no sign, no exponent, no "nan".
+    // Digits only, with a fraction only in the last field: no sign, exponent or "nan".
     if (text.empty() || text.size() > 12 ||
         text.find_first_not_of(i + 1 < part.size() ? "0123456789" : "0123456789.") != std::string_view::npos) {
       return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<double> seconds_of(std::string_view timecode, double rate) {
   return part[0] * 3600.0 + part[1] * 60.0 + part[2] + part[3] / rate;
 }
 
-/// Where the value of a column belongs: 0..51 a shape, 52..60 a rotation.
+/// The field of a column: 0..51 a shape, 52..60 a rotation.
 std::optional<std::size_t> field_of(std::string_view name) {
   if (const auto shape = find_arkit(name)) return shape;
   for (std::size_t r = 0; r < generated::arkit_rotations.size(); ++r) {
@@ -116,7 +116,7 @@ void set_field(LiveLinkRow& row, std::size_t field, float value) {
       row.right_eye.pitch = value;
       break;
     default:
-      break;  // the roll of an eye, which no FAP says
+      break;  // the roll of an eye has no FAP
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t digits = 10;
 
-/// The file's columns: the stream's order but for two pairs.
+/// The order of the file's columns: the stream's order except for two pairs.
 std::array<std::size_t, arkit_count> columns_of_file() {
   std::array<std::size_t, arkit_count> order{};
   for (std::size_t s = 0; s < arkit_count; ++s) order[s] = s;

@@ -50,13 +50,13 @@ std::array<double, SEMBLANTE_FAP_COUNT + 1> displacements_of(std::size_t viseme)
   return axis_displacements(frame);
 }
 
-/// What each viseme does along the mouth's FAPs, FAP units.
+/// The effect of each viseme along the axes of the mouth's FAPs, FAP units.
 struct MouthOfVisemes {
   MouthOfVisemes() {
     for (const mpeg4::Fap& fap : mpeg4::faps) {
       if (!is_of_mouth(fap)) continue;
       faps.push_back(fap.number);
-      // The chin boss (18) ends at the end of its range long before a jaw does: how far it is says less.
+      // FAP 18 (chin boss) has less weight: its range ends long before the jaw's.
       millimetres.push_back(generated::arkit_millimetres[static_cast<std::size_t>(fap.unit)] / 1024.0 *
                             (fap.number == 18 ? 0.3 : 1.0));
     }
@@ -94,9 +94,9 @@ void use_all(const Weights& weight, semblante_frame& frame) {
   }
 }
 
-/// Square millimetres by which a weight of 1 is drawn to that of FAP 1.
+/// Regularization towards the weights of FAP 1, square millimetres.
 constexpr double trust_in_fap1 = 4.0;
-/// The same by which any change from it must pay, so that few visemes explain a mouth.
+/// Cost of any change from the weights of FAP 1, square millimetres, so that few visemes explain a mouth.
 constexpr double cost_of_change = 5.0;
 constexpr std::size_t sweeps = 60;
 
@@ -145,7 +145,7 @@ OculusWeights oculus_from_frame(const semblante_frame& frame) {
   semblante_frame without_expressions = frame;
   without_expressions.intensity1 = without_expressions.intensity2 = 0;
   const auto displacement = axis_displacements(without_expressions);
-  std::vector<double> left;  // mm: what FAP 1 does not explain
+  std::vector<double> left;  // mm: residual of FAP 1
   for (std::size_t i = 0; i < mouth.faps.size(); ++i) {
     double units = displacement[mouth.faps[i]];
     for (std::size_t v = 1; v < oculus_count; ++v) units -= said[v] * mouth.units[v][i];
@@ -158,7 +158,7 @@ OculusWeights oculus_from_frame(const semblante_frame& frame) {
   Weights w = said;
   for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t v = 1; v < oculus_count; ++v) {
-      // Away from what FAP 1 says only as far as it is worth: a soft threshold.
+      // A soft threshold: the weight leaves FAP 1's only if the gain exceeds the cost.
       const double stiff = mouth.gram[v][v] + trust_in_fap1;
       const double change = (mouth.gram[v][v] * (w[v] - said[v]) - slope[v]) / stiff;
       const double worth = std::max(std::abs(change) - cost_of_change / stiff, 0.0);

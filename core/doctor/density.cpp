@@ -13,13 +13,13 @@
 namespace semblante {
 namespace {
 
-/// Between two neighbouring points of a rim there must be two ordinary vertices for it to bend instead of breaking:
-/// three edges from point to point, of which a rim of lips has eight (2.2 to 2.9) and one of lids four.
+/// A rim bends smoothly if there are at least two vertices between neighbouring points, that is, three edges from point
+/// to point. A rim of lips has eight points (2.2 to 2.9), one of lids four.
 constexpr std::size_t edges_between_points = 3;
 constexpr std::size_t points_of_mouth = 8;
 constexpr std::size_t points_of_eye = 4;
-/// A quarter of a millimetre on a human face, a pixel or two of a face that fills a large screen: finer vertices cost
-/// every client and show nothing.
+/// A quarter of a millimetre on a human face, a pixel or two of a face on a large screen: finer vertices cost time on
+/// every client without visible effect.
 constexpr double finest = 0.004;
 
 struct Ring {
@@ -29,7 +29,7 @@ struct Ring {
   bool whole = true;
 };
 
-/// Along the surface from point to point and back to the first.
+/// The closed path along the surface from point to point.
 Ring walk(const Subject& head, const std::vector<SurfacePoint>& points, EdgePathSearch& search) {
   Ring ring;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,8 +46,8 @@ Ring walk(const Subject& head, const std::vector<SurfacePoint>& points, EdgePath
   return ring;
 }
 
-/// The marked points of a rim in the order of the way round: a corner, the upper rim, the other corner, the lower rim.
-/// Empty unless both corners and both rims have one.
+/// The marked points of a rim in circular order: a corner, the upper rim, the other corner, the lower rim.
+/// Empty unless both corners and both rims have a point.
 std::vector<SurfacePoint> round_the_rim(const Opening& opening, std::span<const SurfacePoint> points) {
   std::vector<SurfacePoint> ring;
   const auto add = [&](std::string_view name) {
@@ -96,17 +96,17 @@ std::vector<Finding> find_wrong_density(const Subject& head) {
       Finding finding = about(opening, opening.is_mouth ? FindingCode::mouth_too_coarse : FindingCode::eye_too_coarse,
                               std::move(ring), rim);
       finding.words = "the rim of the " + std::string(opening.name) + " has " + count_of(edges, "edge", "edges") +
-                      ", so hardly a vertex lies between two points: it breaks at the points where it should bend";
+                      ", so there are too few vertices between its points; it bends in corners instead of smoothly";
       finding.remedy =
-          "subdivide the " + std::string(opening.is_mouth ? "mouth" : "eye") + " once, or take a finer model";
-      finding.measured = {"edges round the rim", static_cast<double>(edges), static_cast<double>(fewest)};
+          "subdivide the " + std::string(opening.is_mouth ? "mouth" : "eye") + " once, or use a finer model";
+      finding.measured = {"edges of the rim", static_cast<double>(edges), static_cast<double>(fewest)};
       findings.push_back(std::move(finding));
     } else if (head.frame.eye_separation && mean < finest) {
       Finding finding = about(opening, FindingCode::face_too_dense, std::move(ring), rim);
       finding.words = "the rim of the " + std::string(opening.name) + " has " + std::to_string(edges) +
-                      " edges, finer than a screen shows; every client pays for vertices that nobody sees";
+                      " edges, finer than a screen resolves; every client processes vertices without visible effect";
       finding.remedy = "decimate the model before the upload, or have clients fetch a lower level of detail";
-      finding.measured = {"mean length of an edge of the rim as a share of ES0", mean, finest};
+      finding.measured = {"mean edge length of the rim as a fraction of ES0", mean, finest};
       findings.push_back(std::move(finding));
     }
   }

@@ -23,8 +23,8 @@ void append(Report& report, std::vector<Finding> findings) {
   std::move(findings.begin(), findings.end(), std::back_inserter(report.findings));
 }
 
-/// A model may have a hundred thousand holes. Of one kind the first are told, and the last of those says how many more
-/// there are; points alone, of which there are 84, never come to as many.
+/// Limits the findings of each kind, because a model may have a hundred thousand holes: the first ones are kept, and
+/// the last of those states how many more there are. Findings about points never reach the limit.
 void keep_few_of_each(std::vector<Finding>& findings) {
   constexpr std::size_t most_of_a_kind = 100;
   std::array<std::size_t, finding_code_names.size()> count{};
@@ -39,7 +39,7 @@ void keep_few_of_each(std::vector<Finding>& findings) {
   findings.resize(kept);
   for (std::size_t kind = 0; kind < count.size(); ++kind) {
     if (count[kind] > most_of_a_kind)
-      last[kind]->words += "; the same goes for " + std::to_string(count[kind] - most_of_a_kind) + " more";
+      last[kind]->words += "; the same applies to " + std::to_string(count[kind] - most_of_a_kind) + " more";
   }
 }
 
@@ -50,8 +50,8 @@ Report errors_first(Report report) {
   return report;
 }
 
-/// Lips and lids may be borders, with nothing behind them, and may touch. Their points are a fifth of ES0 apart, so
-/// with a little more than half of that round each the whole rim is covered.
+/// The places of lips and lids, which may be borders of the mesh and may touch. Their points are a fifth of ES0 apart,
+/// so a radius of slightly more than half of that around each covers the whole rim.
 Slits slits_of(const FaceFrame& face, const FeaturePointSet& points) {
   Slits slits;
   slits.reach = 0.12 * face.eye_separation.value_or(0.0);

@@ -10,12 +10,12 @@
 
 namespace semblante {
 
-/// The fit doctor: what is wrong with a head, where, and what to do about it. `surface` must be build_surface(model).
+/// The fit doctor: finds the faults of a head with places and remedies. `surface` must be build_surface(model).
 ///
-/// What the mesh alone shows, before any feature point is marked. `parts` are those of describe_parts without points.
+/// Checks the mesh only, before feature points are marked. `parts` are those of describe_parts without points.
 Report examine_mesh(const Model& model, const Surface& surface, std::span<const Part> parts);
 
-/// Everything: the mesh, the points of `rig`, its parts and its weights, which `method` made. `rig` must be of `model`.
+/// Checks the mesh, and the points, parts and weights (made by `method`) of `rig`, which must belong to `model`.
 Report examine(const Model& model, const Surface& surface, const Rig& rig, WeightMethod method);
 
 }  // namespace semblante

@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
-/// cos 60 degrees: pairs of one face run the same way, give or take; a pair that does not says nothing about the axis.
+/// cos 60 degrees: pairs of one face are roughly parallel; a pair that is not is excluded from the axis.
 constexpr double same_way = 0.5;
 
 std::size_t index_of(std::string_view name) { return parse_feature_point(name)->value(); }
@@ -25,7 +25,7 @@ double middle(std::vector<double> values) {
   return *half;
 }
 
-/// The median of each coordinate of those that are marked: a point that lies elsewhere does not move it.
+/// The median of each coordinate of the marked points, which is robust against a misplaced point.
 std::optional<glm::dvec3> middle_of(const Points& points, std::span<const std::string_view> names) {
   std::array<std::vector<double>, 3> values;
   for (const std::string_view name : names) {
@@ -52,7 +52,7 @@ std::vector<Pair> marked_pairs(const Points& points) {
   return pairs;
 }
 
-/// The way in which the most pairs run, as the sum of these pairs: long ones tell it best.
+/// The direction of the largest number of parallel pairs, as their sum, so that long pairs have more weight.
 std::optional<glm::dvec3> common_way(const std::vector<Pair>& pairs) {
   glm::dvec3 best(0.0);
   std::size_t most = 0;
@@ -74,7 +74,7 @@ std::optional<glm::dvec3> common_way(const std::vector<Pair>& pairs) {
   return glm::normalize(best);
 }
 
-/// The direction of what is left of `way` across the unit vectors `a` and `b`; empty if that is no longer than `least`.
+/// The direction of `way` without its components along unit vectors `a` and `b`; empty if not longer than `least`.
 std::optional<glm::dvec3> across(std::optional<glm::dvec3> way, const glm::dvec3& a, const glm::dvec3& b,
                                  double least) {
   if (!way) return way;
@@ -111,7 +111,7 @@ glm::dvec3 snapped(const glm::dvec3& way) {
 }
 
 std::optional<double> separation_of_eyes(const Points& points, const glm::dvec3& left) {
-  // A point of the left eye, or two of whose middle counts, against the same of the right eye.
+  // A point of the left eye, or the middle of two, compared with the same of the right eye.
   constexpr std::array<std::array<std::string_view, 2>, 4> ways = {
       {{"3.5", "3.5"}, {"3.7", "3.11"}, {"3.1", "3.3"}, {"4.1", "4.5"}}};
   std::vector<double> values;
@@ -144,8 +144,8 @@ FaceFrame fit_face_frame(const FeaturePointSet& points) {
   const double spread = pairs.empty() ? 0.0 : glm::length(pairs.front().across);
   const double least = 1e-3 * spread;
   if (const auto up = across(way_between(marked, of_mouth, of_eyes), frame.left, frame.left, least)) frame.up = *up;
-  // The third axis from points of its own, not from the other two: only so a face whose sides are exchanged differs
-  // from one that is turned round.
+  // The third axis has its own points instead of the cross product of the other two: this distinguishes exchanged
+  // sides from a rotated face.
   const auto forward = across(way_between(marked, behind, in_front), frame.left, frame.up, least);
   frame.forward = glm::cross(frame.left, frame.up);
   if (forward && glm::dot(*forward, frame.forward) < 0.0) {

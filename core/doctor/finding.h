@@ -13,13 +13,13 @@
 
 namespace semblante {
 
-/// How much a finding matters: an error makes the face move wrongly or not at all, a warning makes it look worse than
-/// it could, a note is worth knowing.
+/// Severity of a finding: with an error the face moves wrongly or not at all, with a warning it looks worse than
+/// it could, a note is for information.
 enum class Severity : std::uint8_t { error, warning, note };
 inline constexpr std::array<std::string_view, 3> severity_names = {"error", "warning", "note"};
 
-/// What can be found. Each has a name for programs (finding_code_names), which never changes once it has been given
-/// out.
+/// The kinds of findings. Each has a name for programs (finding_code_names), which never changes after its first
+/// release.
 enum class FindingCode : std::uint8_t {
   upside_down,
   facing_away,
@@ -98,7 +98,7 @@ inline constexpr std::array finding_code_names = std::to_array<std::string_view>
 });
 constexpr std::string_view to_string(FindingCode code) { return finding_code_names[static_cast<std::size_t>(code)]; }
 
-/// File vertices, of which a report names a few and counts all: a bad model may have a million.
+/// File vertices of a finding: the first few and the total number, because a bad model may have a million.
 struct VertexSample {
   static constexpr std::size_t capacity = 32;
 
@@ -110,7 +110,7 @@ struct VertexSample {
   }
 };
 
-/// Where a finding is; what it does not concern is empty.
+/// The place of a finding; members that do not apply are empty.
 struct Place {
   std::optional<PartId> part;
   std::vector<FeaturePointId> points;  ///< as the finding tells them
@@ -118,14 +118,14 @@ struct Place {
   std::optional<glm::dvec3> position;  ///< what to look at; model units, MPEG-4 frame
 };
 
-/// What was measured, and the value from which it is a finding.
+/// A measured value, and the threshold of the finding.
 struct Measurement {
   std::string what;  ///< with its unit: "distance as a share of ES0"
   double value = 0.0;
   double threshold = 0.0;
 };
 
-/// One thing that is wrong with a head, in words and as data.
+/// One fault of a head, as text and as data.
 struct Finding {
   FindingCode code{};
   Severity severity = Severity::warning;

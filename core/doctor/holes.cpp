@@ -16,12 +16,12 @@
 namespace semblante {
 namespace {
 
-/// A border longer than this, of ES0, is the neck's or the rim of a mask: a hole of that length is wider than a cheek.
+/// A border longer than this, in ES0, is the neck's or the rim of a mask, not a hole.
 constexpr double longest = 1.5;
-/// Hardly a place of the face is farther from all points, in ES0; a hole this near bends the ways by which influence
-/// spreads.
+/// Distance to a point, in ES0, up to which a hole matters: it deflects the paths along which influence spreads. Nearly
+/// all places of a face are within it.
 constexpr double near_a_point = 0.4;
-/// Mouth, eyes and nostrils are holes on many heads. A border that comes this near to their points is theirs.
+/// Mouth, eyes and nostrils are holes on many heads. A border this close to their points, in ES0, belongs to them.
 constexpr double of_an_opening = 0.10;
 constexpr auto at_openings =
     std::to_array<std::string_view>({"2.2", "2.3", "2.4", "2.5",  "2.6",  "2.7", "2.8", "2.9", "3.1", "3.2", "3.3",
@@ -108,9 +108,9 @@ std::vector<Finding> find_holes(const Subject& head) {
     finding.place.vertices = std::move(hole.vertices);
     finding.place.position = at;
     finding.words = "the skin has a hole beside " + to_string(ids[point]) + ", " + percent(hole.length / unit) +
-                    " of the distance of the pupils round; influence goes round it, and the background shows through";
+                    " of the eye distance in circumference; influence goes around it, and the background is visible";
     finding.remedy = "fill the hole in the program that made the model";
-    finding.measured = {"distance to the point as a share of ES0", least / unit, near_a_point};
+    finding.measured = {"distance to the point as a fraction of ES0", least / unit, near_a_point};
     findings.push_back(std::move(finding));
   }
   std::sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {

@@ -15,9 +15,9 @@
 namespace semblante {
 namespace {
 
-/// A piece this near to a point of the moving face, of ES0, is part of what should move; 6 mm on a human face.
+/// A piece within this distance of a point of the face, in ES0, should move with it; 6 mm on a human face.
 constexpr double beside_a_point = 0.10;
-/// Hair covers the skull, glasses the eyes; what is beside this share of a face's points is a face again.
+/// A part close to this fraction of a face's points is a second face; hair and glasses are close to fewer.
 constexpr double share_of_a_face = 0.5;
 
 std::string called(const std::vector<Part>& parts, std::size_t index) {
@@ -33,7 +33,7 @@ VertexSample members(const Subject& head, std::size_t part) {
 
 bool moves_with_the_skin(FeaturePointId id) { return is_skin_point(id) && group_of(id) != 10; }
 
-/// How a part lies to the points that move the skin.
+/// The distances of a part to the points that move the skin.
 struct Nearness {
   double distance = std::numeric_limits<double>::infinity();  ///< the least, in model units
   std::size_t point = 0;                                      ///< to which
@@ -87,21 +87,21 @@ void find_strangers(const Subject& head, std::vector<Finding>& out) {
     const double share = static_cast<double>(near.beside.size()) / static_cast<double>(ids.size());
     if (share >= share_of_a_face) {
       Finding finding = about(head, p, FindingCode::second_skin, ids[near.point], near.at);
-      finding.words = called(parts, p) + " lies beside " + std::to_string(near.beside.size()) + " of the face's " +
+      finding.words = called(parts, p) + " is close to " + std::to_string(near.beside.size()) + " of the face's " +
                       std::to_string(ids.size()) +
-                      " points, as a second skin or a second level of detail does; the points are not on it, so it "
-                      "shows through the face that moves";
+                      " points, like a second skin or a second level of detail; the points are not on it, so it "
+                      "shows through the moving face";
       finding.remedy = "export the model with one skin only";
-      finding.measured = {"share of the face's points beside it", share, share_of_a_face};
+      finding.measured = {"fraction of the face's points close to it", share, share_of_a_face};
       out.push_back(std::move(finding));
     } else if (parts[p].role == PartRole::rest && near.distance <= reach) {
       Finding finding = about(head, p, FindingCode::idle_part, ids[near.point], near.at);
       finding.words = called(parts, p) + ", " + count_of(parts[p].vertex_count, "vertex", "vertices") +
-                      ", lies in the moving face beside " + to_string(ids[near.point]) +
-                      ", but no point reaches it and it has no role; it stays while the skin moves away under it";
+                      ", is in the moving face close to " + to_string(ids[near.point]) +
+                      ", but no point influences it and it has no role; it stays while the skin under it moves";
       finding.remedy =
           "give the part a role (attached, if it sits on the skin), join it to the skin, or mark points on it";
-      finding.measured = {"distance to the point as a share of ES0", near.distance / *head.frame.eye_separation,
+      finding.measured = {"distance to the point as a fraction of ES0", near.distance / *head.frame.eye_separation,
                           beside_a_point};
       out.push_back(std::move(finding));
     }
@@ -124,8 +124,8 @@ void find_still_eyes(const Subject& head, std::vector<Finding>& out) {
     if (const FeaturePoint* const pupil = find_point(head.rig.points, eye.pupil))
       finding.place.position = glm::dvec3(pupil->position);
     finding.words =
-        "no part is the " + std::string(eye.name) + " eyeball, so FAPs " + std::string(eye.faps) + " turn nothing";
-    finding.remedy = "give the eyeball's part that role; where the eye is painted on the skin there is nothing to turn";
+        "no part is the " + std::string(eye.name) + " eyeball, so FAPs " + std::string(eye.faps) + " have no effect";
+    finding.remedy = "give the eyeball's part this role; an eye painted on the skin cannot rotate";
     out.push_back(std::move(finding));
   }
 }

@@ -16,7 +16,8 @@
 namespace semblante {
 namespace {
 
-/// From rim to rim the surface leads round by a corner, or deep inside. A way of less than half of that goes across.
+/// Without a fault, the path from rim to rim goes around a corner or deep inside. A shorter path than this fraction of
+/// it crosses the gap.
 constexpr double shortest_share = 0.5;
 
 struct Crossing {
@@ -26,7 +27,7 @@ struct Crossing {
   std::vector<SurfaceVertexId> way;
 };
 
-/// The pair of opposite points with the shortest way across, as a share of the way by the nearer corner.
+/// The pair of opposite points with the shortest path, relative to the path around the nearer corner.
 std::optional<Crossing> shortest_crossing(const Subject& head, const Opening& opening,
                                           std::span<const SurfacePoint> points, EdgePathSearch& search) {
   std::optional<Crossing> shortest;
@@ -34,7 +35,7 @@ std::optional<Crossing> shortest_crossing(const Subject& head, const Opening& op
     const SurfacePoint* const upper = point_named(points, opening.upper[i]);
     const SurfacePoint* const lower = point_named(points, opening.lower[i]);
     if (upper == nullptr || lower == nullptr || upper->vertex == lower->vertex) continue;
-    // A straight line to the corner and back is what the way round cannot be shorter than: it depends on no mesh.
+    // Straight lines to the corner and back: a lower bound of the path around it, independent of the mesh.
     double round = std::numeric_limits<double>::infinity();
     for (const std::string_view name : opening.corners) {
       if (const SurfacePoint* const corner = point_named(points, name))
@@ -51,7 +52,7 @@ std::optional<Crossing> shortest_crossing(const Subject& head, const Opening& op
   return shortest;
 }
 
-/// Opposite points at one vertex: the rims are one.
+/// Opposite points at the same vertex: the rims are fused.
 std::optional<Crossing> fused(const Opening& opening, std::span<const SurfacePoint> points) {
   for (std::size_t i = 0; i < opening.upper.size(); ++i) {
     const SurfacePoint* const upper = point_named(points, opening.upper[i]);

@@ -13,10 +13,10 @@
 namespace semblante {
 namespace {
 
-/// A lip that follows the other by a tenth is seen to: when the mouth opens by its width, the wrong lip goes along by
-/// several millimetres.
+/// Visible threshold: if a lip follows the other by a tenth, it moves by several millimetres when the mouth opens by
+/// its width.
 constexpr double most_share = 0.10;
-/// How far from its points a lip or lid reaches, of ES0, where its two contours are not both marked.
+/// Extent of a lip or lid from its points, in ES0, if its two contours are not both marked.
 constexpr double usual_reach = 0.12;
 
 using Ids = std::vector<FeaturePointId>;
@@ -34,7 +34,7 @@ std::vector<SurfaceVertexId> vertices_of(std::span<const SurfacePoint> points, c
   return vertices;
 }
 
-/// From the rim to the outer contour: as far as the lip or lid goes.
+/// Extent of a lip or lid: distance from the rim to the outer contour.
 double reach_of(const Subject& head, std::span<const std::string_view> flesh, std::string_view outer) {
   const FeaturePoint* const inner_point = find_point(head.rig.points, flesh.front());
   const FeaturePoint* const outer_point = find_point(head.rig.points, outer);
@@ -49,7 +49,7 @@ struct Leak {
   VertexId worst_at;
 };
 
-/// What the points `from` have of the rows of vertices near the points `into`.
+/// The total weight of the points `from` at the vertices near the points `into`.
 Leak leak(const Subject& head, std::span<const double> to_into, std::span<const double> to_others, double reach,
           const Ids& from) {
   Leak leak;
@@ -78,21 +78,20 @@ std::optional<Finding> tell(const Subject& head, const Opening& opening, Leak le
   const std::string part = opening.is_mouth ? "lip" : opening.name == openings[1].name ? "left lid" : "right lid";
   Finding finding;
   finding.code = opening.is_mouth ? FindingCode::lips_leak : FindingCode::lids_leak;
-  // Eq. 1 to 4 share every vertex among the points round it, across a slit too; it is no fault of the head.
+  // Eq. 1 to 4 distribute every vertex among the surrounding points, also across a slit; the head is not at fault.
   finding.severity = head.method == WeightMethod::paper ? Severity::note : Severity::warning;
   finding.place.part = head.surface.part_of[head.surface.surface_of[leak.worst_at.value()].value()];
   finding.place.points = {*parse_feature_point(from.front()), *parse_feature_point(into.front())};
   finding.place.position = glm::dvec3(head.model.positions[leak.worst_at.value()]);
   finding.words = count_of(leak.vertices.count, "vertex", "vertices") + " of the " + (up ? "upper " : "lower ") + part +
                   (leak.vertices.count == 1 ? " follows" : " follow") + " the points of the " +
-                  (up ? "lower" : "upper") + " one by more than a tenth, at worst by " + percent(leak.worst) +
+                  (up ? "lower" : "upper") + " one by more than a tenth, at most by " + percent(leak.worst) +
                   "; they move along when only the other should";
-  finding.remedy =
-      head.method == WeightMethod::paper
-          ? "take smooth weights, which do not leak; with those of the paper it is in the nature of the method"
-          : "look at what joins the two, and at the points next to the place";
+  finding.remedy = head.method == WeightMethod::paper
+                       ? "use smooth weights, which do not leak; it is inherent in the weights of the paper"
+                       : "check the connection of the two, and the points near the place";
   finding.place.vertices = std::move(leak.vertices);
-  finding.measured = {"greatest share of the other's points", leak.worst, most_share};
+  finding.measured = {"largest weight of the other's points", leak.worst, most_share};
   return finding;
 }
 

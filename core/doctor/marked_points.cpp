@@ -9,7 +9,7 @@
 namespace semblante {
 namespace {
 
-/// The point that an error's "/points/<id>..." is about.
+/// The feature point in an error's pointer "/points/<id>...".
 std::optional<FeaturePointId> point_of(std::string_view where) {
   constexpr std::string_view before = "/points/";
   if (!where.starts_with(before)) return std::nullopt;
@@ -34,7 +34,7 @@ PlacedPoints place_what_can_be(const Model& model, const Surface& surface, std::
     Finding finding;
     finding.code = FindingCode::point_refused;
     finding.severity = Severity::error;
-    finding.words = points.error().message + "; it was left out";
+    finding.words = points.error().message + "; it was omitted";
     finding.remedy = "mark the point again";
     if (at != marked.end()) {
       finding.place.points.push_back(at->id);

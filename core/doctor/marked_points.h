@@ -14,15 +14,15 @@
 
 namespace semblante {
 
-/// As many of the marked points as can be placed, and a finding for each that cannot.
+/// The marked points that can be placed, and a finding for each that cannot.
 struct PlacedPoints {
   FeaturePointSet points;
   std::vector<Finding> refused;
   std::vector<std::string> warnings;  ///< of place_feature_points
 };
 
-/// place_feature_points for someone who wants to know everything that is wrong at once: where that stops at the first
-/// point it refuses, this leaves the point out and goes on.
+/// Like place_feature_points, but reports all errors: instead of stopping at the first refused point, omits the point
+/// and continues.
 PlacedPoints place_what_can_be(const Model& model, const Surface& surface, std::vector<MarkedPoint> marked,
                                std::span<const std::optional<PartRole>> roles_by_user = {});
 

@@ -37,9 +37,8 @@ void find_repeated(const Model& model, const Surface& surface, const MeshSides& 
   Finding finding =
       about(model, surface, FindingCode::duplicate_triangles, Severity::warning, first_corners(model, mesh.repeated));
   finding.words = count_of(mesh.repeated.size(), "triangle lies", "triangles lie") +
-                  " exactly on another one; both are drawn and flicker through each other";
-  finding.remedy =
-      "delete doubled faces; where they were to make a surface visible from behind, mark its material double-sided";
+                  " exactly on another one; both are drawn and flicker";
+  finding.remedy = "delete duplicate faces; to make a surface visible from behind, set its material to double-sided";
   out.push_back(std::move(finding));
 }
 
@@ -72,8 +71,8 @@ void find_unused(const Model& model, const Surface& surface, std::vector<Finding
   const std::size_t count = vertices.count;
   Finding finding = about(model, surface, FindingCode::unused_vertices, Severity::note, std::move(vertices));
   finding.words =
-      count_of(count, "vertex belongs", "vertices belong") + " to no triangle; they are left out of the package";
-  finding.remedy = "nothing needs to be done; loose vertices can be deleted before the export";
+      count_of(count, "vertex belongs", "vertices belong") + " to no triangle; the package omits unused vertices";
+  finding.remedy = "no action is needed; unused vertices can be deleted before the export";
   out.push_back(std::move(finding));
 }
 

@@ -11,8 +11,8 @@
 
 namespace semblante {
 
-/// Faults of the triangles: degenerate, given twice, vertices that no triangle uses; and on the skin, where influence
-/// spreads, more than two at an edge. One finding a kind, its place the vertices concerned. `parts` by PartId.
+/// Faults of the triangles: degenerate or duplicate triangles, unused vertices, and on the skin, where influence
+/// spreads, edges of more than two triangles. One finding per kind, with its vertices as the place. `parts` by PartId.
 std::vector<Finding> find_mesh_faults(const Model& model, const Surface& surface, std::span<const Part> parts,
                                       const MeshSides& mesh);
 

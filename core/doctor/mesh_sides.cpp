@@ -11,7 +11,7 @@
 namespace semblante {
 namespace {
 
-/// A triangle this much lower than it is long has no direction that rounding did not make.
+/// Minimum height relative to the length of a triangle; the normal of a flatter triangle is only rounding error.
 constexpr double least_height = 1e-6;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -47,7 +47,7 @@ MeshSides sort_sides(const Model& model, const Surface& surface) {
   std::sort(mesh.sides.begin(), mesh.sides.end(), [](const MeshSide& a, const MeshSide& b) {
     return std::tie(a.low, a.high, a.across, a.triangle) < std::tie(b.low, b.high, b.across, b.triangle);
   });
-  // A triangle given twice has all its sides twice: it counts at each, and is told of at its lowest vertex.
+  // A duplicate triangle has all its sides twice: counted at each side, reported at its lowest vertex.
   const auto again = [&](const MeshSide& a, const MeshSide& b) {
     if (std::tie(a.low, a.high, a.across) != std::tie(b.low, b.high, b.across)) return false;
     if (b.high < b.across) mesh.repeated.push_back(b.triangle);

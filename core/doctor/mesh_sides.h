@@ -17,7 +17,7 @@ struct MeshSide {
   bool rising;              ///< the triangle goes round from low to high
 };
 
-/// The triangles of a model as the surface has them, sorted by what they share.
+/// The sides of all triangles on the surface, sorted by shared edges.
 struct MeshSides {
   std::vector<MeshSide> sides;                 ///< of whole triangles, each triangle once; by (low, high)
   std::vector<std::uint32_t> degenerate;       ///< triangles without area, in order: collapsed to an edge or a point
@@ -30,7 +30,7 @@ struct MeshSides {
   }
 };
 
-/// `surface` must be build_surface(model). O(#T log #T) time, 60 bytes a triangle.
+/// `surface` must be build_surface(model). O(#T log #T) time, 60 bytes per triangle.
 MeshSides sort_sides(const Model& model, const Surface& surface);
 
 }  // namespace semblante

@@ -12,8 +12,8 @@ namespace semblante {
 std::array<double, feature_point_count> mirror_offsets(const FaceFrame& face) {
   std::array<double, feature_point_count> offsets{};
   if (!face.eye_separation) return offsets;
-  // The plane lies along the model's axes, halfway between the pairs; the median, as a point that is off must not move
-  // it. What remains of a tilt of the face is within what is taken for wrong.
+  // The plane is parallel to the model's axes, half way between the pairs; the median is robust against misplaced
+  // points. A remaining tilt of the face is within the threshold.
   std::vector<double> halves;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
     const auto& info = mpeg4::feature_points[id];

@@ -12,14 +12,14 @@
 namespace semblante {
 namespace {
 
-/// Points that are marked together and whose absence has one meaning.
+/// A group of points that are marked together, with the severity of their absence.
 struct Region {
   std::string_view name;
   std::uint8_t group, first, last;  ///< ids "group.first" to "group.last"
   Severity severity;                ///< where a translation FAP or a set of displacements loses a point
 };
 
-/// A face without brows or lids that move is a poor one; ears, tongue and skull may well not be there.
+/// Missing brows or lids are warnings; ears, tongue and skull may be absent from a head.
 constexpr auto regions = std::to_array<Region>({
     {"chin and jaw", 2, 1, 1, Severity::warning},
     {"inner lips", 2, 2, 9, Severity::warning},
@@ -43,7 +43,7 @@ bool covers(const Region& region, FeaturePointId id) {
   return group_of(id) == region.group && number_of(id) >= region.first && number_of(id) <= region.last;
 }
 
-/// What needs one of these points: all by name, in the order of the tables.
+/// The features that need one of the missing points, by name, in the order of the tables.
 struct Losses {
   std::vector<int> faps;
   std::vector<std::string_view> units, visemes, expressions;
@@ -113,15 +113,15 @@ std::string consequences(const Losses& losses, const std::vector<FeaturePointId>
   std::string text;
   const auto add = [&](const std::string& sentence) { text += (text.empty() ? "" : "; ") + sentence; };
   if (!losses.units.empty())
-    add(names(losses.units, 0) + " cannot be measured, so FAPs, visemes and expressions in that unit do nothing");
+    add(names(losses.units, 0) + " cannot be measured, so FAPs, visemes and expressions in that unit have no effect");
   if (!losses.faps.empty())
-    add((losses.faps.size() == 1 ? "FAP " : "FAPs ") + ranges(losses.faps) + " move nothing there");
+    add((losses.faps.size() == 1 ? "FAP " : "FAPs ") + ranges(losses.faps) + " have no effect there");
   if (!losses.visemes.empty())
     add("part of these visemes is lost: " + names(losses.visemes, viseme_library().size() - 1));
   if (!losses.expressions.empty())
     add("part of these expressions is lost: " + names(losses.expressions, expression_library().size() - 1));
   if (missing.size() == 1 && to_string(missing.front()) == "7.1") add("the centre of head rotation is an estimate");
-  if (text.empty()) text = "nothing that moves needs them";
+  if (text.empty()) text = "no motion needs them";
   return text;
 }
 
@@ -161,8 +161,9 @@ std::vector<Finding> find_missing_points(const Subject& head) {
     finding.place.points = missing;
     finding.words = std::string(region.name) + ": " + list_of(missing) + (missing.size() == 1 ? " is" : " are") +
                     " not marked; " + consequences(losses, missing);
-    finding.remedy = finding.severity == Severity::note ? "mark them where the head has the place, or leave it so"
-                                                        : "mark them, or have them proposed from the points there are";
+    finding.remedy = finding.severity == Severity::note
+                         ? "mark them if the head has these places; otherwise no action is needed"
+                         : "mark them, or let the server propose them from the marked points";
     findings.push_back(std::move(finding));
   }
   return findings;

@@ -14,12 +14,12 @@
 namespace semblante {
 namespace {
 
-/// Borders closer than this share of their edges were meant to be one: a twentieth is no gap that anybody modelled.
+/// Borders closer than this fraction of their edge length were meant to be joined: no modeller makes so small a gap.
 constexpr double gap_share = 0.05;
-/// Vertices looked at in one cell: a heap of vertices at one place must not cost their square.
+/// Maximum number of vertices examined per cell, so that coincident vertices do not cost quadratic time.
 constexpr std::size_t most_in_cell = 16;
 
-/// Vertices by cubes of space.
+/// A spatial grid of vertices.
 class Cells {
  public:
   Cells(const Surface& surface, double size) : surface_(surface), size_(size) {}
@@ -42,7 +42,7 @@ class Cells {
 
  private:
   [[nodiscard]] std::uint64_t key(const glm::dvec3& p, int x, int y, int z) const {
-    // Different cubes may share a key: that costs a comparison, never a wrong answer.
+    // Different cells may share a key: this costs a comparison, but the result stays correct.
     const auto along = [&](double value, int step) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / size_)) + step);
     };
@@ -74,7 +74,7 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
 
   std::vector<double> lengths;
   double extent = 0.0;
-  std::unordered_map<std::uint32_t, double> shortest_at;  // of the border edges that end at a vertex
+  std::unordered_map<std::uint32_t, double> shortest_at;  // shortest border edge at each vertex
   for (const auto& [a, b] : borders) {
     const double length = glm::distance(surface.positions[a], surface.positions[b]);
     lengths.push_back(length);
@@ -87,7 +87,7 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
   const auto half = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), half, lengths.end());
   const double widest = gap_share * *half;
-  // Nothing can be closer than a width of nothing, and cubes must not be more than 64 bits can count.
+  // No gap is possible at zero width, and the cell coordinates must fit into 64 bits.
   if (!(widest > extent * 1e-12)) return {};
 
   Cells cells(surface, widest);
@@ -109,7 +109,7 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
     return partner;
   };
 
-  // A vertex that touches another border is a contact; an edge of which both ends do is a seam.
+  // A vertex that touches another border is a contact; an edge with two such ends is a seam.
   VertexSample vertices;
   std::size_t count = 0;
   double gap = 0.0;
@@ -118,7 +118,7 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
     if (pa == nobody) continue;
     const std::uint32_t pb = partner_of(b);
     if (pb == nobody || pa == pb) continue;
-    // The piece that was cut off the skin may pass for anything, but what it was cut off is skin.
+    // The piece that was cut off may have any role, but one of the two must be skin.
     if (!is_skin(surface, parts, a) && !is_skin(surface, parts, pa)) continue;
     const glm::dvec3& start = surface.positions[a];
     const bool is_a_slit = std::any_of(slits.places.begin(), slits.places.end(), [&](const glm::dvec3& place) {

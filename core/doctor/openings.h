@@ -11,13 +11,13 @@ namespace semblante {
 using mpeg4::Opening;
 using mpeg4::openings;
 
-/// Rims that the surface joins across the slit: fused, or bridged by a membrane.
+/// Rims joined across the slit: fused, or bridged by a membrane.
 std::vector<Finding> find_joined_rims(const Subject& head);
 
-/// A face that is not neutral: the mouth stands open, the eyes are not open.
+/// A face that is not neutral: open mouth, closed eyes.
 std::vector<Finding> find_rims_not_neutral(const Subject& head);
 
-/// Points of one lip or lid that move vertices of the other, by the weights as they are.
+/// Points of one lip or lid that have weights at vertices of the other.
 std::vector<Finding> find_leaks(const Subject& head);
 
 /// Too few or too many vertices around mouth and eyes.

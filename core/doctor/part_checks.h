@@ -12,27 +12,27 @@
 
 namespace semblante {
 
-// The first two need no feature points; `parts` by PartId.
+// The first two checks need no feature points; `parts` by PartId.
 
-/// Places round which borders that nearly meet are the rims of a slit, lips or lids that touch, and no seam.
+/// Places around which borders that nearly meet are touching lips or lids instead of seams.
 struct Slits {
   std::vector<glm::dvec3> places;
   double reach = 0.0;  ///< model units
 };
 
-/// Borders of the skin that nearly meet another border but do not stitch. Without `slits` those of mouth and eyes count
-/// too.
+/// Borders of the skin that nearly meet another border but are not stitched. Without `slits` including those of mouth
+/// and eyes.
 std::vector<Finding> find_open_seams(const Model& model, const Surface& surface, std::span<const Part> parts,
                                      const MeshSides& mesh, const Slits& slits = {});
 
-/// Neighbouring triangles of the skin that face different ways, and a skin whose outside is its inside.
+/// Neighbouring triangles of the skin with opposite winding, and a skin that is inside out.
 std::vector<Finding> find_wrong_winding(const Model& model, const Surface& surface, std::span<const Part> parts,
                                         const MeshSides& mesh);
 
-/// Pieces that no point moves and no role explains, a second skin, eyes that cannot turn.
+/// Pieces without influence and role, a second skin, eyes that cannot rotate.
 std::vector<Finding> find_idle_parts(const Subject& head);
 
-/// Holes in the skin beside its points.
+/// Holes in the skin near its points.
 std::vector<Finding> find_holes(const Subject& head);
 
 }  // namespace semblante

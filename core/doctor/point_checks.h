@@ -7,24 +7,24 @@
 
 namespace semblante {
 
-// Checks of where feature points lie. Each gives its findings; none needs the others to have run.
+// Independent checks of the places of feature points; each returns its findings.
 
-/// The face as a whole: upside down, facing away, lying otherwise, left and right exchanged.
+/// The orientation of the face: upside down, facing away, tilted, left and right exchanged.
 std::vector<Finding> find_wrong_way_round(const Subject& head);
 
-/// Points that are not where the definitions of the standard put them among the others: above, left, in front.
+/// Points that violate the order defined by the standard: above, left of, in front of others.
 std::vector<Finding> find_points_out_of_order(const Subject& head);
 
-/// Points that are off the place which the mirror plane of the face gives them.
+/// Points that violate the symmetry of the face.
 std::vector<Finding> find_points_off_mirror(const Subject& head);
 
-/// Points on a vertex of another point, on no surface, on a part they do not belong to, on the inside of a surface.
+/// Points on the vertex of another point, on no surface, on a wrong part, or on the inside of a surface.
 std::vector<Finding> find_points_on_wrong_surface(const Subject& head);
 
-/// Units that the points give no value, or none that a face has.
+/// FAPUs without a value, or with an implausible one.
 std::vector<Finding> find_unit_faults(const Subject& head);
 
-/// Points that are not marked, with what does not work without them.
+/// Points that are not marked, with the features that need them.
 std::vector<Finding> find_missing_points(const Subject& head);
 
 }  // namespace semblante

@@ -10,8 +10,8 @@
 namespace semblante {
 namespace {
 
-/// About a centimetre on a human face. Two sides of a real face differ by 1 to 4 mm (0.02 to 0.06 of ES0); areas more
-/// than points (cheeks, jaw, ears, hair line) are marked less exactly, so they get twice the room.
+/// About a centimetre on a human face. The sides of a real face differ by 1 to 4 mm (0.02 to 0.06 of ES0). Places
+/// without a distinct point (cheeks, jaw, ears, hair line) are marked less exactly, so their tolerance is doubled.
 constexpr double most_off = 0.15;
 constexpr double most_off_in_areas = 0.30;
 
@@ -28,7 +28,7 @@ std::vector<Finding> find_points_off_mirror(const Subject& head) {
   const auto offsets = mirror_offsets(head.frame);
   for (std::uint8_t index = 0; index < feature_point_count; ++index) {
     const auto& info = mpeg4::feature_points[index];
-    if (info.side == mpeg4::Side::right) continue;  // told with the left one
+    if (info.side == mpeg4::Side::right) continue;  // reported with the left one
     const FeaturePointId id(index);
     const FeaturePointId other(info.mirror);
     const double off = offsets[index];
@@ -44,15 +44,14 @@ std::vector<Finding> find_points_off_mirror(const Subject& head) {
       if (at != nullptr && at->vertex) finding.place.vertices.add(*at->vertex);
       if (at != nullptr && !finding.place.position) finding.place.position = glm::dvec3(at->position);
     }
-    finding.words = id == other
-                        ? to_string(id) + " belongs into the middle of the face, but is off it by " + percent(off) +
-                              " of the distance of the pupils"
-                        : to_string(id) + " and " + to_string(other) + " do not mirror each other: one is off by " +
-                              percent(off) + " of the distance of the pupils";
-    finding.remedy = id == other ? "move the point into the middle, unless the face is like that"
-                                 : "move the one that is wrong, or have it filled in from the other side, unless the "
-                                   "face is like that";
-    finding.measured = {"share of ES0 off the mirrored place", off, most};
+    finding.words = id == other ? to_string(id) + " belongs in the middle of the face, but is off by " + percent(off) +
+                                      " of the eye distance"
+                                : to_string(id) + " and " + to_string(other) + " are not symmetric: one is off by " +
+                                      percent(off) + " of the eye distance";
+    finding.remedy = id == other ? "move the point to the middle, unless the face is asymmetric"
+                                 : "move the wrong one, or let it be filled in from the other side, unless the "
+                                   "face is asymmetric";
+    finding.measured = {"distance from the symmetric place as a fraction of ES0", off, most};
     findings.push_back(std::move(finding));
   }
   return findings;

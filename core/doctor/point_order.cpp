@@ -12,15 +12,15 @@
 namespace semblante {
 namespace {
 
-/// Two millimetres on a human face: less is within the care with which points are marked, and lips that touch lie
+/// Two millimetres on a human face: smaller differences are within the precision of marking, and touching lips are
 /// closer.
 constexpr double tolerance = 0.03;
 
 enum Axis : int { x, y, z };
 constexpr std::array<std::string_view, 3> relation_words = {"to the left of ", "above ", "in front of "};
 
-/// `more` comes after `less` along the axis on every face: follows from what core/tables/data/feature-points.json says
-/// the two points are. Points that may lie level are not compared.
+/// `more` is after `less` along the axis on every face, by the definitions of the points in
+/// core/tables/data/feature-points.json. Points that may be level are not compared.
 struct Relation {
   Axis axis;
   std::string_view more, less;
@@ -168,7 +168,7 @@ constexpr auto relations = std::to_array<Relation>({
     {z, "3.12", "10.10"},
 });
 
-/// A relation that a head breaks, and by how much as a share of ES0.
+/// A violated relation, and the amount as a fraction of ES0.
 struct Broken {
   FeaturePointId more, less;
   Axis axis;
@@ -190,8 +190,8 @@ std::vector<Broken> broken_relations(const FaceFrame& face) {
   return broken;
 }
 
-/// The point that most of the relations are about: one that is misplaced breaks several, its neighbours one each. Of
-/// equals the one that is farther off its mirrored place.
+/// The point with the most violated relations: a misplaced point violates several, its neighbours one each. Among
+/// equals the one with the larger asymmetry.
 FeaturePointId most_to_blame(const std::vector<Broken>& broken, const std::array<double, feature_point_count>& off) {
   std::array<std::pair<std::size_t, double>, feature_point_count> blame{};
   for (const Broken& b : broken) {
@@ -225,11 +225,11 @@ std::vector<Finding> find_points_out_of_order(const Subject& head) {
     }
     finding.words = to_string(worst.more) + " is not " +
                     std::string(relation_words[static_cast<std::size_t>(worst.axis)]) + to_string(worst.less) +
-                    " as on every face, but by " + percent(worst.by) + " of the distance of the pupils beyond it";
-    finding.remedy = "look at " + to_string(point) + " first, then at " +
+                    " as on every face, but " + percent(worst.by) + " of the eye distance beyond it";
+    finding.remedy = "check " + to_string(point) + " first, then " +
                      list_of(std::span(finding.place.points).subspan(1)) +
-                     "; the point may have been marked at the place of another";
-    finding.measured = {"share of ES0 on the wrong side", worst.by, tolerance};
+                     "; the point may be marked at the place of another point";
+    finding.measured = {"distance on the wrong side as a fraction of ES0", worst.by, tolerance};
     findings.push_back(std::move(finding));
     broken.erase(broken.begin(), rest);
   }

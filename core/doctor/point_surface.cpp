@@ -16,17 +16,17 @@
 namespace semblante {
 namespace {
 
-/// Past sideways by 12 degrees. The outside of these places looks forward by 0.4 and more, even of a cheek or a nose
-/// bone; what looks back lies behind it.
+/// 12 degrees beyond sideways. The outer surface at these places has a forward component of 0.4 or more, even on a
+/// cheek or nose bone; a surface that faces backwards is behind it.
 constexpr double faces_away = -0.2;
 
-/// Points of the front of the face, where its outside looks forward. Not the inner rims of lips and lids, nor what lies
-/// round the side of the head.
+/// Points of the front of the face, whose outer surface faces forward. Excludes the inner rims of lips and lids, and
+/// the sides of the head.
 constexpr auto on_the_front = std::to_array<std::string_view>(
     {"2.10", "2.11", "2.12", "4.1", "4.2", "4.3",  "4.4", "5.1", "5.2", "5.3",  "5.4",  "8.1",  "8.2",
      "8.5",  "8.6",  "8.7",  "8.8", "8.9", "8.10", "9.3", "9.6", "9.7", "9.12", "9.13", "9.14", "11.1"});
 
-/// From three points on, a part other than the skin's is not a point marked wrongly but a skin that was cut.
+/// If this many points are on another part than the skin, the skin was cut; fewer are misplaced points.
 constexpr std::size_t points_of_a_piece = 3;
 
 Finding at_point(const Subject& head, const SurfacePoint& point, FindingCode code, Severity severity) {
@@ -58,14 +58,14 @@ std::string name_of(const Part& part) { return part.name.empty() ? "" : " \"" + 
 
 using PointsOfParts = std::map<std::size_t, std::vector<SurfacePoint>>;
 
-/// The part of a skin with the most of its points.
+/// The skin part with the most points.
 std::size_t main_part(const PointsOfParts& of_parts) {
   return std::max_element(of_parts.begin(), of_parts.end(),
                           [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })
       ->first;
 }
 
-/// Lids modelled as parts of their own hold points of the lids alone; they turn about the eye beside the skin.
+/// Whether all points of a part are points of the lids: lids may be separate parts.
 bool is_a_lid(const std::vector<SurfacePoint>& points) {
   return points.size() >= 2 &&
          std::all_of(points.begin(), points.end(), [](const SurfacePoint& p) { return group_of(p.id) == 3; });
@@ -90,7 +90,7 @@ void tell_wrong_part(const Subject& head, const SurfacePoint& point, const std::
 void find_skin_points_elsewhere(const Subject& head, std::span<const SurfacePoint> points, std::vector<Finding>& out) {
   PointsOfParts of_parts;
   for (const SurfacePoint& point : points) {
-    // Ears are often pieces of their own, and points on them are right there.
+    // Ears are often separate pieces, and points on them are correct.
     if (is_skin_point(point.id) && group_of(point.id) != 10)
       of_parts[head.surface.part_of[point.vertex.value()].value()].push_back(point);
   }
@@ -105,7 +105,7 @@ void find_skin_points_elsewhere(const Subject& head, std::span<const SurfacePoin
     Finding finding = at_point(head, there.front(), FindingCode::skin_in_pieces, Severity::error);
     for (std::size_t i = 1; i < there.size(); ++i) finding.place.points.push_back(there[i].id);
     finding.words = "part " + std::to_string(part) + name_of(head.rig.parts[part]) + " with " +
-                    list_of(finding.place.points) + " is a piece of the face that no edge joins to part " +
+                    list_of(finding.place.points) + " is a piece of the face that is not connected to part " +
                     std::to_string(main) + name_of(head.rig.parts[main]) +
                     ", where the other points are; no movement crosses from one to the other, and the skin tears";
     finding.remedy = "join the pieces: merge vertices by distance along the border between them";
@@ -122,14 +122,14 @@ void find_wrong_parts(const Subject& head, std::span<const SurfacePoint> points,
   for (const SurfacePoint& point : points) {
     if (head.surface.steps_from(point.vertex).empty()) {
       Finding finding = at_point(head, point, FindingCode::point_on_no_surface, Severity::error);
-      finding.words = to_string(point.id) + " is on a vertex that no triangle uses; it moves nothing";
+      finding.words = to_string(point.id) + " is on a vertex that no triangle uses; it has no effect";
       finding.remedy = "move it to the nearest vertex of the face";
       out.push_back(std::move(finding));
       continue;
     }
     if (parts[head.surface.part_of[point.vertex.value()].value()].role != PartRole::skin) continue;
     const std::string name = to_string(point.id);
-    // Where there is no eyeball or tongue, the point is on the skin for want of it.
+    // Without an eyeball or tongue the point is correctly on the skin.
     if (name == "3.5" && has_role(PartRole::left_eye)) tell_wrong_part(head, point, "on the left eyeball", out);
     if (name == "3.6" && has_role(PartRole::right_eye)) tell_wrong_part(head, point, "on the right eyeball", out);
     if (group_of(point.id) == 6 && has_role(PartRole::tongue)) tell_wrong_part(head, point, "on the tongue", out);
@@ -163,12 +163,13 @@ void find_points_on_the_inside(const Subject& head, std::span<const SurfacePoint
     finding.words =
         to_string(point.id) +
         " is on a surface that faces into the head, such as the inner wall of a double one or a mouth bag; the "
-        "skin one sees does not follow it";
+        "visible skin does not follow it";
     finding.remedy = "move it to the vertex in front of it, on the outside";
-    finding.measured = {"cosine between the surface's normal and the way out of the face", towards, faces_away};
+    finding.measured = {"cosine between the surface's normal and the outward direction of the face", towards,
+                        faces_away};
     findings.push_back(std::move(finding));
   }
-  // A whole face like that is inside out, which is told of the mesh.
+  // If most points are like this, the face is inside out, which is a finding of the mesh.
   if (findings.size() * 2 < normals.size()) std::move(findings.begin(), findings.end(), std::back_inserter(out));
 }
 

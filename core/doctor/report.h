@@ -13,7 +13,7 @@ struct FindingCounts {
   bool operator==(const FindingCounts&) const = default;
 };
 
-/// What the fit doctor found about one head, errors first.
+/// The findings of the fit doctor for one head, errors first.
 struct Report {
   std::vector<Finding> findings;
 

@@ -10,11 +10,11 @@
 namespace semblante {
 namespace {
 
-/// In the neutral face lips touch. Lips at rest stand up to 2 mm apart, 0.03 of ES0; from 3 mm on a mouth looks open,
-/// and every viseme that should close it does not.
+/// In the neutral face the lips touch. Lips at rest are up to 2 mm (0.03 of ES0) apart; from 3 mm on a mouth looks
+/// open, and visemes do not close it.
 constexpr double open_mouth = 0.05;
-/// In the neutral face lids are tangent to the iris, which is 0.15 to 0.23 of ES0 on people; below two thirds of the
-/// mean they cover it, and FAPs 19 to 22, in units of their distance, close the eyes too little or too much.
+/// In the neutral face the lids are tangent to the iris, which is 0.15 to 0.23 of ES0 on people. Below two thirds of
+/// the mean they cover it, and FAPs 19 to 22, whose unit is the lids' distance, close the eyes too little or too much.
 constexpr double closed_eye = 0.12;
 
 Finding between(const Subject& head, std::string_view upper, std::string_view lower) {
@@ -43,12 +43,11 @@ std::vector<Finding> find_rims_not_neutral(const Subject& head) {
   if (const auto mouth = gap("2.2", "2.3"); mouth && *mouth > open_mouth) {
     Finding finding = between(head, "2.2", "2.3");
     finding.code = FindingCode::mouth_open;
-    finding.words =
-        "the mouth stands open by " + percent(*mouth) +
-        " of the distance of the pupils, but in the neutral face the lips touch; p, b and m will not close it";
+    finding.words = "the mouth is open by " + percent(*mouth) +
+                    " of the eye distance, but in the neutral face the lips touch; p, b and m will not close it";
     finding.remedy =
         "export the model with its mouth closed, or check that 2.2 and 2.3 are on the inner rims of the lips";
-    finding.measured = {"2.2 above 2.3 as a share of ES0", *mouth, open_mouth};
+    finding.measured = {"height of 2.2 above 2.3 as a fraction of ES0", *mouth, open_mouth};
     findings.push_back(std::move(finding));
   }
   for (const auto& [upper, lower, side] : {std::array<std::string_view, 3>{"3.1", "3.3", "left"},
@@ -58,11 +57,11 @@ std::vector<Finding> find_rims_not_neutral(const Subject& head) {
     Finding finding = between(head, upper, lower);
     finding.code = FindingCode::eye_not_open;
     finding.words = "the " + std::string(side) + " eye is not open: its lids are " + percent(*eye) +
-                    " of the distance of the pupils apart, but in the neutral face they are tangent to the iris; "
-                    "IRISD is too small, and a blink of full strength does not reach";
+                    " of the eye distance apart, but in the neutral face they are tangent to the iris; "
+                    "IRISD is too small, and a blink at full strength does not close the eye";
     finding.remedy = "export the model with its eyes open, or check that " + std::string(upper) + " and " +
-                     std::string(lower) + " are on the rims of the lids; IRISD can also be given by hand";
-    finding.measured = {"distance of the lids as a share of ES0", *eye, closed_eye};
+                     std::string(lower) + " are on the rims of the lids; IRISD can also be set explicitly";
+    finding.measured = {"distance of the lids as a fraction of ES0", *eye, closed_eye};
     findings.push_back(std::move(finding));
   }
   return findings;

@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// A parametrized head under examination, with what more than one check asks of it.
+/// A parametrized head under examination, with data shared by several checks.
 struct Subject {
   const Model& model;
   const Surface& surface;

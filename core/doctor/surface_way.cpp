@@ -23,7 +23,7 @@ std::vector<SurfaceVertexId> way_back(const Surface& surface, std::span<const do
       least = before + step.length;
       best = &step;
     }
-    if (best == nullptr) break;  // only steps without length are left
+    if (best == nullptr) break;  // only zero-length steps are left
     way.push_back(best->to);
   }
   return way;

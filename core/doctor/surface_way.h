@@ -9,10 +9,11 @@
 
 namespace semblante {
 
-/// The point of that name ("2.1"), or null. `name` must be one of the 84.
+/// The point with this name ("2.1"), or null. `name` must be one of the 84.
 const SurfacePoint* point_named(std::span<const SurfacePoint> points, std::string_view name);
 
-/// The vertices of a shortest way along mesh edges, from `to` back to where `distances` (of EdgePathSearch) are zero.
+/// The vertices of a shortest path along mesh edges, from `to` back to a source, where `distances` (of
+/// EdgePathSearch) are zero.
 std::vector<SurfaceVertexId> way_back(const Surface& surface, std::span<const double> distances, SurfaceVertexId to);
 
 }  // namespace semblante

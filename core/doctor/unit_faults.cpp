@@ -10,18 +10,18 @@
 namespace semblante {
 namespace {
 
-/// What a unit is on a human face, as a share of ES0 (pupils 54 to 74 mm apart). From anthropometry of adults: the iris
-/// is 11 to 12.5 mm wide, pupils to the base of the nose 38 to 52 mm, from there to the mouth line 17 to 27 mm, the
-/// mouth 42 to 62 mm wide.
+/// The range of a FAPU on human faces as a fraction of ES0 (pupils 54 to 74 mm apart). From anthropometry of adults:
+/// iris 11 to 12.5 mm wide, pupils to the base of the nose 38 to 52 mm, from there to the mouth line 17 to 27 mm, mouth
+/// 42 to 62 mm wide.
 struct HumanRange {
   double least, greatest;
 };
 constexpr std::array<HumanRange, fapu_unit_count> human = {
     {{0.15, 0.23}, {1.0, 1.0}, {0.55, 0.90}, {0.23, 0.45}, {0.60, 1.00}}};
 
-/// Drawn and animal heads go beyond people; at half the least or twice the greatest it is more likely a wrong point.
+/// Tolerance factor for cartoon and animal heads; beyond it, a misplaced point is more likely.
 constexpr double room = 2.0;
-/// ES itself is compared with what the rest of the eyes says.
+/// Tolerance factor of ES, which is compared with an estimate from the other points of the eyes.
 constexpr double room_of_es = 1.25;
 
 std::vector<FeaturePointId> points_of(std::size_t unit) {
@@ -50,7 +50,7 @@ Finding about(const Subject& head, std::size_t unit) {
     if (point->vertex) finding.place.vertices.add(*point->vertex);
     if (!finding.place.position) finding.place.position = glm::dvec3(point->position);
   }
-  finding.remedy = "look at " + list_of(finding.place.points) + ", or give the unit by hand";
+  finding.remedy = "check " + list_of(finding.place.points) + ", or set the unit explicitly";
   return finding;
 }
 
@@ -63,7 +63,7 @@ std::vector<Finding> find_unit_faults(const Subject& head) {
     const std::string name(fapu_unit_names[unit]);
     const auto value = head.rig.fapu.value[unit];
     if (!value) {
-      // Missing points are told with what else they stop, a face the wrong way round once.
+      // Missing points and a wrong orientation have findings of their own.
       bool measurable = false;
       const auto& info = mpeg4::fapus[unit];
       for (std::size_t m = 0; m < info.measure_count; ++m)
@@ -89,11 +89,11 @@ std::vector<Finding> find_unit_faults(const Subject& head) {
     finding.severity = Severity::warning;
     finding.words =
         name + ", the " + std::string(mpeg4::fapus[unit].meaning) + ", is " + two_digits(share) +
-        " of the distance of the eyes; " +
-        (is_es ? std::string("lids and brows put the eyes elsewhere than the pupils do")
+        " of the eye distance; " +
+        (is_es ? std::string("lids and brows indicate other places of the eyes than the pupils")
                : "on people it is " + two_digits(human[unit].least) + " to " + two_digits(human[unit].greatest)) +
-        ", and every movement in that unit is as far off";
-    finding.measured = {name + " as a share of ES0", share, share < least ? least : greatest};
+        ", and every movement in that unit is wrong by the same factor";
+    finding.measured = {name + " as a fraction of ES0", share, share < least ? least : greatest};
     findings.push_back(std::move(finding));
   }
   return findings;

@@ -12,8 +12,8 @@
 namespace semblante {
 namespace {
 
-/// The volume that triangles enclose, seen from their middle, against the sum of its pieces' sizes: 1 for a ball with
-/// its outside out, -1 with its inside out, near 0 for a sheet. Only what is clearly negative is inside out.
+/// The enclosed signed volume, relative to the sum of the absolute volumes of its pieces from the centre: 1 for a
+/// closed surface, -1 for one that is inside out, near 0 for a sheet. Below this threshold a part is inside out.
 constexpr double clearly_negative = -0.2;
 
 void find_inconsistent(const Model& model, const Surface& surface, std::span<const Part> parts, const MeshSides& mesh,
@@ -32,7 +32,7 @@ void find_inconsistent(const Model& model, const Surface& surface, std::span<con
   finding.severity = Severity::warning;
   finding.place = place_of(model, surface, std::move(vertices));
   finding.words = "along " + count_of(edges, "edge", "edges") +
-                  " neighbouring triangles of the skin face different ways; one side is drawn dark or not at all";
+                  " neighbouring triangles of the skin have opposite winding; one side is drawn dark or not at all";
   finding.remedy = "recalculate the normals to the outside in the program that made the model";
   out.push_back(std::move(finding));
 }
@@ -63,9 +63,9 @@ void find_inside_out(const Model& model, const Surface& surface, std::vector<Fin
   finding.place.part = PartId(largest);
   finding.place.position = middle;
   finding.words =
-      "the largest part is inside out: its triangles face inwards, so one sees through its front at its back";
+      "the largest part is inside out: its triangles face inwards, so its front is invisible and its back shows";
   finding.remedy = "flip the faces, or recalculate the normals to the outside, in the program that made the model";
-  finding.measured = {"volume as a share of what its pieces add up to", volume / size, clearly_negative};
+  finding.measured = {"volume as a fraction of the sum of its pieces", volume / size, clearly_negative};
   out.push_back(std::move(finding));
 }
 

@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-// How findings speak and where they point.
+// Helpers for the texts and places of findings.
 
 /// "1 triangle has", "5 triangles have".
 std::string count_of(std::size_t count, std::string_view one, std::string_view many);
@@ -20,7 +20,7 @@ std::string list_of(std::span<const FeaturePointId> ids);
 /// "12 %".
 std::string percent(double share);
 
-/// The place of these vertices: their part if the sample lies on one, and the first of them to look at.
+/// The place of these vertices: their part, if they are all on one, and the first of them.
 Place place_of(const Model& model, const Surface& surface, VertexSample vertices);
 
 /// Whether a surface vertex is on a part of that role. `parts` by PartId.

@@ -13,7 +13,7 @@
 namespace semblante {
 namespace {
 
-/// FAPs move points along the axes of the model: at 30 degrees half of every movement goes into the wrong one.
+/// FAPs move points along the axes of the model: at 30 degrees half of every movement is along a wrong axis.
 constexpr double most_tilt = 30.0;
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -39,16 +39,18 @@ std::optional<Finding> wrong_axes(const Subject& head) {
   const std::string angle = std::to_string(std::lround(tilt)) + " degrees";
   if (of_up > 180.0 - most_tilt) {
     finding.code = FindingCode::upside_down;
-    finding.words = "the face is upside down: its brows are below its mouth, so every movement goes the wrong way";
-    finding.remedy = "turn the model so that +Y is up, or tell the import which axis is up";
+    finding.words =
+        "the face is upside down: its brows are below its mouth, so every movement is in the wrong direction";
+    finding.remedy = "rotate the model so that +Y is up, or set its axes";
   } else if (of_up <= most_tilt && of_forward > 180.0 - most_tilt) {
     finding.code = FindingCode::facing_away;
-    finding.words = "the face looks along -Z: it faces away, so left is taken for right and forward for backward";
-    finding.remedy = "turn the model by half a turn about the vertical axis, so that it looks along +Z";
+    finding.words =
+        "the face looks along -Z, away from the front, so left and right, and forward and backward, are exchanged";
+    finding.remedy = "rotate the model by half a turn about the vertical axis, so that it looks along +Z";
   } else {
     finding.code = FindingCode::not_upright;
-    finding.words = "the face is turned by " + angle + " out of the model's axes, so movements go askew";
-    finding.remedy = "turn the model so that +Y is up and the face looks along +Z, or tell the import its axes";
+    finding.words = "the face is rotated by " + angle + " from the model's axes, so movements are in wrong directions";
+    finding.remedy = "rotate the model so that +Y is up and the face looks along +Z, or set its axes";
   }
   return finding;
 }

@@ -15,21 +15,21 @@
 namespace semblante {
 
 struct ExtractOptions {
-  /// Take the motion of the whole head out first, as the vertices tell that only it moves (head_motion.h). Otherwise
-  /// the meshes are compared as they lie, as the paper does.
+  /// Remove the motion of the whole head first, estimated from the vertices that only it moves (head_motion.h). By
+  /// default the meshes are compared in place, as in the paper.
   bool align = false;
-  /// A point that moves by less than this many units along every axis is not in the set: by Eq. 5 a point that is takes
-  /// its share from an expression that moves it too. One unit is the least that a FAP can say.
+  /// A point that moves by less than this many units along every axis is omitted, because by Eq. 5 a point in the set
+  /// reduces the effect of another set that moves it. One unit is the resolution of a FAP.
   double least = 1.0;
-  /// How much of the expression the example shows, from least_strength to most_strength: displacements are divided by
-  /// it.
+  /// The strength at which the example shows the expression, from least_strength to most_strength: displacements are
+  /// divided by it.
   double strength = 1.0;
 };
 
 inline constexpr double least_strength = 0.01;
 inline constexpr double most_strength = 100.0;
 
-/// What was taken out where align was asked for.
+/// The motion removed by `align`.
 struct RemovedMotion {
   double degrees = 0.0;   ///< the angle of the turn, never negative
   double distance = 0.0;  ///< of the middle of the still vertices, in model units
@@ -49,14 +49,14 @@ struct Extraction {
 ///
 /// `neutral` and `expression`: #V file vertices each, model units, both in the MPEG-4 frame. `points` and `fapu`: of
 /// the neutral head. Errors: `mismatch` of the numbers of vertices; `not_finite` (where: "vertex 12"); `out_of_range`
-/// for a displacement beyond most_set_units; `invalid_argument` for an option, and where `align` finds no still
-/// vertices to go by; `empty` when nothing is left to put into a set.
+/// for a displacement beyond most_set_units; `invalid_argument` for an option, and if `align` finds no still
+/// vertices; `empty` when no point moves.
 Result<Extraction> extract_displacements(const FeaturePointSet& points, const Fapu& fapu,
                                          std::span<const glm::vec3> neutral, std::span<const glm::vec3> expression,
                                          const ExtractOptions& options = {});
 
-/// The extraction in sentences for people: which points are not in the set, and why. Empty when there is nothing to
-/// say.
+/// Describes the extraction in sentences: the omitted points with reasons. Empty when no point is
+/// omitted.
 std::vector<std::string> explain(const Extraction& extraction);
 
 }  // namespace semblante

@@ -14,18 +14,17 @@ struct HeadMotion {
   glm::dvec3 still{0.0};  ///< middle of the still vertices in the neutral shape
   glm::dvec3 moved{0.0};  ///< the same in the other
 
-  /// Where a position of the moved shape would be, had the head not moved.
+  /// The position in the moved shape without the motion of the head.
   [[nodiscard]] glm::dvec3 undo(const glm::dvec3& position) const { return still + back * (position - moved); }
-  /// The angle of the turn, 0..180.
+  /// The angle of the rotation, 0..180.
   [[nodiscard]] double degrees() const;
 };
 
-/// The motion of the vertices that move with the head alone, in the least squares. Which those are nobody says: they
-/// are the half of the vertices that one rigid motion explains best, found by fitting and dropping the worse half in
-/// turn (least trimmed squares). So at least half of the mesh must keep its shape, which the back of a head, its neck
-/// and ears do; a mask of the face alone has no such half when all of it moves. Empty for fewer than 8 vertices, or
-/// still ones that lie on a line. `neutral` and `moved`: #V, finite. Time bounded: of many vertices 20 000 are looked
-/// at.
+/// The least squares motion of the vertices that move only with the head. These are estimated as the half of the
+/// vertices that fits one rigid motion best, by repeatedly fitting and dropping the worse half (least trimmed squares).
+/// So at least half of the mesh must keep its shape, as do the back of a head, its neck and ears; a mask of the face
+/// has no such half if all of it moves. Empty for fewer than 8 vertices, or collinear still ones. `neutral` and
+/// `moved`: #V, finite. The time is bounded: of large meshes 20 000 vertices are sampled.
 std::optional<HeadMotion> find_head_motion(std::span<const glm::vec3> neutral, std::span<const glm::vec3> moved);
 
 }  // namespace semblante

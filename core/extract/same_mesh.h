@@ -7,9 +7,9 @@
 
 namespace semblante {
 
-/// Whether two lists of triangles may be of one mesh whose vertices are numbered alike: at least half of the edges of
-/// `expression` are edges of `neutral`. All would be too much to ask, since programs split the same quads along either
-/// diagonal; vertices in another order share next to none. An expression without triangles says nothing against it.
+/// Checks that two lists of triangles may belong to one mesh with equal vertex numbers: at least half of the edges of
+/// `expression` are edges of `neutral`. Not all, because programs split quads along either diagonal; with another
+/// vertex order almost no edges are equal. An expression without triangles passes.
 /// Error: `mismatch`, where "/expression".
 Status check_same_mesh(std::span<const Triangle> neutral, std::span<const Triangle> expression);
 

@@ -3,7 +3,7 @@
 namespace semblante {
 namespace {
 
-/// The front that the least turn of an upright head gives: about X for up along Z, about Z for up along X or down.
+/// The front after the smallest rotation of an upright head: about X for up along Z, about Z for up along X or down.
 Direction front_of(Direction up) {
   if (axis_of(up) != 2) return Direction::plus_z;
   return up == Direction::plus_z ? Direction::minus_y : Direction::plus_y;

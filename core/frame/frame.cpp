@@ -70,7 +70,7 @@ glm::dmat3 to_mpeg4(const Axes& axes) {
   assert(are_valid(axes));
   const glm::dvec3 up = to_vector(axes.up);
   const glm::dvec3 front = to_vector(axes.front);
-  // Rows: the file's directions that become +X (the face's left), +Y and +Z.
+  // Rows: the directions of the file that are mapped to +X (the face's left), +Y and +Z.
   return glm::transpose(glm::dmat3(glm::cross(up, front), up, front));
 }
 

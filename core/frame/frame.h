@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// What one unit of a model's coordinates is.
+/// The length unit of a model's coordinates.
 enum class LengthUnit : std::uint8_t { metre, decimetre, centimetre, millimetre, inch };
 inline constexpr std::array<std::string_view, 5> length_unit_names = {"m", "dm", "cm", "mm", "in"};
 std::string_view to_string(LengthUnit unit);
@@ -29,8 +29,8 @@ int axis_of(Direction direction);
 /// The direction along `axis` with the sign of `value`.
 Direction direction_along(int axis, double value);
 
-/// How a head stands in its file: where the top of the head is, and where the face looks. The default is MPEG-4's own
-/// frame.
+/// The axes of a head in its file: the directions of the top of the head and of the face's front. The default is
+/// MPEG-4's axes.
 struct Axes {
   Direction up = Direction::plus_y;
   Direction front = Direction::plus_z;
@@ -38,12 +38,12 @@ struct Axes {
   bool operator==(const Axes&) const = default;
 };
 
-/// Whether up and front lie on two axes: then they are one of the 24 ways a head can stand along its axes.
+/// Whether up and front are along different axes, so that they are one of the 24 axis-aligned orientations.
 bool are_valid(const Axes& axes);
-/// All 24 of them.
+/// All 24 axis-aligned orientations.
 std::array<Axes, 24> all_axes();
-/// MPEG-4 position = matrix * file position: a rotation that only exchanges axes and their signs, so that turning a
-/// float32 by it is exact. `axes` must be valid.
+/// MPEG-4 position = matrix * file position: a rotation that only permutes axes and changes signs, so that it is exact
+/// for float32. `axes` must be valid.
 glm::dmat3 to_mpeg4(const Axes& axes);
 
 }  // namespace semblante

@@ -10,7 +10,7 @@
 namespace semblante {
 namespace {
 
-/// The middle of the points of some kind; nullopt when none is marked.
+/// The mean of the points that satisfy a condition; nullopt when none is marked.
 template <class Wanted>
 std::optional<glm::dvec3> middle(std::span<const PlacedPoint> points, Wanted wanted) {
   glm::dvec3 sum(0.0);
@@ -23,7 +23,7 @@ std::optional<glm::dvec3> middle(std::span<const PlacedPoint> points, Wanted wan
   return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
 }
 
-/// A direction that several pairs of places agree on more or less; zero without any.
+/// The mean direction of several pairs of places and their agreement; zero without pairs.
 class Evidence {
  public:
   void add(const std::optional<glm::dvec3>& from, const std::optional<glm::dvec3>& to) {
@@ -52,8 +52,8 @@ glm::dvec3 left_of(std::span<const PlacedPoint> points) {
   return evidence.direction();
 }
 
-/// Each level of the face against every level below it. Pairs count as their middle, so that one side alone tilts the
-/// sum only a little.
+/// Compares each level of the face with every level below it. A pair of points counts as its middle, so that a missing
+/// side tilts the sum only a little.
 glm::dvec3 up_of(std::span<const PlacedPoint> points) {
   const std::array<std::optional<glm::dvec3>, 5> levels = {
       middle(points, [](int group, int number) { return group == 4 || (group == 11 && number <= 3); }),
@@ -69,7 +69,7 @@ glm::dvec3 up_of(std::span<const PlacedPoint> points) {
   return evidence.direction();
 }
 
-/// What stands out against what lies behind it, at about the same height.
+/// Compares protruding points with points behind them at about the same height.
 glm::dvec3 front_of(std::span<const PlacedPoint> points) {
   const auto nose = middle(points, [](int group, int number) { return group == 9 && number == 3; });
   const auto around = [&points](int a, int a1, int a2, int b, int b1, int b2) {
@@ -101,7 +101,7 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
         "model is a mirror image");
     left = glm::dvec3(0.0);
   }
-  // Two directions give the third. One alone does not, and a front without an up may lean either way.
+  // Two directions determine the third. A single one does not, and a front without an up may be tilted.
   if (!is_known(up) || (!is_known(left) && !is_known(front))) return;
   const auto score = [&](const Axes& axes) {
     const glm::dvec3 u = to_vector(axes.up);
@@ -115,9 +115,9 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   for (const Axes& axes : candidates) {
     if (axes != best) second = std::max(second, score(axes));
   }
-  // A head tilted by 45 degrees stands between two axes; far from that the choice is plain.
+  // A head tilted by 45 degrees is between two axes; the choice needs a clear lead.
   constexpr double least_lead = 0.3;
-  // Points that contradict one another make no head: nothing is turned by them.
+  // Contradictory points are not used: nothing is rotated.
   constexpr double least_agreement = 0.5;
   const glm::dvec3 u = to_vector(best.up);
   const glm::dvec3 f = to_vector(best.front);
@@ -126,7 +126,7 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   };
   const bool is_sure = score(best) - second > least_lead && agrees(u, up) && agrees(f, front) &&
                        agrees(glm::cross(u, f), left) &&
-                       // Where nothing shows the front, sides that were exchanged would turn the head round.
+                       // If no points show the front, exchanged sides would turn the head back to front.
                        (is_known(front) || best == guess.axes);
   if (is_sure) guess.axes = best;
   guess.axes_sure = is_sure;

@@ -11,7 +11,7 @@ namespace {
 std::string letter(int axis) { return {"XYZ"[axis]}; }
 std::string name(Direction direction) { return std::string(to_string(direction)); }
 
-/// What can be seen of a head without marked points, gathered from the surest sign to the least.
+/// The guess from the shape of a head without marked points; evidence is used in order of its reliability.
 class ShapeGuess {
  public:
   ShapeGuess(const Model& model, const Surface& surface)
@@ -50,7 +50,7 @@ class ShapeGuess {
   [[nodiscard]] bool is_gltf() const { return model_.format == "glb" || model_.format == "gltf"; }
   void say(std::string reason) { guess_.reasons.push_back(std::move(reason)); }
 
-  /// glTF says how a model stands; only a file that shows otherwise is not believed.
+  /// glTF defines the axes of a model; they are used unless the file contradicts them.
   bool stands_by_rule() {
     if (!is_gltf() || (up_ && *up_ != Direction::plus_y)) return false;
     say("glTF models stand along +Y and face +Z");
@@ -90,7 +90,7 @@ class ShapeGuess {
   void find_front() {
     const int axis = 3 - *across_ - axis_of(*up_);
     if (eyes_) {
-      // Against the head at the height of the eyes: the rest of a body lies behind them as often as before them.
+      // Compare with the head at the height of the eyes: other parts of a body may be behind or in front of them.
       const int height = axis_of(*up_);
       double low = 1e300;
       double high = -1e300;

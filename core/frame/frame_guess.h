@@ -14,7 +14,7 @@
 
 namespace semblante {
 
-/// How a head stands and what its unit is, as far as can be told, and what told it.
+/// The axes and unit of a head with their certainty and reasons.
 struct ModelFrame {
   Axes axes;
   bool axes_sure = false;
@@ -25,7 +25,7 @@ struct ModelFrame {
   bool operator==(const ModelFrame&) const = default;
 };
 
-/// What a user says about it; what is empty is guessed.
+/// The user's settings; empty members are guessed.
 struct FrameWish {
   std::optional<LengthUnit> unit;
   std::optional<Direction> up, front;  ///< not on one axis
@@ -34,24 +34,24 @@ struct FrameWish {
   bool operator==(const FrameWish&) const = default;
 };
 
-/// `guess` with what the user says in its place. Where only one of up and front is said, the other is the guess's if it
-/// fits, else that of the least turn: a head that stands along +Z faces -Y.
+/// `guess` with the user's settings applied. If only one of up and front is set, the other is the guess's if valid,
+/// else that of the smallest rotation: a head with up +Z has front -Y.
 ModelFrame apply_wish(ModelFrame guess, const FrameWish& wish);
 
-/// A marked point and where it is in the file.
+/// A marked point with its position in the file.
 struct PlacedPoint {
   FeaturePointId id;
   glm::dvec3 position;
 };
 
-/// From the file alone: left and right by the plane of symmetry, the rest by eyes, mouth and neck, as far as parts show
-/// them; the unit by the size a head, a bust or a body has. `model` as it lies in the file, `surface` its surface.
-/// Where the axes are not sure they are MPEG-4's, which is how glTF asks a model to stand, and how most files do.
+/// Guesses from the file only: left and right by the plane of symmetry, the other axes by eyes, mouth and neck, if
+/// parts show them; the unit by the size of a head, a bust or a body. `model` is in the file's axes, `surface` its
+/// surface. Uncertain axes are set to MPEG-4's, which are also those of glTF and of most files.
 ModelFrame guess_frame(const Model& model, const Surface& surface);
 
-/// From marked points, which decide more surely: left from pairs, up from eyes over mouth over chin, front from the
-/// nose before the ears, the unit from the distance of the eyes. What the points do not say for sure is as it was
-/// `before`. Points whose left and right contradict the rest are said to, and not believed in that.
+/// Guesses from marked points, which are more reliable: left from pairs, up from eyes above mouth above chin, front
+/// from nose before ears, the unit from the eye distance. Members that the points do not determine keep the value in
+/// `before`. If left and right contradict the other evidence, they are ignored, with a reason.
 ModelFrame guess_frame(std::span<const PlacedPoint> points, const ModelFrame& before);
 
 }  // namespace semblante

@@ -22,8 +22,8 @@ std::vector<std::optional<PartRole>> roles_by_name(std::span<const PartShape> sh
   return roles;
 }
 
-/// The two ends of a set of places along the axis on which they lie furthest apart; empty unless they make two groups
-/// on that axis alone.
+/// The two groups of a set of places along the axis of their largest extent; empty unless they form two groups on that
+/// axis only.
 std::optional<EyePair> two_groups(std::span<const glm::dvec3> centers) {
   if (centers.size() < 2) return std::nullopt;
   glm::dvec3 low = centers[0];
@@ -63,8 +63,8 @@ std::optional<EyePair> eyes_by_name(std::span<const PartShape> shapes) {
   return pair;
 }
 
-/// Of balls that come in twos of one size, the largest two. Only so many of the largest are looked at: a file may hold
-/// hundreds of thousands of equal balls.
+/// The two largest balls of equal size. Examines only a limited number of the largest, because a file may have hundreds
+/// of thousands of equal balls.
 std::optional<EyePair> eyes_by_shape(std::span<const PartShape> shapes) {
   constexpr std::size_t most_balls = 64;
   std::vector<const PartShape*> balls;
@@ -83,7 +83,7 @@ std::optional<EyePair> eyes_by_shape(std::span<const PartShape> shapes) {
       if (balls[q]->triangles != balls[p]->triangles) continue;
       if (std::abs(other.radius - one.radius) > 0.02 * one.radius || one.radius <= best_radius) continue;
       const auto pair = two_groups(std::array{one.center, other.center});
-      // Eyeballs are two to three diameters apart.
+      // The distance between eyeballs is two to three diameters.
       if (!pair || pair->separation < 2.2 * one.radius || pair->separation > 12.0 * one.radius) continue;
       best = pair;
       best_radius = one.radius;
@@ -94,7 +94,7 @@ std::optional<EyePair> eyes_by_shape(std::span<const PartShape> shapes) {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The edges of a part that one triangle alone has.
+/// The border edges of a part: edges of a single triangle.
 std::vector<Edge> border_of(const Model& model, const Surface& surface, PartId part) {
   std::vector<Edge> edges;
   for (const Triangle& triangle : model.triangles) {
@@ -119,7 +119,7 @@ struct Loop {
   glm::dvec3 low{1e300}, high{-1e300};
 };
 
-/// Border edges joined where they meet.
+/// Joins border edges to loops.
 std::vector<Loop> loops_of(std::span<const Edge> border, const Surface& surface) {
   std::map<std::uint32_t, std::uint32_t> parent;
   const auto root = [&parent](std::uint32_t v) {
@@ -182,7 +182,7 @@ std::optional<NeckOpening> find_neck(const Model& model, const Surface& surface,
   const glm::dvec3 extent = longest->high - longest->low;
   for (int axis = 0; axis < 3; ++axis) {
     const double across = std::min(extent[(axis + 1) % 3], extent[(axis + 2) % 3]);
-    // Flat, and wide enough for a neck: not the hole of an eye.
+    // A neck opening is flat and wide, unlike the hole of an eye.
     if (extent[axis] > 0.35 * across || across < 0.25 * std::min(size[(axis + 1) % 3], size[(axis + 2) % 3])) continue;
     const double at_low = longest->low[axis] - low[axis];
     const double at_high = high[axis] - longest->high[axis];
@@ -201,7 +201,7 @@ std::optional<int> find_mirror_axis(const PartShape& shape) {
   std::array<double, 3> error{};
   for (int axis = 0; axis < 3; ++axis) {
     error[static_cast<std::size_t>(axis)] = size;
-    // A box with hair on one side has its middle off the plane; the mean of the vertices may be nearer to it.
+    // With hair on one side the centre of the box is off the plane; the mean of the vertices may be closer to it.
     for (const double middle : {shape.box_center()[axis], shape.center[axis]}) {
       double sum = 0.0;
       const std::size_t step = std::max<std::size_t>(points.size() / samples, 1);

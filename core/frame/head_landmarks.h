@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-/// Two eyeballs found among a model's parts, by their names or as the two equal balls that they are.
+/// Two eyeballs among a model's parts, found by name or as two equal balls.
 struct EyePair {
   glm::dvec3 middle{0.0};
   int axis = 0;  ///< they lie apart along this one
@@ -20,10 +20,10 @@ struct EyePair {
   bool by_name = false;
 };
 
-/// Empty unless there are two, apart along one axis of the file.
+/// Empty unless there are two eyeballs that are apart along one axis of the file.
 std::optional<EyePair> find_eyes(std::span<const PartShape> shapes);
 
-/// Middle of the parts whose names say teeth, gums or tongue.
+/// Centre of the parts named teeth, gums or tongue.
 std::optional<glm::dvec3> find_mouth(std::span<const PartShape> shapes);
 
 /// The open end of a neck: the longest border of a part, if it is flat and at an end of the part along an axis.
@@ -33,11 +33,11 @@ struct NeckOpening {
 };
 std::optional<NeckOpening> find_neck(const Model& model, const Surface& surface, PartId part);
 
-/// The axis across which a part is its own mirror image, clearly more so than across the others.
+/// The axis of mirror symmetry of a part, if its symmetry is clearly better than that of the other axes.
 std::optional<int> find_mirror_axis(const PartShape& shape);
 
-/// How far the vertices crowd towards one end of an axis, as a share of the part's extent: a head has its small
-/// triangles in the face. `shape` is the shape of `part`.
+/// How far the vertices are concentrated towards one end of an axis, as a fraction of the part's extent: a head has its
+/// smallest triangles in the face. `shape` is the shape of `part`.
 double crowding(const Model& model, const Surface& surface, PartId part, const PartShape& shape, int axis);
 
 }  // namespace semblante

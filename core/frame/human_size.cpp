@@ -3,7 +3,7 @@
 namespace semblante {
 std::optional<LengthUnit> unit_of_eye_separation(double separation) {
   constexpr double usual = 0.063;  // metres
-  // Between the metric units, a factor of ten apart, there is room for inches only where none of those fits.
+  // Metric units are a factor of ten apart; inches are used only if no metric unit fits.
   for (std::size_t i = 0; i < length_unit_names.size(); ++i) {
     const double ratio = separation * metres_per(static_cast<LengthUnit>(i)) / usual;
     if (ratio >= 0.6 && ratio <= 1.65) return static_cast<LengthUnit>(i);

@@ -6,13 +6,13 @@
 
 namespace semblante {
 
-/// The inner loop of `distances_from_all`, compiled once per kind of register. It adds and takes minima of doubles and
-/// does nothing else, so every version gives the same bits.
+/// The inner loop of `distances_from_all`, compiled once per kind of register. It only adds doubles and takes minima,
+/// so all versions give the same bits.
 ///
-/// Arrays of one group of `lane_count` sources on one part. A *vertex* indexes graph and distances; a *position* is its
-/// place in `order`, the order in which a sweep goes over the part.
+/// Arrays of one group of `lane_count` sources on one part. A *vertex* indexes graph and distances; a *position* is an
+/// index in `order`, the order of the vertices in a sweep.
 struct DistanceGroup {
-  /// Doubles: two cache lines, so that graph and order are read half as often as with one.
+  /// Number of doubles: two cache lines, so that graph and order are read half as often as with one.
   static constexpr std::size_t lane_count = 16;
 
   const std::uint32_t* offsets;  ///< #M + 1, into `to` and `lengths`
@@ -26,15 +26,15 @@ struct DistanceGroup {
 
 struct DistanceKernel {
   const char* name;
-  /// Goes over the first `count` positions, forward or back, and brings every pending vertex up to date with its
-  /// neighbours; marks those that it can improve in turn. Returns how many were pending.
+  /// Sweeps over the first `count` positions, forward or backward: updates every pending vertex from its neighbours,
+  /// and marks the neighbours that it can improve as pending. Returns the number of vertices that were pending.
   std::size_t (*sweep)(const DistanceGroup& group, std::size_t count, bool forward);
-  /// The same over a list of positions.
+  /// Sweeps over a list of positions.
   std::size_t (*sweep_list)(const DistanceGroup& group, const std::uint32_t* positions, std::size_t count,
                             bool forward);
 };
 
-/// The versions that this machine can run: the plain one first, the fastest last.
+/// The versions supported by this machine: the plain one first, the fastest last.
 std::span<const DistanceKernel> distance_kernels();
 
 }  // namespace semblante

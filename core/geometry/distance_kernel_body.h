@@ -1,7 +1,7 @@
-// The loops of DistanceKernel over a type `Lanes` of eight doubles that the including file defines first. Files that
-// include this are compiled for registers which the machine may not have, so nothing but C headers may come in here: an
-// inline function of the standard library would be compiled for those registers too, and the linker might keep that
-// copy for everyone.
+// The loops of DistanceKernel over a type `Lanes` of eight doubles, which the including file defines first. Including
+// files are compiled for instruction sets that the machine may not have, so only C headers may be included: an inline
+// function of the standard library would be compiled for that instruction set too, and the linker might use that copy
+// in the whole program.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// A vertex of all lanes: as many `Lanes` as it takes.
+/// The values of a vertex for all lanes.
 struct Row {
   static constexpr std::size_t count = DistanceGroup::lane_count / 8;
   Lanes part[count];
@@ -46,7 +46,7 @@ inline void visit(const DistanceGroup& g, std::size_t position) {
   }
   here.store(g.distances + vertex * width);
   g.pending[position] = 0;
-  // No branch: whether a neighbour improves is as good as random, and a wrong guess costs more than the store.
+  // Without a branch: it would be unpredictable, and a misprediction costs more than the store.
   for (std::uint32_t k = first; k < end; ++k) {
     g.pending[g.place[g.to[k]]] |= here.improves(Row::load(g.distances + g.to[k] * width), g.lengths[k]);
   }
@@ -58,7 +58,7 @@ inline bool none_pending(const std::uint8_t* eight) {
   return word == 0;
 }
 
-/// Neighbours in the order are far apart in memory, where the processor does not look ahead by itself.
+/// Prefetches vertices: successive ones are far apart in memory, beyond the hardware prefetcher.
 inline void prefetch(const DistanceGroup& g, std::size_t k, std::size_t count) {
   constexpr std::size_t ahead = 12;
   if (k + 2 * ahead >= count) return;

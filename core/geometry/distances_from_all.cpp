@@ -22,16 +22,16 @@ namespace {
 
 constexpr std::size_t lane_count = DistanceGroup::lane_count;
 constexpr double unreached = std::numeric_limits<double>::infinity();
-/// The surroundings of a group reach this many times as far as its farthest source.
+/// Radius of a group's surroundings, relative to the distance of its farthest source.
 constexpr double surroundings = 1.3;
-/// Rounds of four sweeps over the surroundings; what is then left waits for the sweeps over everything.
+/// Rounds of four sweeps over the surroundings; the sweeps over the whole part settle the remaining vertices.
 constexpr int rounds = 2;
-/// Per vertex: visits of it, and looks at eight of them counted as one. Real heads take up to seven; where ways wind so
-/// that no order suits them (a maze, a crumpled band) each sweep settles next to nothing, and one search a source is
-/// quicker.
+/// Effort limit per vertex: visits, plus one for every eight vertices examined. Real heads need up to seven. On
+/// surfaces with winding paths (a maze, a crumpled band) each sweep settles very few vertices, and one search per
+/// source is faster.
 constexpr std::size_t most_effort = 64;
 
-/// Stable order by a key, as sorting buckets: 65536 steps are fine enough for an order that only speed depends on.
+/// Stable bucket sort by a key with 65536 buckets; only the speed depends on the order.
 std::vector<std::uint32_t> sorted_by(std::span<const double> keys) {
   std::vector<std::uint32_t> order(keys.size());
   if (keys.empty()) return order;
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> sorted_by(std::span<const double> keys) {
   return order;
 }
 
-/// The part with its vertices numbered so that near ones are near in memory.
+/// The part with vertices renumbered so that neighbours are close in memory.
 struct PartGraph {
   std::vector<std::uint32_t> vertex_of;  ///< #M, member -> vertex
   std::vector<glm::dvec3> positions;     ///< #M
@@ -59,7 +59,7 @@ struct PartGraph {
   std::vector<double> lengths;           ///< #A
 };
 
-/// Every third bit from the lowest on; of the lower ten of `value`.
+/// Spreads the lower ten bits of `value` to every third bit.
 std::uint32_t spread_bits(std::uint32_t value) {
   value = (value | (value << 16)) & 0x030000FFU;
   value = (value | (value << 8)) & 0x0300F00FU;
@@ -78,7 +78,7 @@ std::vector<std::uint32_t> z_order(const Surface& graph, std::span<const Surface
   const glm::dvec3 size = high - low;
   const double extent = std::max({size.x, size.y, size.z});
   const double scale = extent > 0.0 ? 1023.0 / extent : 0.0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;  // (place on the curve, member)
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;  // (position on the curve, member)
   keys.reserve(members.size());
   for (std::uint32_t m = 0; m < members.size(); ++m) {
     const glm::dvec3 cell = (graph.positions[members[m].value()] - low) * scale;
@@ -119,7 +119,7 @@ PartGraph take_part(const Surface& graph, std::span<const SurfaceVertexId> membe
   return part;
 }
 
-/// Sorts sources so that each run of `lane_count` lies close together: halves along the longest side, and again.
+/// Sorts sources so that each run of `lane_count` is spatially close: recursive bisection along the longest side.
 void gather_near_sources(std::span<std::uint32_t> sources, const std::vector<glm::dvec3>& at) {
   if (sources.size() <= lane_count) return;
   glm::dvec3 low(unreached);
@@ -138,7 +138,7 @@ void gather_near_sources(std::span<std::uint32_t> sources, const std::vector<glm
   gather_near_sources(sources.subspan(middle), at);
 }
 
-/// The sources of one group; returns that from which the others are least far.
+/// Returns the source of a group with the smallest maximum distance to the others.
 glm::dvec3 middle_source(std::span<const std::uint32_t> group, const std::vector<glm::dvec3>& at) {
   glm::dvec3 middle(0.0);
   double least = unreached;
@@ -152,13 +152,13 @@ glm::dvec3 middle_source(std::span<const std::uint32_t> group, const std::vector
   return middle;
 }
 
-/// Settles the distances of one group.
+/// Computes the distances of one group.
 class GroupSearch {
  public:
   GroupSearch(const PartGraph& part, const DistanceKernel& kernel)
       : part_(part), kernel_(kernel), place_(part.positions.size()), pending_(part.positions.size() + 8) {}
 
-  /// False where that would take longer than searching from each source by itself: then the distances are not final.
+  /// Returns false when one search per source would be faster; the distances are then not final.
   [[nodiscard]] bool run(std::span<const std::uint32_t> group, const std::vector<glm::dvec3>& at,
                          std::span<const std::uint32_t> vertices, double* distances) {
     const glm::dvec3 middle = middle_source(group, at);
@@ -233,7 +233,7 @@ class GroupSearch {
   std::vector<std::uint8_t> pending_;
 };
 
-/// Aligned to cache lines; large tables to huge pages, where the system has them: a sweep jumps about in them.
+/// Allocates with cache line alignment, large tables in huge pages if available, because sweeps access them randomly.
 double* allocate_lanes(std::size_t count) {
   constexpr std::size_t line = 64;
   constexpr std::size_t huge_page = std::size_t{2} << 20U;

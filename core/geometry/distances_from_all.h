@@ -13,11 +13,11 @@ namespace semblante {
 /// Surface distances from many sources to every vertex of one part.
 class DistancesFromAll {
  public:
-  /// From source number `source` to the part's member number `member` (the order of Surface::members_of).
+  /// Distance from source number `source` to the part's member number `member` (the order of Surface::members_of).
   [[nodiscard]] double at(std::size_t source, std::size_t member) const {
     return lanes_[lane_of_[source] + vertex_of_[member] * DistanceGroup::lane_count];
   }
-  /// From every source to one member; `row` has a place for each source.
+  /// Distances from every source to one member; `row` has one element per source.
   void read_row(std::size_t member, std::span<double> row) const;
 
  private:
@@ -31,16 +31,16 @@ class DistancesFromAll {
   std::vector<std::uint32_t> vertex_of_;   ///< by member: its number in the kernel's arrays
 };
 
-/// One search for all sources together, sixteen side by side. Bit by bit the values of EdgePathSearch: the least, over
-/// all paths, of the lengths added up from the source on in double. Correcting distances until nothing changes ends
-/// there in whatever order it goes, for rounded addition never falls when a summand grows.
+/// One search for all sources, sixteen at a time. Bit for bit the values of EdgePathSearch: the minimum, over all
+/// paths, of the lengths summed from the source on in double. Relaxation until nothing changes has this result in any
+/// order, because rounded addition is monotonic.
 ///
-/// The order is chosen for speed. Sources near each other form a group. Their surroundings are swept along and across,
-/// to and fro, then the part from there outwards, by straight distance, where most vertices are final at the first
-/// visit; further sweeps, back and forth, visit only what a neighbour can still improve. Where ways wind so that this
-/// does not end soon, each source of the group is searched from by itself.
+/// The order is chosen for speed. Sources close to each other form a group. Sweeps go over its surroundings in two
+/// directions, forward and backward, then over the part outwards by straight distance, where most vertices are final at
+/// the first visit; later sweeps visit only vertices that a neighbour can still improve. If winding paths make this
+/// slow, each source of the group is searched separately.
 ///
-/// Every source must lie on `part`. Memory: 8 bytes a source (rounded up to sixteens) and member.
+/// Every source must be on `part`. Memory: 8 bytes per source (rounded up to sixteens) and member.
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
                                     const DistanceKernel& kernel = distance_kernels().back());
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double unreachable = std::numeric_limits<double>::infinity();
 
-/// Orders the heap so that the least distance is on top. The heap is not where the time goes: on 26.9 thousand vertices
-/// a search took 2.3 ms so, 2.5 ms with a four-way heap, 2.1 ms with rings of vertices in front of a small heap.
+/// Puts the smallest distance on top of the heap. Other queues gain little: on 26.9 thousand vertices a search took
+/// 2.3 ms with this heap, 2.5 ms with a four-way heap, 2.1 ms with rings of vertices in front of a small heap.
 constexpr auto farther = [](const auto& a, const auto& b) { return a.distance > b.distance; };
 
 }  // namespace
@@ -25,7 +25,7 @@ void EdgePathSearch::lower(std::uint32_t vertex, double distance) {
 }
 
 std::span<const double> EdgePathSearch::from(std::span<const SurfaceVertexId> sources) {
-  // A search leaves its marks on the parts of its sources only.
+  // A search changes only the parts of its sources.
   for (const PartId part : touched_) {
     for (const SurfaceVertexId s : surface_.members_of(part)) distances_[s.value()] = unreachable;
   }

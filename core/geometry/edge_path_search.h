@@ -8,19 +8,19 @@
 
 namespace semblante {
 
-/// Surface distance along mesh edges: one search gives the distances from one vertex to every
-/// other. Keeps its arrays between searches, so that 84 of them allocate once.
+/// Surface distance along mesh edges: one search gives the distances from one vertex to all
+/// others. Keeps its arrays between searches, so that 84 searches allocate once.
 class EdgePathSearch {
  public:
   explicit EdgePathSearch(const Surface& surface);  ///< keeps a reference
 
-  /// #S distances from `source`; infinite where no edges lead. Valid until the next call.
+  /// #S distances from `source`; infinite for unreachable vertices. Valid until the next call.
   ///
-  /// The value is the least, over all paths, of the lengths added up from `source` on in double: it does not depend on
+  /// The value is the minimum, over all paths, of the lengths summed from `source` on in double: it does not depend on
   /// the order of vertices or edges.
   std::span<const double> from(SurfaceVertexId source) { return from(std::span(&source, 1)); }
 
-  /// The same from the nearest of several sources; they may lie on different parts. None: all infinite.
+  /// Distances from the nearest of several sources, possibly on different parts. Without sources all are infinite.
   std::span<const double> from(std::span<const SurfaceVertexId> sources);
 
  private:

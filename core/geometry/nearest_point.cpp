@@ -45,7 +45,7 @@ void NearestPoint::search(std::size_t first, std::size_t last, int axis, const g
   } else {
     search(middle + 1, last, next, to, index, squared);
   }
-  if (beyond * beyond > squared) return;  // equal distances are looked at: the lowest index wins
+  if (beyond * beyond > squared) return;  // equal distances are examined: the lowest index is returned
   if (low_first) {
     search(middle + 1, last, next, to, index, squared);
   } else {

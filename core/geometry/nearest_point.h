@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// Answers "which of these points is nearest" for many queries: a balanced k-d tree over a copy of the points.
+/// Nearest-point queries: a balanced k-d tree over a copy of the points.
 class NearestPoint {
  public:
   struct Hit {

@@ -30,7 +30,7 @@ std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertex
       const double longer = distance + step.length;
       const auto [entry, is_new] = reached.try_emplace(step.to.value(), Reached{longer, SurfaceVertexId(at), false});
       if (!is_new) {
-        // Of equally long ways the one by the lower vertex, whatever the order of edges.
+        // Of equally long paths the one with the lower vertex, independent of the order of edges.
         if (std::pair(longer, at) >= std::pair(entry->second.distance, entry->second.before.value())) continue;
         if (entry->second.settled) continue;
         entry->second = {longer, SurfaceVertexId(at), false};

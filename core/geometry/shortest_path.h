@@ -6,8 +6,8 @@
 
 namespace semblante {
 
-/// The vertices of a shortest path along edges, both ends included; empty where no edges lead from one to the other.
-/// Looks no farther than it must: meant for ends that are near to each other.
+/// The vertices of a shortest path along edges, including both ends; empty if there is no path. The search ends at
+/// `to`, so it is fast for nearby ends.
 std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to);
 
 }  // namespace semblante

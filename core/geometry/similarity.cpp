@@ -16,7 +16,7 @@ glm::dvec3 mean(std::span<const glm::dvec3> points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Sum of the squared entries' roots' bound: no eigenvalue is larger.
+/// The Frobenius norm, an upper bound of the absolute eigenvalues.
 double frobenius(const glm::dmat4& m) {
   double sum = 0.0;
   for (int c = 0; c < 4; ++c) sum += glm::dot(m[c], m[c]);
@@ -40,7 +40,7 @@ double width(std::span<const glm::dvec3> points, const glm::dvec3& center) {
 glm::dvec4 principal_axis(const glm::dmat4& symmetric) {
   const double shift = frobenius(symmetric);
   if (!(shift > 0.0)) return {1.0, 0.0, 0.0, 0.0};
-  // Shifted, every eigenvalue is positive; squared again and again, only the largest remains.
+  // With the shift all eigenvalues are positive; repeated squaring leaves the largest.
   glm::dmat4 power = symmetric + glm::dmat4(shift);
   constexpr int squarings = 40;
   for (int i = 0; i < squarings; ++i) {

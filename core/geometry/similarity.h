@@ -18,11 +18,11 @@ struct Similarity {
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const { return to + scale * (rotation * (p - from)); }
 };
 
-/// The similarity that takes `from[i]` nearest to `to[i]` in the least squares (Horn 1987). Empty for fewer than three
-/// points, or points that lie on a line or in one place.
+/// The similarity that maps `from[i]` to `to[i]` with the least squared error (Horn 1987). Empty for fewer than three
+/// points, and for collinear or coincident points.
 std::optional<Similarity> fit_similarity(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to);
 
-/// Unit eigenvector of the largest eigenvalue of a symmetric matrix; any of them where the largest is double.
+/// Unit eigenvector of the largest eigenvalue of a symmetric matrix; any such vector if that eigenvalue is multiple.
 glm::dvec4 principal_axis(const glm::dmat4& symmetric);
 
 }  // namespace semblante

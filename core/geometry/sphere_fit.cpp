@@ -25,7 +25,8 @@ std::optional<Sphere> fit_sphere(std::span<const glm::dvec3> points) {
     pull += glm::dot(q, q) * q;
     size += glm::dot(q, q);
   }
-  // The determinant is the product of the spreads along three axes; relative to their mean cubed it tells a flat patch.
+  // The determinant is the product of the variances along three axes; near 0 relative to their cubed mean: a flat
+  // patch.
   constexpr double flat = 1e-6;
   const double scale = size / 3.0;
   if (!(scale > 0.0) || glm::determinant(spread) < flat * scale * scale * scale) return std::nullopt;

@@ -14,7 +14,7 @@ struct Sphere {
 };
 
 /// The sphere that fits `points` best (least squares of |p|^2 - 2 c.p + (|c|^2 - r^2)); empty for fewer than four
-/// points or points too close to a plane to bend.
+/// points and for points too close to a plane.
 std::optional<Sphere> fit_sphere(std::span<const glm::dvec3> points);
 
 }  // namespace semblante

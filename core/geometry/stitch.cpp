@@ -10,8 +10,8 @@
 namespace semblante {
 namespace {
 
-/// An edge as one triangle has it, with the corner across. Two triangles on the same three vertices give equal records,
-/// so a triangle that a file holds twice does not turn a seam into an inner edge.
+/// An edge of one triangle, with the opposite corner. Two triangles with the same three vertices give equal records, so
+/// a duplicate triangle does not turn a seam into an inner edge.
 struct Side {
   std::uint32_t low, high, across;
   [[nodiscard]] auto key() const { return std::tie(low, high, across); }
@@ -19,7 +19,7 @@ struct Side {
   friend bool operator==(const Side& a, const Side& b) { return a.key() == b.key(); }
 };
 
-/// Sets of file vertices that are one surface vertex; the lowest member stands for each.
+/// Disjoint sets of file vertices that form one surface vertex; the lowest member represents each set.
 class VertexSets {
  public:
   explicit VertexSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -69,7 +69,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> boundary_edges(std::span<co
 std::vector<std::uint32_t> stitch_seams(std::span<const glm::vec3> positions, std::span<const Triangle> triangles) {
   const auto boundary = boundary_edges(triangles);
 
-  // Number the places where boundary edges end, so that two edges coincide when two small numbers agree.
+  // Number the positions of boundary edge ends, so that coincident edges have equal pairs of numbers.
   std::vector<std::pair<PlaceKey, std::uint32_t>> ends;
   ends.reserve(boundary.size() * 2);
   for (const auto& [a, b] : boundary) {
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> stitch_seams(std::span<const glm::vec3> positions, st
     place_of[ends[i].second] = place;
   }
 
-  // An edge by the places of its ends, lower place first.
+  // An edge by the numbers of its end positions, lower number first.
   struct PlacedEdge {
     std::uint32_t low_place, high_place, low_end, high_end;
   };
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> stitch_seams(std::span<const glm::vec3> positions, st
     if (places(a) != places(b)) continue;
     sets.unite(a.low_end, b.low_end);
     sets.unite(a.high_end, b.high_end);
-    // Edges without length have all four ends at one place: which end meets which must not hang on the file's order.
+    // Zero-length edges have all four ends at one position; the result must not depend on the order in the file.
     if (a.low_place == a.high_place) sets.unite(a.low_end, a.high_end);
   }
 

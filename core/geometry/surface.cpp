@@ -33,7 +33,7 @@ void link_edges(const Model& model, Surface& surface) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t a = surface.surface_of[t[c]].value();
       const std::uint32_t b = surface.surface_of[t[(c + 1) % 3]].value();
-      if (a == b) continue;  // its ends were stitched into one
+      if (a == b) continue;  // its ends were merged by stitching
       edges.emplace_back(a, b);
       edges.emplace_back(b, a);
     }
@@ -56,7 +56,7 @@ void find_parts(Surface& surface) {
   std::vector<SurfaceVertexId> pending;
   std::uint32_t count = 0;
   bool has_unused = false;
-  // Surface vertices rise with their lowest file vertex, so parts found in this order are numbered by theirs.
+  // Surface vertices are ordered by their lowest file vertex, so parts found in this order are too.
   for (std::uint32_t seed = 0; seed < surface.vertex_count(); ++seed) {
     if (surface.part_of[seed] != unseen) continue;
     if (surface.steps_from(SurfaceVertexId(seed)).empty()) {

@@ -11,11 +11,11 @@
 
 namespace semblante {
 
-/// The stitched surface of a model: file vertices that a seam had split are one surface vertex
-/// again, and the mesh edges between surface vertices are a graph. Needs no manifold: any triangles give a graph.
+/// The stitched surface of a model: file vertices split by a seam are merged to one surface vertex,
+/// and the mesh edges between surface vertices form a graph. The mesh need not be manifold.
 ///
-/// A part is a connected component of that graph. Parts are numbered by their lowest file vertex; vertices that no
-/// triangle uses come last, together, as one part without triangles.
+/// A part is a connected component of that graph. Parts are ordered by their lowest file vertex; all unused vertices
+/// form one last part without triangles.
 struct Surface {
   /// A step along a mesh edge.
   struct Step {
@@ -46,8 +46,8 @@ struct Surface {
   }
 };
 
-/// Builds the surface of `model`. Triangles that name a vertex twice are no triangles and are left out; a triangle
-/// given twice counts once. Indices of the model must be in range (import sees to that).
+/// Builds the surface of `model`. Triangles with a repeated vertex are ignored; duplicate triangles count once. Indices
+/// of the model must be in range (import checks them).
 Surface build_surface(const Model& model);
 
 }  // namespace semblante

@@ -8,12 +8,12 @@
 
 namespace semblante {
 
-/// Square to triangle abc, on the side from which it is counter-clockwise; its length is twice the area.
+/// The normal of triangle abc, towards the side from which it is counter-clockwise; its length is twice the area.
 inline glm::dvec3 area_vector(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return glm::cross(b - a, c - a);
 }
 
-/// How much of a triangle's shape there is: 1 for half a square, 0 for a line.
+/// Shape quality of a triangle: 1 for half a square, 0 for a line.
 inline double fullness(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double twice_area) {
   const glm::dvec3 ab = b - a;
   const glm::dvec3 bc = c - b;
@@ -22,7 +22,7 @@ inline double fullness(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   return longest > 0.0 ? twice_area / longest : 0.0;
 }
 
-/// Twice the area of a triangle of the texture; its sign says which way round it is.
+/// Twice the signed area of a texture triangle; the sign is its orientation.
 inline double twice_uv_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
   const glm::dvec2 ab = glm::dvec2(b) - glm::dvec2(a);
   const glm::dvec2 ac = glm::dvec2(c) - glm::dvec2(a);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 
-/// Barycentric weights of the place on triangle abc that is nearest to p (Ericson 2005, section 5.1.5).
+/// Barycentric weights of the point of triangle abc nearest to p (Ericson 2005, section 5.1.5).
 glm::dvec3 nearest_weights(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a;
   const glm::dvec3 ac = c - a;
@@ -90,7 +90,7 @@ std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last) {
   }
   const glm::vec3 size = high - low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  // Halved by count, so that the depth is bounded whatever the places.
+  // Split by count, so that the depth is bounded for any positions.
   const std::uint32_t middle = first + (last - first) / 2;
   const auto place = [this](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(place(first), place(middle), place(last), [&](std::uint32_t a, std::uint32_t b) {

@@ -14,15 +14,15 @@
 
 namespace semblante {
 
-/// Nearest place on a set of triangles: a tree of boxes. Triangles may be degenerate. O(log #T) a question where the
-/// triangles lie apart; never worse than all of them.
+/// Nearest point on a set of triangles: a bounding box tree. Triangles may be degenerate. O(log #T) per query for
+/// well separated triangles, at most O(#T).
 class TriangleTree {
  public:
-  /// Keeps references to both.
+  /// Keeps references to both arguments.
   TriangleTree(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
 
-  /// The same triangles with their vertices elsewhere, in O(#T). Right wherever that is, fast where neighbours stay
-  /// near.
+  /// Updates the tree for new vertex positions in O(#T). Correct for any positions, fast if neighbours stay close to
+  /// each other.
   void move_to(std::span<const glm::vec3> positions);
 
   struct Hit {
@@ -31,8 +31,8 @@ class TriangleTree {
     double distance = std::numeric_limits<double>::infinity();
   };
 
-  /// The nearest place to `to`, among the triangles that `accept(triangle)` is true of; `distance` stays infinite when
-  /// there is none. Of equally near triangles the lowest wins. `guess`: a triangle that may be near, to search less.
+  /// The nearest point to `to` on triangles with `accept(triangle)`; `distance` is infinite if there is none. Of
+  /// equally near triangles the lowest is returned. `guess`: a triangle that may be near, to speed up the search.
   template <class Accept>
   [[nodiscard]] Hit nearest(const glm::dvec3& to, const Accept& accept, std::uint32_t guess = Model::no_index) const {
     Hit hit;
@@ -44,7 +44,7 @@ class TriangleTree {
   }
 
  private:
-  /// An inner node's children are the next one and `right`; a leaf holds triangles order_[first..first+count).
+  /// The children of an inner node are the next node and `right`; a leaf has triangles order_[first..first+count).
   struct Node {
     glm::vec3 low, high;
     std::uint32_t right = 0, first = 0, count = 0;

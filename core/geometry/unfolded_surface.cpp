@@ -38,11 +38,11 @@ std::vector<Wing> wings_of(const Surface& surface, std::span<const Triangle> tri
   }
   std::sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) { return a.key() < b.key(); });
   const auto same = [](const Wing& a, const Wing& b) { return a.key() == b.key(); };
-  wings.erase(std::unique(wings.begin(), wings.end(), same), wings.end());  // a triangle given twice is one
+  wings.erase(std::unique(wings.begin(), wings.end(), same), wings.end());  // duplicate triangles count once
   return wings;
 }
 
-/// Length of the diagonal from `first`'s apex to `second`'s over their common edge laid flat; 0 where the straight way
+/// Length of the diagonal from `first`'s apex to `second`'s after unfolding over the common edge; 0 if the diagonal
 /// leaves the two triangles.
 double diagonal(const Surface& surface, const Wing& first, const Wing& second) {
   const glm::dvec3& origin = surface.positions[first.low];
@@ -85,7 +85,7 @@ Surface with_unfolded_diagonals(const Surface& surface, std::span<const Triangle
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
     return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
   });
-  // Of several ways between two vertices the shortest, which the order puts first.
+  // Of several links between two vertices the shortest, which is sorted first.
   const auto same_ends = [](const Link& a, const Link& b) { return a.from == b.from && a.to == b.to; };
   links.erase(std::unique(links.begin(), links.end(), same_ends), links.end());
 

@@ -7,11 +7,11 @@
 
 namespace semblante {
 
-/// Turns a model into the MPEG-4 frame: positions and normals by `to_mpeg4` (which must have an inverse), windings too
-/// where it mirrors; to_file_frame then leads back. The identity leaves every bit as it was.
+/// Transforms a model to MPEG-4 axes: positions and normals by `to_mpeg4` (which must be invertible), and reverses the
+/// winding if it mirrors; updates to_file_frame. The identity changes no bit.
 void change_axes(Model& model, const glm::dmat3& to_mpeg4);
 
-/// The marked positions of a file by its own to_mpeg4_axes; nothing if it has none.
+/// Transforms the marked positions of a file by its own to_mpeg4_axes, if present.
 void change_axes(FeaturePointsFile& file);
 
 }  // namespace semblante

@@ -9,7 +9,7 @@
 
 namespace semblante::import {
 
-/// Numbers of a stated byte order out of bytes. Reading past the end gives zero and clears ok(), which stays so.
+/// Reads numbers of a given byte order. Reading past the end returns zero and permanently clears ok().
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes, std::endian order = std::endian::little)

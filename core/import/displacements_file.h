@@ -11,8 +11,8 @@
 
 namespace semblante {
 
-/// {"2.1": [dx, dy, dz], ...}: feature points moved by hand, in the model file's axes and unit. In rising order of id;
-/// at least one. error.where is a JSON pointer such as "/2.1/0".
+/// {"2.1": [dx, dy, dz], ...}: explicit displacements of feature points, in the model file's axes and unit. By
+/// increasing id, at least one. error.where is a JSON pointer such as "/2.1/0".
 Result<std::vector<std::pair<FeaturePointId, glm::dvec3>>> parse_displacements(std::string_view json);
 
 }  // namespace semblante

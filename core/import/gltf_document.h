@@ -16,8 +16,8 @@
 
 namespace semblante::import {
 
-/// A glTF's JSON and its bytes. Everything it hands out has been checked against the bytes that are there; the first
-/// fault is kept (see JsonCursor) and what follows it gives empty values.
+/// A glTF's JSON and its buffers. All returned data is checked against the available bytes; the first error is kept
+/// (see JsonCursor), and later calls return empty values.
 class GltfDocument {
  public:
   GltfDocument(nlohmann::json tree, std::span<const std::uint8_t> binary, ResourceReader resources,
@@ -31,25 +31,25 @@ class GltfDocument {
   [[nodiscard]] const Error& fault() const { return *fault_; }
   [[nodiscard]] std::size_t count(const char* array) { return root().size_of(array); }
 
-  /// Element `index` of a top-level array; a fault if it is not there.
+  /// Element `index` of a top-level array; an error if it does not exist.
   [[nodiscard]] JsonCursor item(const char* array, std::size_t index) { return root().member(array).element(index); }
 
-  /// The bytes of a buffer view, decoded where EXT_meshopt_compression has compressed them.
+  /// The bytes of a buffer view, decoded if compressed with EXT_meshopt_compression.
   std::span<const std::uint8_t> view(std::size_t index);
-  /// The bytes of a buffer view that are about to be decoded by Draco. A file may name one view many times; all
-  /// together at most eight times its bytes are decoded, else `where` holds the fault too_large.
+  /// The bytes of a buffer view for Draco decoding. A file may use one view many times; in total at most eight times
+  /// its bytes are decoded, else the error too_large is reported at `where`.
   std::span<const std::uint8_t> draco_view(std::size_t index, const JsonCursor& where);
-  /// The bytes a "uri" member stands for: a data: URI, or a file of the same zip.
+  /// The bytes of a "uri" member: a data: URI, or a file in the same zip.
   Result<std::vector<std::uint8_t>> resource(const std::string& uri);
 
-  /// Number of elements an accessor announces, at most `max`.
+  /// Declared number of elements of an accessor, at most `max`.
   std::size_t accessor_count(std::size_t accessor, std::size_t max);
-  /// `count` rows of `components` floats: normalized integers divided, sparse values put in. `components` must be what
-  /// the accessor's type says. Holds the fault "mismatch" if the accessor has another count.
+  /// `count` rows of `components` floats, with normalized integers converted and sparse values applied. `components`
+  /// must match the accessor's type. Reports the error `mismatch` if the accessor has another count.
   std::vector<float> floats(std::size_t accessor, std::size_t components, std::size_t count);
-  /// The rows of a VEC3 accessor of `count` elements that are not zero, in rising order: a sparse accessor costs what
-  /// it lists, not what it announces. Looking at a row takes one from `budget`; one that is too small becomes 0, and
-  /// nothing is read.
+  /// The nonzero rows of a VEC3 accessor of `count` elements, in increasing order: a sparse accessor costs its listed
+  /// rows, not its declared count. Each examined row decrements `budget`; if the budget is too small, it is set to 0
+  /// and nothing is read.
   struct Row {
     std::uint32_t index = 0;
     std::array<float, 3> value{};
@@ -59,13 +59,13 @@ class GltfDocument {
   std::vector<std::uint32_t> indices(std::size_t accessor, std::size_t end, std::size_t max_count);
 
  private:
-  /// Where elements lie: `stride` bytes apart, each inside `bytes`.
+  /// The layout of elements: `stride` bytes apart, each inside `bytes`.
   struct Layout {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0;
   };
 
-  /// What an accessor's elements are; `layout` is empty without a buffer view: all zeros.
+  /// The elements of an accessor; `layout` is empty without a buffer view, which means all zeros.
   struct Elements {
     std::uint64_t type = 0;
     bool normalized = false;
@@ -76,7 +76,7 @@ class GltfDocument {
   };
 
   std::span<const std::uint8_t> buffer(std::size_t index);
-  /// The bytes that "buffer", "byteOffset" and "byteLength" of an object name.
+  /// The bytes given by "buffer", "byteOffset" and "byteLength" of an object.
   std::span<const std::uint8_t> slice(const JsonCursor& where);
   Elements elements(const JsonCursor& where, std::size_t components, std::size_t count);
   static bool read_row(const JsonCursor& where, const Elements& elements, std::size_t row, const std::uint8_t* from,

@@ -9,15 +9,15 @@
 
 namespace semblante::import {
 
-/// How a material takes its texture coordinates from a primitive.
+/// The texture coordinate set of a primitive that a material uses.
 struct UvSource {
   std::size_t set = 0;        ///< n of TEXCOORD_n
   glm::dmat3 transform{1.0};  ///< KHR_texture_transform of the base colour
   bool is_identity = true;
 };
 
-/// Reads all materials, and the images they use, into the model; gives the UV source of each material. Images stay the
-/// file's own bytes. What cannot be shown (another image format) becomes a warning.
+/// Reads all materials and their images into the model; returns the UV source of each material. Images are kept as the
+/// file's bytes. Unsupported content (other image formats) becomes a warning.
 std::vector<UvSource> read_materials(GltfDocument& document, ModelBuilder& builder);
 
 }  // namespace semblante::import

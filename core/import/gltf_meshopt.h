@@ -10,7 +10,7 @@
 
 namespace semblante::import {
 
-/// What EXT_meshopt_compression says of a buffer view.
+/// The parameters of EXT_meshopt_compression for a buffer view.
 struct MeshoptLayout {
   enum class Mode { attributes, triangles, indices } mode = Mode::attributes;
   enum class Filter { none, octahedral, quaternion, exponential } filter = Filter::none;
@@ -18,12 +18,12 @@ struct MeshoptLayout {
   std::size_t stride = 0;  ///< bytes of each
 };
 
-/// Reads count, byteStride, mode and filter; faults are kept by the cursor.
+/// Reads count, byteStride, mode and filter; errors are reported by the cursor.
 MeshoptLayout read_meshopt_layout(const JsonCursor& extension);
 
-/// `count * stride` bytes out of compressed ones. Refuses a layout the extension does not allow, and one that announces
-/// more than its bytes can hold or more than `max_bytes`, before it allocates. What comes out is any bytes at all: a
-/// damaged stream may decode, so indices and numbers are to be checked by whoever reads them.
+/// Decompresses to `count * stride` bytes. Before allocation it refuses layouts that the extension does not allow, and
+/// declared sizes impossible for the number of bytes or beyond `max_bytes`. The result is untrusted: a damaged stream
+/// may decode without an error, so the caller must check indices and numbers.
 Result<std::vector<std::uint8_t>> decode_meshopt(std::span<const std::uint8_t> bytes, const MeshoptLayout& layout,
                                                  std::size_t max_bytes);
 

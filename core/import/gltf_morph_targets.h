@@ -11,21 +11,21 @@
 
 namespace semblante::import {
 
-/// Keeps the morph targets of all primitives aside as Model::examples. Targets of one name belong to one example: tools
-/// split a head into meshes and primitives, and give each its share of a shape.
+/// Collects the morph targets of all primitives as Model::examples. Targets with equal names form one example, because
+/// tools split a head into meshes and primitives, each with a part of the shape.
 class MorphTargets {
  public:
   MorphTargets(GltfDocument& document, ModelBuilder& builder)
       : document_(document), builder_(builder), rows_left_(builder.limits().max_example_rows) {}
 
-  /// The targets of one primitive, whose `count` file vertices begin at `first`, moved as its positions are. To be
-  /// called in the order of file vertices.
+  /// Reads the targets of one primitive, whose `count` file vertices begin at `first`, with the transform of its
+  /// positions. Call in the order of file vertices.
   void read(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t first, std::size_t count,
             const VertexTransform& transform);
 
  private:
   Example& example(const std::string& name);
-  /// The first names only: a thousand primitives of one mesh may each have a target, and their mesh a million names.
+  /// Only the first `most` names, because a hostile mesh may have a million names for each of a thousand primitives.
   static std::vector<std::string> names_of(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t most);
 
   GltfDocument& document_;

@@ -15,7 +15,7 @@ namespace semblante::import {
 /// A binary glTF 2.0. File vertices: the POSITION rows of every primitive of every mesh, in file order (README.md).
 Result<Model> read_glb(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
 
-/// A glTF 2.0 JSON text with its buffers as data: URIs, or where `resources` finds them.
+/// A glTF 2.0 JSON text with its buffers as data: URIs, or provided by `resources`.
 Result<Model> read_gltf(std::string_view json, const ResourceReader& resources, const ImportLimits& limits);
 
 }  // namespace semblante::import

@@ -10,19 +10,19 @@
 
 namespace semblante::import {
 
-/// Where a mesh stands: the first node, depth first in the scene's order, that shows it.
+/// The transform of a mesh: that of its first node, depth first in the scene's order.
 struct MeshPlacement {
   glm::dmat4 to_world{1.0};
   bool is_identity = true;
   std::size_t node_count = 1;  ///< nodes that show it
   std::optional<std::size_t> skin;
-  /// Of a skin whose pose is not its bind pose: each vertex stands where its joints put it, and to_world says nothing.
-  /// Shared by all meshes of the skin; null for others.
+  /// For a skin that is not in its bind pose: the joints place each vertex, and to_world is not used. Shared by all
+  /// meshes of the skin; null for others.
   std::shared_ptr<const std::vector<glm::dmat4>> joints;
 };
 
-/// Per mesh of the document; nullopt for a mesh the scene does not show. A document without nodes shows all of them as
-/// they are. Faults (loops, indices out of range, numbers) are kept in the document.
+/// Per mesh of the document; nullopt for a mesh that is not in the scene. A document without nodes has all meshes
+/// untransformed. Errors (loops, indices out of range, numbers) are kept in the document.
 std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document);
 
 }  // namespace semblante::import

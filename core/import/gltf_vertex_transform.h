@@ -10,24 +10,24 @@
 
 namespace semblante::import {
 
-/// Puts the vertices of one primitive where its mesh stands: as they are, by one matrix, or each by its joints.
+/// Transforms the vertices of one primitive: not at all, by one matrix, or each by its joints.
 class VertexTransform {
  public:
-  /// A mesh that is not shown stays as it is.
+  /// A null placement (a mesh outside the scene) means no transform.
   explicit VertexTransform(const MeshPlacement* placement);
 
   [[nodiscard]] bool moves() const { return !is_identity_; }
   [[nodiscard]] bool wants_joints() const { return joints_ != nullptr; }
-  /// One more set of four joints and weights a vertex (#V by 4 each). Joints out of range are left out.
+  /// Adds a set of four joints and weights per vertex (#V by 4 each). Joints out of range are ignored.
   void add_joints(const std::vector<float>& joints, const std::vector<float>& weights);
-  /// Whether it turns the surface inside out.
+  /// Whether the transform reverses the orientation of the surface.
   [[nodiscard]] bool mirrors() const;
 
-  /// Leaves every bit alone where nothing moves.
+  /// Exact if there is no transform.
   [[nodiscard]] glm::vec3 position(std::size_t vertex, const glm::vec3& value) const;
-  /// Where a small step from a vertex leads.
+  /// Transforms a displacement of a vertex.
   [[nodiscard]] glm::vec3 displacement(std::size_t vertex, const glm::vec3& value) const;
-  /// Unit length, or zero where the normal has no direction, where something moves.
+  /// Transforms a normal to unit length, or to zero if it has no direction.
   [[nodiscard]] glm::vec3 normal(std::size_t vertex, const glm::vec3& value) const;
 
  private:

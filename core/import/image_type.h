@@ -6,7 +6,7 @@
 
 namespace semblante::import {
 
-/// "image/png" or "image/jpeg" by what the bytes are, whatever the file calls them; empty for anything else.
+/// "image/png" or "image/jpeg" by content, independent of the declared type; empty for anything else.
 std::string_view image_type(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::import

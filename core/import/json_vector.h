@@ -6,7 +6,7 @@
 
 namespace semblante::import {
 
-/// Three finite numbers that fit a float32; faults are kept by the cursor.
+/// Three finite numbers within the range of float32; errors are reported by the cursor.
 glm::dvec3 read_vector(const JsonCursor& array);
 
 }  // namespace semblante::import

@@ -16,25 +16,25 @@ struct Corner {
   std::uint32_t normal = Model::no_index;
 };
 
-/// What all readers share: collects triangles in file order under the current primitive, leaves out those that have a
-/// vertex twice, and makes the promises of Model true at the end. Readers fill model.positions, uvs, normals, materials
-/// and images themselves, and check every index against them before add_triangle.
+/// Common part of all readers: collects triangles in file order under the current primitive, omits those with a
+/// repeated vertex, and establishes the invariants of Model at the end. Readers fill model.positions, uvs, normals,
+/// materials and images themselves, and check every index before add_triangle.
 class ModelBuilder {
  public:
   explicit ModelBuilder(const ImportLimits& limits) : limits_(limits) {}
 
   Model model;
 
-  /// Triangles added from now on belong to a primitive of this name (printable()) and material (-1: none).
+  /// Starts a primitive with this name (printable()) and material (-1: none) for the following triangles.
   void begin_primitive(const std::string& name, int material);
   void add_triangle(const Corner& a, const Corner& b, const Corner& c);
   void warn(std::string message);
 
   [[nodiscard]] const ImportLimits& limits() const { return limits_; }
-  /// How many more triangles may be added; left-out ones count, so that work stays bounded.
+  /// Number of triangles that may still be added; omitted ones count, so that the time is bounded.
   [[nodiscard]] std::size_t triangles_left() const { return limits_.max_triangles - triangles_seen_; }
 
-  /// The finished model, or why there is none: no triangles, a position that is not finite or beyond any unit.
+  /// The finished model, or an error: no triangles, or a position that is not finite or too large.
   Result<Model> finish(std::string format) &&;
 
  private:

@@ -11,16 +11,16 @@
 
 namespace semblante::import {
 
-/// The material files of an OBJ: what they say fills in materials that `usemtl` names. Colours, opacity, roughness and
-/// the images of base colour and normals are read; what cannot be shown becomes a warning, never an error, for a head
-/// without its texture is still a head.
+/// The material files of an OBJ, which define the materials named by `usemtl`. Reads colours, opacity, roughness and
+/// the images of base colour and normals. Unsupported or missing content becomes a warning instead of an error, because
+/// a head is usable without its texture.
 class ObjMaterials {
  public:
   ObjMaterials(ModelBuilder& builder, ResourceReader resources) : builder_(builder), resources_(std::move(resources)) {}
 
   /// Reads one file of an `mtllib` line.
   void read_library(std::string_view name);
-  /// Called for each material once all is read; leaves those alone that no file speaks of.
+  /// Sets the properties of a material after all files are read; does nothing for a material that no file defines.
   void fill(Material& material) const;
 
  private:

@@ -26,7 +26,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] std::optional<std::size_t> find(std::string_view property) const;
-  /// The least bytes one element can take, in a text (a digit and a blank a value) or in binary.
+  /// Minimum number of bytes of one element, in text (a digit and a blank per value) or in binary.
   [[nodiscard]] std::size_t least_bytes(bool is_text) const;
 };
 
@@ -38,7 +38,7 @@ struct PlyHeader {
   std::size_t line_count = 0;   ///< lines of the header
 };
 
-/// Reads "ply" to "end_header". Bounded: at most 64 elements of at most 256 properties. Errors name the line.
+/// Reads "ply" to "end_header". Bounded: at most 64 elements of at most 256 properties. Errors have the line.
 Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::import

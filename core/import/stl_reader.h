@@ -9,9 +9,9 @@
 
 namespace semblante::import {
 
-/// STL, binary or text. The format has no indices, only three positions a facet; corners at the same position (as
-/// float32, -0 equal to +0) become one vertex, numbered in order of first appearance. Facet normals are not kept: they
-/// say nothing that the corners do not.
+/// STL, binary or text. The format has no indices, only three positions per facet; corners at the same position (as
+/// float32, -0 equal to +0) become one vertex, numbered in order of first appearance. Facet normals are ignored: they
+/// are redundant.
 Result<Model> read_stl(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
 
 }  // namespace semblante::import

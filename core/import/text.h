@@ -8,19 +8,19 @@
 
 namespace semblante::import {
 
-/// The bytes seen as text. No byte is copied; nothing is assumed about the encoding.
+/// A view of the bytes as text, in any encoding.
 std::string_view as_text(std::span<const std::uint8_t> bytes);
 
 enum class NumberFault { none, not_a_number, not_finite };
 
-/// One decimal number that fills the whole token, whatever the locale. Underflow gives zero; overflow of float32, nan
-/// and inf are not_finite.
+/// Parses a token as one decimal number, independent of the locale. Underflow gives zero; overflow of float32, nan and
+/// inf are not_finite.
 NumberFault parse_number(std::string_view token, float& value);
 
-/// The next run of characters other than blanks; empty at the end. `rest` moves past it.
+/// The next run of characters other than blanks; empty at the end. Advances `rest`.
 std::string_view next_token(std::string_view& rest);
 
-/// "'abc'", made safe to show: cut at 40 characters, control characters and bytes above 126 as '?'.
+/// "'abc'", made safe for display: truncated to 40 characters, control characters and bytes above 126 as '?'.
 std::string shown(std::string_view token);
 
 /// Lines with LF, CRLF or CR ends, numbered from 1.
@@ -30,13 +30,13 @@ class LineReader {
 
   /// The next line without its end; nullopt at the end of the text.
   std::optional<std::string_view> next();
-  /// As next(), but a backslash before the end of a line joins the following one to it, as OBJ asks.
+  /// Like next(), but a backslash at the end of a line continues it on the next line, as in OBJ.
   std::optional<std::string_view> next_logical();
 
   /// Number of the line last returned (of its first line, if joined).
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] std::string where() const { return "line " + std::to_string(line_); }
-  /// What has not been read yet.
+  /// The unread text.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
  private:

@@ -14,14 +14,14 @@ namespace {
 
 using nlohmann::json;
 
-/// `near`: pointer of the value being read.
+/// `near`: pointer of the value at the error.
 Error not_json(std::size_t byte, const std::string& near = {}) {
   const std::string place = near.empty() ? "" : ", in " + near;
   return {ErrorCode::malformed, "", "is not valid JSON (byte " + std::to_string(byte) + place + ")"};
 }
 
-/// Builds the document from the parser's events. nlohmann's own builder does not refuse a member named twice, and its
-/// callback form searches the parent at the end of each container.
+/// Builds the document from the parser's events. nlohmann's own builder accepts duplicate members, and its callback
+/// form searches the parent at the end of each container.
 class DocumentBuilder final : public nlohmann::json_sax<json> {
  public:
   DocumentBuilder(const JsonLimits& limits, const JsonElements* elements) : limits_(limits), elements_(elements) {}
@@ -49,7 +49,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
 
   bool parse_error(std::size_t byte, const std::string& /*token*/, const json::exception& error) override {
     if (fault_) return false;
-    // 4xx: a number that no double can hold. All else is not JSON.
+    // 4xx: a number beyond the range of a double. Other errors are invalid JSON.
     if (error.id / 100 == 4) return fail(ErrorCode::not_finite, "is a number too large to be read");
     fault_ = not_json(byte, pointer());
     return false;
@@ -76,7 +76,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
     return false;
   }
 
-  /// Of the value being read.
+  /// Pointer of the current value.
   [[nodiscard]] std::string pointer() const {
     std::string pointer;
     for (std::size_t level = 0; level < open_.size(); ++level) {
@@ -85,14 +85,14 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
         if (open.member != nullptr) append_to_pointer(pointer, open.member->first);
         continue;
       }
-      // A container inside this array is an element of it already; a scalar is not yet.
+      // A container is added to its array when it begins, a scalar only when it is complete.
       const std::size_t begun = level + 1 < open_.size() ? 1 : 0;
       append_to_pointer(pointer, open.handed_over + open.container->size() - begun);
     }
     return pointer;
   }
 
-  /// Puts a value where the text has it; nullptr when it is one too many.
+  /// Adds a value at its place; nullptr when the number of values exceeds the limit.
   json* put(json value) {
     if (++values_ > limits_.max_values) {
       fail(ErrorCode::too_large, "has more than " + std::to_string(limits_.max_values) + " values");
@@ -120,7 +120,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
     return completed();
   }
 
-  /// After each value, when the innermost open container is the one that holds it.
+  /// Called after each value, when its container is the innermost open one.
   bool completed() {
     if (open_.empty() || !open_.back().is_handed_over) return true;
     Open& array = open_.back();
@@ -147,7 +147,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
 Result<json> read(std::string_view text, const JsonLimits& limits, const JsonElements* elements) {
   if (text.size() > limits.max_bytes)
     return Error{ErrorCode::too_large, "", "has more than " + std::to_string(limits.max_bytes) + " bytes"};
-  // The parser takes a NUL byte for the end of its input.
+  // The parser treats a NUL byte as the end of its input.
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) return not_json(nul + 1);
   DocumentBuilder builder(limits, elements);
   (void)json::sax_parse(text.begin(), text.end(), &builder);

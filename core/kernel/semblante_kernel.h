@@ -1,11 +1,11 @@
 /* The per-frame kernel: face parameters -> feature points (Eq. 5, 6) -> vertices (Eq. 7, then pupils, eyes and tongue,
  * then the head).
  *
- * Freestanding C99: no heap, no libm, no globals that change; every function may run on any thread. The same source
- * is the native library, the WebAssembly module and the phones' build, and gives the same bits on all of them: the
- * order of every sum is fixed and nothing is fused.
+ * Freestanding C99: no heap, no libm, no mutable globals; every function may run on any thread. The same source is
+ * the native library, the WebAssembly module and the phones' build, with bit-identical results on all of them: the
+ * order of every sum is fixed and no operations are fused.
  *
- * Frame of everything: right-handed, +X to the face's own left, +Y up, +Z out of the face. Lengths are model units.
+ * Axes: right-handed, +X to the face's own left, +Y up, +Z out of the face. Lengths are in model units.
  * Feature points (FPs) are dense indices 0..83 in the order of the standard: by group, then number (2.1 is 0).
  */
 #ifndef SEMBLANTE_KERNEL_H
@@ -23,7 +23,7 @@ extern "C" {
 #define SEMBLANTE_EXPRESSION_COUNT 7 /* 0 is "none" */
 #define SEMBLANTE_FAPU_COUNT 5       /* IRISD, ES, ENS, MNS, MW, in this order */
 #define SEMBLANTE_BLEND_MAX 63       /* full blend or intensity in FAPs 1 and 2 */
-/* What moves a vertex after Eq. 7 and before the head: the part it belongs to. */
+/* The rigid motion of a vertex after Eq. 7 and before the head's rotation, by its part. */
 #define SEMBLANTE_RIGID_NONE 0
 #define SEMBLANTE_RIGID_LEFT_EYE 1
 #define SEMBLANTE_RIGID_RIGHT_EYE 2
@@ -33,11 +33,11 @@ extern "C" {
 #define SEMBLANTE_RIGID_TONGUE \
   128 /* 128..255: takes (value - 127) / 128 of the tongue's roll; 255 is the tongue itself */
 
-/* One frame of face parameters: state, not event. All zero is the neutral face. 284 bytes. */
+/* One frame of face parameters: the complete state. All zero is the neutral face. 284 bytes. */
 typedef struct semblante_frame {
-  /* FAP 1: (viseme_blend/63) of viseme1 + (1 - viseme_blend/63) of viseme2. 0..14; a greater number moves nothing. */
+  /* FAP 1: (viseme_blend/63) of viseme1 + (1 - viseme_blend/63) of viseme2. 0..14; larger numbers have no effect. */
   uint8_t viseme1, viseme2, viseme_blend;
-  /* FAP 2: (intensity1/63) of expression1 + (intensity2/63) of expression2. 0 none, 1..6; a greater number: none. */
+  /* FAP 2: (intensity1/63) of expression1 + (intensity2/63) of expression2. 0 none, 1..6; larger numbers: none. */
   uint8_t expression1, intensity1, expression2, intensity2;
   uint8_t reserved; /* 0 */
   /* fap[n] is FAP n in FAP units (rotations: 1e-5 rad), finite; 0 is absent. fap[0..2] are not read. */
@@ -61,7 +61,7 @@ typedef struct semblante_tongue {
   float roll_limit; /* radians: it rolls no farther, lest it run through itself */
 } semblante_tongue;
 
-/* What the frame needs to know about one model. The two arrays stay the caller's and must outlive the calls. */
+/* The data of one model for evaluating frames. The caller owns the two arrays, which must outlive the calls. */
 typedef struct semblante_rig {
   const float* viseme;              /* 15 by 84 by 3: displacement sets; may be null: FAP 1 moves nothing */
   const float* expression;          /* 7 by 84 by 3, entry 0 all zero; may be null: FAP 2 moves nothing */
@@ -73,8 +73,8 @@ typedef struct semblante_rig {
   semblante_tongue tongue;
 } semblante_rig;
 
-/* A frame on one model: where the FPs went and how single parts moved. Poses interpolate linearly. Floats throughout.
- * The pivots, `iris` and `tongue` are the rig's. */
+/* A pose: displacements of the FPs and motions of the rigid parts. Poses can be interpolated linearly. All members are
+ * floats. The pivots, `iris` and `tongue` are copied from the rig. */
 typedef struct semblante_pose {
   float fp[SEMBLANTE_FP_COUNT * 3]; /* displacement of each FP */
   float eye_rotation[2][4];         /* left, right; unit quaternions x, y, z, w */
@@ -88,9 +88,9 @@ typedef struct semblante_pose {
   semblante_tongue tongue;
 } semblante_pose;
 
-/* A mesh with its influence table in rows, one row a vertex: entries row_offsets[v] .. row_offsets[v + 1] - 1.
- * Trusted: whoever reads a table from a file checks that offsets rise, points are < 84 and rigid is one of the values
- * above. */
+/* A mesh with its influence table, one row per vertex: entries row_offsets[v] .. row_offsets[v + 1] - 1.
+ * Not validated: the reader of a table must check that offsets do not decrease, points are < 84 and rigid is one of
+ * the values above. */
 typedef struct semblante_face {
   uint32_t vertex_count;
   const float* rest;           /* #V by 3: the neutral face */
@@ -101,28 +101,28 @@ typedef struct semblante_face {
 } semblante_face;
 
 /* Frame -> pose.
- * FAPs 1 and 2 are blended first. An FP that both move gets viseme_share * viseme + (1 - viseme_share) * expression
- * (Eq. 5); an FP that one of them moves gets that one's. A low-level FAP that is not zero then replaces the
- * displacement of its FP on its own axis by value * FAPU (Eq. 6).
- * FAPs 23..26 turn the eyes: yaw after pitch, about their pivots; 27 and 28 move them whole, along z.
- * FAPs 29 and 30: value * IRISD is how much the pupil's diameter grows. It keeps a tenth of its radius at least, and
- * the iris around it a tenth of its width.
- * FAP 47: the angle that the borders of the tongue turn upwards, negative downwards, within the rig's limit.
- * FAPs 48..50 turn the head: roll first, then pitch, then yaw. */
+ * FAPs 1 and 2 are blended first. An FP that both move is displaced by viseme_share * viseme + (1 - viseme_share) *
+ * expression (Eq. 5); an FP that only one of them moves is displaced by that one. A nonzero low-level FAP then replaces
+ * the displacement of its FP on its own axis by value * FAPU (Eq. 6).
+ * FAPs 23..26 rotate the eyes about their pivots: yaw after pitch; 27 and 28 move them along z.
+ * FAPs 29 and 30: value * IRISD is the growth of the pupil's diameter. The pupil keeps at least a tenth of its radius,
+ * and the iris around it a tenth of its width.
+ * FAP 47: the upward angle of the tongue's borders, negative downwards, clamped to the rig's limit.
+ * FAPs 48..50 rotate the head: roll first, then pitch, then yaw. */
 void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, semblante_pose* pose);
 
-/* The pose t of the way from a to b, two poses of one model, 0 <= t <= 1 (clamped). Displacements, pupils and roll
- * linearly, rotations along the shorter arc.
+/* Interpolates between poses a and b of one model, 0 <= t <= 1 (clamped): displacements, pupils and roll linearly,
+ * rotations along the shorter arc.
  * `out` may be a or b. */
 void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, float t, semblante_pose* out);
 
-/* Pose -> vertices: positions[v] = rest[v] + sum of weight * displacement over the row of v (Eq. 7), then the motion of
- * the part for the vertices of eyes and tongue, then the head's for all. positions: #V by 3, must not overlap the face.
- * Iris: along the way out from the axis, in the eye's own frame, before the eye turns. A point at the pupil's rim goes
- * by all of pupil_growth, one in the middle of the pupil or at the rim of the iris not at all, others in between in
- * proportion; the surface keeps its shape.
- * Tongue: bent like a sheet about its middle line, which stays. A point at a border turns by all of tongue_roll, others
- * in proportion to how far out they are; points beyond the border go straight on.
+/* Pose -> vertices: positions[v] = rest[v] + sum of weight * displacement over the row of v (Eq. 7), then the rigid
+ * motion for the vertices of eyes and tongue, then the head's for all. positions: #V by 3, must not overlap the face.
+ * Iris: moves outwards from the axis, in the eye's own frame, before the eye rotates. A point at the pupil's rim moves
+ * by pupil_growth, a point at the centre of the pupil or at the rim of the iris by 0, others proportionally; the
+ * surface keeps its shape.
+ * Tongue: bent like a sheet about its middle line, which stays. A point at a border rotates by tongue_roll, others in
+ * proportion to their distance from the middle line; points beyond the border continue along the tangent.
  * A neutral pose gives the rest positions bit for bit. */
 void semblante_deform(const semblante_face* face, const semblante_pose* pose, float* positions);
 
@@ -130,10 +130,10 @@ void semblante_deform(const semblante_face* face, const semblante_pose* pose, fl
 void semblante_sincos(float angle, float* sine, float* cosine);
 
 #ifdef __wasm__
-/* Memory for JavaScript: 16-byte aligned, zeroed by nobody; null when the engine gives no more. Growth detaches the
- * typed arrays that view the memory: make them anew after a call. */
+/* Memory for JavaScript: 16-byte aligned, not zeroed; null when the memory is exhausted. Growth detaches the typed
+ * arrays that view the memory: create them again after a call. */
 void* semblante_alloc(uint32_t bytes);
-/* Gives back everything semblante_alloc gave. */
+/* Frees all memory of semblante_alloc. */
 void semblante_free_all(void);
 #endif
 

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/* The triangles of a face. Trusted: corners are < vertex_count, joined[v] <= v. */
+/* The triangles of a face. Not validated: corners must be < vertex_count, joined[v] <= v. */
 typedef struct semblante_triangles {
   uint32_t vertex_count;
   uint32_t triangle_count;
@@ -22,15 +22,15 @@ typedef struct semblante_triangles {
   const uint32_t* joined;  /* #V: the lowest vertex that has the same normal, often v itself */
 } semblante_triangles;
 
-/* Numbers of uint32_t that semblante_join_seams needs to work with. */
+/* Number of uint32_t of scratch memory for semblante_join_seams. */
 size_t semblante_join_scratch(uint32_t vertex_count);
 
-/* joined[v]: the lowest vertex at the place of v on the neutral face with the same normal there, both to the last bit:
- * the two sides of a UV seam, not those of a hard edge. positions, normals: #V by 3, neutral. */
+/* joined[v]: the lowest vertex with exactly the same position and normal as v on the neutral face: joins the two sides
+ * of a UV seam, but not those of a hard edge. positions, normals: #V by 3, neutral. */
 void semblante_join_seams(uint32_t vertex_count, const float* positions, const float* normals, uint32_t* scratch,
                           uint32_t* joined);
 
-/* Unit normals of the deformed positions, both #V by 3; +Z where no triangle has an area. */
+/* Unit normals of the deformed positions, both #V by 3; +Z for vertices without a triangle of nonzero area. */
 void semblante_normals(const semblante_triangles* triangles, const float* positions, float* normals);
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@
 #include "core/lod/collapse_history.h"
 #include "core/lod/group_mesh.h"
 
-// Needs what the mesh includes, and does not say so.
+// Not self-contained: needs the includes of the mesh before it.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 namespace semblante {
@@ -23,21 +23,21 @@ using Quadric = OpenMesh::Geometry::Quadricd;
 using OpenMesh::FaceHandle;
 using Face = GroupMesh::Face;
 
-/// A pose's error against that of the neutral face; six expressions together weigh as much as the neutral face.
+/// Weight of a pose's error relative to the neutral face; six expressions together weigh as much as the neutral face.
 constexpr double pose_weight = 1.0 / 6.0;
-/// Planes through borders and seams, square to the surface, against the planes of triangles: a border is a line to the
-/// eye where a surface is shading.
+/// Weight of planes through borders and seams, perpendicular to the surface, relative to the planes of triangles:
+/// errors of a border line are more visible than errors within a surface.
 constexpr double border_weight = 4.0;
-/// Pull towards short edges where the surface is flat and any collapse would do.
+/// Weight of edge length, to prefer short edges where the surface is flat and all collapses are equivalent.
 constexpr double distance_weight = 1e-3;
-/// The most a triangle may turn by one collapse, at rest: cosine of 60 degrees.
+/// Maximum rotation of a triangle by one collapse, at rest: cosine of 60 degrees.
 constexpr double most_turn = 0.5;
-/// How far a triangle must look the way the full surface looks at its corners.
+/// Minimum cosine between a triangle's normal and the full surface's normals at its corners.
 constexpr double least_facing = 0.2;
-/// Twice the area over the square of the longest side; a triangle below it is a needle.
+/// Minimum of twice the area divided by the squared longest side; a triangle below is a needle.
 constexpr double needle = 0.05;
 
-/// Which of a triangle's corners is at a vertex of it.
+/// The index of the corner of a triangle at one of its vertices.
 std::size_t place_in(const Face& face, int vertex) {
   return face.vertices[0] == vertex ? 0 : face.vertices[1] == vertex ? 1 : 2;
 }
@@ -53,7 +53,7 @@ Quadric point_quadric(const glm::dvec3& p, double weight) {
   return q *= weight;
 }
 
-/// Rules and price of a collapse, as OpenMesh's decimater asks for them.
+/// Rules and cost of a collapse, as a module of OpenMesh's decimater.
 template <class MeshT>
 class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
@@ -61,15 +61,15 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
 
   explicit FaceModule(MeshT& mesh) : Base(mesh, false) {}
 
-  /// `group` holds the mesh this module was made for. Both outlive it.
+  /// `group` contains the mesh of this module. Both arguments must outlive it.
   void attach(GroupMesh& group, CollapseHistory& history) {
     group_ = &group;
     history_ = &history;
     measure();
   }
 
-  /// OpenMesh asks about all edges of a vertex one after the other and takes the cheapest that may collapse. The price
-  /// is found faster than whether a collapse may be, so one that is not the cheapest is refused at once.
+  /// OpenMesh queries all edges of a vertex in sequence and uses the cheapest allowed collapse. The cost is faster to
+  /// compute than the rules, so a collapse that is not the cheapest is refused first.
   float collapse_priority(const CollapseInfo& collapse) override {
     if (collapse.v0 != asked_) {
       asked_ = collapse.v0;
@@ -105,11 +105,11 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     const auto to = static_cast<std::size_t>(collapse.v1.idx());
     for (std::size_t pose = 0; pose < group_->pose_count; ++pose) quadric(to, pose) += quadric(from, pose);
     if (group_->moves[from]) group_->moves[to] = true;
-    asked_.invalidate();  // its neighbourhood is another now
+    asked_.invalidate();  // its neighbourhood has changed
   }
 
  private:
-  /// Which corner of v1 takes the place of each corner of v0: at most one on either side of the edge.
+  /// The corner of v1 that replaces each corner of v0: at most one on either side of the edge.
   struct CornerMap {
     std::uint32_t from[2] = {Model::no_index, Model::no_index};
     std::uint32_t to[2] = {Model::no_index, Model::no_index};
@@ -117,7 +117,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     [[nodiscard]] bool has(std::uint32_t corner) const { return corner == from[0] || corner == from[1]; }
   };
 
-  /// None where the collapse would tear a seam open, close one or move one sideways.
+  /// Empty if the collapse would open, close or move a seam.
   [[nodiscard]] std::optional<CornerMap> corner_map(const CollapseInfo& collapse) const {
     CornerMap map;
     const FaceHandle sides[2] = {collapse.fl, collapse.fr};
@@ -135,7 +135,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return map;
   }
 
-  /// No triangle turns over, at rest or in a pose, becomes a needle, or folds the texture.
+  /// Whether no triangle flips (at rest or in a pose), becomes a needle, or folds the texture.
   [[nodiscard]] bool keeps_shape(const CollapseInfo& collapse, const CornerMap& map) const {
     const int v0 = collapse.v0.idx();
     const int v1 = collapse.v1.idx();
@@ -181,7 +181,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
            glm::dot(after, meant) * area_before >= glm::dot(before, meant) * area_after;
   }
 
-  /// The texture is the same way round as on the triangle of the model.
+  /// Whether the texture has the same orientation as on the model's triangle.
   [[nodiscard]] bool keeps_texture(const Face& face, std::size_t c, const CornerMap& map) const {
     const double meant = uv_area(group_->all.corners.triangles[face.source]);
     if (meant == 0.0) return true;
@@ -190,7 +190,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return (meant > 0.0) == (uv_area(after) > 0.0);
   }
 
-  /// 0 where a corner has no UV.
+  /// 0 if a corner has no UV.
   [[nodiscard]] double uv_area(const std::array<std::uint32_t, 3>& corners) const {
     std::array<glm::vec2, 3> uvs;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -205,7 +205,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return quadrics_[vertex * group_->pose_count + pose];
   }
 
-  /// The error of the surface after the collapse, over all poses; something above `limit` once it is above.
+  /// The error of the surface after the collapse, summed over all poses; any value above `limit` once it exceeds it.
   [[nodiscard]] double price_below(const CollapseInfo& collapse, double limit) {
     const auto v0 = static_cast<std::size_t>(collapse.v0.idx());
     const auto v1 = static_cast<std::size_t>(collapse.v1.idx());
@@ -215,7 +215,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
       return quadric(v0, pose)(at) + quadric(v1, pose)(at);
     };
     double sum = error(0);
-    // What moves in no pose has the neutral face's error in all.
+    // Vertices that move in no pose have the same error in all poses.
     if (!group_->moves[v0] && !group_->moves[v1]) {
       return sum * (1.0 + pose_weight * static_cast<double>(group_->pose_count - 1));
     }
@@ -223,7 +223,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return sum;
   }
 
-  /// The quadrics of all vertices in all poses: planes of triangles by area, borders and seams, a little pull.
+  /// Computes the quadrics of all vertices in all poses: triangle planes by area, borders and seams, edge length.
   void measure() {
     const GroupMesh& group = *group_;
     quadrics_.resize(group.mesh.n_vertices() * group.pose_count);
@@ -278,7 +278,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
   double cheapest_ = 0.0;
 };
 
-/// Stops the decimater at the number of corners wanted, or when its owner has had enough.
+/// Stops the decimater at the target number of corners, or on cancellation.
 class Stop : public OpenMesh::Decimater::Observer {
  public:
   Stop(const CollapseHistory& history, std::size_t least, const std::function<bool()>& go_on)

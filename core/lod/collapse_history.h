@@ -12,39 +12,39 @@
 
 namespace semblante {
 
-/// A triangle of a level: its corners, and the model's triangle that it was.
+/// A triangle of a level: its corners, and its original triangle in the model.
 struct LevelTriangle {
   std::uint32_t source;
   std::array<std::uint32_t, 3> corners;  ///< into Corners::corners
 };
 
-/// A mesh to be decimated, and the faces it makes.
+/// A mesh to be decimated, and its poses.
 struct DecimationMesh {
   const Corners& corners;
   std::span<const glm::vec2> uvs;
   std::span<const glm::dvec3> positions;  ///< #S
-  /// Each #S: the same surface in faces where its error counts, too.
+  /// Each #S: the surface in the poses whose error also counts.
   std::span<const std::vector<glm::dvec3>> poses;
   const std::vector<bool>& fixed;  ///< #S, never removed
 };
 
-/// All collapses of a group of triangles, one after the other, and so every level between the full mesh and the least.
+/// The sequence of all collapses of a group of triangles: every level between the full and the smallest mesh.
 class CollapseHistory {
  public:
   explicit CollapseHistory(std::vector<LevelTriangle> full);
 
-  // ---- written in this order
-  /// A triangle, by its place in the full list, has these corners now.
+  // ---- recording, in this order
+  /// Records the new corners of a triangle, by its index in the full list.
   void change(std::uint32_t triangle, const std::array<std::uint32_t, 3>& corners);
   void remove(std::uint32_t triangle);
   void end_collapse();
 
-  /// Corners that triangles use after the last collapse: what a GPU draws as vertices.
+  /// Number of used corners after the last collapse: the vertices that a GPU draws.
   [[nodiscard]] std::size_t least() const { return counts_.back(); }
   [[nodiscard]] std::size_t full() const { return counts_.front(); }
-  /// Corners at the first moment there are at most `budget`, or the least there are.
+  /// Number of corners at the first state with at most `budget`, or the smallest number.
   [[nodiscard]] std::size_t count_within(std::size_t budget) const { return counts_[collapses_within(budget)]; }
-  /// Appends the triangles of that moment, rising by source.
+  /// Appends the triangles of that state, by increasing source.
   void append_triangles(std::size_t budget, std::vector<LevelTriangle>& triangles) const;
 
  private:
@@ -64,15 +64,15 @@ class CollapseHistory {
   std::size_t used_ = 0;
 };
 
-/// Removes vertices of the triangles `sources` of a mesh by half-edge collapse, those first whose loss changes the
-/// surface least: quadrics (Garland and Heckbert 1997) added up over the neutral face and all poses, so that what bends
-/// in an expression counts although it is flat at rest (Mohr and Gleicher 2003). Ends when at most that share of the
-/// corners is left, when nothing more may go, or when `go_on`, asked now and then, says no.
+/// Removes vertices of the triangles `sources` of a mesh by half-edge collapse, in order of the smallest change of the
+/// surface: quadrics (Garland and Heckbert 1997) summed over the neutral face and all poses, so that regions that are
+/// flat at rest but bend in an expression are kept (Mohr and Gleicher 2003). Ends when at most that fraction of the
+/// corners is left, when no collapse is allowed, or when `go_on`, called from time to time, returns false.
 ///
-/// A collapse is refused where it would move a border, join or cut a seam, remove a fixed vertex, fold a triangle over
-/// at rest or in a pose, or fold the texture. Triangles that make no manifold with the others stay as they are.
+/// A collapse is refused if it would move a border, join or cut a seam, remove a fixed vertex, flip a triangle at rest
+/// or in a pose, or fold the texture. Triangles that are not manifold with the others are kept.
 ///
-/// `sources` rise; none of the triangles names a surface vertex twice.
+/// `sources` increase; no triangle has a repeated surface vertex.
 CollapseHistory collapse_group(const DecimationMesh& mesh, std::span<const std::uint32_t> sources, double least_share,
                                const std::function<bool()>& go_on);
 

@@ -6,12 +6,12 @@ namespace semblante {
 namespace {
 
 constexpr float crease_cosine = 0.985F;  // 10 degrees
-/// A vertex with more looks than this is no vertex of a face: further ones are not compared, so that time stays linear.
+/// Further corners of a vertex are not compared, so that the time stays linear; vertices of faces have fewer.
 constexpr int max_compared = 64;
-/// Above this many corners with normals to one without, the normals are those of a flat-shaded file.
+/// If normals multiply the number of corners by more than this, the file is flat-shaded.
 constexpr double flat_shaded = 1.5;
 
-/// Finds the corner of a vertex that looks like the one asked for, or adds it.
+/// Finds an equal corner of a vertex, or adds it.
 class CornerTable {
  public:
   CornerTable(const Model& model, std::size_t surface_vertices, bool with_normals)

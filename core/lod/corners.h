@@ -10,8 +10,8 @@
 
 namespace semblante {
 
-/// What the corners of triangles look like at a surface vertex: one entry for every different look, in which UV, label
-/// or crease differ. A vertex with several is on a seam. An entry is also what a GPU draws as one vertex.
+/// The distinct corners of triangles at a surface vertex: corners differ by UV, label or crease. A vertex with several
+/// corners is on a seam. A corner is also one vertex for the GPU.
 struct Corner {
   std::uint32_t surface_vertex;
   std::uint32_t file_vertex;  ///< of several with the same look, the first
@@ -25,11 +25,11 @@ struct Corners {
   bool has_normals = false;  ///< false also where the file's normals part most vertices (flat shading): not kept
 };
 
-/// Joins the corners of `model` that look the same, whatever file vertices or indices they name: files split vertices
-/// that nothing parts. Labels (one a triangle, or none) say where one material ends and another begins.
+/// Merges equal corners of `model`, independent of their file vertices and indices, because files split vertices
+/// unnecessarily. Labels (one per triangle, or none) define the borders between materials.
 ///
-/// Normals less than 10 degrees apart are the same look; whoever writes a file rounds them. Without `with_normals`, or
-/// where the model has none, they part nothing.
+/// Normals less than 10 degrees apart count as equal, because files round them. Without `with_normals`, or if the model
+/// has none, normals are ignored.
 Corners join_corners(const Model& model, const Surface& surface, std::span<const std::uint8_t> labels,
                      bool with_normals);
 

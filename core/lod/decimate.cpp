@@ -16,11 +16,11 @@ namespace semblante {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> ladder = {50000, 20000, 10000, 5000, 2500};
-/// A model with no more than this is light enough for every client.
+/// A model with at most this many vertices is small enough for every client.
 constexpr std::uint32_t light_model = 10000;
-/// A level with more of the vertices of the one before is not worth having.
+/// A level with more than this fraction of the vertices of the previous one is omitted.
 constexpr double most_of_level_before = 0.9;
-/// The least of its equal share that a group is cut to: teeth must not vanish because lips may not.
+/// Minimum of a group relative to the common fraction: teeth must not vanish because lips are fixed.
 constexpr double least_of_share = 0.25;
 
 std::vector<glm::dvec3> on_surface(const Surface& surface, std::span<const glm::vec3> file_positions) {
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> labels_by_material(const Model& model) {
   return labels;
 }
 
-/// The triangles of the parts of each role. A triangle that has no three corners has no surface and is not among them.
+/// The triangles of the parts of each role, without degenerate triangles.
 std::vector<std::vector<std::uint32_t>> triangles_by_role(const Model& model, const Surface& surface, const Rig& rig) {
   std::vector<std::vector<std::uint32_t>> groups(part_role_names.size());
   for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
@@ -78,14 +78,14 @@ std::size_t budget_of(const CollapseHistory& group, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(group.full()));
 }
 
-/// The groups' corners when each is cut to the same share, or to its least.
+/// Total corners of the groups when each is reduced to the same fraction, or to its minimum.
 std::size_t count_at(const std::vector<CollapseHistory>& groups, double share) {
   std::size_t count = 0;
   for (const CollapseHistory& group : groups) count += group.count_within(budget_of(group, share));
   return count;
 }
 
-/// The greatest share at which all groups together are within the budget: where one cannot give more, the others do.
+/// The largest common fraction at which the total is within the budget, given the minima of the groups.
 double share_within(const std::vector<CollapseHistory>& groups, std::size_t budget) {
   double low = 0.0;
   double high = 1.0;
@@ -96,7 +96,7 @@ double share_within(const std::vector<CollapseHistory>& groups, std::size_t budg
   return low;
 }
 
-/// Triangles of all groups, cut to the same share, of at most so many corners.
+/// Triangles of all groups, reduced to the same fraction, with at most this many corners.
 std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& groups, std::size_t corners) {
   const double share = share_within(groups, corners);
   std::vector<LevelTriangle> triangles;
@@ -105,8 +105,8 @@ std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& 
   return triangles;
 }
 
-/// Vertices that a client gets: a corner once for every fan of triangles around it that no edge joins but seams, as
-/// Draco writes them.
+/// Number of vertices for a client: Draco writes a corner once for every fan of triangles around it that is separated
+/// by seams.
 std::size_t drawn_vertices(const Corners& corners, const std::vector<LevelTriangle>& triangles) {
   struct Side {
     std::uint32_t low, high;        // file vertices
@@ -192,7 +192,7 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
     if (budget >= before) continue;
     std::vector<LevelTriangle> triangles = triangles_within(groups, budget);
     std::size_t count = drawn_vertices(corners, triangles);
-    // Corners are a little fewer than vertices where a mesh is no manifold: aim as much lower, a few times.
+    // A non-manifold mesh has slightly more vertices than corners: lower the target by the difference, a few times.
     for (std::size_t aim = budget, attempt = 0; count > budget && attempt < 3; ++attempt) {
       aim -= std::min(aim, count - budget);
       triangles = triangles_within(groups, aim);

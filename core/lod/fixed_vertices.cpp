@@ -15,7 +15,7 @@
 namespace semblante {
 namespace {
 
-/// The contours of the standard's figure, as the points follow one another along them.
+/// The contours of the standard's figure as sequences of feature points.
 using Contour = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 5> inner_upper_lip = {"2.4", "2.6", "2.2", "2.7", "2.5"};
 constexpr std::array<std::string_view, 5> inner_lower_lip = {"2.4", "2.8", "2.3", "2.9", "2.5"};
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 3> right_lower_lid = {"3.8", "3.4", "3.12
 constexpr std::array<Contour, 8> contours = {inner_upper_lip, inner_lower_lip, outer_upper_lip, outer_lower_lip,
                                              left_upper_lid,  left_lower_lid,  right_upper_lid, right_lower_lid};
 
-/// What must be able to part: movers of either side of a slit.
+/// A slit (mouth or eye) that must be able to open: the feature points that move its upper and its lower side.
 struct Slit {
   std::span<const std::string_view> upper, lower;
 };
@@ -37,7 +37,7 @@ constexpr std::array<Slit, 3> slits = {{{openings[0].upper_flesh, openings[0].lo
                                         {openings[1].upper, openings[1].lower},
                                         {openings[2].upper, openings[2].lower}}};
 
-/// How far one side must outweigh the other, at both ends of an edge, for the edge to part them.
+/// Minimum difference of the two sides' weights, at both ends of an edge, for the edge to separate them.
 constexpr float clear_majority = 0.25F;
 
 std::optional<SurfaceVertexId> vertex_of(const Surface& surface, const FeaturePointSet& points, std::string_view name) {
@@ -48,8 +48,8 @@ std::optional<SurfaceVertexId> vertex_of(const Surface& surface, const FeaturePo
   return std::nullopt;
 }
 
-/// The vertices of the shortest way along edges, both ends included; empty where there is none. Looks no further than
-/// the way is long, so that a contour costs the same on a head and on a whole body.
+/// The vertices of the shortest path along edges, including both ends; empty if there is none. The search is bounded by
+/// the length of the path, so that a contour costs the same on a head and on a whole body.
 std::vector<SurfaceVertexId> shortest_way(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to) {
   if (surface.part_of[from.value()] != surface.part_of[to.value()]) return {};
   struct Reached {
@@ -80,7 +80,7 @@ std::vector<SurfaceVertexId> shortest_way(const Surface& surface, SurfaceVertexI
   return way;
 }
 
-/// Neighbours along edges that one triangle alone has, for each vertex that has any.
+/// Neighbours along border edges (edges of a single triangle), for each vertex that has any.
 std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> rims(const Surface& surface, const Model& model) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
   sides.reserve(model.triangles.size() * 3);

@@ -8,13 +8,13 @@
 namespace semblante {
 namespace {
 
-/// OpenMesh speaks on standard error of every triangle it refuses; we keep those and need no words.
+/// OpenMesh prints a message for every refused triangle; they are handled below, so the messages are disabled.
 void silence_openmesh() {
   omlog().disable();
   omerr().disable();
 }
 
-/// Adds the vertices of the half-edge mesh, in the order in which triangles name them.
+/// Adds the vertices of the half-edge mesh, in the order of their first use by triangles.
 class VertexNumbers {
  public:
   explicit VertexNumbers(GroupMesh& group) : group_(group) {}
@@ -56,7 +56,7 @@ void add_faces(GroupMesh& group, std::span<const std::uint32_t> sources) {
       group.faces.push_back(face);
       continue;
     }
-    // A third triangle on an edge, or one given twice: it stays, and so does all it touches.
+    // A third triangle on an edge, or a duplicate triangle: it is kept with all its vertices.
     group.untouched.push_back({source, face.corners});
     for (const auto v : handles) group.mesh.status(v).set_locked(true);
   }
@@ -80,7 +80,7 @@ void measure_normals(GroupMesh& group) {
   group.moves = std::move(near_moving);
 }
 
-/// Where two borders touch in a vertex, a collapse could join or part them.
+/// Locks vertices where two borders touch: a collapse could join or separate them.
 void lock_touching_borders(HalfEdgeMesh& mesh) {
   for (const auto v : mesh.vertices()) {
     int gaps = 0;
@@ -89,9 +89,9 @@ void lock_touching_borders(HalfEdgeMesh& mesh) {
   }
 }
 
-/// Whether a vertex may go is found by looking at all its neighbours for each of them, and again after every collapse
-/// beside it: the middle of a cap with a thousand triangles would take minutes. Such a middle stays, and of a fan that
-/// no modeller makes the rim as well.
+/// Locks vertices of very high valence. The check of a vertex is quadratic in its valence and repeated after every
+/// adjacent collapse: the middle of a cap with a thousand triangles would take minutes. For unrealistically large fans
+/// the rim is locked too.
 void lock_hubs(HalfEdgeMesh& mesh) {
   constexpr unsigned hub = 64;
   constexpr unsigned huge_hub = 1024;

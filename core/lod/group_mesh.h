@@ -1,6 +1,6 @@
 #pragma once
 
-// Included by .cpp files of this folder alone: everyone else is spared OpenMesh.
+// Include only in .cpp files of this folder, to keep OpenMesh out of other code.
 #define _USE_MATH_DEFINES  // NOLINT(bugprone-reserved-identifier): asked for by OpenMesh
 
 #include <array>
@@ -19,21 +19,21 @@ struct GroupMeshTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
 };
 
-/// OpenMesh's mesh with the two questions that its decimater asks most answered here: its library answers them through
-/// checks at every step, and took two thirds of all the time.
+/// OpenMesh's mesh with faster versions of the two most frequent queries of its decimater: the library's versions check
+/// every step and took two thirds of the total time.
 class HalfEdgeMesh : public OpenMesh::TriMesh_ArrayKernelT<GroupMeshTraits> {
  public:
-  /// Whether collapsing the half-edge, from its first vertex into its second, leaves a manifold of the same shape: the
-  /// two vertices have no neighbours in common but those across from the edge, and no border is closed or cut off.
+  /// Whether collapsing the half-edge, from its first vertex into its second, preserves the topology: the vertices have
+  /// no common neighbours except those opposite to the edge, and no border is closed or cut off.
   [[nodiscard]] bool is_collapse_ok(HalfedgeHandle v0v1) const;
 
   [[nodiscard]] HalfedgeHandle find_halfedge(VertexHandle from, VertexHandle to) const;
 };
 
-/// The triangles of a group as a half-edge mesh, with what the rules of a collapse need beside the neighbourhood.
-/// Vertices and faces are by OpenMesh's handles.
+/// The triangles of a group as a half-edge mesh, with further data for the rules of a collapse.
+/// Vertices and faces are indexed by OpenMesh's handles.
 struct GroupMesh {
-  /// A triangle as it is now.
+  /// The current state of a triangle.
   struct Face {
     std::uint32_t source = 0;
     std::array<int, 3> vertices{};           ///< of the half-edge mesh
@@ -47,7 +47,7 @@ struct GroupMesh {
   [[nodiscard]] const glm::dvec3& position(std::size_t pose, int v) const {
     return positions[static_cast<std::size_t>(v) * pose_count + pose];
   }
-  /// True of borders, too: the triangles beside the edge, if there are two, look different there.
+  /// Whether the edge is a border, or the corners of its two triangles differ.
   [[nodiscard]] bool is_seam(OpenMesh::EdgeHandle edge) const;
 
   const DecimationMesh& all;

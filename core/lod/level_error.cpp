@@ -21,7 +21,7 @@ struct Sample {
   bool kept;  ///< the level has it: its distance is zero
 };
 
-/// The surface vertices that triangles use.
+/// Flags of the surface vertices that triangles use.
 std::vector<bool> used_by(const Surface& surface, std::span<const Triangle> triangles) {
   std::vector<bool> used(surface.vertex_count(), false);
   for (const Triangle& t : triangles) {
@@ -43,7 +43,7 @@ std::vector<Sample> choose_samples(const Model& model, const Surface& surface, c
   return some;
 }
 
-/// The charts of the texture: triangles that share vertices without a seam between them.
+/// The charts of the texture: triangles connected by vertices without a seam.
 struct Charts {
   std::vector<std::uint32_t> of_triangle;  ///< #T, some triangle of the chart
   std::vector<std::uint32_t> uv_of;        ///< #S into uvs; no_index on seams and where there is no UV
@@ -76,7 +76,7 @@ Charts find_charts(const Model& model, const Surface& surface) {
   return charts;
 }
 
-/// Nearest places of all samples in one pose; starts each search at `guesses`, and leaves there what it found.
+/// Nearest points of all samples in one pose; each search starts at `guesses`, which receives the results.
 std::vector<TriangleTree::Hit> nearest_places(const Surface& surface, const LevelOfDetail& level,
                                               std::span<const Sample> samples, const TriangleTree& tree,
                                               std::span<const glm::vec3> positions,
@@ -154,7 +154,7 @@ void count_flips(const Model& model, const Surface& surface, const LevelOfDetail
     const Triangle& t = level.triangles[i];
     glm::dvec3 meant(0.0);
     for (const std::uint32_t v : t) meant += around[surface.surface_of[v].value()];
-    // Not a flip of the level's making where the triangle it was looked away as well.
+    // Not counted as a flip if the original triangle was also reversed.
     if (glm::dot(area_of(model, t), meant) < 0.0 &&
         glm::dot(area_of(model, t), area_of(model, model.triangles[source])) < 0.0) {
       ++error.flipped_triangles;

@@ -9,13 +9,13 @@
 
 namespace semblante {
 
-/// A level that was asked for and is not there, or not as small as asked.
+/// A requested level that is missing or larger than requested.
 struct MissedBudget {
   std::uint32_t budget = 0;
   std::string words;
 };
 
-/// Which of `budgets` the levels do not keep, and why.
+/// The budgets that the levels do not meet, with reasons.
 std::vector<MissedBudget> missed_budgets(std::span<const std::uint32_t> budgets, std::span<const LevelOfDetail> levels);
 
 }  // namespace semblante

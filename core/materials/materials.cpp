@@ -31,7 +31,7 @@ constexpr std::array<PlainMaterial, 9> plain_materials = {{
     {"teeth", {0.84F, 0.80F, 0.72F, 1.0F}, 0.30F},
     {"mouth", {0.48F, 0.13F, 0.12F, 1.0F}, 0.40F},
     {"hair", {0.035F, 0.022F, 0.016F, 1.0F}, 0.70F},
-    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips that a texture would make hairs: a shade, not a mask
+    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips of untextured hairs: translucent, not opaque
     {"fluid", {1.0F, 1.0F, 1.0F, 0.06F}, 0.05F},
 }};
 
@@ -40,7 +40,7 @@ struct Hint {
   Plain plain;
 };
 
-/// First match wins: "EyeLashes" must meet "lash" before "eye" could.
+/// The first match is used: "lash" comes before "eye" because of "EyeLashes".
 constexpr std::array<Hint, 15> hints = {{
     {"lash", Plain::lashes},
     {"brow", Plain::hair},
@@ -85,7 +85,8 @@ Plain plain_of(std::string_view material, std::string_view primitive, PartRole r
   return Plain::skin;
 }
 
-/// What a triangle of a plain eyeball shows: by the neutral face, a pupil is a third of the iris.
+/// The material of a triangle of a plain eyeball. The pupil's diameter is a third of the iris's, as in the neutral
+/// face.
 Plain painted(const glm::vec3& center, const Triangle& corners, Plain plain, PartRole role, const EyeLook& eyes) {
   const std::size_t eye = role == PartRole::left_eye ? 0 : 1;
   if (const std::optional<Iris>& iris = eyes.irises[eye]) {
@@ -132,7 +133,7 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
                                     const EyeLook& eyes) {
   MaterialAssignment out;
   out.of_triangle.resize(model.triangles.size());
-  // Numbered in order of first use, so that unused materials cost nothing. Keys below zero are the plain ones.
+  // Numbered in order of first use, so that unused materials are omitted. Negative keys are the plain materials.
   std::map<int, std::uint8_t> number_of;
   const auto number_for = [&](int key, const Material& material) {
     const auto known = number_of.find(key);

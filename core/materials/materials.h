@@ -14,31 +14,31 @@
 
 namespace semblante {
 
-/// The materials a face package carries and which triangle wears which. At least one; at most 255, for packages carry
-/// one byte.
+/// The materials of a face package and their assignment to triangles. At least one and at most 255, because packages
+/// store one byte.
 struct MaterialAssignment {
   std::vector<Material> materials;
   std::vector<std::uint8_t> of_triangle;  ///< #T
 };
 
-/// Where to paint irises on eyeballs that have no colours of their own.
+/// Where to colour irises on eyeballs without materials.
 struct EyeLook {
   std::array<std::optional<glm::vec3>, 2> pupils;  ///< centres (3.5, 3.6): left, right
   float iris_diameter = 0.0F;                      ///< model units; 0: unknown, nothing is painted
-  /// Where the irises lie, left, right, and what turns about which pivot; better than the two above where known.
+  /// The irises, left, right, with their pivots; used in place of the two members above if known.
   std::array<std::optional<Iris>, 2> irises;
   std::array<glm::vec3, 2> pivots{glm::vec3(0.0F), glm::vec3(0.0F)};
   std::span<const RigidMotion> motion;  ///< #V file vertices, needed for `irises`
 };
 
-/// Keeps the model's materials. Triangles whose material says nothing (none at all, or white without a texture, as when
-/// an OBJ comes without its .mtl) get a plain one by what they are: by name first ("Iris", "lashes"), then by the role
-/// of their part, so that eyes and teeth do not wear skin. On plain eyeballs the triangles around the pupil become iris
-/// and pupil; a cornea over them becomes clear. `parts` is by PartId and may be empty: then names alone decide.
+/// Keeps the model's materials. Triangles without a material, or with plain white (as for an OBJ without its .mtl), get
+/// a plain material by name ("Iris", "lashes"), else by the role of their part, so that eyes and teeth do not look like
+/// skin. On plain eyeballs the triangles around the pupil become iris and pupil; a cornea over them becomes clear.
+/// `parts` is by PartId and may be empty: then only names are used.
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
                                     const EyeLook& eyes = {});
 
-/// The same of a parametrized head: parts and eyes are those of `rig`.
+/// Like assign_materials, for a parametrized head: with the parts and eyes of `rig`.
 MaterialAssignment materials_of_rig(const Model& model, const Surface& surface, const Rig& rig);
 
 }  // namespace semblante

@@ -25,14 +25,14 @@ std::string text_of(double value) {
   return text;
 }
 
-/// Keeps the first fault of a script, with its pointer.
+/// Keeps the first error of a script, with its pointer.
 class Checker {
  public:
   void at(std::size_t cue) { cue_ = "/cues/" + std::to_string(cue); }
   void fail(ErrorCode code, std::string_view member, std::string message) {
     if (!fault_) fault_ = Error{code, cue_ + std::string(member), std::move(message)};
   }
-  /// False, and a fault kept, when it is not.
+  /// Returns false and keeps an error when `value` is out of range.
   bool within(double value, double least, double most, std::string_view member) {
     if (!std::isfinite(value)) return fail(ErrorCode::not_finite, member, "must be finite"), false;
     if (value >= least && value <= most) return true;
@@ -46,7 +46,7 @@ class Checker {
   std::optional<Error> fault_;
 };
 
-/// What the values of a target may be, and the member that says which target it is.
+/// The range of a target's values, and the JSON member of the target.
 struct ValueRange {
   double least, most;
 };
@@ -103,12 +103,12 @@ void check_values(const Cue& cue, Checker& check) {
     const std::string key = "/keys/" + std::to_string(k);
     check.within(cue.keys[k].time, 0.0, max_performance_ms, key + "/0");
     check.within(cue.keys[k].value, range.least, range.most, key + "/1");
-    if (cue.keys[k].time <= before) check.fail(ErrorCode::out_of_range, key + "/0", "times of keys must rise");
+    if (cue.keys[k].time <= before) check.fail(ErrorCode::out_of_range, key + "/0", "times of keys must increase");
     before = cue.keys[k].time;
   }
 }
 
-/// Attack and release: what the cue says must fit into it; what it does not say takes what it likes of the rest.
+/// Attack and release: given values must fit into the duration; defaults are shortened to the remaining time.
 Ramps fitted_ramps(const Cue& cue, double duration, Checker& check) {
   Ramps usual = cue.keys.empty() ? usual_ramps[cue.target.index()].ramps : Ramps{0.0, 0.0};
   if (cue.attack) check.within(*cue.attack, 0.0, duration, "/attack");

@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-// ---- what a document may have; all of it is checked by Performance::compile
+// ---- limits of a document, checked by Performance::compile
 inline constexpr std::size_t max_performance_cues = 100'000;
 inline constexpr std::size_t max_performance_keys = 1'000'000;  ///< of all cues together
 inline constexpr std::size_t max_overlapping_cues = 64;         ///< on one target at one moment
@@ -22,7 +22,7 @@ inline constexpr double max_performance_ms = 86'400'000.0;      ///< a day
 struct FapTarget {
   std::uint8_t fap = 0;
 };
-/// FAP 1: value of `viseme` and the rest of `other`, 0..14; 0 is silence.
+/// FAP 1: `value` is the weight of `viseme`, 1 - `value` that of `other`. Visemes 0..14; 0 is silence.
 struct VisemeTarget {
   std::uint8_t viseme = 0;
   std::uint8_t other = 0;
@@ -31,8 +31,8 @@ struct VisemeTarget {
 struct ExpressionTarget {
   std::uint8_t expression = 0;
 };
-/// Where the face looks, seen from the middle between its eyes at rest: yaw to its own left and pitch down in degrees,
-/// as FAPs 23 to 26 and 48, 49 count; distance in eye distances (ES before its division by 1024), for the eyes to meet.
+/// The target of the gaze, seen from the middle between the eyes at rest: yaw to the face's left and pitch down,
+/// degrees (the signs of FAPs 23 to 26 and 48, 49); distance in eye distances (1024 ES), where the eyes converge.
 struct LookTarget {
   double yaw = 0.0;
   double pitch = 0.0;
@@ -43,7 +43,7 @@ struct BlinkTarget {
   bool left = true;
   bool right = true;
 };
-/// Degrees, as FAPs 48 to 50 count: down, to its own left, its own left side up.
+/// Degrees, with the signs of FAPs 48 to 50: down, to the face's left, the face's left side up.
 struct HeadTarget {
   double pitch = 0.0;
   double yaw = 0.0;
@@ -51,15 +51,15 @@ struct HeadTarget {
 };
 using CueTarget = std::variant<FapTarget, VisemeTarget, ExpressionTarget, LookTarget, BlinkTarget, HeadTarget>;
 
-/// A value at a time after the beginning of its cue.
+/// A value at a time after the start of its cue.
 struct CueKey {
   double time = 0.0;  ///< ms
   double value = 0.0;
   friend bool operator==(const CueKey&, const CueKey&) = default;
 };
 
-/// One thing the face does from `time` for `duration`: its weight rises over `attack`, stays, and falls over `release`,
-/// both along `easing` (the fall is the rise backwards). Times are in milliseconds.
+/// A motion of one target from `time` for `duration`: its weight rises during `attack`, stays 1, and falls during
+/// `release`, both along `easing` (reversed for the release). Times are in milliseconds.
 struct Cue {
   double time = 0.0;
   std::optional<double> duration;  ///< left out: the last key's time; 240 for a blink
@@ -70,7 +70,7 @@ struct Cue {
   std::vector<CueKey> keys;  ///< in place of value: times rise, `easing` leads from one to the next
 };
 
-/// What a face does while nobody tells it to: a function of the seed and the time alone.
+/// Settings of idle life (blinks, glances, small head motions), a function of seed and time only.
 struct IdleLife {
   std::uint32_t seed = 0;
   double blinks_per_minute = 15.0;  ///< 0..40
@@ -79,7 +79,7 @@ struct IdleLife {
   friend bool operator==(const IdleLife&, const IdleLife&) = default;
 };
 
-/// A performance as its author writes it. The JSON form is protocol/cpp/performance_document.h's.
+/// A performance as written by its author. protocol/cpp/performance_document.h reads and writes the JSON form.
 struct PerformanceScript {
   std::string name;
   std::optional<double> duration;  ///< ms; left out: when the last cue ends

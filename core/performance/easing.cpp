@@ -11,7 +11,7 @@ double bezier(double a, double b, double s) {
   return 3.0 * r * r * s * a + 3.0 * r * s * s * b + s * s * s;
 }
 
-/// y where the curve has x. The x of a curve with control points within 0..1 never falls, so halving finds it.
+/// y of the curve at x. With control points within 0..1, x is monotonic, so bisection finds it.
 double bezier_at(const Easing& easing, double x) {
   double low = 0.0;
   double high = 1.0;

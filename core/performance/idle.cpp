@@ -24,7 +24,7 @@ constexpr double blink_opening = 160.0;
 
 enum Channel : std::uint32_t { blink_gaps, glance_gaps, glance_yaws, glance_pitches, first_drift };
 
-/// An avalanche of 32 bits: every bit of x moves every bit of the result.
+/// A 32-bit hash with full avalanche.
 std::uint32_t mix(std::uint32_t x) {
   x ^= x >> 16U;
   x *= 0x7feb352dU;
@@ -34,14 +34,14 @@ std::uint32_t mix(std::uint32_t x) {
   return x;
 }
 
-/// 0..1 from a seed and a place: no state, so that any place can be asked for.
+/// A pseudo-random number 0..1 from a seed and indices. Stateless, for random access.
 double uniform(std::uint32_t seed, std::uint32_t channel, std::uint32_t block, std::uint32_t index) {
   const std::uint32_t bits = mix(mix(mix(seed + channel * 0x9e3779b9U) + block) + index);
   return static_cast<double>(bits) / 4294967296.0;
 }
 
-/// Irregular events without memory: time is cut in blocks of as many mean intervals, and a block's own intervals fill
-/// it exactly, so the last event of one is the beginning of the next.
+/// Irregular events without state: time is divided into blocks of this many mean intervals. The intervals of a block
+/// fill it exactly, so its last event is the start of the next block.
 constexpr std::size_t events_per_block = 16;
 
 struct Event {
@@ -81,12 +81,12 @@ double closure_at(const IdleLife& idle, double ms) {
   if (idle.blinks_per_minute <= 0.0) return 0.0;
   const double mean = 60'000.0 / idle.blinks_per_minute;
   const Event blink = newest_event(idle.seed, blink_gaps, mean, ms);
-  if (blink.block == 0 && blink.index == 0) return 0.0;  // nobody begins with closing the eyes
+  if (blink.block == 0 && blink.index == 0) return 0.0;  // no blink at time 0
   if (blink.since < blink_closing) return smooth_step(blink.since / blink_closing);
   return smooth_step(1.0 - (blink.since - blink_closing) / blink_opening);
 }
 
-/// Where a glance aims, -1..1: mostly near the middle.
+/// The direction of a glance, -1..1: usually near the middle.
 double aim(std::uint32_t seed, std::uint32_t channel, std::uint32_t block, std::uint32_t index) {
   const double u = 2.0 * uniform(seed, channel, block, index) - 1.0;
   return u * std::abs(u);
@@ -100,7 +100,7 @@ double glance_at(const IdleLife& idle, const Event& event, std::uint32_t channel
   return before + (now - before) * smooth_step(event.since / glance_jump);
 }
 
-/// Smooth noise, -1..1: a value at each multiple of the period, joined with the second derivative continuous.
+/// Smooth noise, -1..1: random values at multiples of the period, interpolated with continuous second derivative.
 double noise(std::uint32_t seed, std::uint32_t channel, double period, double ms) {
   const double cell = std::floor(ms / period);
   const double x = ms / period - cell;

@@ -38,7 +38,7 @@ void Performance::set_viseme(double ms, semblante_frame& frame) const {
   std::array<double, SEMBLANTE_VISEME_COUNT> weights{};
   weights[0] = 1.0;
   std::size_t active = 0;
-  bool whole = false;  // one cue alone says it all: its very pair is kept
+  bool whole = false;  // a single cue at full weight: its pair is used unchanged
   VisemeTarget pair;
   double share = 0.0;
   visemes_.visit(ms, [&](std::size_t i, const Span& span) {
@@ -64,7 +64,7 @@ void Performance::set_viseme(double ms, semblante_frame& frame) const {
         second = v;
       }
     }
-    if (first == 0) std::swap(first, second);  // silence is what a viseme is blended with
+    if (first == 0) std::swap(first, second);  // a viseme is blended with silence
     if (weights[first] <= 0.0) return;
     pair = {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(weights[second] > 0.0 ? second : 0)};
     share = weights[first] / (weights[first] + weights[second]);
@@ -102,7 +102,7 @@ Performance::Gaze Performance::gaze_at(double ms) const {
   Gaze gaze;
   double yaw = 0.0;
   double pitch = 0.0;
-  double held = 0.0;  // how much a look has the eyes
+  double held = 0.0;  // the weight of look cues on the eyes
   looks_.visit(ms, [&](std::size_t i, const Span& span) {
     const Look& look = look_ways_[i];
     const double weight = span.weight(ms);

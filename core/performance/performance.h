@@ -13,33 +13,33 @@
 
 namespace semblante {
 
-/// A performance ready to be played: the state of the face as a function of time. Immutable: any thread.
+/// A compiled performance: the state of the face as a function of time. Immutable: any thread.
 ///
-/// One rule joins cues on one target: in the order of the script each is laid over what is below it, by its weight:
-/// value = below + weight (cue - below). Below the first is rest: 0, silence, straight ahead. The targets are each FAP,
-/// the viseme (one target: FAP 1 is one mouth), each expression, each eye's blink, the look, the head.
+/// Cues on one target are layered in the order of the script by their weights:
+/// value = below + weight (cue - below). The lowest layer is rest: 0, silence, straight ahead. The targets are each
+/// FAP, the viseme (one target for all visemes), each expression, each eye's blink, the look, the head.
 ///
-/// Then the frame is put together: eyes and head from look, head cues and idle life (angles add; while a look holds,
-/// the eyes keep it against the turning head, each at most 45 degrees aside and 35 up or down); FAP cues over that; the
-/// lids close from where they are by the stronger of cue and idle life. FAP 1 takes the two strongest of the visemes
-/// and silence, FAP 2 the two strongest expressions: a third is left out.
+/// The frame combines them: eyes and head are the sum of look, head cues and idle life (during a look, the eyes
+/// compensate for the head's rotation, each at most 45 degrees sideways and 35 up or down); FAP cues are layered over
+/// that; the lids close from their resulting position by the stronger of cue and idle life. FAP 1 gets the two
+/// strongest of the visemes and silence, FAP 2 the two strongest expressions.
 class Performance {
  public:
-  /// Errors carry the JSON pointer into the document: unknown numbers, not finite, out of range, out of order, too
+  /// Errors (with the JSON pointer into the document): unknown numbers, not finite, out of range, out of order, too
   /// many.
   static Result<Performance> compile(const PerformanceScript& script);
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// ms; 0 when there is nothing but idle life, which has no end.
+  /// Duration, ms; 0 for idle life only, which is endless.
   [[nodiscard]] double duration() const { return duration_; }
   [[nodiscard]] bool endless() const { return duration_ <= 0.0; }
   [[nodiscard]] std::size_t cue_count() const { return cue_count_; }
   [[nodiscard]] const std::optional<IdleLife>& idle() const { return idle_; }
-  /// The memory of its cues and keys.
+  /// Memory of the cues and keys, bytes.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// The face `ms` after the beginning; `idle_ms` is the time of idle life, which runs on when the cues are looped.
-  /// Both not negative. From the duration on no cue is active.
+  /// The face `ms` after the start; `idle_ms` is the time of idle life, which a loop of the cues does not restart.
+  /// Both not negative. No cue is active from the duration on.
   [[nodiscard]] semblante_frame frame_at(double ms, double idle_ms) const;
   [[nodiscard]] semblante_frame frame_at(double ms) const { return frame_at(ms, ms); }
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double alone_ms = 40.0;  ///< how long a recording of one frame is
 
-/// Keys at some of the points, the first and the last among them, so that straight lines between them pass every point
-/// within the tolerance: from each key on to the last point in sight through all the gates before it.
+/// A subset of the points, including the first and the last, whose linear interpolation is within the tolerance of all
+/// points: from each key greedily to the farthest point reachable through the tolerance intervals in between.
 std::vector<CueKey> thinned(const std::vector<CueKey>& points, double tolerance) {
   std::vector<CueKey> keys = {points.front()};
   std::size_t from = 0;
@@ -95,7 +95,7 @@ class Recorder {
     cues_.push_back(std::move(cue));
   }
 
-  /// A cue for each run in which the value is not 0, from the moment at rest before it to that after it.
+  /// A cue for each run of nonzero values, from the frame at rest before the run to the one after it.
   template <class Value>
   void add_runs(CueTarget target, double tolerance, Value value) {
     std::vector<CueKey> points;
@@ -146,7 +146,8 @@ Result<PerformanceScript> record_performance(std::span<const RecordedFrame> fram
     const auto refuse = [&](std::string message) {
       return Error{ErrorCode::out_of_range, "/frames/" + std::to_string(i), std::move(message)};
     };
-    if (!std::isfinite(frame.time) || (i > 0 && frame.time < frames[i - 1].time)) return refuse("times must not fall");
+    if (!std::isfinite(frame.time) || (i > 0 && frame.time < frames[i - 1].time))
+      return refuse("times must not decrease");
     if (!std::all_of(frame.face.fap + 3, std::end(frame.face.fap), [](float value) { return std::isfinite(value); }))
       return refuse("a value is not finite");
     if (frame.face.viseme1 >= SEMBLANTE_VISEME_COUNT || frame.face.viseme2 >= SEMBLANTE_VISEME_COUNT ||

@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// A cue as it is played: all defaults filled in.
+/// A cue prepared for playback, with all defaults filled in.
 struct Span {
   double begin = 0.0;     ///< ms
   double duration = 0.0;  ///< ms, as the author wrote it
@@ -25,7 +25,7 @@ struct Span {
   std::uint32_t cue = 0;  ///< its number in the script
   bool held = false;      ///< the next one takes over from it: no release
 
-  /// 0 outside of begin..end. With other times than its own where a slower motion goes with it.
+  /// 0 outside begin..end. The caller passes other attack and release times than the cue's for a slower motion with it.
   [[nodiscard]] double weight(double ms, double attack_ms, double release_ms) const {
     if (ms < begin || ms >= end) return 0.0;
     const double since = ms - begin;
@@ -38,11 +38,11 @@ struct Span {
 
 /// The cues on one target, in the order of the script.
 ///
-/// Where a cue begins before the one before it has let go, and outlasts it, it takes over from it: that one is held
-/// until this one has arrived, so that neighbours cross-fade instead of passing through rest.
+/// If the next cue starts before the end of a cue's release and ends later, the earlier cue is held until the next one
+/// has arrived, so that neighbours cross-fade instead of passing through rest.
 class Track {
  public:
-  /// The spans by begin, their ends still to be set; `arrival(i)`: ms that span i takes until it covers what is below.
+  /// Sets the ends of the spans, which are sorted by begin; `arrival(i)`: ms until span i has full weight.
   template <class Arrival>
   void build(std::vector<Span> spans, Arrival arrival) {
     spans_ = std::move(spans);
@@ -57,10 +57,10 @@ class Track {
     return spans_.capacity() * sizeof(Span) + carried_.capacity() * sizeof(std::uint32_t) +
            block_offsets_.capacity() * sizeof(std::size_t);
   }
-  /// The cue (number in the script) at which more than max_overlapping_cues are active; nullopt when that never is.
+  /// The cue (index in the script) at which more than max_overlapping_cues are active; nullopt: never.
   [[nodiscard]] std::optional<std::uint32_t> too_many() const { return too_many_; }
 
-  /// f(i, span) for every span active at a time, by rising i. O(log of all + active).
+  /// Calls f(i, span) for every span active at a time, by increasing i. O(log(spans) + active).
   template <class F>
   void visit(double ms, F f) const {
     const auto after = std::upper_bound(spans_.begin(), spans_.end(), ms,
@@ -86,7 +86,7 @@ class Track {
     const double end = span.end;
     std::size_t overlaps = 0;
     for (std::size_t j = i + 1; j < spans_.size() && spans_[j].begin <= end; ++j) {
-      if (++overlaps > 2 * max_overlapping_cues) return;  // refused by index(), or long over many short ones
+      if (++overlaps > 2 * max_overlapping_cues) return;  // refused by index(), or one long span over many short ones
       const double arrived = spans_[j].begin + arrival(j);
       if (spans_[j].begin + spans_[j].duration <= end || arrived <= end - span.release) continue;
       span.end = arrived;
@@ -98,7 +98,7 @@ class Track {
   void index();
 
   std::vector<Span> spans_;
-  /// By block of spans_per_block: those of earlier blocks that are still active when it begins.
+  /// Per block of spans_per_block: the spans of earlier blocks that are still active at its start.
   std::vector<std::uint32_t> carried_;
   std::vector<std::size_t> block_offsets_;
   std::optional<std::uint32_t> too_many_;

@@ -13,7 +13,7 @@
 
 namespace semblante {
 
-/// Stage 1: what the file holds, as it lies in the file.
+/// Stage 1: the content of the file, in the file's own axes.
 struct ImportedHead {
   Model model;
   HeadWarnings warnings;
@@ -25,7 +25,7 @@ struct ImportRequest {
   ImportLimits limits;
 };
 
-/// Errors: those of import_model; `unsupported` for a file of no format that is read; `cancelled`.
+/// Errors: those of import_model; `unsupported` for an unknown file format; `cancelled`.
 Result<ImportedHead> import_head(std::span<const std::uint8_t> bytes, const ImportRequest& request,
                                  const Progress& progress = {});
 

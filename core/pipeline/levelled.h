@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// Stage 5: the head with its materials and its levels of detail; all that a face package is packed from.
+/// Stage 5: the head with its materials and its levels of detail: the input of a face package.
 struct LevelledHead : RiggedHead {
   MaterialAssignment materials;
   std::vector<LevelOfDetail> levels;  ///< falling; none without budgets
@@ -22,7 +22,7 @@ struct LevelledHead : RiggedHead {
 /// `budgets` as LodOptions::budgets; may be empty. Errors: `cancelled`.
 Result<LevelledHead> level_head(RiggedHead head, std::vector<std::uint32_t> budgets, const Progress& progress = {});
 
-/// The distance of each level from the full mesh, for a report. Error: `cancelled`.
+/// Measures the error of each level against the full mesh, for a report. Error: `cancelled`.
 Result<std::vector<LevelError>> measure_levels(const LevelledHead& head, const Progress& progress = {});
 
 }  // namespace semblante

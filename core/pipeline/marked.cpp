@@ -27,7 +27,7 @@ Status place(MarkedHead& head, const MarkRequest& request) {
   return Unit{};
 }
 
-/// How the head stands in its file, now that its points are known too.
+/// Guesses the axes and unit of the head again, with its feature points.
 ModelFrame frame_by_points(const MarkedHead& head) {
   const glm::dmat3 to_file = glm::transpose(to_mpeg4(head.frame.axes));
   std::vector<PlacedPoint> in_file;

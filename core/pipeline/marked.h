@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// Stage 3: the feature points placed on the head, which stands as they show.
+/// Stage 3: the head with its feature points, rotated to the axes that the points show.
 struct MarkedHead : StandingHead {
   FeaturePointSet points;
   std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId
@@ -25,8 +25,8 @@ struct MarkRequest {
   bool leaves_out_refused = false;
 };
 
-/// Places the points. Where they show that the head stands otherwise, and the user has not said how, it is turned and
-/// they are placed again. Errors: those of place_feature_points; `cancelled`.
+/// Places the points. If they show other axes, and the user has not set the axes, rotates the head and places the
+/// points again. Errors: those of place_feature_points; `cancelled`.
 Result<MarkedHead> mark_head(StandingHead head, MarkRequest request, const Progress& progress = {});
 
 }  // namespace semblante

@@ -5,8 +5,8 @@
 
 namespace semblante {
 
-/// Stage 4: the head with everything that is computed once about it (Eq. 1 to 4). model.to_file_frame leads back to the
-/// file's axes.
+/// Stage 4: the parametrized head (Eq. 1 to 4). model.to_file_frame transforms back to the file's axes
+/// and unit.
 struct RiggedHead : MarkedHead {
   Rig rig;
 };

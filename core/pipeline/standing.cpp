@@ -10,7 +10,7 @@
 namespace semblante {
 namespace {
 
-/// The guess needs the surface of the model as it lies in its file; `surface` is left empty when there is no guess.
+/// The guess needs the surface of the model in the file's axes; `surface` stays empty when nothing is guessed.
 ModelFrame find_frame(const Model& model, const StandingRequest& request, const FrameWish& wish, Surface& surface) {
   if (request.known) return *request.known;
   if (wish.unit && wish.has_axes()) return apply_wish(ModelFrame{}, wish);

@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-/// Stage 2: the head turned into the MPEG-4 frame, as far as its shape or the user tells how it stands.
+/// Stage 2: the head rotated to MPEG-4 axes, if its shape or the user determines its axes.
 struct StandingHead : ImportedHead {
   Surface surface;           ///< of `model` as it stands now
   ModelFrame frame;          ///< how it stands in its file
@@ -23,21 +23,21 @@ struct StandingHead : ImportedHead {
 struct StandingRequest {
   FrameWish wish;                   ///< replaces the guess where it says something
   std::optional<ModelFrame> known;  ///< the result of an earlier run on this file: taken as it is, nothing is guessed
-  /// "to_mpeg4_axes" of a feature point file: turns (or mirrors) the file's axes into MPEG-4's, so that only the unit
-  /// is guessed. Not together with axes in `wish`, nor with `known`.
+  /// "to_mpeg4_axes" of a feature point file: rotates (or mirrors) the file's axes to MPEG-4's, so that only the unit
+  /// is guessed. Excludes axes in `wish`, and `known`.
   std::optional<glm::dmat3> to_mpeg4_axes;
 };
 
-/// Warns when the head was turned, and when its stance is not sure: then it stays as it lies. Error: `cancelled`.
+/// Adds a warning when the head was rotated, or when its axes are uncertain (then it is not). Error: `cancelled`.
 Result<StandingHead> stand_head(ImportedHead head, const StandingRequest& request, const Progress& progress = {});
 
-/// The rotation from a model that stands by `from` to one that stands by `to`.
+/// The rotation from a model with the axes `from` to one with the axes `to`.
 glm::dmat3 turn_between(const Axes& from, const Axes& to);
 
-/// Turns the positions of marked points, as the model they lie on was turned.
+/// Rotates the positions of marked points with their model.
 void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn);
 
-/// What there is to warn of in how a head stands: turned, or not sure, or (empty) upright in its file.
+/// The warnings about the axes of a head: rotated, or uncertain; empty: upright in its file.
 std::vector<std::string> stance_warnings(const ModelFrame& frame);
 
 /// "stands along +Z and faces -Y in its file".

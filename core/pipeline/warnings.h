@@ -5,8 +5,8 @@
 
 namespace semblante {
 
-/// The warnings of a head on its way through the pipeline, by the stage they come from. The pipeline moves the warnings
-/// of Model and Rig here, so that each is kept once.
+/// The warnings of a head by pipeline stage. The pipeline moves the warnings of Model and Rig here, so that each is
+/// stored once.
 struct HeadWarnings {
   std::vector<std::string> file;    ///< what was repaired or left out on import
   std::vector<std::string> stance;  ///< how the head was turned, or that its stance is not sure
@@ -14,7 +14,7 @@ struct HeadWarnings {
   std::vector<std::string> rig;     ///< what is missing and what it stops
   std::vector<std::string> levels;  ///< budgets that no level keeps
 
-  /// All of them in the order of the members: what users see, and what rig.json lists.
+  /// All warnings in the order of the members, for users and for rig.json.
   [[nodiscard]] std::vector<std::string> all() const;
 };
 

@@ -8,9 +8,9 @@
 namespace semblante {
 namespace {
 
-/// How much farther a vertex seems for each unit off a plane that it should lie on.
+/// Penalty factor for the distance of a vertex from a plane on which it should be.
 constexpr double off_plane = 3.0;
-/// A vertex nearer to the plane than this share of its edges' length lies on it.
+/// A vertex within this fraction of its edge length of the plane is on the plane.
 constexpr double on_plane = 0.35;
 
 }  // namespace

@@ -16,34 +16,35 @@
 
 namespace semblante {
 
-/// The surface of a head in the frame its points gave it: upright, one unit is about ES0. Vertices are surface
+/// The surface of a head in the frame defined by its points: upright, one unit is about ES0. Vertices are surface
 /// vertices.
 class FaceSurface {
  public:
-  /// `frame` takes places of the surface's own frame into this one. Keeps a reference to `surface`.
+  /// `frame` maps positions of `surface` to this frame. Keeps a reference to `surface`.
   FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame);
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const glm::dvec3& at(std::uint32_t vertex) const { return places_[vertex]; }
-  /// Vertices of all parts with that role, rising. Vertices of no triangle are none.
+  /// Vertices of all parts with this role, increasing, without unused vertices.
   [[nodiscard]] const std::vector<std::uint32_t>& with_role(PartRole role) const;
 
   using Filter = std::function<bool(std::uint32_t)>;
-  /// The vertex of that role nearest to `place`; with a plane, one off it counts as farther. Only vertices that the
-  /// filter, if there is one, lets through.
+  /// The vertex of the role nearest to `place`; with a plane, the distance from it is penalized. Considers only
+  /// vertices that pass the filter, if given.
   [[nodiscard]] std::optional<std::uint32_t> nearest(PartRole role, const glm::dvec3& place,
                                                      const MirrorPlane* on = nullptr, const Filter& filter = {}) const;
-  /// The farthest vertex along `direction` that a way of rising edges leads to from `start`, no farther than `within`
-  /// from it; with a plane, along vertices on it. Steps over ripples of an edge's length.
+  /// Hill climbing: the farthest vertex along `direction` reachable from `start` by ascending edges, at most `within`
+  /// away; with a plane, along vertices on it. Tolerates ripples of one edge length.
   [[nodiscard]] std::uint32_t climb(std::uint32_t start, const glm::dvec3& direction, double within,
                                     const MirrorPlane* on = nullptr) const;
-  /// Of the vertices of `role` within `within` of `place` the farthest along `direction`; with a plane, of those on it.
+  /// The farthest vertex along `direction` of the vertices of `role` within `within` of `place` (and on the plane, if
+  /// given).
   [[nodiscard]] std::optional<std::uint32_t> farthest(PartRole role, const glm::dvec3& place, double within,
                                                       const glm::dvec3& direction,
                                                       const MirrorPlane* on = nullptr) const;
-  /// Length of the edges about a vertex, on average.
+  /// Mean length of the edges at a vertex.
   [[nodiscard]] double spacing(std::uint32_t vertex) const;
-  /// Whether the vertex lies on the plane as nearly as this mesh allows.
+  /// Whether the vertex is on the plane, within the resolution of the mesh.
   [[nodiscard]] bool is_on(const MirrorPlane& plane, std::uint32_t vertex) const;
 
  private:

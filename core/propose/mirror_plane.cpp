@@ -14,7 +14,7 @@
 namespace semblante {
 namespace {
 
-/// How much the upright axes count: as much as one pair a fifth of ES0 apart.
+/// Weight of the upright axes: that of one pair a fifth of ES0 apart.
 constexpr double upright = 0.04;
 
 MirrorPlane fit(std::span<const MirrorPair> pairs, std::span<const glm::dvec3> middle, double pair_weight,
@@ -31,8 +31,8 @@ MirrorPlane fit(std::span<const MirrorPair> pairs, std::span<const glm::dvec3> m
   if (!(weight > 0.0)) return {};
   center /= weight;
 
-  // Pairs want the normal along their difference, points of the plane want it across their distance from the centre:
-  // the normal is the principal axis of what they want together.
+  // Pairs pull the normal towards their difference, points on the plane away from their offset from the centre: the
+  // normal is the principal axis of the sum.
   glm::dmat3 wish{0.0};
   const auto add_pair = [&](const MirrorPair& pair, double w) {
     const glm::dvec3 half = 0.5 * (pair.left - pair.right);
@@ -48,7 +48,7 @@ MirrorPlane fit(std::span<const MirrorPair> pairs, std::span<const glm::dvec3> m
   const double lift = glm::dot(wish[0], wish[0]) + glm::dot(wish[1], wish[1]) + glm::dot(wish[2], wish[2]);
   glm::dmat4 padded{0.0};
   for (int c = 0; c < 3; ++c) padded[c] = glm::dvec4(wish[c], 0.0);
-  // The fourth axis must never be the principal one.
+  // The unused fourth axis must not be the principal one.
   padded[3][3] = -10.0 * std::sqrt(lift);
   glm::dvec3 normal = glm::normalize(glm::dvec3(principal_axis(padded)));
   if (normal.x < 0.0) normal = -normal;
@@ -68,10 +68,10 @@ MirrorPlane refine_mirror_plane(const MirrorPlane& start, std::span<const Mirror
                                 std::span<const glm::dvec3> middle, std::span<const glm::dvec3> sample,
                                 std::span<const glm::dvec3> surface) {
   constexpr int rounds = 8;
-  constexpr double nearest_share = 0.6;  // of the partners found, the best: the rest is what is not symmetric
+  constexpr double nearest_share = 0.6;  // fraction of the best matches to use; the others are asymmetric features
   constexpr double partner_within = 0.15;
   constexpr std::size_t few = 50;
-  // All surface pairs together count as much as the marked points: people mark more surely than surfaces match.
+  // All surface pairs together have the weight of the marked points, which are more reliable.
   const double marked = static_cast<double>(std::max<std::size_t>(1, pairs.size() + middle.size()));
   if (surface.size() < few) return start;
   const NearestPoint partners(surface);

@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// The plane that a face is (nearly) its own mirror image in: dot(normal, p) = offset, the normal to the face's left.
+/// The (approximate) plane of symmetry of a face: dot(normal, p) = offset, with the normal to the face's left.
 struct MirrorPlane {
   glm::dvec3 normal{1.0, 0.0, 0.0};
   double offset = 0.0;
@@ -21,13 +21,13 @@ struct MirrorPair {
   glm::dvec3 left, right;
 };
 
-/// The plane that best halves `pairs` and holds `middle`, by least squares; what they leave open is as in the axes of a
-/// face that stands upright (normal near +X). Lengths in ES0.
+/// The least squares plane that bisects `pairs` and contains `middle`; undetermined directions are those of an upright
+/// face (normal near +X). Lengths in ES0.
 MirrorPlane fit_mirror_plane(std::span<const MirrorPair> pairs, std::span<const glm::dvec3> middle);
 
-/// The same plane moved a little so that the images of `sample`, places on the face, lie on the `surface` as well as
-/// can be. Places without a partner near their image (a scar, hair on one side) are left out. Stays at `start` where
-/// few have one.
+/// Refines a plane so that the mirror images of `sample`, places on the face, are as close as possible to the
+/// `surface`. Places without a match near their image (a scar, hair on one side) are excluded. Returns `start` if there
+/// are too few matches.
 MirrorPlane refine_mirror_plane(const MirrorPlane& start, std::span<const MirrorPair> pairs,
                                 std::span<const glm::dvec3> middle, std::span<const glm::dvec3> sample,
                                 std::span<const glm::dvec3> surface);

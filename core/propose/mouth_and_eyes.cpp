@@ -16,7 +16,7 @@ constexpr double beside = 0.03;     ///< a vertex this near to the axis of an ey
 constexpr double believable = 0.2;  ///< from where proportions have the pupil
 constexpr double cornea = 0.12;     ///< its radius, about
 
-/// The ball of an eye: fitted to the largest part with that role.
+/// The eyeball's sphere, fitted to the largest part with the role.
 std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
   std::optional<std::uint32_t> largest;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
@@ -82,7 +82,7 @@ glm::dvec3 middle_of_tongue(const FaceSurface& face, const MirrorPlane& plane, c
   }
   const double depth = 0.5 * (tip.z + rear);
   if (middle.empty() || std::abs(depth - guess.z) > believable_depth) return guess;
-  // Its top there: the higher of the vertices nearest to that depth.
+  // The top at that depth: the higher of the nearest vertices.
   const auto off = [depth](const glm::dvec3& p) { return std::abs(p.z - depth) - 0.5 * p.y; };
   return *std::min_element(middle.begin(), middle.end(),
                            [&](const glm::dvec3& a, const glm::dvec3& b) { return off(a) < off(b); });

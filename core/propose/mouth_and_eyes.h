@@ -12,25 +12,25 @@
 
 namespace semblante {
 
-/// A place, and the surface vertex there if there is one.
+/// A position, with the surface vertex there, if any.
 struct Spot {
   glm::dvec3 place{0.0};
   std::optional<std::uint32_t> vertex;
 };
 
-/// The pupil of a neutral eye: where the ball of that eye is farthest out. Without a ball (a disc for an iris, an eye
-/// painted on the skin) the vertex at `guess`, if there is one, or the bare place.
+/// The pupil of a neutral eye: the frontmost point of its eyeball. Without a ball (a disc as iris, an eye painted on
+/// the skin) the vertex at `guess`, if any, else only the position.
 Spot find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess);
 
-/// Whether the tongue is a piece of its own; with the gums in one piece its ends cannot be told from theirs.
+/// Whether the tongue is a separate piece; if it is one piece with the gums, its ends cannot be identified.
 bool is_tongue_alone(const FaceSurface& face);
 
-/// The top of a tongue alone, half way from its tip to its rearmost vertex on the plane; `guess` where that is nowhere
-/// near.
+/// The top of a separate tongue, half way from its tip to its rearmost vertex on the plane; `guess` if the result is
+/// too far from it.
 glm::dvec3 middle_of_tongue(const FaceSurface& face, const MirrorPlane& plane, const glm::dvec3& tip,
                             const glm::dvec3& guess);
 
-/// The vertex of a tongue alone farthest to one side (+1 left, -1 right) at the depth of its middle.
+/// The outermost vertex of a separate tongue to one side (+1 left, -1 right) at the depth of its middle.
 std::optional<std::uint32_t> border_of_tongue(const FaceSurface& face, const glm::dvec3& middle, double side);
 
 }  // namespace semblante

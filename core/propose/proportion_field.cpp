@@ -8,7 +8,7 @@
 namespace semblante {
 namespace {
 
-// What displacements between heads are like once pose and size are taken out.
+// Statistics of displacements between heads after alignment of pose and size.
 constexpr double shift = 0.1;     ///< of the whole head
 constexpr double stretch = 0.12;  ///< standard deviation of the entries of the linear part
 constexpr double bump = 0.12;     ///< height of the bumps

@@ -7,9 +7,9 @@
 
 namespace semblante {
 
-/// Carries places of one head over to another, of which some points are known: the displacement from head to head is
-/// taken for a smooth random field (a stretch that is the same everywhere plus bumps that fade with the distance), and
-/// its best guess given the known displacements is kriging. All lengths in ES0.
+/// Transfers positions of one head to another with some known points: the displacement between the heads is modelled as
+/// a smooth random field (a global stretch plus local deviations that fade with distance), and estimated from the known
+/// displacements by kriging. All lengths in ES0.
 class ProportionField {
  public:
   struct Sample {

@@ -11,7 +11,7 @@
 namespace semblante {
 namespace {
 
-/// Mean of the references, point by point, of those that have it.
+/// The mean of each point over the references that have it.
 Places mean_places(std::span<const ReferenceHead> references) {
   Places mean;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
@@ -27,7 +27,7 @@ Places mean_places(std::span<const ReferenceHead> references) {
   return mean;
 }
 
-/// Coordinate by coordinate: one reference that is odd in a point does not count there.
+/// The median of each coordinate, robust against an outlier reference.
 glm::dvec3 median(const std::vector<glm::dvec3>& places) {
   glm::dvec3 result{0.0};
   std::vector<double> values(places.size());

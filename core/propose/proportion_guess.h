@@ -24,13 +24,13 @@ struct Guess {
   double error = 0.0;  ///< expected, in ES0: what the known points leave open, and how much heads differ
 };
 
-/// Where every point would be by the proportions of the references, each bent to the known places (ProportionField);
-/// the median of what they say. Empty for points that no reference has. Places in an upright frame of unit ES0.
+/// Guesses every point by the proportions of the references, each deformed to the known places (ProportionField); the
+/// median over the references. Empty for points without a reference. Positions in an upright frame of unit ES0.
 std::array<std::optional<Guess>, feature_point_count> guess_by_proportions(std::span<const KnownPlace> known,
                                                                            std::span<const ReferenceHead> references);
 
-/// Takes `known` into an upright frame where one unit is about ES0, by the mean proportions of the references. Empty
-/// where the points do not settle it.
+/// The similarity from `known` to an upright frame with ES0 as unit, by the mean proportions of the references. Empty
+/// if the points do not determine it.
 std::optional<Similarity> fit_to_references(const Places& known, std::span<const ReferenceHead> references);
 
 }  // namespace semblante

@@ -33,8 +33,8 @@ bool is_middle(std::size_t id) { return mirror_of(id) == id; }
 FeaturePointId id_of(std::size_t id) { return FeaturePointId(static_cast<std::uint8_t>(id)); }
 std::size_t index_of(std::string_view name) { return parse_feature_point(name)->value(); }
 
-/// A turn by quarters about the axes, if `rotation` is nearly one. Heads come upright; proportions alone would tilt
-/// them by some degrees, and the highest vertex would be another one.
+/// Rounds a rotation to quarter turns about the axes, if it is close. Heads are upright; the fit to proportions would
+/// tilt them by some degrees, which would change the highest vertex.
 glm::dmat3 to_quarter_turns(const glm::dmat3& rotation) {
   constexpr double near = 0.9;  // cosine
   glm::dmat3 turned{0.0};
@@ -46,7 +46,7 @@ glm::dmat3 to_quarter_turns(const glm::dmat3& rotation) {
   return glm::determinant(turned) > 0.5 ? turned : rotation;
 }
 
-/// Places of the face by which it is compared with its mirror image.
+/// The vertices of the face for the comparison with its mirror image.
 std::vector<glm::dvec3> front_of(const FaceSurface& face) {
   constexpr double behind_eyes = -0.8;
   constexpr double above_and_below = 2.0;
@@ -58,15 +58,15 @@ std::vector<glm::dvec3> front_of(const FaceSurface& face) {
   return front;
 }
 
-/// Every n-th of them, so that there are no more than `enough`.
+/// Every n-th place, so that there are at most `enough`.
 std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& places, std::size_t enough) {
   std::vector<glm::dvec3> some;
   for (std::size_t i = 0; i < places.size(); i += places.size() / enough + 1) some.push_back(places[i]);
   return some;
 }
 
-/// What others lean on comes before what leans on it: points beside lips and lids tell their sides, and middles and
-/// corners where the points between them are.
+/// Order of the proposals by dependency: points near lips and lids determine their sides, middles and corners the
+/// points between them.
 enum class Turn : std::uint8_t { open_skin, rims, related };
 
 Turn turn_of(FeaturePointId id) {
@@ -193,7 +193,7 @@ class Proposer {
       if (!is_free) return refuse(id, "the vertex nearest to it is point " + to_string(other->second) + " already");
     }
     settled_[id] = spot.place;
-    // A vertex on a lip or lid that was itself told by its side is no witness of sides.
+    // A vertex of a lip or lid that was chosen by its side is not evidence for sides.
     if (spot.vertex && rim_of_point(id_of(id)).opening == nullptr) {
       anchors_.push_back({id_of(id), SurfaceVertexId(*spot.vertex), surface_.positions[*spot.vertex]});
     }

@@ -16,7 +16,7 @@
 
 namespace semblante {
 
-/// What a proposal rests on.
+/// The method of a proposal.
 enum class ProposalMethod : std::uint8_t {
   mirror,      ///< the mirror image of the point on the other side
   proportion,  ///< the proportions of heads, bent to the known points, met with the surface
@@ -24,7 +24,7 @@ enum class ProposalMethod : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 3> proposal_method_names = {"mirror", "proportion", "shape"};
 
-/// How sure a proposal is, in the words of feature point files.
+/// The confidence of a proposal, as in feature point files.
 enum class Confidence : std::uint8_t { high, medium, low };
 inline constexpr std::array<std::string_view, 3> confidence_names = {"high", "medium", "low"};
 
@@ -33,8 +33,8 @@ struct Proposal {
   ProposalMethod method = ProposalMethod::proportion;
   Confidence confidence = Confidence::low;
   double expected_error = 0.0;  ///< in ES0: what the distance to a carefully placed point is expected to be
-  /// What else makes it unsure, in words; empty: nothing. A point of a lip or lid whose side the surface does not tell
-  /// has a remark, and never `high` confidence.
+  /// A further reason for doubt, as text; may be empty. A point of a lip or lid whose side is uncertain has a remark,
+  /// and never `high` confidence.
   std::string remark;
 };
 
@@ -48,17 +48,17 @@ struct Proposals {
   std::vector<NotProposed> not_proposed;  ///< rising by id
 };
 
-/// Fewer known points than this say too little about a head.
+/// Minimum number of known points.
 inline constexpr std::size_t least_known_points = 8;
 
-/// What is wrong with `known` before any model is looked at: `missing` when it has too few points, naming those of the
-/// quick set that it lacks.
+/// Checks `known` without a model: `missing` when it has too few points, with the missing points of the quick
+/// set.
 std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 
-/// Proposes the feature points that `known` lacks. Known points are taken as they are. Deterministic; neither the order
-/// of the points nor the unit of the model counts. `references` is what is known of other heads.
+/// Proposes the feature points that are missing in `known`. Known points are not changed. Deterministic, and
+/// independent of the order of the points and of the model's unit. `references`: the proportions of other heads.
 ///
-/// Errors: `missing` for too few known points, or points too close together to tell how the head stands.
+/// Errors: `missing` for too few known points, or points too close together to determine the pose of the head.
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known,
                                          std::span<const ReferenceHead> references = reference_heads());

@@ -4,8 +4,8 @@
 
 namespace semblante {
 
-/// Twenty points that a person finds surely and that settle most of the rest: the middle, the left side, and one corner
-/// on the right that settles how the head stands. README.md says how they were chosen. In the order to mark them.
+/// Twenty points that are easy to find and determine most of the others: the middle, the left side, and one corner on
+/// the right that determines the pose of the head. In the order of marking. README.md explains the choice.
 inline constexpr auto& quick_set = mpeg4::quick_set;
 
 }  // namespace semblante

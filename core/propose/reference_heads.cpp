@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> names = {"ict-facekit", "makehuman", "mediapipe-canonical", "sample-head"};
 
-/// Nothing where a head has no such point.
+/// Empty if a head does not have the point.
 struct Place {
   constexpr Place() = default;
   constexpr Place(double px, double py, double pz) : known(true), x(px), y(py), z(pz) {}
@@ -24,7 +24,7 @@ struct Row {
   std::array<Place, names.size()> at;
 };
 
-// One column a head, in the order of `names`.
+// One column per head, in the order of `names`.
 // clang-format off
 constexpr Row rows[] = {
     {"2.1", {{{0.0, -1.753, 0.123}, {0.0, -1.737, -0.057}, {0.0, -1.892, 0.069}, {0.0, -1.714, -0.028}}}},

@@ -11,15 +11,15 @@
 
 namespace semblante {
 
-/// Where the feature points of one head lie, as measured figures: the origin is half way between the pupils, one unit
-/// is ES0, axes as MPEG-4's. Symmetric: the mean of a head and its mirror image. A head lacks the points that its model
-/// has no surface for.
+/// Measured positions of the feature points of one head: origin half way between the pupils, unit ES0, axes of MPEG-4.
+/// Symmetric: the mean of the head and its mirror image. Points without a surface in the head's model
+/// are missing.
 struct ReferenceHead {
   std::string_view name;
   std::array<std::optional<glm::dvec3>, feature_point_count> points;  ///< by FeaturePointId
 };
 
-/// What is known of the proportions of heads. README.md says where each comes from.
+/// The reference heads. README.md lists their sources.
 std::span<const ReferenceHead> reference_heads();
 
 }  // namespace semblante

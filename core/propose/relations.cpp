@@ -10,7 +10,7 @@ namespace {
 
 enum Axis : std::uint8_t { x, y, z };
 
-/// Coordinate `axis` of a point is the mean of those of two others (the same one twice: level with it).
+/// Coordinate `axis` of a point is the mean of those of two other points (the same point twice: level with it).
 struct Relation {
   std::string_view id;
   Axis axis;

@@ -12,8 +12,8 @@ namespace semblante {
 /// Places by FeaturePointId, in an upright frame.
 using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
-/// Moves `place` of point `id` to where MPEG-4's position relations want it, as far as the points they name are among
-/// `settled`: half way between two points along one axis, or level with another.
+/// Applies MPEG-4's position relations to `place` of point `id`, if the related points are in `settled`: half way
+/// between two points along one axis, or level with another.
 glm::dvec3 apply_relations(FeaturePointId id, glm::dvec3 place, const Places& settled);
 
 /// Whether a relation is known for that point.

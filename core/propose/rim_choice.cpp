@@ -15,7 +15,7 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
   const auto own = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) > 0.0; });
   const auto other = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) < 0.0; });
   const auto apart = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) == 0.0; });
-  // A piece that no point tells the side of, such as a lid behind the fold, is as good as what lies nearest.
+  // A separate piece of unknown side, such as a lid behind the fold, is treated like the nearest vertex.
   if (apart && (!own || off(*apart) < off(*own)) && (!other || own || off(*apart) < off(*other)))
     return RimVertex{*apart, sides.have_anchors() ? "no placed point on this piece tells " + both
                                                   : "too few points are placed to tell " + both};
@@ -24,7 +24,7 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
     return RimVertex{*other, "no surface was found on the side of it that tells " + both};
   }
   if (side(*own) >= RimSides::clear) return RimVertex{*own, {}};
-  // Where the other side is about as near, a vertex a little farther off whose side is beyond doubt is better.
+  // If the other side is about as near, prefer a slightly farther vertex whose side is certain.
   const bool is_contested = other && off(*other) < off(*own) + error;
   const auto clear = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) >= RimSides::clear; });
   if (is_contested && clear && off(*clear) < off(*own) + error) return RimVertex{*clear, {}};

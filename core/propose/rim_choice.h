@@ -18,15 +18,15 @@ struct RimVertex {
   std::string doubt;  ///< why its side may be wrong, in words; empty: the side is beyond doubt
 };
 
-/// Picks vertices for points of lips and lids: the nearest one of those on the point's own side along the surface
+/// Chooses vertices for points of lips and lids: the nearest vertex on the point's own side along the surface
 /// (RimSides).
 class RimChoice {
  public:
-  /// Keeps references to both. `anchors` may grow until the first choice about an opening is made.
+  /// Keeps references to both. `anchors` may grow until the first choice for an opening.
   RimChoice(const FaceSurface& face, const std::vector<SurfacePoint>& anchors) : face_(face), anchors_(anchors) {}
 
-  /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. Where the side cannot be
-  /// told, the nearest vertex, with that doubt. Empty where the model has no such role.
+  /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. If the side is
+  /// uncertain, the nearest vertex, with a doubt. Empty if the model has no such role.
   std::optional<RimVertex> nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
                                    const MirrorPlane* on);
 

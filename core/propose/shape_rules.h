@@ -11,12 +11,12 @@
 
 namespace semblante {
 
-/// Where the shape itself tells where a point is (the tip, the highest, the rearmost), looked for about `place`, which
-/// is where proportions put it. Nothing for points that are no extremes of the shape.
+/// Finds a point that is an extreme of the shape (the tip, the highest, the rearmost), near `place`, the position by
+/// proportions. Empty for points that are not extremes.
 std::optional<std::uint32_t> find_extreme(const FaceSurface& face, const MirrorPlane& plane, FeaturePointId id,
                                           const glm::dvec3& place);
 
-/// The part that a point lies on.
+/// The role of the part on which a point is.
 PartRole role_of_point(FeaturePointId id);
 
 }  // namespace semblante

@@ -9,8 +9,8 @@
 
 namespace semblante {
 
-/// A shape that came with a model beside its neutral one (a glTF morph target): where each file vertex goes when the
-/// shape is on in full. Only vertices that move are kept. Displacement sets can be read off
+/// A shape of a model beside its neutral one (a glTF morph target): the displacement of each file vertex at full
+/// strength. Contains only vertices that move. Displacement sets can be extracted from
 /// it.
 struct Example {
   std::string name;                      ///< as the file calls it, printable

@@ -7,12 +7,12 @@
 
 namespace semblante {
 
-/// The length units of the standard, in this order wherever they are stored. AU (1e-5 rad) needs no measuring.
+/// The length units of the standard, always stored in this order. AU (1e-5 rad) is the same for all faces.
 enum class FapuUnit : std::uint8_t { irisd, es, ens, mns, mw };
 inline constexpr std::size_t fapu_unit_count = 5;
 inline constexpr std::array<std::string_view, fapu_unit_count> fapu_unit_names = {"IRISD", "ES", "ENS", "MNS", "MW"};
 
-/// FAPUs of a neutral face in model units, ALREADY divided by 1024; empty where the points that give one are missing.
+/// FAPUs of a neutral face in model units, ALREADY divided by 1024; empty if the points that define one are missing.
 struct Fapu {
   std::array<std::optional<double>, fapu_unit_count> value{};
 

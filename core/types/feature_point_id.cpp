@@ -40,7 +40,7 @@ std::optional<FeaturePointId> parse_feature_point(std::string_view text) {
   int index = number - 1;
   for (int g = 0; g < slot; ++g) index += group_sizes[static_cast<std::size_t>(g)];
   const FeaturePointId id(static_cast<std::uint8_t>(index));
-  // One spelling per point: "2.01" or "+2.1" would otherwise be a second key for the same thing.
+  // Only the canonical spelling: "2.01" or "+2.1" would be a second key for the same point.
   return to_string(id) == text ? std::optional(id) : std::nullopt;
 }
 

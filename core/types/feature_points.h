@@ -9,15 +9,15 @@
 
 namespace semblante {
 
-/// One marked point. With a vertex it is that surface vertex and moves it; without, it is a bare position (7.1, a pupil
-/// inside a triangle) that serves FAPUs and pivots and influences nothing.
+/// One marked point. With a vertex, it is at that surface vertex and moves it; without, it is only a position (7.1, a
+/// pupil inside a triangle) for FAPUs and pivots and has no influence.
 struct FeaturePoint {
   FeaturePointId id;
   std::optional<VertexId> vertex;
   glm::vec3 position{0.0F};  ///< model units, MPEG-4 frame
 };
 
-/// The marked points of one model, each id at most once, in rising order of id.
+/// The marked points of one model, each id at most once, by increasing id.
 using FeaturePointSet = std::vector<FeaturePoint>;
 
 }  // namespace semblante

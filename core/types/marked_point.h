@@ -9,8 +9,8 @@
 
 namespace semblante {
 
-/// A feature point as a person or a file marks it, before it is matched with the model: a file vertex, a position or
-/// both. parametrize/place_feature_points turns it into a FeaturePoint or says why it cannot.
+/// A feature point as marked by a person or a file, before it is matched with the model: a file vertex, a position or
+/// both. parametrize/place_feature_points converts it to a FeaturePoint or returns an error.
 struct MarkedPoint {
   FeaturePointId id;
   std::optional<std::uint32_t> vertex;  ///< file vertex, not checked against the model

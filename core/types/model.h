@@ -17,13 +17,13 @@ namespace semblante {
 /// Three corner indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An image kept as the file's own bytes; never decoded on the server.
+/// An image as the bytes of the file; never decoded on the server.
 struct Image {
   std::string mime_type;  ///< "image/png" or "image/jpeg"
   std::vector<std::uint8_t> bytes;
 };
 
-/// What glTF's metallic-roughness material says that a face needs.
+/// The subset of glTF's metallic-roughness material that a face uses.
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0F};  ///< linear RGBA
@@ -44,9 +44,9 @@ struct Primitive {
   std::uint32_t triangle_count = 0;
 };
 
-/// A head as it was read: indexed triangles over *file vertices*, with UVs and normals indexed on their own as OBJ
-/// does. Positions are the file's float32 in the MPEG-4 frame, that is, after
-/// `to_file_frame`'s inverse. A glTF has uv_triangles == triangles.
+/// An imported head: indexed triangles over *file vertices*, with separate indices for UVs and normals as in OBJ.
+/// Positions are the file's float32, transformed to MPEG-4 axes by the inverse of
+/// `to_file_frame`. A glTF has uv_triangles == triangles.
 struct Model {
   std::vector<glm::vec3> positions;  ///< #V
   std::vector<Triangle> triangles;   ///< #T by 3, into positions
@@ -63,7 +63,7 @@ struct Model {
 
   std::vector<Example> examples;  ///< shapes beside the neutral one; most models have none
 
-  /// Takes positions back to the axes and unit of the file. Identity where the file was in the MPEG-4 frame already.
+  /// Transforms positions to the axes and unit of the file. Identity if the file has MPEG-4 axes.
   glm::mat4 to_file_frame{1.0F};
   std::string format;                 ///< "glb", "gltf", "obj", "ply", "stl"
   std::vector<std::string> warnings;  ///< what was repaired or left out on import, in words

@@ -6,8 +6,8 @@
 
 namespace semblante {
 
-/// What moves a vertex after Eq. 7 and before the head: the part it belongs to. From `tongue_least` on, a value says
-/// how much of the tongue's roll the vertex takes.
+/// The rigid motion of a vertex after Eq. 7 and before the head's rotation, by its part. Values from `tongue_least` on
+/// encode the vertex's share of the tongue's roll.
 enum class RigidMotion : std::uint8_t {
   none,
   left_eye,
@@ -18,13 +18,13 @@ enum class RigidMotion : std::uint8_t {
   tongue = 255,  ///< all of the roll
 };
 
-/// False for the bytes between.
+/// False for the unused byte values in between.
 constexpr bool is_rigid_motion(std::uint8_t value) {
   return value <= static_cast<std::uint8_t>(RigidMotion::right_iris) ||
          value >= static_cast<std::uint8_t>(RigidMotion::tongue_least);
 }
 
-/// `share` 0..1 of the tongue's roll, in 128ths; less than half of one is none.
+/// The motion for a share of the tongue's roll, 0..1, rounded to 128ths; none below half of a 128th.
 constexpr RigidMotion tongue_motion(double share) {
   const int steps = static_cast<int>(share * 128.0 + 0.5);
   return steps < 1 ? RigidMotion::none : static_cast<RigidMotion>(127 + (steps < 128 ? steps : 128));

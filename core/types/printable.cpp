@@ -5,7 +5,7 @@
 namespace semblante {
 namespace {
 
-/// Bytes of the character `text` begins with; 0 if it is not UTF-8 (overlong forms and surrogates are not).
+/// Number of bytes of the first character of `text`; 0 if it is not valid UTF-8 (overlong forms, surrogates).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : '\0'); };
   const auto follows = [&byte](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };

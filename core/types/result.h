@@ -7,7 +7,7 @@
 
 namespace semblante {
 
-/// What was wrong, never where it surfaced. The REST layer turns each into a stable problem `type`.
+/// The kind of error, independent of the place of its detection. The REST layer maps each to a stable problem `type`.
 enum class ErrorCode {
   malformed,         ///< the bytes are not of the format they claim
   truncated,         ///< the data ends before what it announced
@@ -24,14 +24,14 @@ enum class ErrorCode {
   internal,          ///< a fault of ours that was caught
 };
 
-/// `code` for programs, `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for people.
+/// `code` for programs; `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for display.
 struct Error {
   ErrorCode code = ErrorCode::internal;
   std::string where;
   std::string message;
 };
 
-/// The value or the reason there is none. For other people's bytes; our own mistakes are asserts.
+/// A value or an error. For untrusted input; mistakes of the caller are asserts.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -17,12 +17,12 @@
 
 namespace semblante {
 
-/// What a connected part is, and so what moves it.
+/// The anatomical role of a connected part, which determines its motion.
 enum class PartRole : std::uint8_t { skin, left_eye, right_eye, upper_teeth, lower_teeth, tongue, attached, rest };
 inline constexpr std::array<std::string_view, 8> part_role_names = {
     "skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "attached", "rest"};
 
-/// A part as reports and clients see it.
+/// A part in reports and for clients.
 struct Part {
   std::string name;  ///< of the primitive most of its triangles belong to; may be empty
   PartRole role = PartRole::skin;
@@ -32,19 +32,19 @@ struct Part {
   glm::vec3 box_min{0.0F}, box_max{0.0F};
 };
 
-/// Everything the server computes once about a model, per file vertex. The face package is this, reordered and
+/// The result of the parametrization of a model, per file vertex. The face package contains it reordered and
 /// quantized.
 struct Rig {
   FeaturePointSet points;
   Fapu fapu;
-  /// #V rows: W of Eq. 4, surface weights alone, before roles and the quotient of Eq. 7; with `smooth` weights shares.
+  /// #V rows: W of Eq. 4, surface weights only, before roles and the quotient of Eq. 7; for `smooth` weights, shares.
   WeightTable<double> weights;
   WeightTable<float> influence;              ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
   std::vector<PartId> part_of_vertex;        ///< #V
   std::vector<Part> parts;                   ///< by PartId
-  /// Where lips that close meet; empty where that is not known: points are missing, or weights that let lips
-  /// move each other.
+  /// The lip gaps of the closing mouth; empty if unknown: points are missing, or by the weights the lips move
+  /// each other.
   std::optional<LipGaps> lip_gaps;
   glm::vec3 left_eye_pivot{0.0F};
   glm::vec3 right_eye_pivot{0.0F};

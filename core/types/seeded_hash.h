@@ -6,14 +6,14 @@
 
 namespace semblante {
 
-/// A hash of numbers that came from outside, for unordered containers. Its seed is drawn once per process, so that
-/// nobody can choose numbers that all fall into one bucket and make each search linear. Nothing that is written or
-/// answered may depend on it, nor on the order of a container that uses it.
+/// A hash of untrusted numbers for unordered containers. Its seed is random per process, so that an attacker cannot
+/// choose colliding numbers, which would make each search linear. No output may depend on the hash or on the order of
+/// a container that uses it.
 class SeededHash {
  public:
   std::size_t operator()(std::uint64_t value) const { return static_cast<std::size_t>(mixed(seed() ^ value)); }
 
-  /// Of several numbers, in order.
+  /// Hash of several numbers; depends on their order.
   template <class... Numbers>
   static std::size_t of(Numbers... numbers) {
     std::uint64_t hash = seed();
@@ -29,7 +29,7 @@ class SeededHash {
     }();
     return value;
   }
-  /// Between the rounds the seed is added, so that values which meet under one seed do not meet under another.
+  /// Adds the seed between the rounds, so that values that collide for one seed do not collide for another.
   static std::uint64_t mixed(std::uint64_t value) {
     value = (value ^ value >> 30U) * 0xBF58476D1CE4E5B9U + seed();
     value = (value ^ value >> 27U) * 0x94D049BB133111EBU + seed();

@@ -6,7 +6,7 @@
 
 namespace semblante {
 
-/// An index that says what it indexes: ids of different tags neither compare nor convert.
+/// A typed index: ids with different tags neither compare nor convert.
 template <class Tag, class Int = std::uint32_t>
 class StrongId {
  public:

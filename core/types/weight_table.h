@@ -8,7 +8,7 @@
 
 namespace semblante {
 
-/// Rows of (feature point, weight), one row a vertex, in one allocation. Within a row ids rise.
+/// Rows of (feature point, weight), one row per vertex, in one allocation. Ids increase within a row.
 /// W is double for the weights of Eq. 4, float for the normalized quotients of Eq. 7 that clients use.
 template <class W>
 struct WeightTable {

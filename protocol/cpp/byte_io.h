@@ -48,7 +48,7 @@ class Reader {
     failed_ = true;
     return 0;
   }
-  /// The next `count` bytes, or none of them.
+  /// The next `count` bytes; empty (and `failed`) when fewer are left.
   std::span<const std::uint8_t> take(std::size_t count) {
     if (count > remaining()) return failed_ = true, std::span<const std::uint8_t>();
     at_ += count;

@@ -28,18 +28,18 @@ struct ExpressionBlend {
   friend bool operator==(const ExpressionBlend&, const ExpressionBlend&) = default;
 };
 
-/// The whole state of a face at one moment: never a change, never an event. A default frame is the neutral face.
+/// The complete state of a face at one moment (never a difference or an event). The default is the neutral face.
 struct FaceFrame {
   VisemeBlend viseme;
   ExpressionBlend expression;
-  /// By FAP number (entries 0..2 unused): quantized level, -32767..32767; FAP units = level * the stream's step for
-  /// that FAP. Level 0 is "absent": the FAP does not override visemes and expressions.
+  /// Quantized levels by FAP number (entries 0..2 unused), -32767..32767; FAP units = level * the stream's step for
+  /// the FAP. Level 0 means "absent": the FAP does not override visemes and expressions.
   std::array<std::int16_t, 69> level{};
 
   friend bool operator==(const FaceFrame&, const FaceFrame&) = default;
 };
 
-/// A frame with its place in time: whole milliseconds after the media time of the message (or request) it came in.
+/// A frame with its time: whole milliseconds after the media time of its message or request.
 struct TimedFrame {
   std::uint32_t time = 0;
   FaceFrame state;

@@ -8,18 +8,18 @@
 
 namespace semblante {
 
-/// The whole state of a face at one moment in FAP units, as files and tools have it before (or without) a stream's
-/// quantizers. A default one is the neutral face.
+/// The complete state of a face at one moment in FAP units, before quantization, for files and tools.
+/// The default is the neutral face.
 struct FaceValues {
   VisemeBlend viseme;
   ExpressionBlend expression;
-  /// By FAP number (entries 0..2 unused), finite. 0 is "absent", as level 0 is in a FaceFrame.
+  /// Values by FAP number (entries 0..2 unused), finite. 0 means "absent", like level 0 in a FaceFrame.
   std::array<double, 69> fap{};
 
   friend bool operator==(const FaceValues&, const FaceValues&) = default;
 };
 
-/// Whole milliseconds from the beginning of its sequence; times do not fall.
+/// Whole milliseconds from the start of its sequence; times never decrease.
 struct TimedValues {
   std::uint32_t time = 0;
   FaceValues state;
@@ -28,7 +28,7 @@ struct TimedValues {
 
 FaceValues to_values(const FaceFrame& frame, const QuantizerSteps& steps = standard_quantizers());
 
-/// Levels to the nearest; what is beyond +-32767 levels becomes that.
+/// Quantizes to the nearest level, clamped to +-32767.
 FaceFrame to_frame(const FaceValues& values, const QuantizerSteps& steps = standard_quantizers());
 
 }  // namespace semblante

@@ -10,18 +10,18 @@
 
 #include "core/types/result.h"
 
-/// The ASCII FAP file (.fap), the input of MPEG-4's reference encoder that players took over. Rules:
+/// The ASCII FAP file (.fap), the input format of MPEG-4's reference encoder, also used by players. Rules:
 /// protocol/FAP_FILE.md.
 namespace semblante {
 
-/// FAP 1 as a file has it. Selects 0..14, blend 0..63.
+/// FAP 1 in a file. Selects 0..14, blend 0..63.
 struct FapFileViseme {
   std::uint8_t select1 = 0, select2 = 0, blend = 0;
   std::uint8_t viseme_def = 0;  ///< 0 or 1; kept, of no effect here
   friend bool operator==(const FapFileViseme&, const FapFileViseme&) = default;
 };
 
-/// FAP 2 as a file has it. Selects 0..6, intensities 0..63.
+/// FAP 2 in a file. Selects 0..6, intensities 0..63.
 struct FapFileExpression {
   std::uint8_t select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0;
   std::uint8_t init_face = 0, expression_def = 0;  ///< 0 or 1; kept, of no effect here
@@ -38,7 +38,7 @@ struct FapFileFrame {
   friend bool operator==(const FapFileFrame&, const FapFileFrame&) = default;
 };
 
-/// What a file says, in whatever dialect it says it.
+/// The content of a file, independent of its deviations from the usual form.
 struct FapFile {
   double rate = 25;                  ///< frames a second, 0.001..1000
   std::string name;                  ///< printable ASCII without blanks; of no meaning
@@ -47,7 +47,7 @@ struct FapFile {
   friend bool operator==(const FapFile&, const FapFile&) = default;
 };
 
-/// What a file does that the usual form does not, and what was made of it.
+/// Deviations from the usual form that the reader accepts, and how they were read.
 enum class FapFileOddity : std::uint8_t {
   other_version,             ///< neither 2.0, 2.1 nor 2.2: read all the same
   blank_in_name,             ///< joined by _
@@ -75,7 +75,7 @@ struct FapFileWarning {
   friend bool operator==(const FapFileWarning&, const FapFileWarning&) = default;
 };
 
-/// For people: "line 3: 69 flags instead of 68: the last is dropped (108 times)".
+/// A readable text: "line 3: 69 flags instead of 68: the last is dropped (108 times)".
 std::string to_sentence(const FapFileWarning& warning);
 
 struct FapFileReading {
@@ -88,15 +88,15 @@ struct FapFileLimits {
   std::size_t line_bytes = 8192;
   std::size_t frames = 100'000;
 };
-/// Of a frame's number after the first, whatever the rate: eleven hours at 25 a second.
+/// Largest frame number relative to the first, at any rate: eleven hours at 25 frames per second.
 inline constexpr std::uint32_t max_fap_file_number = 1'000'000;
 
-/// Errors: malformed (no header, no frame, a mask or number that is none), truncated (a mask without values),
+/// Errors: malformed (no header, no frame, an invalid mask or number), truncated (a mask without values),
 /// out_of_range, too_large. `where` is "line 12" or "line 12, word 3".
 Result<FapFileReading> read_fap_file(std::string_view text, const FapFileLimits& limits = {});
 
-/// Version 2.1, 68 flags, frames from 0, LF, one blank between; whole numbers as such, others as the shortest that read
-/// back the same. Reading it gives `file` again without a warning, or only that numbers are left out.
+/// Writes version 2.1, 68 flags, frames from 0, LF, one blank as separator; integers as such, others in the shortest
+/// exact form. Reading the result gives `file` without warnings except for gaps in the frame numbers.
 std::string write_fap_file(const FapFile& file);
 
 }  // namespace semblante

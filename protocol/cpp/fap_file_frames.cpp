@@ -14,7 +14,7 @@ constexpr std::size_t last_fap = last_low_level_fap;
 constexpr double ms_per_s = 1000.0;
 constexpr double lone_frame_rate = 25.0;
 
-/// `state`, of the frame before, becomes that of `frame`.
+/// Advances `state` from the frame before to `frame`.
 void advance(FaceValues& state, const FapFileFrame& frame, AbsentFap absent) {
   if (absent == AbsentFap::zero) state = {};
   if (frame.present[1]) state.viseme = {frame.viseme.select1, frame.viseme.select2, frame.viseme.blend};
@@ -31,7 +31,7 @@ std::uint8_t step_between(std::uint8_t a, std::uint8_t b, double t) {
   return static_cast<std::uint8_t>(std::lround(a + t * (b - a)));
 }
 
-/// What a file can say: whole if asked for, not too large, not too small.
+/// A value that a file can represent: clamped, small values as 0, and rounded if `whole`.
 double sayable(double value, bool whole) {
   value = std::clamp(whole ? std::round(value) : value, -max_fap_value, max_fap_value);
   return std::abs(value) < least_fap_value ? 0.0 : value;
@@ -110,7 +110,7 @@ double rate_of(std::span<const TimedValues> frames) {
     if (std::all_of(frames.begin(), frames.end(), [&](const TimedValues& f) { return on_a_frame(f, rate); }))
       return rate;
   }
-  return ms_per_s;  // a frame every millisecond: there is no time that is not one's
+  return ms_per_s;  // a frame every millisecond: every whole ms is the time of a frame
 }
 
 Result<FapFile> fap_file_of(std::span<const TimedValues> frames, const FapFileStyle& style,
@@ -123,7 +123,7 @@ Result<FapFile> fap_file_of(std::span<const TimedValues> frames, const FapFileSt
     return std::round((frame.time - frames.front().time) * file.rate / ms_per_s);
   };
   if (number_of(frames.back()) >= static_cast<double>(limits.frames)) {
-    return Error{ErrorCode::too_large, "", "a .fap file may have " + std::to_string(limits.frames) + " frames"};
+    return Error{ErrorCode::too_large, "", "a .fap file has at most " + std::to_string(limits.frames) + " frames"};
   }
   const auto mask = used(frames, style.whole_values);
   const auto add = [&](const FaceValues& state, std::size_t number) {
@@ -132,9 +132,9 @@ Result<FapFile> fap_file_of(std::span<const TimedValues> frames, const FapFileSt
   const FaceValues* before = nullptr;  ///< the state last written
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto number = static_cast<std::size_t>(number_of(frames[i]));
-    if (i + 1 < frames.size() && number_of(frames[i + 1]) == static_cast<double>(number)) continue;  // the last counts
+    if (i + 1 < frames.size() && number_of(frames[i + 1]) == static_cast<double>(number)) continue;  // the last is used
     if (before == nullptr) before = &frames[i].state;
-    const std::size_t begin = file.frames.size();  // one after the frame last written
+    const std::size_t begin = file.frames.size();  // one after the last written frame
     for (std::size_t k = begin; k < number; ++k) {
       const double t = static_cast<double>(k + 1 - begin) / static_cast<double>(number + 1 - begin);
       add(between(*before, frames[i].state, t), k);

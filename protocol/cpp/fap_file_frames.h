@@ -11,15 +11,15 @@
 
 namespace semblante {
 
-/// What a FAP means in a frame whose mask leaves it out. The players that read these files begin every frame at zero,
-/// and some writers mark only what is not zero, so that their files would freeze if it meant "as before": zero is the
-/// default.
+/// The value of a FAP that a frame's mask omits: zero or the value of the frame before (keep). Zero is the default,
+/// because players of these files start every frame at zero, and some writers flag only nonzero FAPs; with keep their
+/// faces would freeze.
 enum class AbsentFap : std::uint8_t {
   zero,
   keep,  ///< its last value, as an encoder's bitstream means it
 };
 
-/// What the face does where frame numbers are left out: writers leave out what repeats, so hold is the default.
+/// Motion in gaps of the frame numbers. Hold is the default, because writers omit repeated frames.
 enum class FrameGap : std::uint8_t { hold, interpolate };
 
 struct FapFileMeaning {
@@ -27,13 +27,13 @@ struct FapFileMeaning {
   FrameGap gap = FrameGap::hold;
 };
 
-/// The faces of a file, in time. A gap that holds ends in a copy of the frame before it, one frame before the next, so
-/// that who interpolates between frames (as players of streams do) holds too. viseme_def, init_face and expression_def
-/// have no effect. Errors: out_of_range beyond 24 hours.
+/// The frames of a file with their times. With `hold`, a copy of the frame before a gap is added one frame before the
+/// end of the gap, so that players that interpolate between frames also hold. viseme_def, init_face and
+/// expression_def have no effect. Errors: out_of_range beyond 24 hours.
 Result<std::vector<TimedValues>> frames_of(const FapFile& file, const FapFileMeaning& meaning = {});
 
-/// The face t of the way (0..1) from a to b: FAPs 3 to 68 linearly, FAPs 1 and 2 where both have the same selects; else
-/// they are a's.
+/// Interpolates between a and b, t in 0..1: FAPs 3 to 68 linearly, FAPs 1 and 2 if both have the same selects; else
+/// FAPs 1 and 2 are a's.
 FaceValues between(const FaceValues& a, const FaceValues& b, double t);
 
 struct FapFileStyle {
@@ -42,14 +42,14 @@ struct FapFileStyle {
   std::string name = "semblante";
 };
 
-/// The lowest whole rate at which every time is that of a frame, to half a millisecond, at most 1000. 25 for one frame
-/// alone.
+/// The lowest whole rate, at most 1000, at which every time is the time of a frame within half a millisecond. 25 for a
+/// single frame.
 double rate_of(std::span<const TimedValues> frames);
 
-/// A file of frames 0, 1, 2, ... without gaps and with one mask throughout, so that every reading of absent FAPs gives
-/// the same face: what no frame uses is absent, all else present. The first frame is 0 whatever its time. Between the
-/// given frames values go linearly, and FAPs 1 and 2 where their selects stay (else they hold); of frames within one of
-/// the file's the last counts. Errors: empty; too_large beyond `limits`.
+/// A file of frames 0, 1, 2, ... without gaps and with the same mask in all frames, so that every AbsentFap gives the
+/// same face: FAPs that no frame uses are absent, all others present. The first frame is number 0 at any time. Values
+/// are interpolated linearly between the given frames, FAPs 1 and 2 only if their selects are equal (else held); of
+/// several frames within one frame of the file the last is used. Errors: empty; too_large beyond `limits`.
 Result<FapFile> fap_file_of(std::span<const TimedValues> frames, const FapFileStyle& style = {},
                             const FapFileLimits& limits = {});
 

@@ -22,7 +22,7 @@ constexpr int packed_base = 101'010;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-/// A line's words and where it stands.
+/// The words of a line and its number.
 struct Line {
   std::uint32_t number = 0;
   std::vector<std::string_view> words;
@@ -38,7 +38,7 @@ std::string quoted(std::string_view word) {
   return text + (word.size() > most ? "...\"" : "\"");
 }
 
-/// The lines that count: not empty, not beginning with #. Ends of LF, CR LF and CR.
+/// Iterates over the lines that are not empty and not comments (#). Line ends are LF, CR LF and CR.
 class Lines {
  public:
   Lines(std::string_view text, std::size_t max_line, std::optional<Error>& fault)
@@ -81,7 +81,7 @@ class Lines {
   std::uint32_t number_ = 0;
 };
 
-/// Words joined by _, whatever is not printable ASCII made _ too.
+/// Joins words with _ and replaces characters that are not printable ASCII by _.
 std::string tidy_name(std::span<const std::string_view> words) {
   std::string name;
   for (const auto word : words) {
@@ -117,14 +117,14 @@ class Reader {
   }
 
  private:
-  /// The FIRST fault is the one reported; reading goes on with harmless values until a loop looks.
+  /// Records the FIRST error; reading continues with default values until a loop checks for it.
   void fail(ErrorCode code, std::uint32_t line, std::string message) {
     if (!fault_) fault_ = Error{code, line_of(line), std::move(message)};
   }
   void fail(ErrorCode code, const Line& line, std::size_t word, std::string message) {
     if (!fault_) fault_ = Error{code, line_of(line.number) + ", word " + std::to_string(word + 1), std::move(message)};
   }
-  /// The number of a word; what is no number is malformed. NaN and infinities pass.
+  /// Parses a word as a number; anything else is malformed. NaN and infinities are accepted.
   double number_at(const Line& line, std::size_t word) {
     const auto value = read_fap_number(line.words[word]);
     if (!value) fail(ErrorCode::malformed, line, word, quoted(line.words[word]) + " is no number");
@@ -141,7 +141,7 @@ class Reader {
     reading_.warnings.push_back({oddity, line, 1});
   }
 
-  /// `version name rate count`; the name may hold blanks. Returns the count.
+  /// Reads `version name rate count`; the name may contain blanks. Returns the count.
   double read_header() {
     const auto line = lines_.next();
     if (!line) {
@@ -151,7 +151,8 @@ class Reader {
     header_line_ = line->number;
     const auto& words = line->words;
     if (words.size() < 4) {
-      fail(ErrorCode::malformed, line->number, "the header must be: version, name, frames a second, number of frames");
+      fail(ErrorCode::malformed, line->number,
+           "the header must be: version, name, frames per second, number of frames");
       return 0.0;
     }
     if (words[0] != "2.0" && words[0] != "2.1" && words[0] != "2.2") {
@@ -163,7 +164,7 @@ class Reader {
     const std::size_t rate = words.size() - 2;
     reading_.file.rate = number_at(*line, rate);
     if (!(reading_.file.rate >= min_rate && reading_.file.rate <= max_rate)) {
-      fail(ErrorCode::out_of_range, *line, rate, "the frames a second must be from 0.001 to 1000");
+      fail(ErrorCode::out_of_range, *line, rate, "the frames per second must be 0.001 to 1000");
     }
     if (rate > 2) note(FapFileOddity::blank_in_name, line->number);
     reading_.file.name = tidy_name(std::span(words).subspan(1, rate - 1));
@@ -172,7 +173,8 @@ class Reader {
 
   void read_frame(const Line& mask) {
     if (reading_.file.frames.size() >= limits_.frames) {
-      return fail(ErrorCode::too_large, mask.number, "a file may have " + std::to_string(limits_.frames) + " frames");
+      return fail(ErrorCode::too_large, mask.number,
+                  "a file has at most " + std::to_string(limits_.frames) + " frames");
     }
     auto frame = read_mask(mask);
     if (fault_) return;
@@ -212,7 +214,7 @@ class Reader {
     }
     frame.number = static_cast<std::uint32_t>(number);
 
-    // Some write FAPs 1 and 2 as one number each: which do, the count of numbers tells without doubt.
+    // Some files write FAPs 1 and 2 as one number each; the count of numbers is unambiguous.
     const std::size_t given = line.words.size() - 1;
     std::size_t viseme = frame.present[1] ? viseme_fields : 0;
     std::size_t expression = frame.present[2] ? expression_fields : 0;
@@ -238,7 +240,7 @@ class Reader {
         frame.value[fap] = value_at(line, at++);
       }
     }
-    // What no flag speaks of is dropped, but must be numbers: else this line is no line of values.
+    // Extra values are dropped, but must be numbers: otherwise this is not a line of values.
     for (; at < line.words.size(); ++at) number_at(line, at);
   }
 
@@ -326,7 +328,7 @@ class Reader {
     frame.present.set(2);
   }
 
-  /// Rising numbers from 0, each once.
+  /// Sorts frames by number, starting from 0, without duplicates.
   void order_frames() {
     auto& frames = reading_.file.frames;
     for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -364,7 +366,7 @@ class Reader {
 
 Result<FapFileReading> read_fap_file(std::string_view text, const FapFileLimits& limits) {
   if (text.size() > limits.bytes) {
-    return Error{ErrorCode::too_large, "", "a .fap file may have " + std::to_string(limits.bytes) + " bytes"};
+    return Error{ErrorCode::too_large, "", "a .fap file has at most " + std::to_string(limits.bytes) + " bytes"};
   }
   return Reader(text, limits).read();
 }

@@ -53,7 +53,7 @@ std::optional<double> read_fap_number(std::string_view word) {
   if (!is_decimal(word)) return std::nullopt;
   double value = 0;
   if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc::result_out_of_range) {
-    // Too near to zero or too far from it: in so few characters its exponent tells.
+    // Underflow or overflow: with at most 64 characters, the sign of the exponent distinguishes them.
     const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
     value = tiny ? 0.0 : std::numeric_limits<double>::max();
   }

@@ -11,15 +11,15 @@
 
 namespace semblante {
 
-/// Writes the messages of ONE stream in the binary form. It remembers the last frame, because a `frames` message says
-/// only what changed: every message it makes must reach the decoder, in order, or a keyframe must follow. A keyframe
-/// for one late reader comes from an encoder of its own, `FrameEncoder().encode(keyframe)`.
+/// Encodes the messages of ONE stream in the binary form. It keeps the last frame, because a `frames` message contains
+/// only differences: the decoder must receive every message in order, or a keyframe. To encode a keyframe for a single
+/// late reader use a separate encoder, `FrameEncoder().encode(keyframe)`.
 class FrameEncoder {
  public:
   /// Asserts that the message is within the documented ranges, and that frames follow a keyframe without a gap.
   std::vector<std::uint8_t> encode(const Message& message);
 
-  /// Forgets the last frame: the next state must be a keyframe.
+  /// Drops the last frame: the next state must be a keyframe.
   void reset() { last_.reset(); }
 
  private:
@@ -27,13 +27,13 @@ class FrameEncoder {
   std::uint64_t last_sequence_ = 0;
 };
 
-/// Reads the messages of ONE stream in the binary form, plain or packed; takes any bytes. Both give the same messages;
-/// frames must be of the form of the keyframe before them.
+/// Decodes the messages of ONE stream in the binary form, plain or packed, from untrusted bytes. Both forms give the
+/// same messages; frames must have the form of the keyframe before them.
 class FrameDecoder {
  public:
-  /// Errors: `unsupported` for a message type of a later version (skip it), `mismatch` (where "/sequence") for frames
-  /// before a keyframe or after a gap (ask again by reconnecting), else what is wrong with the bytes. After an error
-  /// the decoder's state is what it was before the message.
+  /// Errors: `unsupported` for a message type of a later version (to be skipped), `mismatch` (where "/sequence") for
+  /// frames before a keyframe or after a gap (reconnect), other codes for malformed bytes. An error leaves the
+  /// decoder's state unchanged.
   Result<Message> decode(std::span<const std::uint8_t> bytes);
 
   void reset() {

@@ -10,7 +10,7 @@
 namespace semblante {
 namespace {
 
-/// Reads the fields of one message in order; the first fault is kept and the rest is not read.
+/// Reads the fields of one message in order; keeps the first error and does not read further.
 class BinaryFieldReader {
  public:
   BinaryFieldReader(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last)
@@ -92,8 +92,8 @@ class BinaryFieldReader {
     if (ended(name)) return;
     if (count == 0) return fail(ErrorCode::out_of_range, name, "must have at least one frame");
     if (count > max_frames_per_message) return fail(ErrorCode::too_large, name, "too many frames in a message");
-    // A frame takes two bytes at least: more cannot be announced than are there.
-    if (count > in_.remaining() / 2) return fail(ErrorCode::truncated, name, "fewer frames than announced");
+    // A frame has at least two bytes, so this bounds the declared count by the remaining bytes.
+    if (count > in_.remaining() / 2) return fail(ErrorCode::truncated, name, "fewer frames than declared");
     frames.reserve(count);
     TimedFrame frame{0, *last_};
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -114,7 +114,7 @@ class BinaryFieldReader {
   }
 
  private:
-  /// A message of an earlier writer ends before an appended field.
+  /// Whether the message of a writer of an earlier version ends before this appended field.
   [[nodiscard]] bool ends_before(Presence presence) const {
     return presence == Presence::appended && in_.remaining() == 0;
   }
@@ -164,7 +164,7 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::opt
 }  // namespace
 
 Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
-  if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "an empty message"};
+  if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "the message is empty"};
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
   if (is_packed_keyframe(bytes[0]) || is_packed_frames(bytes[0])) return decode_packed(bytes);
   auto result = read_by_type(bytes, last_, static_cast<const Message*>(nullptr));

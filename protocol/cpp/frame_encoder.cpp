@@ -8,7 +8,7 @@
 namespace semblante {
 namespace {
 
-/// Writes the fields of one message in order. `last` is the state that batches are differences to.
+/// Writes the fields of one message in order. `last` is the base state of the differences of a batch.
 class BinaryFieldWriter {
  public:
   BinaryFieldWriter(std::vector<std::uint8_t>& to, const FaceFrame& last) : to_(to), last_(last) {}
@@ -73,8 +73,8 @@ class BinaryFieldWriter {
   }
 
  private:
-  /// Appended fields that have their default are left out while none follows that has not, as earlier writers left
-  /// them out. The default of each is a byte of zero.
+  /// Trailing appended fields with default values are omitted, as writers of earlier versions omit them. The default
+  /// of each is one zero byte.
   bool left_out(bool is_default) {
     if (is_default) return ++left_out_, true;
     to_.insert(to_.end(), left_out_, 0);

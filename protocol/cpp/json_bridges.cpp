@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t with_rotations = 61;
 
-/// As a float that is finite: what is beyond 1e6 is clamped by the bridge anyway.
+/// Reads a coefficient as a finite float, clamped to +-1e6; the bridge clamps it further.
 float coefficient(const JsonCursor& at) { return static_cast<float>(std::clamp(at.number(), -1e6, 1e6)); }
 
-/// The angles of Live Link Face after the 52: those of the head, then six of the eyes, which eyeLook says already.
+/// The angles of Live Link Face after the 52 coefficients: three of the head, then six of the eyes, which are ignored.
 std::optional<std::size_t> find_rotation(std::string_view name) {
   constexpr std::array<std::string_view, 9> names = {"eadYaw",     "eadPitch",     "eadRoll",
                                                      "eftEyeYaw",  "eftEyePitch",  "eftEyeRoll",
@@ -53,7 +53,7 @@ void read_arkit(const JsonCursor& at, semblante_frame& frame, std::size_t& clamp
       } else if (const auto rotation = find_rotation(name)) {
         set(arkit_count + *rotation, value);
       } else {
-        value.fail(ErrorCode::invalid_argument, "is none of ARKit's 52 shapes and no angle of head or eyes");
+        value.fail(ErrorCode::invalid_argument, "is not one of ARKit's 52 shapes or an angle of head or eyes");
       }
     }
   }
@@ -75,7 +75,8 @@ void read_oculus(const JsonCursor& at, semblante_frame& frame, std::size_t& clam
       if (const auto viseme = find_oculus(name)) {
         weights[*viseme] = coefficient(value);
       } else {
-        value.fail(ErrorCode::invalid_argument, "is none of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou");
+        value.fail(ErrorCode::invalid_argument,
+                   "is not one of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou");
       }
     }
   }
@@ -95,7 +96,7 @@ std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame, std::s
   const auto oculus = frame.optional_member("oculus");
   if (!arkit && !oculus) return std::nullopt;
   if (oculus && frame.optional_member("viseme")) {
-    oculus->fail(ErrorCode::invalid_argument, "says what `viseme` says: give one of them");
+    oculus->fail(ErrorCode::invalid_argument, "is not allowed beside `viseme`");
   }
   semblante_frame result{};
   if (arkit) read_arkit(*arkit, result, clamped);

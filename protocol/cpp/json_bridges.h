@@ -8,9 +8,9 @@
 
 namespace semblante {
 
-/// What the members `arkit` and `oculus` of a frame make of a face; empty where it has neither. FAP 1 of `oculus` goes
-/// before that of `arkit`. Anything wrong is reported at its place. Coefficients and weights outside 0..1 are taken as
-/// the nearer end; how many those were is added to `clamped`.
+/// Reads the members `arkit` and `oculus` of a frame; empty when it has neither. FAP 1 of `oculus` takes precedence
+/// over that of `arkit`. Errors are reported at the cursor. Coefficients and weights outside 0..1 are clamped, and
+/// their number is added to `clamped`.
 std::optional<semblante_frame> read_json_bridges(const JsonCursor& frame, std::size_t& clamped);
 
 }  // namespace semblante

@@ -12,14 +12,14 @@
 
 namespace semblante {
 
-/// One message as text. FAPs are in FAP units, each frame is whole (there is no delta form in JSON).
+/// Encodes one message as text. FAPs are in FAP units, frames are complete states (JSON has no delta form).
 std::string encode_json(const Message& message, const QuantizerSteps& steps = standard_quantizers());
 
-/// One message from text. Errors carry the JSON pointer of the member at fault in `where`.
+/// Decodes one message. Errors have the JSON pointer of the invalid member in `where`.
 Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps = standard_quantizers());
 
 /// The body of POST /v1/streams/{id}/frames: {"frames": [{"time", "viseme", "expression", "faps"}, ...]}, at least one.
-/// `clamped` gets how many of ARKit's coefficients and Oculus's weights were outside 0..1.
+/// `clamped` receives the number of ARKit coefficients and Oculus weights outside 0..1.
 Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text,
                                                    const QuantizerSteps& steps = standard_quantizers(),
                                                    std::size_t* clamped = nullptr);
@@ -29,11 +29,11 @@ struct JsonValuesLimits {
   std::size_t frames = 100'000;
 };
 
-/// The same form as a file: in FAP units as they stand (finite, within +-1e9), not quantized.
+/// Decodes the same form from a file: values in FAP units (finite, within +-1e9), not quantized.
 Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits = {});
-/// One frame of it, without what stands around the list.
+/// One frame of such a file, without the surrounding list.
 std::string encode_json_value(const TimedValues& frame);
-/// One frame a line. FAPs that are 0 are left out, and FAPs 1 and 2 that are none.
+/// The file with one frame per line. Omits FAPs that are 0, and FAPs 1 and 2 that are none.
 std::string encode_json_values(std::span<const TimedValues> frames);
 
 }  // namespace semblante

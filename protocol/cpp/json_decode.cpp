@@ -88,16 +88,16 @@ FaceValues read_values(const JsonCursor& at) {
     if (std::abs(units) > max_fap_value) value.fail(ErrorCode::out_of_range, "is beyond 1e9 FAP units");
     state.fap[fap] = units;
   };
-  std::size_t clamped = 0;  // a file is nobody's to be told
+  std::size_t clamped = 0;  // not reported for files
   return read_state_of<FaceValues>(at, set, clamped);
 }
 
-/// The time of a frame; `before`, that of the one before it, where it has none of its own.
+/// The time of a frame; by default `before`, the time of the frame before it.
 std::uint32_t read_time(const JsonCursor& frame, std::uint32_t before) {
   const auto given = frame.optional_member("time");
   if (!given) return before;
   const auto time = static_cast<std::uint32_t>(given->integer(0, max_frame_time));
-  if (time < before) given->fail(ErrorCode::out_of_range, "times must not fall");
+  if (time < before) given->fail(ErrorCode::out_of_range, "times must not decrease");
   return time;
 }
 
@@ -212,7 +212,7 @@ Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const 
 }
 
 Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits) {
-  // Frame by frame, since the document of a long file would take ten times its bytes.
+  // Frame by frame, because the JSON document of a long file would take ten times its bytes of memory.
   std::vector<TimedValues> frames;
   const auto take = [&](std::size_t index, const nlohmann::json& frame) -> Status {
     if (index == limits.frames)

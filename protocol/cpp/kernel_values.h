@@ -5,11 +5,11 @@
 
 namespace semblante {
 
-/// The kernel's frame as files and tools have it, and back (to single precision).
+/// Converts between the kernel's frame and FaceValues (to single precision).
 FaceValues to_values(const semblante_frame& frame);
 semblante_frame to_kernel_frame(const FaceValues& values);
 
-/// A frame in FAP units -> the levels of a stream, rounded to nearest; what is beyond +-32767 levels becomes that.
+/// Quantizes a frame in FAP units to the nearest levels of a stream, clamped to +-32767.
 FaceFrame quantized(const semblante_frame& frame, const QuantizerSteps& steps = standard_quantizers());
 
 }  // namespace semblante

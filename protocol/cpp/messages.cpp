@@ -33,7 +33,7 @@ StreamErrorCode stream_code(ErrorCode code) {
   return StreamErrorCode::other;
 }
 
-/// At most `most` bytes of a text, never half a character.
+/// Truncates a text to at most `most` bytes, at a UTF-8 character boundary.
 std::string cut(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;

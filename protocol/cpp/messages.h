@@ -1,7 +1,7 @@
 #pragma once
 
-// The stream messages as plain structs: Hello, Header, Keyframe, Frames, End, StreamError, Ping, Pong; `Message` is any
-// of them. They are generated from protocol/schema/messages.json; their meaning is in protocol/SPEC.md.
+// The stream messages as plain structs: Hello, Header, Keyframe, Frames, End, StreamError, Ping, Pong; `Message` is
+// their variant. Generated from protocol/schema/messages.json; protocol/SPEC.md defines their meaning.
 
 #include "core/types/result.h"
 #include "protocol/cpp/face_frame.h"
@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// What a peer is told about an error found in its message: same words, the code by name.
+/// Converts an error in a peer's message to the `error` message: same text, code by name.
 StreamError to_stream_error(const Error& error);
 
 }  // namespace semblante

@@ -5,8 +5,8 @@
 
 namespace semblante {
 
-/// The frame that makes the mirror image of the face: left becomes right. Visemes and expressions are symmetric by
-/// their nature and stay. For streams whose quantizer steps are alike on both sides, as the standard's are.
+/// The frame of the mirrored face: left and right exchanged. Visemes and expressions are symmetric and stay.
+/// Requires quantizer steps that are equal on both sides, as the standard's are.
 inline FaceFrame mirrored(const FaceFrame& frame) {
   FaceFrame result = frame;
   for (std::size_t n = first_low_level_fap; n <= last_low_level_fap; ++n) {

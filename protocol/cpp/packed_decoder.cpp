@@ -9,13 +9,13 @@ namespace semblante {
 namespace {
 
 Status check(const RangeDecoder& coder, const PackedModel<RangeDecoder>& model, const std::string& where) {
-  if (!coder.valid()) return Error{ErrorCode::malformed, where, "begins as no packed message does"};
+  if (!coder.valid()) return Error{ErrorCode::malformed, where, "is not the start of a packed message"};
   if (coder.truncated()) return Error{ErrorCode::truncated, where, "the message ends within a packed state"};
   if (!model.fault().empty()) return Error{ErrorCode::out_of_range, where + model.fault(), "outside its range"};
   return Unit{};
 }
 
-/// A longer message would be of a later version, which has to be of another type: what is coded has no end of its own.
+/// Refuses bytes after the code: it has no end marker, so later versions cannot append fields and use new types.
 Status check_end(const RangeDecoder& coder, const std::string& where) {
   if (coder.has_more()) return Error{ErrorCode::malformed, where, "bytes after the end"};
   return Unit{};

@@ -16,32 +16,32 @@
 
 namespace semblante {
 
-/// What is said about a face and when: SPEC.md, "Packed form". One walk for both directions: a Coder that encodes is
-/// given a value and gives it back; one that decodes is given whatever and gives what it reads. So each function takes
-/// the value to write and returns the value to go on with, and none may look at a value before it went through.
+/// The model of the packed form (SPEC.md, "Packed form"): which bits code frames and times, with which contexts. The
+/// same code encodes and decodes: each function takes the value to encode (ignored by a decoding Coder) and returns the
+/// encoded or decoded value. A function must not use a value before the Coder has returned it.
 template <class Coder>
 class PackedModel {
  public:
   PackedModel(Coder& coder, const PackedTable& table, PackedState& state)
       : coder_(coder), table_(table), state_(state) {}
 
-  /// All that a keyframe says but its number and time: from a state that nothing was said to yet, `source`.
+  /// Codes the content of a keyframe except its sequence number and time. `source`: the state to encode.
   void history(const PackedState& source);
-  /// The frame that follows, which becomes before[0].
+  /// Codes the next frame, which becomes before[0].
   void frame(FaceFrame& now);
-  /// The number of frames of a batch, 1 to 1024.
+  /// Codes the number of frames of a batch, 1 to 1024.
   std::uint64_t count(std::uint64_t value);
-  /// The media time of a batch, ms.
+  /// Codes the media time of a batch, ms.
   std::uint64_t base_time(std::uint64_t value);
-  /// The time of its first frame after that.
+  /// Codes the time of the batch's first frame, ms after its media time.
   std::uint64_t offset(std::uint64_t value);
-  /// The time of another frame after the one before.
+  /// Codes the time of a later frame, ms after the frame before.
   std::uint64_t step(std::uint64_t value);
-  /// A whole number: the length in bits of value + 1 in `most` contexts, then its bits.
+  /// Codes a whole number: the length in bits of value + 1 with `most` contexts, then its bits.
   std::uint64_t number(std::size_t lengths, unsigned most, std::uint64_t value);
   bool flag(std::size_t context, bool value) { return coder_.bit(table_[context], value ? 1 : 0) != 0; }
 
-  /// The member that cannot have the value that was read, as a JSON pointer; empty: none.
+  /// JSON pointer of the member whose decoded value is out of range; empty: none.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
@@ -208,7 +208,7 @@ void PackedModel<Coder>::viseme(VisemeBlend& now) {
   state_.viseme_class = static_cast<std::uint8_t>(kind + 1);
 }
 
-/// The blend of the same two visemes: the share of what was the first goes on as it went.
+/// Codes the blend of an unchanged pair of visemes, predicted by continuing the share of the previous first one.
 template <class Coder>
 void PackedModel<Coder>::share(VisemeBlend& now, bool swapped) {
   const VisemeBlend& was = state_.before[0].viseme;
@@ -268,7 +268,7 @@ void PackedModel<Coder>::expression(ExpressionBlend& now) {
   intensity(now.select2, now.intensity2);
 }
 
-/// An expression goes on as it went, whichever of the two it was.
+/// Codes an expression's intensity, predicted by linear continuation of its earlier values in either slot.
 template <class Coder>
 void PackedModel<Coder>::intensity(std::uint8_t select, std::uint8_t& now) {
   const auto of = [select](const ExpressionBlend& blend, int& value) {
@@ -307,7 +307,7 @@ void PackedModel<Coder>::group(const mpeg4::FapGroup& group, FaceFrame& now) {
     const std::size_t reference = packed_tables::references[fap];
     const int a = before[0].level[fap];
     if (before[1].level[fap] != a || before[2].level[fap] != a || before[3].level[fap] != a) continue;
-    // A reference of another group is known already.
+    // A reference in another group was coded earlier.
     if (reference != 0 && reference < group.first_fap && now.level[reference] != before[0].level[reference]) continue;
     still |= 1U << (fap - group.first_fap);
     moves |= now.level[fap] != a;
@@ -337,7 +337,7 @@ int PackedModel<Coder>::level(std::size_t fap, const FaceFrame& now, int value) 
   const std::size_t off_flag = reference_off != 0 ? 1U : 0U;
   const auto slow = [&](std::size_t i) { return std::abs(before[i].level[fap] - before[i + 1].level[fap]) <= 1; };
 
-  if (best.kind == shared && best.cost == 0) {  // it has followed exactly
+  if (best.kind == shared && best.cost == 0) {  // the FAP has followed its reference exactly
     const auto reach = static_cast<unsigned>(std::min(length(std::abs(reference_step)), 7));
     value = best.level + residual(packed_tables::follower_differs + 2U * reach + off_flag,
                                   packed_tables::follower_sign + reference_off, 10U + std::min(reach, 4U),
@@ -355,7 +355,7 @@ int PackedModel<Coder>::level(std::size_t fap, const FaceFrame& now, int value) 
   return value;
 }
 
-/// What creeps by less than a level a frame: the pattern of its steps says more than any line.
+/// Codes a FAP that moves by less than a level per frame: the pattern of its steps predicts better than a line.
 template <class Coder>
 int PackedModel<Coder>::slow_level(std::size_t fap, std::size_t reference, int reference_step, int value) {
   const auto& before = state_.before;
@@ -389,8 +389,8 @@ int PackedModel<Coder>::residual(std::size_t differs, std::size_t sign, unsigned
   return signed_number(sign, packed_tables::level_length + level_bits * set, level_bits, value);
 }
 
-/// now : reference_now as before : reference_before, rounded to the nearest, halves away from zero; where that is more
-/// than twice the reference's step away, the step itself.
+/// Predicts `now` as before * reference_now / reference_before, rounded to the nearest, halves away from zero; if that
+/// is more than twice the reference's step away from `before`, as before + the reference's step.
 template <class Coder>
 int PackedModel<Coder>::ratio(int reference_before, int reference_now, int before) {
   if (reference_before == 0) return before;
@@ -419,7 +419,7 @@ typename PackedModel<Coder>::Guess PackedModel<Coder>::guess(std::size_t fap, st
   const int rb = before[1].level[reference];
   const int rc = before[2].level[reference];
   Guess best{held(a + r - ra), 2 * std::abs(a - held(b + ra - rb)) + std::abs(b - held(c + rb - rc)), shared};
-  if (best.cost == 0) return best;  // most of a face follows exactly, and ratios are divisions
+  if (best.cost == 0) return best;  // most FAPs follow exactly, and ratios need divisions
   const int ratio_cost = 2 * std::abs(a - ratio(rb, ra, b)) + std::abs(b - ratio(rc, rb, c));
   if (ratio_cost < best.cost) best = {ratio(ra, r, a), ratio_cost, shared};
   if (line_guess.cost < best.cost) best = line_guess;
@@ -441,7 +441,7 @@ std::uint64_t PackedModel<Coder>::count(std::uint64_t value) {
   return value;
 }
 
-/// `first`: 0 of the first frame of a batch, 1 of another.
+/// `first`: 0 for the first frame of a batch, 1 for later ones.
 template <class Coder>
 std::uint64_t PackedModel<Coder>::timed(std::size_t first, std::uint64_t expected, std::uint64_t value,
                                         const char* where) {

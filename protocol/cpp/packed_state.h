@@ -9,8 +9,8 @@ namespace semblante {
 
 inline constexpr std::uint64_t max_media_time = 9007199254740991U;  // 2^53 - 1
 
-/// All that both sides of a packed stream remember: the last four frames and what the next message's numbers and times
-/// are expected to be. Its tables are fixed, so nothing else is learned, and a keyframe can say the whole of it.
+/// The state that encoder and decoder of a packed stream share: the last four frames and the predicted numbers and
+/// times of the next message. There is no other adaptation (tables are fixed), so a keyframe contains the whole state.
 struct PackedState {
   std::array<FaceFrame, 4> before{};  ///< [0] the newest
   std::uint64_t sequence = 0;         ///< of before[0]

@@ -22,7 +22,7 @@ constexpr auto easing_names =
 constexpr auto target_names =
     std::to_array<std::string_view>({"fap", "viseme", "expression", "look_at", "blink", "head"});  // as CueTarget
 
-/// The place of a name among the entries of a table of the standard, or its number; fails beyond `least` to `most`.
+/// Reads a name in a table of the standard as its index, or a number; fails outside `least` to `most`.
 template <class Table>
 std::uint8_t named_or_numbered(const JsonCursor& at, const Table& table, std::size_t first_number, std::size_t least,
                                const char* what) {
@@ -48,7 +48,7 @@ VisemeTarget read_viseme_target(const JsonCursor& at) {
 void refuse_unknown(const JsonCursor& at, std::initializer_list<std::string_view> known) {
   for (const auto& [name, member] : at.members()) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      member.fail(ErrorCode::invalid_argument, "there is no such member here");
+      member.fail(ErrorCode::invalid_argument, "unknown member");
   }
 }
 
@@ -74,7 +74,8 @@ LookTarget read_look(const JsonCursor& at) {
     return look;
   }
   for (const char* other : {"yaw", "pitch", "distance"}) {
-    if (const auto both = at.optional_member(other)) both->fail(ErrorCode::invalid_argument, "a point says it already");
+    if (const auto both = at.optional_member(other))
+      both->fail(ErrorCode::invalid_argument, "is not allowed beside point");
   }
   const auto xyz = point->elements(3, 3);
   if (at.failed()) return look;
@@ -171,7 +172,7 @@ Cue read_cue(const JsonCursor& at) {
   if (const auto note = at.optional_member("note")) (void)note->text(max_performance_text_bytes);
   const auto value = at.optional_member("value");
   if (const auto keys = at.optional_member("keys")) {
-    if (value) value->fail(ErrorCode::invalid_argument, "the keys say it already");
+    if (value) value->fail(ErrorCode::invalid_argument, "is not allowed beside keys");
     for (const auto& key : keys->elements(1, max_performance_keys)) {
       const auto pair = key.elements(2, 2);
       if (at.failed()) return cue;
@@ -198,26 +199,26 @@ IdleLife read_idle(const JsonCursor& at) {
 
 // ---- the document
 
-/// All but the cues.
+/// Reads all members except the cues.
 void read_members(const JsonCursor& root, PerformanceScript& script) {
   refuse_unknown(root, {"format", "version", "name", "note", "duration", "idle", "cues"});
   if (const auto format = root.member("format"); format.text(64) != performance_format)
     format.fail(ErrorCode::unsupported, "must be \"" + std::string(performance_format) + "\"");
   const auto version = root.member("version");
   if (version.number() != performance_version)
-    version.fail(ErrorCode::unsupported, "this reader knows version " + std::to_string(performance_version));
+    version.fail(ErrorCode::unsupported, "the supported version is " + std::to_string(performance_version));
   if (const auto name = root.optional_member("name")) script.name = name->text(max_performance_text_bytes);
   if (const auto note = root.optional_member("note")) (void)note->text(max_performance_text_bytes);
   script.duration = optional_number(root, "duration");
   if (const auto idle = root.optional_member("idle")) script.idle = read_idle(*idle);
   if (const auto cues = root.optional_member("cues")) {
-    (void)cues->size();  // must be an array; it is empty, for its elements were taken one by one
+    (void)cues->size();  // must be an array; it is empty here, because its elements were read one by one
   } else if (!script.idle) {
     root.member("cues").fail(ErrorCode::missing, "is required where there is no idle life");
   }
 }
 
-/// A key is a list of two numbers; "cues" may have one cue that holds all keys there may be.
+/// A key is a list of two numbers; a single cue may contain the maximum number of keys.
 constexpr JsonLimits limits = {
     .max_bytes = max_performance_bytes, .max_depth = 5, .max_values = 4 * max_performance_keys};
 

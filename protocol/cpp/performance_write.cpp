@@ -74,7 +74,7 @@ std::string write_performance(const PerformanceScript& script) {
                     {"eyes", json_number<json>(script.idle->eyes)}};
   }
   std::string text = head.dump();
-  text.back() = ',';  // of the closing brace: the cues follow, a line each
+  text.back() = ',';  // replaces the closing brace: the cues follow, one per line
   text += "\n \"cues\": [";
   for (std::size_t i = 0; i < script.cues.size(); ++i) {
     text += i == 0 ? "\n  " : ",\n  ";

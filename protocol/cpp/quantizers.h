@@ -9,31 +9,31 @@
 
 namespace semblante {
 
-/// By FAP number (entries 0..2 are 1 and unused): FAP units per quantized level.
+/// FAP units per quantized level, by FAP number (entries 0..2 are 1 and unused).
 using QuantizerSteps = std::array<double, 69>;
 
-/// The steps of the standard's table.
+/// The quantizer steps of the standard.
 const QuantizerSteps& standard_quantizers();
 
-/// What a stream's steps may be of the standard ones: as they are, or finer.
+/// Allowed ratios of a stream's steps to the standard ones.
 inline constexpr std::array<double, 4> quantizer_scales = {1.0, 0.5, 0.25, 0.125};
 bool is_quantizer_scale(double scale);
 
 /// The standard steps times one of quantizer_scales.
 QuantizerSteps scaled_quantizers(double scale);
 
-/// A header's `quantizers` for such steps: empty for 1.
+/// The header's `quantizers` for such steps; empty for scale 1.
 std::vector<double> header_quantizers(double scale);
 
-/// The same face in levels of other steps, to the nearest (halves away from zero); what is beyond +-32767 levels
-/// becomes that. From coarse to fine and back is exact.
+/// Converts a frame to levels of other steps, rounded to the nearest (halves away from zero) and clamped to +-32767
+/// levels. A conversion from coarse to fine and back is exact.
 FaceFrame requantized(const FaceFrame& frame, const QuantizerSteps& from, const QuantizerSteps& to);
 
-/// The steps a stream uses: its header's own, or the standard ones when it gives none.
+/// The quantizer steps of a stream: those of its header, else the standard's.
 QuantizerSteps quantizers_of(const Header& header);
 
-/// value in FAP units -> level, rounded to nearest (halves away from zero). Errors: not_finite; out_of_range beyond
-/// +-32767 levels. `where` is left to the caller.
+/// Quantizes a value in FAP units to the nearest level (halves away from zero). Errors: not_finite; out_of_range
+/// beyond +-32767 levels. The caller sets `where`.
 Result<std::int16_t> quantize(double fap_units, double step);
 
 }  // namespace semblante

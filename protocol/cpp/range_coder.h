@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
-/// Binary range coding with fixed probabilities: SPEC.md, "Range coder". Integers only, so that every language makes
+/// Binary range coding with fixed probabilities: SPEC.md, "Range coder". Integers only, so that every language produces
 /// the same bytes.
 namespace semblante {
 
-/// Probabilities are of a 1, in 4096ths, 1 to 4095.
+/// A probability is that of a 1, in 4096ths, 1 to 4095.
 inline constexpr unsigned probability_bits = 12;
 
 class RangeEncoder {
  public:
   static constexpr bool decodes = false;
 
-  /// Appends to `to`, and reaches back no farther than its present end.
+  /// Appends to `to`; carries never change bytes before its current end.
   explicit RangeEncoder(std::vector<std::uint8_t>& to) : to_(to) {}
 
   int bit(std::uint32_t probability, int value) {
@@ -30,7 +30,7 @@ class RangeEncoder {
     while (range_ < (1U << 24U)) shift();
     return value;
   }
-  /// The low `count` bits of `value`, high ones first, each as likely 0 as 1.
+  /// Codes the low `count` bits of `value`, high bits first, each with probability 1/2.
   std::uint64_t bits(unsigned count, std::uint64_t value) {
     while (count-- > 0) {
       range_ >>= 1U;
@@ -39,7 +39,7 @@ class RangeEncoder {
     }
     return value;
   }
-  /// The shortest end that reads as what was written when zeros follow.
+  /// Writes the shortest end that decodes correctly when the decoder appends zeros.
   void finish() {
     for (unsigned count = 0; count <= 4; ++count) {
       const std::uint64_t rest = (std::uint64_t{1} << (32 - 8 * count)) - 1;
@@ -72,7 +72,7 @@ class RangeEncoder {
   std::uint32_t range_ = 0xFFFFFFFFU;
 };
 
-/// Takes any bytes.
+/// Decodes untrusted bytes.
 class RangeDecoder {
  public:
   static constexpr bool decodes = true;
@@ -82,7 +82,7 @@ class RangeDecoder {
     valid_ = code_ < range_;  // and stays so
   }
 
-  /// The second argument stands for the encoder's value.
+  /// The second argument exists for the interface of the encoder only.
   int bit(std::uint32_t probability, int /*value*/ = 0) {
     const std::uint32_t bound = (range_ >> probability_bits) * probability;
     const bool one = code_ < bound;
@@ -106,11 +106,11 @@ class RangeDecoder {
     }
     return value;
   }
-  /// Whether more was read than the four bytes after the end that an encoder may leave out.
+  /// Whether more than the four bytes that an encoder may omit were read past the end.
   [[nodiscard]] bool truncated() const { return at_ > bytes_.size() + 4; }
-  /// Whether it begins as no encoder begins.
+  /// Whether the first bytes can come from an encoder.
   [[nodiscard]] bool valid() const { return valid_; }
-  /// Whether bytes are left that an encoder would not have written.
+  /// Whether bytes remain that an encoder would not have written.
   [[nodiscard]] bool has_more() const { return at_ < bytes_.size(); }
 
  private:

@@ -21,9 +21,9 @@ namespace semblante {
 inline constexpr std::size_t viseme_count = 15;
 inline constexpr std::size_t expression_count = 7;  ///< entry 0 is "none"
 
-/// rig.json: what a client needs to know beside the vertices. All lengths in model units, MPEG-4 frame.
+/// rig.json: all data of a face except vertices and weights. Lengths in model units, axes of MPEG-4.
 struct RigDocument {
-  /// Draco unique ids of the attributes of mesh.drc; empty: the mesh has none.
+  /// Draco unique ids of the attributes of mesh.drc; empty: the mesh has no such attribute.
   struct Attributes {
     std::optional<std::uint32_t> position, normal, uv, material, file_vertex;
   };
@@ -78,7 +78,7 @@ struct RigDocument {
     std::uint64_t bytes = 0;
   };
 
-  /// One of the packages of a face: its full mesh (lod 0) or a level of detail.
+  /// One package of a face: the full mesh (lod 0) or a level of detail.
   struct Level {
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
@@ -109,7 +109,7 @@ struct RigDocument {
 /// The document as JSON text. Displacements are rounded to five significant digits; every other float is exact.
 std::string write_rig(const RigDocument& rig);
 
-/// Reads and checks one: errors carry the JSON pointer of the member at fault. Unknown members are skipped.
+/// Parses and validates rig.json. Errors have the JSON pointer of the invalid member. Unknown members are skipped.
 Result<RigDocument> read_rig(std::string_view json);
 
 }  // namespace semblante

@@ -17,7 +17,7 @@ namespace {
 /// The longest list has 100,000 parts of a dozen values each.
 constexpr JsonLimits rig_limits = {.max_bytes = 16U << 20U, .max_depth = 64, .max_values = 2'000'000};
 constexpr std::size_t max_rig_text_bytes = 4096;
-constexpr std::size_t max_list = 100'000;  // parts, materials, warnings: a hostile file ends somewhere
+constexpr std::size_t max_list = 100'000;  // parts, materials, warnings: bounds a hostile file
 constexpr std::uint64_t max_u32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t max_exact = (1ULL << 53U) - 1;
 constexpr double max_float = std::numeric_limits<float>::max();
@@ -116,7 +116,7 @@ void displacement_sets(const JsonCursor& at, std::array<RigDocument::Displacemen
   }
 }
 
-/// A unit vector, as far as its digits say.
+/// Reads a unit vector, with a tolerance for rounded digits.
 glm::vec3 direction(const JsonCursor& at) {
   const glm::vec3 v = vec3(at);
   const double square = glm::dot(glm::dvec3(v), glm::dvec3(v));
@@ -146,7 +146,7 @@ Tongue tongue(const JsonCursor& at) {
   result.left = direction(at.member("left"));
   result.up = direction(at.member("up"));
   if (!(std::abs(glm::dot(result.left, result.up)) < 1e-3F)) {
-    at.member("up").fail(ErrorCode::out_of_range, "must be at right angles to left");
+    at.member("up").fail(ErrorCode::out_of_range, "must be perpendicular to left");
   }
   result.half_width = above(at.member("half_width"), 0.0F);
   result.roll_limit = static_cast<float>(at.member("roll_limit").number(0.0, 7.0));
@@ -215,7 +215,7 @@ Result<RigDocument> read_rig(std::string_view text) {
   for (const auto& at : root.member("feature_points").elements(0, feature_point_count)) {
     const RigDocument::Point read = point(at, rig.mesh.vertices);
     if (!rig.feature_points.empty() && rig.feature_points.back().id >= read.id) {
-      at.member("id").fail(ErrorCode::malformed, "ids must rise");
+      at.member("id").fail(ErrorCode::malformed, "ids must be increasing");
     }
     rig.feature_points.push_back(read);
   }
@@ -235,7 +235,8 @@ Result<RigDocument> read_rig(std::string_view text) {
   rig.bounds_max = vec3(root.member("bounds").member("max"));
   for (const auto& at : root.member("materials").elements(1, 256)) rig.materials.push_back(material(at));
   for (const auto& at : root.member("images").elements(0, max_list)) rig.images.push_back(image(at));
-  for (const auto& at : root.member("warnings").elements(0, max_list)) rig.warnings.push_back(at.text(max_rig_text_bytes));
+  for (const auto& at : root.member("warnings").elements(0, max_list))
+    rig.warnings.push_back(at.text(max_rig_text_bytes));
   if (report) return *report;
   return rig;
 }

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The double with the fewest digits that is this float again: 0.1F is written 0.1, not 0.10000000149011612.
+/// The double with the fewest digits that rounds to this float: 0.1F is written as 0.1, not 0.10000000149011612.
 double shortest(float value) {
   char digits[32];
   const auto [end, status] = std::to_chars(std::begin(digits), std::end(digits), value);
@@ -18,7 +18,7 @@ double shortest(float value) {
   return status == std::errc() ? result : static_cast<double>(value);
 }
 
-/// Five significant digits: a displacement moves vertices through weights of 12 bits, and most of rig.json is these.
+/// Rounds a displacement to five significant digits: weights have 12 bits, and displacements are most of rig.json.
 double five_digits(float value) {
   char digits[32];
   const auto [end, status] = std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::general, 5);
@@ -27,7 +27,7 @@ double five_digits(float value) {
   return status == std::errc() ? result : static_cast<double>(value);
 }
 
-/// 0, not 0.0 or -0.0: a third of the components.
+/// Writes zero as 0 instead of 0.0 or -0.0, to save bytes: a third of the components are zero.
 ordered_json component(float value) { return value == 0.0F ? ordered_json(0) : ordered_json(five_digits(value)); }
 
 ordered_json vector_of(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }

@@ -5,7 +5,7 @@
 
 namespace semblante {
 
-/// What rig.json tells the kernel. A unit or a moving part that the document does not have becomes what moves nothing.
+/// Converts rig.json for the kernel. A missing FAPU or moving part becomes a value without effect.
 KernelRig to_kernel_rig(const RigDocument& document);
 
 }  // namespace semblante

@@ -8,12 +8,12 @@
 
 namespace semblante {
 
-/// A SHA-256 as its 32 bytes. Who computes it is not the protocol's business.
+/// A SHA-256 hash as its 32 bytes. The protocol does not compute hashes.
 using Sha256 = std::array<std::uint8_t, 32>;
 
 /// 64 lower-case hexadecimal digits.
 std::string to_hex(const Sha256& hash);
-/// The reverse; nullopt unless it is exactly 64 hexadecimal digits (either case).
+/// Parses exactly 64 hexadecimal digits (either case); else nullopt.
 std::optional<Sha256> parse_sha256(std::string_view hex);
 
 }  // namespace semblante

@@ -13,7 +13,7 @@ constexpr int level_limit = static_cast<int>(max_level);
 
 constexpr std::uint32_t bit_of(const mpeg4::FapGroup& group) { return 1U << group.number; }
 
-/// Which FAPs of a group differ, bit 0 is its first.
+/// Mask of the FAPs of a group that differ; bit 0 is the first FAP of the group.
 std::uint32_t changes(const mpeg4::FapGroup& group, const FaceFrame& from, const FaceFrame& state) {
   std::uint32_t mask = 0;
   for (std::size_t fap = group.first_fap; fap <= group.last_fap; ++fap) {
@@ -43,13 +43,13 @@ Status read_group(byte_io::Reader& reader, const mpeg4::FapGroup& group, FaceFra
   const unsigned size = group.last_fap - group.first_fap + 1U;
   if (reader.failed()) return Unit{};
   if (mask == 0 || mask >> size != 0) {
-    return Error{ErrorCode::out_of_range, where + "/faps", "a mask names no FAP of its group"};
+    return Error{ErrorCode::out_of_range, where + "/faps", "a mask is zero or has bits outside its group"};
   }
   for (unsigned i = 0; i < size; ++i) {
     if ((mask >> i & 1U) == 0) continue;
     const std::size_t fap = group.first_fap + i;
     const std::uint64_t difference = reader.varint();
-    // Levels lie within +-32767, so that a difference has at most 17 bits.
+    // Levels are within +-32767, so a difference has at most 17 bits.
     const std::int64_t level = state.level[fap] + (difference >> 17U != 0 ? 2 * level_limit + 1 : unzigzag(difference));
     if (level < -level_limit || level > level_limit) {
       return Error{ErrorCode::out_of_range, where + "/faps/" + std::to_string(fap), "beyond 32767 levels"};

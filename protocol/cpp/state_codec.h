@@ -8,7 +8,7 @@
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/face_frame.h"
 
-/// The binary form of a face's state as differences to another one: SPEC.md, "State".
+/// The binary form of a face state as the differences to another state: SPEC.md, "State".
 namespace semblante {
 
 inline constexpr std::uint8_t max_viseme = 14;
@@ -17,7 +17,7 @@ inline constexpr std::uint8_t max_blend = 63;
 
 void append_state(std::vector<std::uint8_t>& to, const FaceFrame& from, const FaceFrame& state);
 
-/// Turns `state`, the one before, into the one that is read. `where` is the pointer of the state, for errors.
+/// Decodes the next state in place of `state`, the previous one. `where`: JSON pointer of the state, for errors.
 Status read_state(byte_io::Reader& reader, FaceFrame& state, const std::string& where);
 
 /// Whether every member is within its documented range.

@@ -14,7 +14,7 @@ namespace {
 
 using namespace weights_layout;
 
-/// Deflate makes at most 1032 bytes of one: an announced size beyond that is a lie, refused before memory is asked for.
+/// Maximum expansion of deflate: a larger declared size is refused before memory is allocated.
 constexpr std::uint64_t max_inflation = 1032;
 
 struct Header {
@@ -65,10 +65,10 @@ Result<Header> read_header(std::span<const std::uint8_t> bytes) {
     return fail(ErrorCode::out_of_range, "set_count", "not between 1 and the number of vertices");
   }
   if (header.packed_bytes > bytes.size() - header_bytes) {
-    return fail(ErrorCode::truncated, "payload", "ends before the announced size");
+    return fail(ErrorCode::truncated, "payload", "ends before the declared size");
   }
   if (header.packed_bytes < bytes.size() - header_bytes) {
-    return fail(ErrorCode::malformed, "payload", "bytes after the announced size");
+    return fail(ErrorCode::malformed, "payload", "bytes after the declared size");
   }
   if (header.raw_bytes > max_inflation * header.packed_bytes) {
     return fail(ErrorCode::malformed, "raw_bytes", "more than the packed bytes can hold");
@@ -83,7 +83,7 @@ Result<std::vector<std::uint8_t>> inflate_payload(std::span<const std::uint8_t> 
   uLong consumed = packed.size();
   if (uncompress2(raw.data(), &size, packed.data(), &consumed) != Z_OK || size != raw.size() ||
       consumed != packed.size()) {
-    return fail(ErrorCode::malformed, "payload", "not the announced zlib stream");
+    return fail(ErrorCode::malformed, "payload", "not a zlib stream of the declared size");
   }
   return raw;
 }
@@ -102,9 +102,10 @@ Result<std::vector<InfluenceSetView>> read_dictionary(byte_io::Reader& reader, s
     set.unit_sum = (first & unit_sum_flag) != 0;
     set.points = reader.take(first & ~unit_sum_flag & 0xFFU);
     if (reader.failed()) return fail(ErrorCode::truncated, "dictionary", "ends early");
-    if (set.unit_sum && set.points.empty()) return fail(ErrorCode::malformed, "dictionary", "nothing sums to one");
+    if (set.unit_sum && set.points.empty())
+      return fail(ErrorCode::malformed, "dictionary", "an empty set cannot sum to one");
     if (std::adjacent_find(set.points.begin(), set.points.end(), std::greater_equal<>()) != set.points.end()) {
-      return fail(ErrorCode::malformed, "dictionary", "the points of a set do not rise");
+      return fail(ErrorCode::malformed, "dictionary", "the points of a set are not increasing");
     }
     if (!set.points.empty() && set.points.back() >= feature_point_count) {
       return fail(ErrorCode::out_of_range, "dictionary", "no feature point " + std::to_string(set.points.back()));
@@ -184,7 +185,8 @@ Status read_rigid(byte_io::Reader& reader, const Header& header, std::vector<std
     if (!is_rigid_motion(motion) || (header.version == version_of_eyes && motion > greatest_eye_motion)) {
       return fail(ErrorCode::out_of_range, "rigid", "unknown rigid motion");
     }
-    if (run == 0 || run > vertex_count - rigid.size()) return fail(ErrorCode::out_of_range, "rigid", "length of a run");
+    if (run == 0 || run > vertex_count - rigid.size())
+      return fail(ErrorCode::out_of_range, "rigid", "invalid length of a run");
     rigid.insert(rigid.end(), run, motion);
   }
   return Unit{};

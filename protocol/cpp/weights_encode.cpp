@@ -19,7 +19,7 @@ namespace {
 
 using namespace weights_layout;
 
-/// One entry of the dictionary: which points move a vertex, and whether its weights sum to one.
+/// One entry of the dictionary: the points that move a vertex, and whether its weights sum to one.
 struct OrderedInfluenceSet {
   std::vector<std::uint16_t> points;  ///< dense indices; not bytes, whose comparison GCC 12 warns of for no reason
   bool unit_sum = false;
@@ -37,7 +37,7 @@ bool sums_to_one(std::span<const float> row) {
   return !row.empty() && std::abs(std::accumulate(row.begin(), row.end(), 0.0) - 1.0) <= 1e-5;
 }
 
-/// Largest remainder: whole parts first, then one more for those that lost most, so that the sum is `total` exactly.
+/// Largest remainder method: integer parts first, then one more for the largest remainders, so the sum is `total`.
 void quantize_unit_row(std::span<const float> row, std::uint32_t total, std::uint32_t* levels) {
   const double scale = total / std::accumulate(row.begin(), row.end(), 0.0);
   std::vector<std::pair<double, std::size_t>> remainders;
@@ -111,7 +111,7 @@ void append_planes(std::vector<std::uint8_t>& to, std::span<const std::uint32_t>
   }
 }
 
-/// A weight is foretold by that of the last vertex with the same set: neighbours in the mesh follow each other.
+/// Predicts each weight by that of the last vertex with the same set, usually a neighbour in the mesh.
 std::vector<std::uint32_t> residuals(const WeightTable<float>& rows, const Quantized& quantized,
                                      const Dictionary& dictionary, int bits) {
   std::vector<std::vector<std::uint32_t>> last(dictionary.sets.size());
@@ -176,7 +176,7 @@ std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const Weig
   uLongf packed = bytes.size() - header_bytes;
   const int status =
       compress2(bytes.data() + header_bytes, &packed, payload.data(), payload.size(), Z_BEST_COMPRESSION);
-  if (status != Z_OK) std::abort();  // the buffer is compressBound() long: only out of memory is left
+  if (status != Z_OK) std::abort();  // the buffer is compressBound() long, so the only possible error is out of memory
   bytes.resize(header_bytes + packed);
 
   std::memcpy(bytes.data(), magic, sizeof(magic));

@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// The `weights` artefact of a face package in memory: Eq. 7 per vertex of the mesh it belongs to.
+/// The decoded `weights` artefact of a face package: the weights of Eq. 7 per vertex of its mesh.
 struct InfluenceTable {
   std::uint32_t vertex_count = 0;
   Sha256 mesh_sha256{};             ///< of the bytes of mesh.drc whose decoded vertex order this is
@@ -28,10 +28,10 @@ inline constexpr std::uint32_t max_weights_entries = 48'000'000;
 /// Rows that sum to one (within 1e-5) sum to exactly one after quantization too. Asserts that the table is consistent.
 std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const WeightsEncoding& encoding = {});
 
-/// Takes any bytes: everything announced is checked against limits before memory is asked for.
+/// Decodes untrusted bytes: checks all declared sizes against limits before allocation.
 Result<InfluenceTable> decode_weights(std::span<const std::uint8_t> bytes);
 
-/// The greatest difference of one weight between a table and what its encoding gives back. Same shape on both sides.
+/// The largest difference of a weight between a table and its decoded encoding. Both must have the same shape.
 double max_quantization_error(const InfluenceTable& table, const InfluenceTable& decoded);
 
 }  // namespace semblante

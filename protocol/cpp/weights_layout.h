@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the encoder and the decoder of the `weights` artefact must agree on: SPEC.md, "The weights artefact".
+/// Layout constants shared by the encoder and the decoder of the `weights` artefact: SPEC.md, 1.3.
 namespace semblante::weights_layout {
 
 inline constexpr std::uint8_t magic[4] = {'S', 'B', 'W', 'T'};
-/// 1: no rigid motion beyond those of the eyes. 2: irises and tongue as well. Written is the lesser that will do.
+/// Versions. 1: only the rigid motions of the eyes. 2: also irises and tongue. The encoder uses the lowest sufficient.
 inline constexpr std::uint16_t version_of_eyes = 1;
 inline constexpr std::uint16_t version_of_all_parts = 2;
 inline constexpr std::uint8_t greatest_eye_motion = 2;
@@ -27,17 +27,17 @@ inline constexpr std::size_t at_packed_bytes = 28;
 inline constexpr std::size_t at_mesh_sha256 = 32;
 inline constexpr std::size_t header_bytes = 64;
 
-/// Top bit of a set's first byte: the weights of its vertices sum to exactly one, so that the last is not stored.
+/// Top bit of a set's first byte: the weights of its vertices sum to exactly one, so the last is not stored.
 inline constexpr std::uint8_t unit_sum_flag = 0x80;
 
-/// Bytes that one set id takes, stored as planes: the low bytes of all vertices, then the next, ...
+/// Bytes per set id, stored as planes: the low bytes of all vertices, then the next, ...
 constexpr int id_planes(std::uint32_t set_count) { return set_count <= 0x100U ? 1 : set_count <= 0x10000U ? 2 : 3; }
 inline constexpr std::uint32_t max_set_count = 1U << 24U;
 
-/// Bytes that one weight residual takes, stored as planes likewise.
+/// Bytes per weight residual, also stored as planes.
 constexpr int weight_planes(int bits) { return bits <= 8 ? 1 : 2; }
 
-/// Differences wrap modulo 2^bits, so that they too have `bits` bits; small ones of either sign become small numbers.
+/// Zigzag code of the difference modulo 2^bits, which has `bits` bits; small differences of either sign are small.
 constexpr std::uint32_t fold(std::uint32_t value, std::uint32_t prediction, int bits) {
   const std::uint32_t mask = (1U << static_cast<unsigned>(bits)) - 1U;
   const std::uint32_t difference = (value - prediction) & mask;

@@ -1,9 +1,9 @@
 /** Little-endian numbers and LEB128 varints. */
 
-/** A read past the end; who reads knows which field that was and says so. */
+/** A read past the end. The caller knows the field and converts this to a ProtocolError. */
 export class EndOfBytes extends Error {}
 
-/** A varint beyond 2^53 - 1, which no field of the protocol allows. */
+/** A varint beyond 2^53 - 1, which no field allows. */
 export class VarintTooLarge extends Error {}
 
 export class ByteWriter {

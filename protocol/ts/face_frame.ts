@@ -15,18 +15,18 @@ export interface ExpressionBlend {
   intensity2: number;
 }
 
-/** The whole state of a face at one moment: never a change, never an event. */
+/** The complete state of a face at one moment (never a difference or an event). */
 export interface FaceFrame {
   viseme: VisemeBlend;
   expression: ExpressionBlend;
   /**
-   * By FAP number (entries 0..2 unused): quantized level, -32767..32767; FAP units = level * the stream's step for that
-   * FAP. Level 0 is "absent": the FAP does not override visemes and expressions.
+   * Quantized levels by FAP number (entries 0..2 unused), -32767..32767; FAP units = level * the stream's step for the
+   * FAP. Level 0 means "absent": the FAP does not override visemes and expressions.
    */
   levels: Int16Array;
 }
 
-/** A frame with its place in time: whole milliseconds after the media time of its message. */
+/** A frame with its time: whole milliseconds after the media time of its message. */
 export interface TimedFrame {
   time: number;
   state: FaceFrame;

@@ -1,9 +1,9 @@
 import { firstLowLevelFap, lastLowLevelFap, maxBlend, maxExpression, maxViseme } from './face_frame.ts';
 import { ProtocolError } from './protocol_error.ts';
 
-// .fap files: rules in protocol/FAP_FILE.md; the same as protocol/cpp/fap_file.h, held together by protocol/vectors/fap.
+// .fap files: rules in protocol/FAP_FILE.md. The same as protocol/cpp/fap_file.h; protocol/vectors/fap tests both.
 
-/** FAP 1 as a file has it. Selects 0..14, blend 0..63; viseme_def 0 or 1 is kept, of no effect here. */
+/** FAP 1 in a file. Selects 0..14, blend 0..63; viseme_def (0 or 1) is preserved but has no effect. */
 export interface FapFileViseme {
   select1: number;
   select2: number;
@@ -11,7 +11,7 @@ export interface FapFileViseme {
   viseme_def: number;
 }
 
-/** FAP 2 as a file has it. Selects 0..6, intensities 0..63; the last two, 0 or 1, are kept, of no effect here. */
+/** FAP 2 in a file. Selects 0..6, intensities 0..63; the last two (0 or 1) are preserved but have no effect. */
 export interface FapFileExpression {
   select1: number;
   intensity1: number;
@@ -22,28 +22,28 @@ export interface FapFileExpression {
 }
 
 export interface FapFileFrame {
-  /** From 0, rising; numbers may be left out. */
+  /** Increasing from 0, possibly with gaps. */
   number: number;
-  /** Which FAPs the frame speaks of: numbers 1..68, rising. */
+  /** The FAPs present in the frame: numbers 1..68, increasing. */
   present: number[];
-  /** There if FAP 1 is present. */
+  /** Defined if FAP 1 is present. */
   viseme?: FapFileViseme;
-  /** There if FAP 2 is present. */
+  /** Defined if FAP 2 is present. */
   expression?: FapFileExpression;
-  /** By FAP number (entries 0..2 unused), FAP units; 0 unless present. */
+  /** Values by FAP number (entries 0..2 unused), FAP units; 0 if absent. */
   values: Float64Array;
 }
 
 export interface FapFile {
-  /** Frames a second, 0.001..1000. */
+  /** Frames per second, 0.001..1000. */
   rate: number;
-  /** Printable ASCII without blanks; of no meaning. */
+  /** Printable ASCII without blanks; has no meaning. */
   name: string;
-  /** By rising number, the first is 0; at least one. */
+  /** At least one frame, by increasing number; the first is 0. */
   frames: FapFileFrame[];
 }
 
-/** What a file does that the usual form does not; see FAP_FILE.md for what is made of each. */
+/** Deviations from the usual form that the reader accepts; FAP_FILE.md defines how each is read. */
 export const fapFileOddities = [
   'other_version',
   'blank_in_name',
@@ -66,15 +66,15 @@ export type FapFileOddity = (typeof fapFileOddities)[number];
 
 export interface FapFileWarning {
   oddity: FapFileOddity;
-  /** The first such line, from 1. */
+  /** The first line with this oddity, from 1. */
   line: number;
-  /** Of such lines or values. */
+  /** Number of such lines or values. */
   count: number;
 }
 
 export interface FapFileReading {
   file: FapFile;
-  /** One of each oddity at most, in the order of `fapFileOddities`. */
+  /** At most one warning per oddity, in the order of `fapFileOddities`. */
   warnings: FapFileWarning[];
 }
 
@@ -87,7 +87,7 @@ const maxNameLength = 256;
 /** The packed form of FAP 1: (select1 * 10000 + 100000) + (select2 * 100 + 1000) + (blend + 10). */
 const packedBase = 101_010;
 const maxValue = 1e9;
-/** No face moves by a millionth of a FAP unit, and no number needs an exponent. */
+/** Smaller values are read as 0: they are far below visible motion, and so no number needs an exponent. */
 const leastValue = 1e-6;
 const maxWord = 64;
 
@@ -107,7 +107,7 @@ const quoted = (word: string): string => {
   return word.length > 24 ? `"${text}..."` : `"${text}"`;
 };
 
-/** A whole word as a number, NaN and infinities in any of their spellings; null for anything else. */
+/** Parses a whole word as a number, including all spellings of NaN and infinity; else null. */
 export function readFapNumber(word: string): number | null {
   if (word.length > maxWord) return null;
   const negative = word.startsWith('-');
@@ -115,7 +115,7 @@ export function readFapNumber(word: string): number | null {
   if (/^(inf|infinity|1\.#inf)$/i.test(digits)) return negative ? -Infinity : Infinity;
   if (/^(nan|1\.#qnan|1\.#ind)$/i.test(digits)) return NaN;
   if (!/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(digits)) return null;
-  // What is too great for a number is still one, and finite: it is refused as out of range.
+  // A number too large for a double stays finite and is refused as out of range.
   const value = Math.min(Number(digits), Number.MAX_VALUE);
   if (value < leastValue) return 0;
   return negative ? -value : value;
@@ -136,7 +136,7 @@ class Reader {
     const { rate, name, count } = this.readHeader();
     for (let mask = this.next(); mask; mask = this.next()) {
       if (this.frames.length >= fapFileLimits.frames) {
-        fail('too_large', mask.number, `a file may have ${fapFileLimits.frames} frames`);
+        fail('too_large', mask.number, `a file has at most ${fapFileLimits.frames} frames`);
       }
       const flags = this.readMask(mask);
       const values = this.next() ?? fail('truncated', mask.number, 'the file ends after this mask, without its values');
@@ -190,7 +190,7 @@ class Reader {
     this.headerLine = line.number;
     const { words } = line;
     if (words.length < 4) {
-      fail('malformed', line.number, 'the header must be: version, name, frames a second, number of frames');
+      fail('malformed', line.number, 'the header must be: version, name, frames per second, number of frames');
     }
     if (!['2.0', '2.1', '2.2'].includes(words[0]!)) {
       const version = readFapNumber(words[0]!);
@@ -200,7 +200,7 @@ class Reader {
     const at = words.length - 2;
     const rate = this.number(line, at);
     if (!(rate >= 0.001 && rate <= 1000)) {
-      failAt('out_of_range', line, at, 'the frames a second must be from 0.001 to 1000');
+      failAt('out_of_range', line, at, 'the frames per second must be 0.001 to 1000');
     }
     if (at > 2) this.note('blank_in_name', line.number);
     const name = words.slice(1, at).join('_').replace(/[^\x21-\x5e\x60-\x7e]+/g, '_').slice(0, maxNameLength);
@@ -215,7 +215,7 @@ class Reader {
       if (i < fapCount && word === '1') present.push(i + 1);
     });
     if (line.words.length < fapCount) {
-      fail('malformed', line.number, `a mask has 68 flags (69 are taken), this has ${line.words.length}`);
+      fail('malformed', line.number, `a mask must have 68 flags (69 are accepted), not ${line.words.length}`);
     }
     if (line.words.length > fapCount) this.note('extra_flag', line.number);
     return present;
@@ -231,7 +231,7 @@ class Reader {
     const hasViseme = flags.includes(1);
     const hasExpression = flags.includes(2);
     const others = flags.length - Number(hasViseme) - Number(hasExpression);
-    // Some write FAPs 1 and 2 as one number each: which do, the count of numbers tells without doubt.
+    // Some files write FAPs 1 and 2 as one number each; the count of numbers is unambiguous.
     const given = words.length - 1;
     let viseme = hasViseme ? visemeFields : 0;
     let expression = hasExpression ? expressionFields : 0;
@@ -271,7 +271,7 @@ class Reader {
       frame.values[fap] = this.value(line, at);
       at += 1;
     }
-    // What no flag speaks of is dropped, but must be numbers: else this line is no line of values.
+    // Extra values are dropped, but must be numbers: otherwise this is not a line of values.
     for (; at < words.length; at += 1) this.number(line, at);
     return frame;
   }
@@ -335,7 +335,7 @@ class Reader {
     return null;
   }
 
-  /** Rising numbers from 0, each once: of two with one number the later in the file stays. */
+  /** Sorts by number, starting from 0; of frames with equal numbers the later in the file is kept. */
   private ordered(): FapFileFrame[] {
     for (let i = 1; i < this.frames.length; i += 1) {
       const { frame, line } = this.frames[i]!;
@@ -363,12 +363,12 @@ function whole(value: number, most: number): boolean {
 /** Reads a .fap file. Throws ProtocolError; its `where` is "line 12" or "line 12, word 3". */
 export function parseFap(text: string | Uint8Array): FapFileReading {
   if (text.length > fapFileLimits.bytes) {
-    throw new ProtocolError('too_large', '', `a .fap file may have ${fapFileLimits.bytes} bytes`);
+    throw new ProtocolError('too_large', '', `a .fap file has at most ${fapFileLimits.bytes} bytes`);
   }
   return new Reader(typeof text === 'string' ? text : new TextDecoder('utf-8', { ignoreBOM: true }).decode(text)).read();
 }
 
-/** Version 2.1, 68 flags, frames from 0, LF, one blank between. Reading it gives the same file. */
+/** Writes version 2.1, 68 flags, frames from 0, LF, one blank as separator. `parseFap` returns an equal file. */
 export function writeFap(file: FapFile): string {
   let text = `2.1 ${file.name === '' ? 'semblante' : file.name} ${file.rate} ${file.frames.length}\n`;
   for (const { number, present, viseme, expression, values } of file.frames) {
@@ -380,7 +380,7 @@ export function writeFap(file: FapFile): string {
       words.push(expression.select1, expression.intensity1, expression.select2, expression.intensity2);
       words.push(expression.init_face, expression.expression_def);
     }
-    // 0 for -0; all else that a file may hold JavaScript writes without an exponent, as short as it can be.
+    // + 0 turns -0 into 0. JavaScript prints all allowed values without an exponent, in the shortest form.
     for (const fap of present) if (fap >= firstLowLevelFap) words.push(values[fap]! + 0);
     text += `${flags.join(' ')}\n${words.join(' ')}\n`;
   }

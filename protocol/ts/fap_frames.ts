@@ -5,17 +5,17 @@ import { ProtocolError } from './protocol_error.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
 
 export interface FapMeaning {
-  /** What a FAP is that a frame leaves out. Default: zero, as the players of such files have it. */
+  /** Value of a FAP that a frame omits. Default: zero, as in the players of such files. */
   absent?: 'zero' | 'keep';
-  /** What the face does where frame numbers are left out. Default: hold, for writers leave out what repeats. */
+  /** Motion in gaps of the frame numbers. Default: hold, because writers omit repeated frames. */
   gaps?: 'hold' | 'interpolate';
-  /** Of the stream the frames are for. */
+  /** Quantizer steps of the frames' stream. */
   steps?: QuantizerSteps;
 }
 
 /**
- * The faces of a .fap file as frames of a stream, times in ms from its beginning. A gap that holds ends in a copy of the
- * frame before it. Levels beyond what a message can say become its greatest. Throws ProtocolError beyond 24 hours.
+ * Converts a .fap file to frames of a stream, with times in ms from its start. With `hold`, a copy of the frame before
+ * a gap ends the gap. Levels are clamped to the range of a message. Throws ProtocolError beyond 24 hours.
  */
 export function framesOfFap(file: FapFile, meaning: FapMeaning = {}): TimedFrame[] {
   const steps = meaning.steps ?? standardQuantizers;

@@ -23,8 +23,8 @@ function check(condition: boolean, what: string): asserts condition {
 }
 
 /**
- * Writes the messages of ONE stream in the binary form. It remembers the last frame, because a `frames` message says
- * only what changed: every message it makes must reach the decoder, in order, or a keyframe must follow.
+ * Encodes the messages of ONE stream in the binary form. It keeps the last frame, because a `frames` message contains
+ * only differences: the decoder must receive every message in order, or a keyframe.
  */
 export class FrameEncoder {
   private last: FaceFrame | null = null;
@@ -40,8 +40,8 @@ export class FrameEncoder {
     }
     const to = new ByteWriter();
     to.u8(description.type);
-    // Appended fields that have their default are left out while none follows that has not, as earlier writers left
-    // them out. The default of each is a byte of zero.
+    // Trailing appended fields with default values are omitted, as writers of earlier versions omit them. The default
+    // of each is one zero byte.
     let leftOut = 0;
     for (const field of description.fields) {
       const value = (message as unknown as Values)[field.name];
@@ -62,7 +62,7 @@ export class FrameEncoder {
     return to.finish();
   }
 
-  /** Forgets the last frame: the next state must be a keyframe. */
+  /** Drops the last frame: the next state must be a keyframe. */
   reset(): void {
     this.last = null;
   }
@@ -129,23 +129,23 @@ export class FrameEncoder {
 }
 
 /**
- * Reads the messages of ONE stream in the binary form, plain or packed; takes any bytes. Both give the same messages;
- * frames must be of the form of the keyframe before them.
+ * Decodes the messages of ONE stream in the binary form, plain or packed, from untrusted bytes. Both forms give the
+ * same messages; frames must have the form of the keyframe before them.
  */
 export class FrameDecoder {
-  /** Of the plain form. */
+  /** The last frame of the plain form. */
   private last: FaceFrame | null = null;
   private lastSequence = 0;
   private packed = new PackedDecoder();
 
   /**
-   * Throws ProtocolError: `unsupported` for a message type of a later version (skip it), `mismatch` at "/sequence" for
-   * frames before a keyframe or after a gap, else what is wrong with the bytes. After an error the decoder's state is
-   * what it was before the message.
+   * Throws ProtocolError: `unsupported` for a message type of a later version (to be skipped), `mismatch` at
+   * "/sequence" for frames before a keyframe or after a gap, other codes for malformed bytes. An error leaves the
+   * decoder's state unchanged.
    */
   decode(bytes: Uint8Array): Message {
     const type = bytes[0];
-    if (type === undefined) throw new ProtocolError('truncated', '/type', 'an empty message');
+    if (type === undefined) throw new ProtocolError('truncated', '/type', 'the message is empty');
     if (bytes.length > limits.max_binary_message_bytes) throw new ProtocolError('too_large', '', 'over 256 KiB');
     if (type === packedKeyframeType) {
       const keyframe = this.packed.keyframe(bytes);
@@ -195,7 +195,7 @@ export class FrameDecoder {
   }
 
   private readValue(from: ByteReader, field: Field, where: string): unknown {
-    if (isAppended(field) && from.remaining === 0) return field.fallback; // of an earlier writer
+    if (isAppended(field) && from.remaining === 0) return field.fallback; // omitted by a writer of an earlier version
     switch (field.type) {
       case 'uint': {
         const value = from.varint();

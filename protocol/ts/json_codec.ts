@@ -16,7 +16,7 @@ import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.
 
 type Values = Record<string, unknown>;
 
-/** A frame as it stands in JSON: FAPs in FAP units. */
+/** A frame in JSON: FAPs in FAP units. */
 export interface JsonFrame {
   viseme: FaceFrame['viseme'];
   expression: FaceFrame['expression'];
@@ -32,7 +32,7 @@ export function frameToJson(state: FaceFrame, steps: QuantizerSteps = standardQu
   return { viseme: { ...state.viseme }, expression: { ...state.expression }, faps };
 }
 
-/** One message as text. Each frame is whole (there is no delta form in JSON). */
+/** Encodes one message as text. Frames are complete states (JSON has no delta form). */
 export function encodeJson(message: Message, steps: QuantizerSteps = standardQuantizers): string {
   const description = messages.find((candidate) => candidate.name === message.type);
   if (!description) throw new RangeError(`no message has the type ${message.type}`);
@@ -52,7 +52,7 @@ export function encodeJson(message: Message, steps: QuantizerSteps = standardQua
   return JSON.stringify(values);
 }
 
-/** One message from text. Throws ProtocolError with the JSON pointer of the member at fault in `where`. */
+/** Decodes one message. Throws ProtocolError with the JSON pointer of the invalid member in `where`. */
 export function decodeJson(text: string, steps: QuantizerSteps = standardQuantizers): Message {
   const root = parseJsonObject(text, limits.max_json_message_bytes);
   const type = root.member('type');
@@ -108,7 +108,7 @@ function readFrames(at: JsonCursor, steps: QuantizerSteps): TimedFrame[] {
   return at.elements(1, limits.max_frames_per_message).map((element) => {
     const given = element.optional('time');
     const read = given?.integer(0, limits.max_frame_time) ?? time;
-    if (read < time) given?.fail('out_of_range', 'times must not fall');
+    if (read < time) given?.fail('out_of_range', 'times must not decrease');
     time = read;
     return { time, state: readFrame(element, steps) };
   });

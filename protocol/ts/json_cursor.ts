@@ -2,7 +2,7 @@ import { ProtocolError } from './protocol_error.ts';
 
 const toUtf8 = new TextEncoder();
 
-/** A place in a JSON value that knows its pointer. Reads by the caller's expectations, or throws ProtocolError. */
+/** A position in a JSON value with its pointer. Each read checks type and range, or throws ProtocolError. */
 export class JsonCursor {
   private readonly value: unknown;
   readonly pointer: string;
@@ -28,7 +28,7 @@ export class JsonCursor {
     return Array.isArray(this.value);
   }
 
-  /** Throws `missing` when there is no such member. */
+  /** Throws ProtocolError `missing` when there is no such member. */
   member(name: string): JsonCursor {
     return this.optional(name) ?? new JsonCursor(null, this.child(name)).fail('missing', 'is required');
   }
@@ -95,9 +95,9 @@ export class JsonCursor {
   }
 }
 
-/** The value of a text that must be a JSON object. */
+/** Parses a text that must be a JSON object. */
 export function parseJsonObject(text: string, maxBytes: number): JsonCursor {
-  if (text.length > maxBytes) throw new ProtocolError('too_large', '', `a JSON text may have ${maxBytes} bytes`);
+  if (text.length > maxBytes) throw new ProtocolError('too_large', '', `a JSON text has at most ${maxBytes} bytes`);
   let value: unknown;
   try {
     value = JSON.parse(text);

@@ -2,8 +2,8 @@ import { copyFrame, firstLowLevelFap, lastLowLevelFap, type FaceFrame } from './
 import { faps } from './generated/mpeg4.ts';
 
 /**
- * The frame that makes the mirror image of the face: left becomes right. Visemes and expressions are symmetric by their
- * nature and stay. For streams whose quantizer steps are alike on both sides, as the standard's are.
+ * The frame of the mirrored face: left and right exchanged. Visemes and expressions are symmetric and stay. Requires
+ * quantizer steps that are equal on both sides, as the standard's are.
  */
 export function mirrored(frame: FaceFrame): FaceFrame {
   const result = copyFrame(frame);

@@ -8,11 +8,11 @@ import { checkState } from './state_codec.ts';
 
 /** The packed form of keyframes and frames: predicted and entropy coded. SPEC.md, "Packed form". */
 
-/** Writes a stream in the packed form. */
+/** Encodes a stream in the packed form. */
 export class PackedEncoder {
   private state: PackedState;
 
-  /** Begins at a state (the neutral face before the first frame). */
+  /** `start`: the state before the first frame (default: the neutral face). */
   constructor(start: Omit<Keyframe, 'type'> = { sequence: 0, media_time: 0, state: neutralFrame() }) {
     checkState(start.state);
     this.state = packedStart(start.state, start.sequence, start.media_time);
@@ -48,7 +48,7 @@ export class PackedEncoder {
     return Uint8Array.from(bytes);
   }
 
-  /** The newest frame and all that a reader must know to read what encode() gives next. */
+  /** A keyframe: the newest frame and the codec state that a decoder needs for the next result of encode(). */
   keyframe(): Uint8Array {
     const to = new ByteWriter();
     to.u8(packedKeyframeType);
@@ -63,8 +63,8 @@ export class PackedEncoder {
 }
 
 /**
- * Reads the messages of ONE packed stream, type and all; takes any bytes. Throws ProtocolError with the pointer that the
- * plain form would have; the state is then what it was before the message.
+ * Decodes the messages of ONE packed stream, including the type byte, from untrusted bytes. Throws ProtocolError with
+ * the pointer of the plain form; an error leaves the state unchanged.
  */
 export class PackedDecoder {
   private state: PackedState | null = null;
@@ -125,7 +125,7 @@ function readNumber(from: ByteReader, where: string): number {
 }
 
 function checkRead(coder: RangeDecoder, model: PackedModel, where: string): void {
-  if (!coder.valid) throw new ProtocolError('malformed', where, 'begins as no packed message does');
+  if (!coder.valid) throw new ProtocolError('malformed', where, 'is not the start of a packed message');
   if (coder.truncated) throw new ProtocolError('truncated', where, 'the message ends within a packed state');
   if (model.fault !== '') throw new ProtocolError('out_of_range', where + model.fault, 'outside its range');
 }

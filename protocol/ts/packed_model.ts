@@ -16,28 +16,28 @@ import { fapGroups, type FapGroup } from './generated/mpeg4.ts';
 import { contexts, probabilities, references } from './generated/packed_tables.ts';
 import type { BitCoder } from './range_coder.ts';
 
-/** What both sides of a packed stream remember: SPEC.md, "Packed form". */
+/** The state that encoder and decoder of a packed stream share: SPEC.md, "Packed form". */
 export interface PackedState {
   /** The last four frames, [0] the newest. */
   before: FaceFrame[];
   sequence: number;
-  /** ms, of the newest frame. */
+  /** Media time of the newest frame, ms. */
   mediaTime: number;
-  /** ms that the next frame is expected to come later. */
+  /** Expected time to the next frame, ms. */
   step: number;
-  /** Frames that the next batch is expected to have. */
+  /** Expected number of frames of the next batch. */
   count: number;
   timeClass: number;
   visemeClass: number;
   expressionClass: number;
-  /** Nothing but a keyframe has been said. */
+  /** Only a keyframe has been coded so far. */
   fresh: boolean;
 }
 
 export function packedStart(state: FaceFrame = neutralFrame(), sequence = 0, mediaTime = 0): PackedState {
   const own = copyFrame(state);
   return {
-    before: [own, own, own, own], // frames of a history are never written to
+    before: [own, own, own, own], // frames of the history are never modified
     sequence,
     mediaTime,
     step: 40,
@@ -70,7 +70,7 @@ const held = (value: number): number => clamp(value, -limits.max_level, limits.m
 const bitLength = (value: number): number => 32 - Math.clz32(value);
 const signClass = (value: number): number => (value === 0 ? 0 : value > 0 ? 1 : 2);
 
-/** now : referenceNow as before : referenceBefore, or the reference's step where that is far off. */
+/** Predicts `now` from the reference: scaled by before / referenceBefore, or the reference's step for large ratios. */
 function ratio(referenceBefore: number, referenceNow: number, before: number): number {
   if (referenceBefore === 0) return before;
   const product = referenceNow * before;
@@ -82,16 +82,15 @@ function ratio(referenceBefore: number, referenceNow: number, before: number): n
 }
 
 /**
- * What is said about a face and when. One walk for both directions: a coder that encodes is given a value and gives it
- * back; one that decodes is given whatever and gives what it reads. So each method takes the value to write and returns
- * the value to go on with.
+ * The model of the packed form: which bits code frames and times, with which contexts. The same code encodes and
+ * decodes: each method takes the value to encode (ignored when decoding) and returns the encoded or decoded value.
  */
 export class PackedModel {
-  /** The member that cannot have the value that was read, as a JSON pointer; empty: none. */
+  /** JSON pointer of the member whose decoded value is out of range; empty: none. */
   fault = '';
   private readonly coder: BitCoder;
   private readonly state: PackedState;
-  /** By FAP: how far the guess was off in this frame. */
+  /** Prediction error in this frame, by FAP. */
   private readonly off = new Int32Array(lastLowLevelFap + 1);
 
   constructor(coder: BitCoder, state: PackedState) {
@@ -99,7 +98,7 @@ export class PackedModel {
     this.state = state;
   }
 
-  /** All that a keyframe says but its number and time: from a state that nothing was said to yet, `source`. */
+  /** Codes the content of a keyframe except its sequence number and time. `source`: the state to encode. */
   history(source: PackedState): void {
     const { state } = this;
     if (!this.flag(contexts.joinDiffers, !source.fresh)) {
@@ -120,7 +119,7 @@ export class PackedModel {
     for (let i = 3; i >= 0; i -= 1) this.frame(source.before[i]!);
   }
 
-  /** The frame that follows, which becomes before[0]; a new object, given back. */
+  /** Codes the next frame. Returns it as a new object, which also becomes before[0]. */
   frame(given: FaceFrame): FaceFrame {
     const now = copyFrame(given);
     this.viseme(now.viseme);
@@ -131,7 +130,7 @@ export class PackedModel {
     return now;
   }
 
-  /** The number of frames of a batch, 1 to 1024. */
+  /** Codes the number of frames of a batch, 1 to 1024. */
   count(value: number): number {
     let read = this.state.count;
     if (this.flag(contexts.countDiffers, value !== read)) {
@@ -142,7 +141,7 @@ export class PackedModel {
     return read;
   }
 
-  /** The media time of a batch, ms. */
+  /** Codes the media time of a batch, ms. */
   baseTime(value: number): number {
     const { state } = this;
     const expected = Math.min(state.mediaTime + state.step, Number.MAX_SAFE_INTEGER);
@@ -152,7 +151,7 @@ export class PackedModel {
     return read;
   }
 
-  /** The time of its first frame after that. */
+  /** Codes the time of the batch's first frame, ms after its media time. */
   offset(value: number): number {
     if (!this.flag(contexts.offsetDiffers, value !== 0)) return 0;
     const read = this.number(contexts.timeLength, 53, value - 1) + 1;
@@ -160,7 +159,7 @@ export class PackedModel {
     return read;
   }
 
-  /** The time of another frame after the one before. */
+  /** Codes the time of a later frame, ms after the frame before. */
   step(value: number): number {
     const read = this.timed(1, this.state.step, value, '/time');
     if (read > 0 && read <= limits.max_frame_time) this.state.step = read;
@@ -193,7 +192,7 @@ export class PackedModel {
     return this.coder.bit(probabilities[context]!, value ? 1 : 0) !== 0;
   }
 
-  /** A whole number: the length in bits of value + 1 in `most` contexts, then its bits. */
+  /** Codes a whole number: the length in bits of value + 1 with `most` contexts, then its bits. */
   private number(lengths: number, most: number, value: number): number {
     const more = value + 1;
     let wanted = 0;
@@ -273,7 +272,7 @@ export class PackedModel {
     state.visemeClass = kind + 1;
   }
 
-  /** The blend of the same two visemes: the share of what was the first goes on as it went. */
+  /** Codes the blend of an unchanged pair of visemes, predicted by continuing the share of the previous first one. */
   private share(now: VisemeBlend, swapped: boolean): void {
     const was = this.state.before[0]!.viseme;
     const old = this.state.before[1]!.viseme;
@@ -325,7 +324,7 @@ export class PackedModel {
     now.intensity2 = this.intensity(now.select2, now.intensity2);
   }
 
-  /** An expression goes on as it went, whichever of the two it was. */
+  /** Codes an expression's intensity, predicted by linear continuation of its earlier values in either slot. */
   private intensity(select: number, now: number): number {
     const of = (blend: ExpressionBlend): number | null =>
       select === 0 ? null
@@ -355,7 +354,7 @@ export class PackedModel {
     for (let fap = group.first; fap <= group.last; fap += 1) {
       if (b[fap] !== a[fap] || c[fap] !== a[fap] || d[fap] !== a[fap]) continue;
       const reference = references[fap]!;
-      // A reference of another group is known already.
+      // A reference in another group was coded earlier.
       if (reference !== 0 && reference < group.first && now.levels[reference] !== a[reference]) continue;
       still |= 1 << (fap - group.first);
       moves ||= now.levels[fap] !== a[fap];
@@ -386,7 +385,7 @@ export class PackedModel {
 
     let read: number;
     if (best.kind === shared && best.cost === 0) {
-      // it has followed exactly
+      // the FAP has followed its reference exactly
       const reach = Math.min(bitLength(Math.abs(referenceStep)), 7);
       const differs = contexts.followerDiffers + 2 * reach + offFlag;
       const sign = contexts.followerSign + referenceOff;
@@ -403,7 +402,7 @@ export class PackedModel {
     return read;
   }
 
-  /** What creeps by less than a level a frame: the pattern of its steps says more than any line. */
+  /** Codes a FAP that moves by less than a level per frame: the pattern of its steps predicts better than a line. */
   private slowLevel(fap: number, reference: number, referenceStep: number, value: number): number {
     const [a, b, c, d] = this.state.before.map((frame) => frame.levels[fap]!) as [number, number, number, number];
     let pattern = 9 * (a - b) + 3 * (b - c) + (c - d);

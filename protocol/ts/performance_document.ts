@@ -5,7 +5,7 @@ export type EasingName = 'linear' | 'ease_in' | 'ease_out' | 'ease_in_out' | 'st
 /** x1, y1, x2, y2: a cubic Bezier curve from (0, 0) to (1, 1) */
 export type Easing = EasingName | readonly [number, number, number, number];
 
-/** What a cue drives; numbers for names. Degrees as in section 9 of SPEC.md. */
+/** The target of a cue, with numbers in place of names. Degrees as in section 9 of SPEC.md. */
 export type CueTarget =
   | { kind: 'fap'; fap: number }
   | { kind: 'viseme'; viseme: number; other: number }
@@ -36,7 +36,7 @@ export interface IdleLife {
 
 export interface PerformanceScript {
   name: string;
-  /** ms; 0: nothing but idle life, which has no end */
+  /** Duration, ms; 0: idle life only, endless. */
   duration: number;
   idle: IdleLife | null;
   cues: readonly Cue[];
@@ -49,7 +49,7 @@ const maxMs = 86_400_000;
 const maxText = 1000;
 const targetNames = ['fap', 'viseme', 'expression', 'look_at', 'blink', 'head'] as const;
 const easingNames: readonly string[] = ['linear', 'ease_in', 'ease_out', 'ease_in_out', 'step'];
-/** Attack and release of a cue that says neither, ms. */
+/** Default attack and release of a cue, ms. */
 export const usualRamps = {
   fap: [100, 100],
   viseme: [70, 70],
@@ -63,8 +63,8 @@ export const shutLidUnits = { upper: 940, lower: 84 } as const;
 const blinkMs = usualRamps.blink[0] + usualRamps.blink[1];
 
 /**
- * Reads a performance document. Throws ProtocolError with the JSON pointer. Unlike the server it cannot see a member that
- * is there twice, and it does not count how many cues act at once.
+ * Reads a performance document. Throws ProtocolError with the JSON pointer. Unlike the server it does not detect
+ * duplicate members, and it does not limit the number of simultaneous cues.
  */
 export function readPerformance(text: string): PerformanceScript {
   const root = parseJsonObject(text, maxBytes);
@@ -72,7 +72,7 @@ export function readPerformance(text: string): PerformanceScript {
   const format = root.member('format');
   if (format.text(64) !== 'semblante.performance') format.fail('unsupported', 'must be "semblante.performance"');
   const version = root.member('version');
-  if (version.number() !== 1) version.fail('unsupported', 'this reader knows version 1');
+  if (version.number() !== 1) version.fail('unsupported', 'the supported version is 1');
   root.optional('note')?.text(maxText);
   const idle = readIdle(root.optional('idle'));
   const list = idle ? root.optional('cues') : root.member('cues');
@@ -97,7 +97,7 @@ export function readPerformance(text: string): PerformanceScript {
 
 function known(at: JsonCursor, names: readonly string[]): void {
   for (const [name, member] of at.members()) {
-    if (!names.includes(name)) member.fail('invalid_argument', 'there is no such member here');
+    if (!names.includes(name)) member.fail('invalid_argument', 'unknown member');
   }
 }
 
@@ -112,7 +112,7 @@ function readIdle(at: JsonCursor | undefined): IdleLife | null {
   };
 }
 
-/** The number of a name in a table of the standard, or the number itself. */
+/** Reads a number, or a name in a table of the standard as its number. */
 function numbered(at: JsonCursor, names: readonly string[], first: number, least: number): number {
   if (at.isText) {
     const found = names.indexOf(at.text(64)) + first;
@@ -166,7 +166,8 @@ function readLook(at: JsonCursor): CueTarget {
     const distance = at.optional('distance')?.number(1) ?? Infinity;
     return { kind, yaw: degrees(at, 'yaw'), pitch: degrees(at, 'pitch'), distance, headShare };
   }
-  for (const name of ['yaw', 'pitch', 'distance']) at.optional(name)?.fail('invalid_argument', 'a point says it already');
+  for (const name of ['yaw', 'pitch', 'distance'])
+    at.optional(name)?.fail('invalid_argument', 'is not allowed beside point');
   const xyz = point.elements(3, 3);
   const x = xyz[0]!.number(-1e6, 1e6);
   const y = xyz[1]!.number(-1e6, 1e6);
@@ -204,7 +205,7 @@ function readCue(at: JsonCursor): Cue {
   const value = at.optional('value');
   const most = kind === 'fap' ? 32767 * faps[target.fap - 1]!.quantizerStep : 1;
   const least = kind === 'fap' ? -most : 0;
-  if (given) value?.fail('invalid_argument', 'the keys say it already');
+  if (given) value?.fail('invalid_argument', 'is not allowed beside keys');
   else if (kind === 'fap' && !value) at.fail('missing', 'has neither value nor keys');
   const keys = readKeys(given, least, most);
   const length = at.optional('duration');
@@ -226,13 +227,13 @@ function readKeys(at: JsonCursor | undefined, least: number, most: number): [num
   return (at?.elements(1, maxKeys) ?? []).map((key) => {
     const [time, value] = key.elements(2, 2);
     const ms = time!.number(0, maxMs);
-    if (ms <= before) time!.fail('out_of_range', 'times of keys must rise');
+    if (ms <= before) time!.fail('out_of_range', 'times of keys must increase');
     before = ms;
     return [ms, value!.number(least, most)];
   });
 }
 
-/** What the cue says must fit into it; what it does not say takes what it likes of the rest. */
+/** Attack and release: given values must fit into the duration; defaults are shortened to the remaining time. */
 function fitRamps(at: JsonCursor, usual: readonly [number, number], duration: number): [number, number] {
   const attack = at.optional('attack')?.number(0, duration);
   const release = at.optional('release')?.number(0, duration);

@@ -1,6 +1,6 @@
 import type { StreamErrorCode } from './generated/messages.ts';
 
-/** Someone else's bytes are not what they should be: what is wrong, where (JSON pointer or field), and in words. */
+/** Untrusted bytes are invalid: `code` is the kind of error, `where` the JSON pointer or field. */
 export class ProtocolError extends Error {
   readonly code: StreamErrorCode;
   readonly where: string;

@@ -2,17 +2,17 @@ import { firstLowLevelFap, lastLowLevelFap } from './face_frame.ts';
 import { limits, type Header } from './generated/messages.ts';
 import { faps } from './generated/mpeg4.ts';
 
-/** By FAP number (entries 0..2 are 1 and unused): FAP units per quantized level. */
+/** FAP units per quantized level, by FAP number (entries 0..2 are 1 and unused). */
 export type QuantizerSteps = Float64Array;
 
-/** The steps of the standard's table. */
+/** The quantizer steps of the standard. */
 export const standardQuantizers: QuantizerSteps = (() => {
   const steps = new Float64Array(lastLowLevelFap + 1).fill(1);
   for (const fap of faps) steps[fap.number] = fap.quantizerStep;
   return steps;
 })();
 
-/** The steps a stream uses: its header's own, or the standard ones when it gives none. */
+/** The quantizer steps of a stream: those of its header, else the standard's. */
 export function quantizersOf(header: Header): QuantizerSteps {
   if (header.quantizers.length === 0) return standardQuantizers;
   const steps = new Float64Array(lastLowLevelFap + 1).fill(1);
@@ -21,8 +21,8 @@ export function quantizersOf(header: Header): QuantizerSteps {
 }
 
 /**
- * A value in FAP units as a level, rounded to nearest (halves away from zero); null beyond +-32767 levels, or when it is
- * not finite.
+ * Quantizes a value in FAP units to the nearest level (halves away from zero); null beyond +-32767 levels or for a
+ * value that is not finite.
  */
 export function quantize(fapUnits: number, step: number): number | null {
   const level = Math.sign(fapUnits) * Math.round(Math.abs(fapUnits) / step);

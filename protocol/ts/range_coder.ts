@@ -1,11 +1,11 @@
 /**
- * Binary range coding with fixed probabilities: SPEC.md, "Range coder". Probabilities are of a 1, in 4096ths. Whole
- * numbers below 2^53 only, so that every language makes the same bytes.
+ * Binary range coding with fixed probabilities: SPEC.md, "Range coder". A probability is that of a 1, in 4096ths. All
+ * arithmetic is in integers below 2^53, so that every language produces the same bytes.
  */
 export interface BitCoder {
-  /** One that encodes is given the value and gives it back, one that decodes gives what it reads. */
+  /** An encoder writes and returns `value`; a decoder ignores `value` and returns the decoded bit. */
   bit(probability: number, value: number): number;
-  /** The low `count` bits of `value`, high ones first, each as likely 0 as 1. */
+  /** Codes the low `count` bits of `value`, high bits first, each with probability 1/2. */
   bits(count: number, value: number): number;
 }
 
@@ -17,7 +17,7 @@ export class RangeEncoder implements BitCoder {
   private low = 0;
   private range = whole - 1;
 
-  /** Appends to `to`, and reaches back no farther than its present end. */
+  /** Appends to `to`; carries never change bytes before its current end. */
   constructor(to: number[]) {
     this.to = to;
   }
@@ -43,7 +43,7 @@ export class RangeEncoder implements BitCoder {
     return value;
   }
 
-  /** The shortest end that reads as what was written when zeros follow. */
+  /** Writes the shortest end that decodes correctly when the decoder appends zeros. */
   finish(): void {
     for (let count = 0; count <= 4; count += 1) {
       const unit = 2 ** (32 - 8 * count);
@@ -78,13 +78,13 @@ export class RangeEncoder implements BitCoder {
   }
 }
 
-/** Takes any bytes. */
+/** Decodes untrusted bytes. */
 export class RangeDecoder implements BitCoder {
   private readonly bytes: Uint8Array;
   private at = 0;
   private code = 0;
   private range = whole - 1;
-  /** Whether it begins as an encoder begins. */
+  /** Whether the first bytes can come from an encoder. */
   readonly valid: boolean;
 
   constructor(bytes: Uint8Array) {
@@ -118,12 +118,12 @@ export class RangeDecoder implements BitCoder {
     return value;
   }
 
-  /** Whether more was read than the four bytes after the end that an encoder may leave out. */
+  /** Whether more than the four bytes that an encoder may omit were read past the end. */
   get truncated(): boolean {
     return this.at > this.bytes.length + 4;
   }
 
-  /** Whether bytes are left that an encoder would not have written. */
+  /** Whether bytes remain that an encoder would not have written. */
   get hasMore(): boolean {
     return this.at < this.bytes.length;
   }
@@ -137,7 +137,7 @@ export class RangeDecoder implements BitCoder {
   private normalize(): void {
     while (this.range < least) {
       this.range *= 256;
-      // An invalid code, which is refused in the end, may not grow beyond what a number holds.
+      // Bounds an invalid code, which is refused at the end, to exact integers.
       this.code = (this.code * 256 + this.next()) % whole;
     }
   }

@@ -1,19 +1,19 @@
 import { JsonCursor, parseJsonObject } from './json_cursor.ts';
 import { featurePoints, type FapUnit } from './generated/mpeg4.ts';
 
-/** rig.json: what a client needs to know beside the vertices. All lengths in model units, MPEG-4 frame. */
+/** rig.json: all data of a face except vertices and weights. Lengths in model units, axes of MPEG-4. */
 export interface RigDocument {
   name: string;
-  /** Which of the levels this package is; 0 is the full mesh. */
+  /** The level of detail of this package; 0 is the full mesh. */
   lod: number;
-  /** By lod; empty: the package has no siblings. */
+  /** All levels by lod; empty: only this one. */
   levels: RigLevel[];
   mesh: {
     sha256: string;
     vertices: number;
     triangles: number;
     bytes: number;
-    /** Draco unique ids; null: the mesh has none. */
+    /** Draco unique ids of the attributes; null: the mesh has no such attribute. */
     attributes: { position: number } & Record<'normal' | 'uv' | 'material' | 'file_vertex', number | null>;
   };
   weights: {
@@ -24,18 +24,18 @@ export interface RigDocument {
     mean_influences: number;
     max_error: number;
   };
-  /** Already divided by 1024; null where the points that give one are not marked. */
+  /** Face animation parameter units, divided by 1024; null when their feature points are not marked. */
   fapu: Record<RigFapu, number | null>;
   feature_points: RigFeaturePoint[];
   /** Left, right. */
   eye_pivots: [Vec3, Vec3];
   head_pivot: Vec3;
-  /** Left, right; null: the eye has none that could move, and FAP 29 or 30 does nothing. */
+  /** Left, right; null: the eye has no movable iris, and FAP 29 or 30 has no effect. */
   irises: [RigIris | null, RigIris | null];
-  /** Null: there is none that could roll, and FAP 47 does nothing. */
+  /** Null: no tongue that can roll; FAP 47 has no effect. */
   tongue: RigTongue | null;
   parts: RigPart[];
-  /** Of Eq. 5. */
+  /** Viseme share of Eq. 5. */
   viseme_share: number;
   /** 15; entry 0 is silence. */
   visemes: DisplacementSet[];
@@ -52,14 +52,14 @@ export type RigFapu = Exclude<FapUnit, 'AU'>;
 
 export interface RigFeaturePoint {
   id: string;
-  /** Of the decoded mesh; null for a bare position. */
+  /** Vertex of the decoded mesh; null for a position without a vertex. */
   vertex: number | null;
   position: Vec3;
 }
 
 /** The iris of one eye on the neutral face. */
 export interface RigIris {
-  /** Unit vector from the eye's pivot through the middle of the pupil. */
+  /** Unit vector from the eye's pivot through the centre of the pupil. */
   axis: Vec3;
   pupil_radius: number;
   iris_radius: number;
@@ -69,28 +69,28 @@ export interface RigIris {
 
 /** The tongue on the neutral face. */
 export interface RigTongue {
-  /** On its middle line, half way through its thickness. */
+  /** A point on the tongue's middle line, at half its thickness. */
   origin: Vec3;
-  /** Unit vector across it, to the face's left. */
+  /** Unit vector across the tongue, to the face's left. */
   left: Vec3;
   /** Unit vector at right angles to `left` and to the tongue's length. */
   up: Vec3;
-  /** From the middle line to a border. */
+  /** Distance from the middle line to a border. */
   half_width: number;
-  /** Radians that a border can turn before the tongue runs through itself. */
+  /** Largest angle of a border without self-intersection of the tongue, radians. */
   roll_limit: number;
 }
 
 export interface RigLevel {
   vertices: number;
   triangles: number;
-  /** Of mesh.drc and weights together. */
+  /** Total bytes of mesh.drc and weights. */
   bytes: number;
 }
 
 export interface DisplacementSet {
   name: string;
-  /** By feature point id, at full intensity. */
+  /** Displacements at full intensity, by feature point id. */
   displacements: Record<string, Vec3>;
 }
 
@@ -145,7 +145,7 @@ const maxList = 100_000;
 const maxFloat = 3.4028234663852886e38;
 const indexOfPoint = new Map(featurePoints.map((point, index) => [point.id, index]));
 
-/** "2.1" -> its dense index 0..83; undefined for anything that is not one of the 84. */
+/** "2.1" -> dense index 0..83; undefined for an unknown id. */
 export function featurePointIndex(id: string): number | undefined {
   return indexOfPoint.get(id);
 }
@@ -169,11 +169,11 @@ function oneOf<T extends string>(at: JsonCursor, values: readonly T[]): T {
 }
 
 function pointId(at: JsonCursor, id: string): string {
-  if (!indexOfPoint.has(id)) at.fail('invalid_argument', `no feature point is called "${id}"`);
+  if (!indexOfPoint.has(id)) at.fail('invalid_argument', `"${id}" is not a feature point`);
   return id;
 }
 
-/** Reads and checks one. Throws ProtocolError with the pointer of the member at fault. Unknown members are skipped. */
+/** Parses and validates rig.json. Throws ProtocolError with the JSON pointer. Unknown members are skipped. */
 export function readRig(json: string): RigDocument {
   const root = parseJsonObject(json, maxRigBytes);
   if (text(root.member('format')) !== 'semblante.rig') {
@@ -239,7 +239,7 @@ function readLevel(at: JsonCursor): RigLevel {
   };
 }
 
-/** A unit vector, as far as its digits say. */
+/** Reads a unit vector, with a tolerance for rounded digits. */
 function direction(at: JsonCursor): Vec3 {
   const [x, y, z] = vec3(at);
   if (!(Math.abs(x * x + y * y + z * z - 1) < 1e-3)) at.fail('out_of_range', 'must be a unit vector');
@@ -269,7 +269,7 @@ function readTongue(at: JsonCursor | undefined): RigTongue | null {
   const left = direction(at.member('left'));
   const up = direction(at.member('up'));
   if (!(Math.abs(left[0] * up[0] + left[1] * up[1] + left[2] * up[2]) < 1e-3)) {
-    at.member('up').fail('out_of_range', 'must be at right angles to left');
+    at.member('up').fail('out_of_range', 'must be perpendicular to left');
   }
   return {
     origin: vec3(at.member('origin')),
@@ -285,7 +285,7 @@ function readFeaturePoints(at: JsonCursor, vertices: number): RigFeaturePoint[] 
   return at.elements(0, featurePoints.length).map((point) => {
     const id = pointId(point.member('id'), text(point.member('id')));
     const index = indexOfPoint.get(id)!;
-    if (index <= last) point.member('id').fail('malformed', 'ids must rise');
+    if (index <= last) point.member('id').fail('malformed', 'ids must be increasing');
     last = index;
     return {
       id,

@@ -4,7 +4,7 @@ import { limits } from './generated/messages.ts';
 import { fapGroups, type FapGroup } from './generated/mpeg4.ts';
 import { ProtocolError } from './protocol_error.ts';
 
-/** The binary form of a face's state as differences to another one: SPEC.md, "State". */
+/** The binary form of a face state as the differences to another state: SPEC.md, "State". */
 
 const visemeBit = 1 << 0;
 const expressionBit = 1 << 1;
@@ -52,7 +52,7 @@ export function writeState(to: ByteWriter, from: FaceFrame, state: FaceFrame): v
   }
 }
 
-/** Turns `state`, the one before, into the one that is read. `where` is the pointer of the state, for errors. */
+/** Decodes the next state in place of `state`, the previous one. `where`: JSON pointer of the state, for errors. */
 export function readState(from: ByteReader, state: FaceFrame, where: string): void {
   try {
     readChanges(from, state, where);
@@ -93,7 +93,7 @@ function readChanges(from: ByteReader, state: FaceFrame, where: string): void {
 function readGroup(from: ByteReader, group: FapGroup, state: FaceFrame, where: string): void {
   const mask = from.varint();
   if (mask === 0 || mask >= 2 ** (group.last - group.first + 1)) {
-    throw new ProtocolError('out_of_range', `${where}/faps`, 'a mask names no FAP of its group');
+    throw new ProtocolError('out_of_range', `${where}/faps`, 'a mask is zero or has bits outside its group');
   }
   for (let fap = group.first; fap <= group.last; ++fap) {
     if (!(mask & (1 << (fap - group.first)))) continue;
@@ -105,7 +105,7 @@ function readGroup(from: ByteReader, group: FapGroup, state: FaceFrame, where: s
   }
 }
 
-/** Our own mistakes are RangeErrors: what is written is within the documented ranges. */
+/** Throws RangeError (a caller's mistake) for a state outside the documented ranges, before it is encoded. */
 export function checkState(state: FaceFrame): void {
   const within = (value: number, most: number): boolean => Number.isInteger(value) && value >= 0 && value <= most;
   const { viseme, expression, levels } = state;

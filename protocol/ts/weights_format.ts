@@ -3,19 +3,19 @@ import { crc32 } from './crc32.ts';
 import { featurePointCount } from './generated/mpeg4.ts';
 import { ProtocolError } from './protocol_error.ts';
 
-/** The `weights` artefact in memory, as the kernel takes it: Eq. 7 per vertex of the mesh it belongs to. */
+/** The decoded `weights` artefact in the kernel's layout: the weights of Eq. 7 per vertex of the mesh. */
 export interface InfluenceTable {
   vertexCount: number;
   bits: number;
-  /** SHA-256, lower-case hexadecimal, of the bytes of mesh.drc whose decoded vertex order this is. */
+  /** SHA-256, lower-case hexadecimal, of the mesh.drc whose decoded vertex order the table uses. */
   meshSha256: string;
   /** vertexCount + 1 */
   rowOffsets: Uint32Array;
-  /** Per entry: dense index of the feature point, rising within a row. */
+  /** Per entry: dense index of the feature point, increasing within a row. */
   rowPoints: Uint8Array;
   /** Per entry: 0..1 */
   rowWeights: Float32Array;
-  /** Per vertex: values of `rigidMotion`; from `tongue` on the tongue with a share of its roll. */
+  /** Per vertex: a value of `rigidMotion`; values from `tongue` on encode the share of the tongue's roll. */
   rigid: Uint8Array;
 }
 
@@ -23,15 +23,15 @@ const headerBytes = 64;
 const maxVertices = 4_000_000;
 const maxEntries = 48_000_000;
 const maxSets = 2 ** 24;
-const maxInflation = 1032; // deflate cannot make more of one byte
+const maxInflation = 1032; // maximum expansion of deflate
 
-/** What moves a vertex after Eq. 7 and before the head. */
+/** The rigid motion of a vertex after Eq. 7 and before the head's rotation. */
 export const rigidMotion = { none: 0, leftEye: 1, rightEye: 2, leftIris: 3, rightIris: 4, tongue: 128 } as const;
 
-/** The share of the tongue's roll that a vertex takes: 0 for all but the tongue's. */
+/** A vertex's share of the tongue's roll; 0 outside the tongue. */
 export const tongueShare = (rigid: number): number => (rigid < rigidMotion.tongue ? 0 : (rigid - 127) / 128);
 
-/** 0 left, 1 right; -1: not of an eye. */
+/** 0 left eye, 1 right eye, -1 neither. */
 export const eyeOf = (rigid: number): -1 | 0 | 1 =>
   rigid === rigidMotion.none || rigid >= rigidMotion.tongue ? -1 : rigid % 2 === 1 ? 0 : 1;
 
@@ -47,7 +47,7 @@ interface WeightsHeader {
 interface InfluenceSet {
   points: Uint8Array;
   unitSum: boolean;
-  /** The weights of the last vertex that had this set, which foretell those of the next. */
+  /** The weights of the last vertex with this set, which predict those of the next. */
   last: Uint32Array;
 }
 
@@ -55,7 +55,7 @@ function fail(code: ProtocolError['code'], where: string, message: string): neve
   throw new ProtocolError(code, where, `weights: ${message}`);
 }
 
-/** Takes any bytes: everything announced is checked against limits before memory is asked for. Throws ProtocolError. */
+/** Decodes untrusted bytes: checks all declared sizes against limits before allocation. Throws ProtocolError. */
 export async function decodeWeights(bytes: Uint8Array): Promise<InfluenceTable> {
   const header = readHeader(bytes);
   const payload = await inflate(bytes.subarray(headerBytes), header.rawBytes);
@@ -86,18 +86,18 @@ function readHeader(bytes: Uint8Array): WeightsHeader {
   if (header.setCount === 0 || header.setCount > Math.min(header.vertexCount, maxSets)) {
     fail('out_of_range', 'set_count', 'not between 1 and the number of vertices');
   }
-  if (packedBytes > bytes.length - headerBytes) fail('truncated', 'payload', 'ends before the announced size');
-  if (packedBytes < bytes.length - headerBytes) fail('malformed', 'payload', 'bytes after the announced size');
+  if (packedBytes > bytes.length - headerBytes) fail('truncated', 'payload', 'ends before the declared size');
+  if (packedBytes < bytes.length - headerBytes) fail('malformed', 'payload', 'bytes after the declared size');
   if (header.rawBytes > maxInflation * packedBytes) {
     fail('malformed', 'raw_bytes', 'more than the packed bytes can hold');
   }
-  // The checksum covers the whole file with its own four bytes taken as zero.
+  // The checksum covers the whole file, with its own four bytes set to zero.
   const crc = crc32(bytes.subarray(12), crc32(new Uint8Array(4), crc32(bytes.subarray(0, 8))));
   if (crc !== view.getUint32(8, true)) fail('mismatch', 'crc', 'checksum differs');
   return header;
 }
 
-/** Exactly `size` bytes, or an error: never more memory than announced. */
+/** Inflates to exactly `size` bytes or throws; never allocates more. */
 async function inflate(packed: Uint8Array, size: number): Promise<Uint8Array> {
   const raw = new Uint8Array(size);
   let filled = 0;
@@ -118,7 +118,7 @@ async function inflate(packed: Uint8Array, size: number): Promise<Uint8Array> {
   } catch {
     filled = -1;
   }
-  if (filled !== size) fail('malformed', 'payload', 'not the announced zlib stream');
+  if (filled !== size) fail('malformed', 'payload', 'not a zlib stream of the declared size');
   return raw;
 }
 
@@ -150,10 +150,10 @@ function readDictionary(from: ByteReader, count: number): InfluenceSet[] {
     const first = from.u8();
     const unitSum = (first & 0x80) !== 0;
     const points = from.take(first & 0x7f);
-    if (unitSum && points.length === 0) fail('malformed', 'dictionary', 'nothing sums to one');
+    if (unitSum && points.length === 0) fail('malformed', 'dictionary', 'an empty set cannot sum to one');
     points.forEach((point, k) => {
       if (point >= featurePointCount) fail('out_of_range', 'dictionary', `no feature point ${point}`);
-      if (k > 0 && point <= points[k - 1]!) fail('malformed', 'dictionary', 'the points of a set do not rise');
+      if (k > 0 && point <= points[k - 1]!) fail('malformed', 'dictionary', 'the points of a set are not increasing');
     });
     sets.push({ points, unitSum, last: new Uint32Array(points.length - (unitSum ? 1 : 0)) });
   }
@@ -226,14 +226,14 @@ function readRigid(from: ByteReader, { version, vertexCount }: WeightsHeader): U
     const motion = from.u8();
     const run = from.varint();
     if (!isKnown(motion, version)) fail('out_of_range', 'rigid', 'unknown rigid motion');
-    if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'length of a run');
+    if (run === 0 || run > vertexCount - v) fail('out_of_range', 'rigid', 'invalid length of a run');
     rigid.fill(motion, v, v + run);
     v += run;
   }
   return rigid;
 }
 
-/** Version 1 knows the eyes alone. */
+/** Version 1 has only the motions of the eyes. */
 function isKnown(motion: number, version: number): boolean {
   if (version === 1) return motion <= rigidMotion.rightEye;
   return motion <= rigidMotion.rightIris || motion >= rigidMotion.tongue;

@@ -9,40 +9,40 @@
 
 namespace semblante::streams {
 
-/// No frame may lie farther ahead of the stream's clock than this, ms. It is the longest time for which the frames of a
-/// new source wait until those that the source before it sent in advance have been played.
+/// Maximum time by which a frame may be ahead of the stream's clock, ms. This also bounds how long the frames of a new
+/// source wait behind frames that the previous source sent in advance.
 inline constexpr std::uint64_t most_ahead = 10'000;
-/// The offset of a publisher's clock is measured anew when its frames fall behind the stream's clock by more, ms.
+/// When frames are behind the stream's clock by more than this, ms, the offset of the publisher's clock is set again.
 inline constexpr std::uint64_t most_behind = 1'000;
 
-/// The stream's clock: whole ms since it began, 0 before.
+/// The stream's clock: whole ms since its start; 0 before the start.
 std::uint64_t media_time_at(std::chrono::steady_clock::time_point began, std::chrono::steady_clock::time_point when);
 
 /// ms since 1970-01-01 UTC.
 double server_time_now();
 
-/// Gives the frames of all sources their media times on one stream's clock, in whole ms. Media time never falls from
-/// one frame to the next, whatever the clocks of the sources say. Not synchronized.
+/// Assigns media times on the stream's clock, whole ms, to the frames of all sources. Media time never decreases from
+/// one frame to the next, independent of the sources' clocks. Not synchronized.
 class Timeline {
  public:
   /// Media time of the newest frame; 0 before the first.
   [[nodiscard]] std::uint64_t newest() const { return newest_; }
 
-  /// The next publisher has another clock, whose offset is not known.
+  /// Forgets the offset of the publisher's clock: the next publisher has another clock.
   void forget_publisher() { offset_known_ = false; }
 
-  /// Places frames without a clock of their own: now, or at the newest frame if that is ahead. Their spacing is kept.
+  /// Places frames without a clock: now, or at the time of the newest frame if that is later. Keeps their spacing.
   /// Returns the media time of their message. Errors: `out_of_range` at /frames/N/time if they last longer than
-  /// most_ahead; `too_large` if they would end farther ahead because of earlier frames: later there is room.
+  /// most_ahead; `too_large` if they would end farther ahead because of earlier frames (a later retry can succeed).
   Result<std::uint64_t> place_now(std::uint64_t now, const std::vector<TimedFrame>& frames);
 
-  /// Places frames with times of a publisher's clock. Their spacing is kept, but a frame that would fall before the
-  /// newest one gets that one's time. When the message would be too far ahead or behind, the offset of the publisher's
-  /// clock is set so that it begins now. Returns the media time of the message and changes the frames' times as needed.
-  /// Errors: `out_of_range` as place_now.
+  /// Places frames with times of a publisher's clock. Keeps their spacing, but a frame that would precede the newest
+  /// one gets the newest one's time. If the message would be too far ahead or behind, sets the offset of the
+  /// publisher's clock so that it begins now. Returns the media time of the message and changes the frames' times as
+  /// needed. Errors: `out_of_range` like place_now.
   Result<std::uint64_t> place_published(std::uint64_t now, std::uint64_t media_time, std::vector<TimedFrame>& frames);
 
-  /// Places one frame that is due at `when`: then, or at the newest frame's time if that is later.
+  /// Places one frame that is due at `when`: at `when`, or at the newest frame's time if that is later.
   std::uint64_t place_due(std::uint64_t when);
 
  private:

@@ -14,7 +14,7 @@ import { patience } from './support/patience.ts';
 import { launch } from './support/studio_page.ts';
 import type { ClipReport } from './pages/play_clip.ts';
 
-/** Times in ms; values are multiples of the standard steps, so that a kernel's frame says them exactly. */
+/** Times in ms; values are multiples of the standard steps, so that quantization is exact. */
 const frames = [
   { time: 0 },
   {
@@ -75,7 +75,7 @@ beforeAll(async () => {
     nodePaths: [join(root, 'web/node_modules')],
     logLevel: 'silent',
   });
-  // No server: the page and the file come from here.
+  // No server: this route serves the page and the file.
   await page.route('http://clip.test/**', (route) =>
     route.request().url().endsWith('clip.glb')
       ? route.fulfill({ body: Buffer.from(clip), contentType: 'model/gltf-binary' })
@@ -101,7 +101,7 @@ function evaluate(index: number, pose: number): void {
   kernel.evaluate(frame, pose);
 }
 
-/** The kernel's vertices between two frames, in the order of the clip's primitives: by material, then rising. */
+/** The kernel's vertices at a time, in the order of the clip's primitives: by material, then by vertex number. */
 function kernelAt(ms: number): number[][] {
   const next = frames.findIndex(({ time }) => time >= ms);
   const before = Math.max(0, next - 1);
@@ -133,7 +133,7 @@ describe('animation clip, played by others', () => {
     expect(report.bones).toBe(report.extras['joints']);
     expect(report.channels).toBe(report.extras['channels']);
     const quantum = report.extras['quantum'] as number;
-    // three.js takes four influences a vertex; keys left out are half a quantum each of shift, eye and head.
+    // three.js uses four influences per vertex; omitted keys add half a quantum each for displacement, eye and head.
     const allowed = (report.extras['error_first_four'] as number) + 1.5 * quantum;
     const size = Math.max(...face.rig.bounds.max.map((value, axis) => value - face.rig.bounds.min[axis]!));
     expect(allowed).toBeLessThan(0.01 * size);
@@ -152,7 +152,7 @@ describe('animation clip, played by others', () => {
           moved = Math.max(moved, from(rest));
         }
       });
-      // Turns go by slerp there and by nlerp here: for these steps 1e-4 of the size.
+      // three.js interpolates rotations by slerp, the kernel by nlerp: they differ by 1e-4 of the size for these steps.
       expect(worst, `${ms} ms`).toBeLessThan(allowed + 1e-4 * size);
       if (ms > 0) expect(moved).toBeGreaterThan(0.02 * size);
     }
@@ -168,7 +168,7 @@ describe('animation clip, played by others', () => {
         kernelAt(ms),
       ] as const);
       await page.screenshot({ path: join(pictures, `clip-${ms}.png`) });
-      // The halves against each other, without the background: colours of each, pixel by pixel.
+      // Compares the two halves of the picture pixel by pixel, without the background.
       const difference = await page.evaluate(() => {
         const source = document.querySelector('canvas')!;
         const copy = document.createElement('canvas');
@@ -189,7 +189,7 @@ describe('animation clip, played by others', () => {
         return tally;
       });
       expect(difference.left).toBeGreaterThan(10_000);
-      // Seen from a little to either side, so only nearly as large.
+      // The halves are seen from slightly different sides, so the sizes differ a little.
       expect(Math.abs(difference.left - difference.right) / difference.left).toBeLessThan(0.15);
     }
     expect(errors).toEqual([]);

@@ -8,13 +8,13 @@ import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
 /**
- * The shader against the kernel. Positions: two float32 sums in different order, of at most 17 terms each, then two
- * rotations: 1e-5 of the head's diagonal is some ten times what that can differ, and far below what can be seen.
+ * Tolerance of shader against kernel, in diagonals of the head. Two float32 sums of at most 17 terms in different
+ * order, then two rotations: 1e-5 is about ten times the possible difference, and far below what is visible.
  */
 const positionTolerance = 1e-5;
-/** Normals: the shader against the same formula in double. Degrees. */
+/** Tolerance of the shader's normals against the same formula in double precision, degrees. */
 const normalTolerance = 0.1;
-/** Normals by the weights' slopes against those of the deformed triangles, in the mean over the skin. Degrees. */
+/** Mean difference over the skin between normals from the weights' slopes and those of the triangles, degrees. */
 const meanSlopeError = 6;
 
 interface Comparison {
@@ -49,7 +49,7 @@ const frames: Record<string, Edit> = {
   'gaze and head': { faps: { 23: 150, 24: 150, 25: -60, 26: -60, 48: 80, 49: -150, 50: 60 } },
 };
 
-/** In the page: the same pose by the shader and by the kernel. */
+/** Compares, in the page, the same pose deformed by shader and kernel. */
 async function compare(studio: StudioPage, edit: Edit): Promise<Comparison> {
   return studio.page.evaluate((change) => {
     const { compareDeformation } = (window as unknown as { semblante: { compareDeformation(edit: Edit): Comparison } })

@@ -28,7 +28,7 @@ afterAll(async () => {
   await server?.stop();
 });
 
-/** A ball as an OBJ, with one triangle given twice. */
+/** A ball as an OBJ file with one duplicate triangle. */
 function damagedBall(): string {
   const rings = 8;
   const around = 12;
@@ -56,12 +56,12 @@ function damagedBall(): string {
 const camera = (studio: StudioPage): Promise<number[]> =>
   studio.page.evaluate(() => (window as unknown as Inside).semblante.scene.stage.camera.position.toArray());
 
-/** Triangles that tint a part, and dots on vertices, as the stage shows them now. */
+/** The highlight on the stage: the triangles of the tinted part and the dots on vertices. */
 const pointedOut = (studio: StudioPage): Promise<{ triangles: number; dots: number }> =>
   studio.page.evaluate(() => {
     const { parts, dots } = (window as unknown as Inside).semblante.scene.highlight;
     const corners = parts.children.reduce((sum, { geometry }) => sum + (geometry.index?.count ?? 0), 0);
-    // Each part is drawn twice: faintly through the head, and as it can be seen.
+    // Each part is drawn twice: faintly without depth test, and where it is visible.
     return { triangles: corners / 3 / 2, dots: dots.object.visible ? dots.count : 0 };
   });
 
@@ -73,7 +73,7 @@ describe('fit', () => {
     await studio.drop(damagedBall());
     await studio.waitForState('ready');
     await studio.waitForStage('ready');
-    // The panel opens by itself, since the file needs care.
+    // The Fit tab opens automatically, because the file has findings.
     await page.locator('#tab-fit[aria-selected="true"] .finding-badge').waitFor();
     const finding = page.locator('.finding[data-code="duplicate-triangles"]');
     expect(await finding.locator('.finding-words').innerText()).toMatch(/^[A-Z\d].*\.$/);
@@ -85,7 +85,7 @@ describe('fit', () => {
     expect(await finding.locator('.finding-show').getAttribute('aria-pressed')).toBe('true');
     await finding.locator('.finding-show').click();
     expect((await pointedOut(studio)).dots).toBe(0);
-    // Whoever goes on to another work sees the whole head again.
+    // On another tab the whole head is in view again.
     await page.locator('#tab-animate').click();
     expect(await camera(studio)).toEqual(before);
     await page.locator('#tab-heads').click();
@@ -139,11 +139,11 @@ describe('fit', () => {
     const picture = await studio.picture();
 
     await page.getByLabel('Top of the head').selectOption('+Z');
-    // One axis cannot be both.
+    // Up and front cannot be the same axis.
     expect(await page.getByRole('button', { name: 'Apply' }).isDisabled()).toBe(true);
-    await page.getByLabel('The face looks').selectOption('-Y');
+    await page.getByLabel('Front of the face').selectOption('-Y');
     await page.getByRole('button', { name: 'Apply' }).click();
-    // The old axes stand until the model is read anew.
+    // The old axes are shown until the model has been imported again.
     await axes.getByText('+Z up, -Y to the front').waitFor();
     await axes.getByText('yours').waitFor();
     const turned = async (): Promise<unknown> => {
@@ -173,14 +173,14 @@ describe('fit', () => {
     const level = page.locator('[data-level="1"]');
     await level.scrollIntoViewIfNeeded();
     const words = await level.innerText();
-    expect(words).toMatch(/Off by [\d.]+ % of the distance of the eyes at most, in expressions by [\d.]+ %/);
+    expect(words).toMatch(/Error at most [\d.]+ % of the eye distance, in expressions [\d.]+ %/);
     await level.click();
     await page.waitForFunction((before) => {
       const { scene } = (window as unknown as Inside).semblante;
       return scene.state.value.kind === 'ready' && (scene.face?.mesh.vertexCount ?? before) < before;
     }, full);
     expect(words).toContain(`${(await shown()).toLocaleString('en-US')} vertices`);
-    // It moves as the full mesh does.
+    // The level of detail is animated like the full mesh.
     const before = await studio.pictureAtRest();
     await page.locator('[data-viseme="10"]').click();
     await studio.pictureUnlike(before, [0.3, 0.4, 0.4, 0.4], 0.5);

@@ -29,7 +29,7 @@ describe('look', () => {
         await studio.waitForStage('ready');
         for (const tab of tabs) {
           await studio.page.locator(`#tab-${tab}`).click();
-          // Nothing sticks out sideways, and the page itself does not scroll.
+          // No element overflows horizontally, and the page itself does not scroll.
           const overflow = (): Promise<number[]> =>
             studio.page.evaluate(() => [
               document.documentElement.scrollWidth - innerWidth,

@@ -96,20 +96,20 @@ describe('face package, read by others', () => {
         expect(table.rowPoints[k]).toBeLessThan(84);
         sum += table.rowWeights[k]!;
       }
-      // A tongue follows its own points and the jaw besides: at most 2, and half a quantum of 12 bits for each entry.
+      // The tongue follows its own points and also the jaw: a sum of at most 2, plus half a 12-bit quantum per entry.
       expect(sum).toBeLessThanOrEqual(2.002);
       if (sum > 0.5) led += 1;
     }
-    // Most of this head's vertices are on its face, where points lead; the others fade out or stay.
+    // Most vertices of this head are on the face, with weights; the others fade out or have none.
     expect(led / table.vertexCount).toBeGreaterThan(0.3);
-    // Eyes, irises and the tongue from none of its roll to all of it.
+    // Eyes, irises, and the tongue with roll shares from 0 to 1.
     const motions = new Set(table.rigid);
     for (const motion of [0, 1, 2, 3, 4, 255]) expect(motions).toContain(motion);
     for (const motion of motions) expect(motion <= 4 || motion >= 128).toBe(true);
   });
 
   test('FaceGlb_GltfLoader_ReadsMeshMaterialsWeightsAndRig', async () => {
-    // Bundled from three.js as npm ships it; the page is any page of the server's origin, for the decoder beside it.
+    // Bundled from the npm package of three.js; the page needs the server's origin to load the Draco decoder from it.
     const nodeModules = join(root, 'web/node_modules');
     const bundle = await build({
       entryPoints: [join(root, 'tests/browser/pages/read_face.ts')],
@@ -147,7 +147,7 @@ describe('face package, read by others', () => {
       expect(one.highestPoint).toBeLessThan(84);
       expect(one.highestSum).toBeLessThanOrEqual(2.001);
     }
-    // The skin has weights; what only turns or hangs on the head (eyes, upper teeth) needs none.
+    // The skin has weights; rigid parts (eyes, upper teeth) need none.
     expect(
       report.primitives.some(
         (one) => one.attributes.includes('_fp_index_0') && one.attributes.includes('_fp_weight_0'),
@@ -165,11 +165,11 @@ describe('face package, read by others', () => {
       points: Record<string, { vertex: number | null }>;
     };
     const vertices = Object.values(points.points).flatMap((point) => (point.vertex === null ? [] : [point.vertex]));
-    // All but 7.1, the centre of rotation inside the head, lie on a vertex.
+    // All points except 7.1, the centre of rotation inside the head, are on a vertex.
     expect(vertices).toHaveLength(83);
     expect(Math.max(...vertices)).toBeLessThan(model.counts.vertices);
   });
 });
 
-// Resolved here so that a missing package fails at once, with its name.
+// Resolved here so that a missing package fails immediately, with its name in the error.
 createRequire(join(root, 'web/package.json')).resolve('three');

@@ -34,7 +34,7 @@ describe('performance', () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
-    // A smile that lasts, so that there is time to look.
+    // A long cue, so that its effect is visible whenever the test compares pictures.
     const cues = [{ time: 0, duration: 590_000, expression: 'joy', value: 1 }];
     const smile = { format: 'semblante.performance', version: 1, name: 'A long smile', duration: 600_000, cues };
     await page.getByRole('button', { name: 'Pause the stream' }).click();
@@ -102,7 +102,7 @@ describe('performance', () => {
     await section.getByRole('button', { name: 'Take over' }).click();
     await section.locator('.transport').getByText('A minute').waitFor();
 
-    // The slider begins it anew somewhere else.
+    // The slider restarts the performance at another position.
     await section.getByRole('slider', { name: 'Position' }).fill('30000');
     await section.getByText(/^0:[345]\d\.\d \/ 1:00\.0$/).waitFor();
     expect(studio.errors).toEqual([]);
@@ -114,12 +114,12 @@ describe('performance', () => {
     const { page } = studio;
     await studio.waitForStage('ready');
     const clip = page.locator('.clip');
-    // Jaw, pupils and tongue: from rest to far, in a minute, by a mask of 69 flags.
+    // Jaw, pupils and tongue from zero to large values in a minute, with a mask of 69 flags.
     const mask = Array.from({ length: 69 }, (_, i) => ([3, 29, 30, 47].includes(i + 1) ? 1 : 0)).join(' ');
     const frames = Array.from({ length: 60 }, (_, i) => `${mask}\n${i} ${i * 12} ${i * 5} ${i * 5} ${i * 1500}`);
     await studio.drop(file('wide.fap', `2.1 wide 1 60\n${frames.join('\n')}\n`));
     await clip.getByText('wide.fap').waitFor();
-    await clip.getByText('1 peculiarity of the file').waitFor();
+    await clip.getByText('1 deviation from the usual form').waitFor();
     await clip.getByRole('button', { name: 'Pause' }).click();
     await clip.getByRole('slider', { name: 'Position' }).fill('0');
     const before = await studio.pictureAtRest();
@@ -160,10 +160,10 @@ describe('performance', () => {
     await clip.scrollIntoViewIfNeeded();
     await studio.keep('clip-performance-paused');
 
-    // By hand again, with idle life under it: the face moves though nobody moves a slider.
+    // Controlled by the sliders again, with idle life: the face moves although no slider moves.
     await page.getByRole('switch', { name: 'Idle life' }).check();
     await chip.getByText('By hand').waitFor();
-    // Once the way from the clip's face to the neutral one is over, what still moves is idle life.
+    // After the easing from the clip's pose to the neutral face, the only motion left is idle life.
     await studio.drawn(90);
     await studio.pictureUnlike(await studio.picture(), faceAlone, 0.02);
     await page.getByRole('switch', { name: 'Idle life' }).uncheck();

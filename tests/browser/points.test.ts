@@ -26,7 +26,7 @@ afterAll(async () => {
   await server?.stop();
 });
 
-/** The points the server has of the open head. */
+/** The points of the open head that are stored on the server. */
 async function stored(studio: StudioPage): Promise<Points['points']> {
   const id = await studio.page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
   return ((await (await fetch(`${server.url}/v1/models/${id}/feature-points`)).json()) as Points).points;
@@ -55,7 +55,7 @@ describe('feature points', () => {
     await page.getByText(`Point 4 of ${quickSet.length}`).waitFor();
     await page.getByText('3 of 84 placed').waitFor();
 
-    // By the keyboard alone: what lies under the cross in the middle of the picture.
+    // Keyboard only: place the point under the crosshair in the middle of the stage.
     await page.locator('canvas.canvas').focus();
     await page.keyboard.press('Shift+ArrowDown');
     await page.keyboard.press('Space');
@@ -79,7 +79,7 @@ describe('feature points', () => {
     );
     await page.setInputFiles('#points-file', file);
     await page.getByText('20 of 84 placed').waitFor();
-    await page.getByRole('button', { name: 'Propose the rest' }).click();
+    await page.getByRole('button', { name: 'Propose missing points' }).click();
     const confirmAll = page.getByRole('button', { name: 'Confirm all' });
     await confirmAll.waitFor();
     const count = async (): Promise<number> =>
@@ -88,7 +88,7 @@ describe('feature points', () => {
     expect(proposed).toBeGreaterThan(40);
     expect(await page.locator('.point-row.proposed').count()).toBe(proposed);
 
-    // One confirmed, one moved to another place, one taken away: none of them is a proposal any more.
+    // One point confirmed, one moved, one removed: none of them is a proposal any more.
     await page.getByRole('button', { name: 'Review' }).click();
     await page.getByRole('button', { name: 'Confirm', exact: true }).click();
     expect(await count()).toBe(proposed - 1);

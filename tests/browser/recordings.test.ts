@@ -55,7 +55,7 @@ describe('recordings', () => {
     expect(recordings[0]!.state).toBe('finished');
     expect(recordings[0]!.duration).toBeGreaterThan(1500);
 
-    // The .fap file has what was recorded, and reads.
+    // The .fap file can be parsed and contains the recorded frames.
     await item.getByRole('button', { name: /^More of/ }).click();
     const [download] = await Promise.all([
       page.waitForEvent('download'),
@@ -70,18 +70,18 @@ describe('recordings', () => {
     ]);
     expect(readFileSync(await clip.path()).subarray(0, 4).toString()).toBe('glTF');
 
-    // Into another stream; when somebody is there, the page asks.
+    // Play into another stream; the page asks for confirmation when it has a source.
     await section.getByLabel('Stream to play recordings into').selectOption({ label: 'Other' });
     await item.getByRole('button', { name: /^Play / }).click();
     await page.getByText('Live: Other').first().waitFor();
     await page.getByLabel('About the stream').getByText('50 %').waitFor();
-    await page.getByLabel('About the stream').getByText('Not at all').waitFor();
+    await page.getByLabel('About the stream').getByText('None').waitFor();
     await expect
       .poll(async () => ((await (await fetch(`${server.url}/v1/streams/other`)).json()) as { sequence: number }).sequence, {
         timeout: patience,
       })
       .toBeGreaterThan(20);
-    // The list now is that of the stream which is watched.
+    // The list now shows the recordings of the subscribed stream.
     await section.getByText('Nothing recorded yet.').waitFor();
 
     const smile = [{ time: 0, duration: 590_000, expression: 'joy', value: 1 }];
@@ -105,7 +105,7 @@ describe('recordings', () => {
   });
 
   test('Recording_SoughtOnThePage_ShowsThatFaceAloneAndIsDeleted', async () => {
-    // A face that opens its mouth after a second and a half.
+    // The recorded face opens its mouth after 1.5 s.
     expect((await post('', { name: 'takes', title: 'Takes' })).status).toBe(201);
     const started = await post('/takes/recordings', { name: 'A yawn, with a name that is rather long for one line' });
     const { id } = (await started.json()) as { id: string };

@@ -73,7 +73,7 @@ function meshOf({ face }: Golden): GoldenMesh {
   };
 }
 
-/** The poses of all cases, then of all interpolations, by the kernel: the shader begins where they end. */
+/** The poses of all cases, then of all interpolations, computed by the kernel as the shader's input. */
 async function poses(): Promise<Record<keyof Pose, number[]>[]> {
   const wasm = process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm/semblante_kernel.wasm');
   expect(existsSync(wasm), wasm).toBe(true);

@@ -7,9 +7,9 @@ import { faces, sampleHead, samplePoints } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
-/** The middle of the lower half of the stage, where the mouth of a head seen from the front is. */
+/** The region of the mouth in the front view: the middle of the lower half of the stage. */
 const mouth = [0.36, 0.48, 0.28, 0.3] as const;
-/** Clear of what floats above and below the head. */
+/** A region of the face without the tools that float above and below the head. */
 const faceAlone = [0.3, 0.2, 0.4, 0.5] as const;
 
 interface PointsFile {
@@ -33,7 +33,7 @@ async function importPoints(studio: StudioPage, path: string): Promise<void> {
   await studio.page.setInputFiles('#points-file', path);
 }
 
-/** Drops a head with its points, marks one point by a click, parametrizes, and returns with the Animate tab open. */
+/** Drops a head and its points, places one point by a click, parametrizes; ends on the Animate tab. */
 async function bringToLife(studio: StudioPage, head: string, points: string): Promise<void> {
   const { page } = studio;
   await studio.drop(head);
@@ -46,7 +46,7 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
     .filter({ hasNotText: /^0 of/ })
     .waitFor();
 
-  // The tip of the nose, taken away and put back with the pointer.
+  // The tip of the nose is removed and placed again with the pointer.
   const file = JSON.parse(readFileSync(points, 'utf8')) as PointsFile;
   const nose = file.points['9.3']!;
   await page.getByRole('searchbox', { name: 'Search feature points' }).fill('9.3');
@@ -68,17 +68,17 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
 
 async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
   const { page } = studio;
-  // The demo drives every head that can move: by hand from here on.
+  // The demo drives every parametrized head; pausing it gives the face to the sliders.
   await page.getByRole('button', { name: 'Pause the stream' }).click();
   const before = await studio.pictureAtRest();
   await page.locator('details[data-group="2"] summary').click();
   const jaw = page.getByRole('slider', { name: 'Open jaw' });
   await jaw.fill('600');
   const after = await studio.pictureAtRest();
-  // Mean difference of a channel, 0..255: the jaw's point alone moves a part of this region on a head seen from afar.
+  // Mean difference per channel, 0..255; small, because the jaw moves only a part of this region.
   const moved = await studio.difference(before, after, mouth);
   expect(moved).toBeGreaterThan(0.8);
-  // The forehead does not follow the jaw.
+  // The jaw does not move the forehead.
   expect(await studio.difference(before, after, [0.4, 0.18, 0.2, 0.1])).toBeLessThan(moved / 5);
 
   await page.getByRole('button', { name: 'Neutral face' }).click();
@@ -180,7 +180,7 @@ describe('studio', () => {
   test('Studio_PublishByHand_AnotherPageSeesIt', async () => {
     const director = await StudioPage.open(browser, server.url);
     await director.waitForStage('ready');
-    // Its own face stands still meanwhile: two pages share one software renderer here.
+    // Its own face stands still in the meantime: both pages share one software renderer.
     await director.page.getByRole('button', { name: 'Pause the stream' }).click();
     await director.page.locator('#tab-live').click();
     await director.page.getByRole('button', { name: 'New stream' }).click();
@@ -189,7 +189,7 @@ describe('studio', () => {
     await director.page.locator('.stream', { hasText: 'Two pages' }).waitFor();
     await director.page.getByLabel('Stream to send to').selectOption({ label: 'Two pages' });
     await director.page.getByRole('switch').check();
-    await director.page.getByText('Sending: move a slider in Animate.').waitFor();
+    await director.page.getByText('Publishing: move a slider in Animate.').waitFor();
 
     const viewer = await StudioPage.open(browser, server.url);
     await viewer.waitForStage('ready');

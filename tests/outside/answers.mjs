@@ -1,9 +1,9 @@
-// Holds what a server sends and takes against its OpenAPI document.
+// Validates a server's requests and responses against its OpenAPI document.
 import Ajv2020 from 'ajv/dist/2020.js';
 import addFormats from 'ajv-formats';
 import yaml from 'js-yaml';
 
-/** A JSON text as a value; a member named twice in one object is an error. YAML 1.2 is a superset of JSON. */
+/** Parses JSON; a duplicate member of an object is an error. (YAML 1.2 is a superset of JSON.) */
 export const parseStrictly = (text) => yaml.load(text, { schema: yaml.JSON_SCHEMA });
 
 /** Ajv with its strict mode: an unknown keyword or a required member that is not defined is an error. */
@@ -15,16 +15,16 @@ export function strictAjv(options = {}) {
   return ajv;
 }
 
-/** A schema of the document that refers to those of schemasOf(). */
+/** Rewrites a schema of the document so that its references point to schemasOf(). */
 const standalone = (schema) => JSON.parse(JSON.stringify(schema).replaceAll('"#/components/schemas/', '"api#/$defs/'));
 
-/** All schemas of the document as one JSON Schema, of which each is a definition. */
+/** All schemas of the document as the definitions of one JSON Schema. */
 export const schemasOf = (document) => ({ $id: 'api', $defs: standalone(document.components.schemas) });
 
 const essence = (contentType) => (contentType ?? '').split(';')[0].trim();
 const isJson = (type) => type === 'application/json' || type.endsWith('+json');
 
-/** Validates requests and answers against the document and notes which of its operations were seen to succeed. */
+/** Validates requests and responses against the document and records which operations have succeeded. */
 export class AnswerCheck {
   #ajv = strictAjv({ strictRequired: false });
   #document;
@@ -36,14 +36,14 @@ export class AnswerCheck {
     this.#ajv.addSchema(schemasOf(document));
   }
 
-  /** Throws unless the document allows this body, which the server has taken. */
+  /** Throws unless the document allows this request body, which the server has accepted. */
   request(method, path, contentType, body) {
     const { requestBody } = this.#operation(method, path);
     if (!requestBody) throw new Error(`${method} ${path} takes no body, the document says`);
     this.#validate(`${method} ${path} request`, requestBody.content, contentType, body);
   }
 
-  /** Throws unless the document has this answer: its status, its headers, its media type, and what is in its JSON. */
+  /** Throws unless the document allows this response: status, headers, media type, and JSON body. */
   response(method, path, response, body) {
     const operation = this.#operation(method, path);
     const what = `${method} ${path} ${response.status}`;
@@ -51,7 +51,7 @@ export class AnswerCheck {
     if (response.ok && !operation.responses[response.status]) throw new Error(`${what} is not in the document`);
     for (const name of Object.keys(documented.headers ?? {}))
       if (!response.headers.has(name)) throw new Error(`${what} has no ${name}`);
-    // Part of a JSON text (206) is bytes that no schema describes.
+    // A part of a JSON text (206) matches no schema.
     if (documented.content) this.#validate(what, documented.content, response.headers.get('Content-Type'), body);
     else if (body && response.status !== 206) throw new Error(`${what} has a body that is not in the document`);
     if (response.ok) this.succeeded.add(operation.operationId);

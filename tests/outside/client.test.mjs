@@ -1,4 +1,4 @@
-// A server's /openapi.json as other people's tools read it, from a strict parser to a running TypeScript client.
+// Tests a server's /openapi.json with third-party tools, from a strict parser to a running TypeScript client.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -38,7 +38,7 @@ test('OpenApi_IsValidForSwaggerParser', async () => {
 });
 
 test('Schemas_CompileStrictly', () => {
-  // Every reference in place, no keyword that means nothing, no member required that is not defined.
+  // All references resolve, all keywords are known, all required members are defined.
   const schemas = schemasOf(parseStrictly(text));
   const ajv = strictAjv();
   ajv.addSchema(schemas);
@@ -46,7 +46,7 @@ test('Schemas_CompileStrictly', () => {
 });
 
 test('GeneratedClient_CompilesAndWalksEveryOperation', { timeout: 300_000 }, async () => {
-  // Members with a default may be left out of a request; without this option the tool demands them.
+  // Members with a default are optional in a request; without this option the tool makes them required.
   const types = astToString(await openapiTypescript(JSON.parse(text), { defaultNonNullable: false }));
   mkdirSync(join(here, 'generated'), { recursive: true });
   writeFileSync(join(here, 'generated/api.ts'), types);

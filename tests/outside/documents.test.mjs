@@ -1,4 +1,4 @@
-// The schemas that Semblante publishes, as others' validators read them, and against each other.
+// Tests Semblante's published schemas with third-party validators, and against each other.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,7 @@ const read = (path) => parseStrictly(readFileSync(join(root, path), 'utf8'));
 
 const performance = read('protocol/schema/performance.schema.json');
 const api = schemasOf(read('server/api/openapi.json'));
-// Conditions of a cue require members that its `properties` define one level above, which strictRequired does not see.
+// The conditions of a cue require members that are defined one level above, which strictRequired does not see.
 const ajv = strictAjv({ strictRequired: false });
 ajv.addSchema(api);
 const apiSchema = (name) => ajv.compile({ $ref: `api#/$defs/${name}` });

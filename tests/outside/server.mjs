@@ -1,4 +1,4 @@
-// A real server with an empty store, for one test file.
+// A real server with an empty store for one test file.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';

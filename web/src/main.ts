@@ -37,7 +37,7 @@ import { Toasts } from './ui/shared/toast.ts';
 
 const demo = { id: 'demo', title: 'Demo' };
 
-/** Puts the page together; the only place that knows everyone. */
+/** Composes the page; the only module that knows all others. */
 function main(root: HTMLElement): void {
   const toasts = new Toasts();
   const theme = themeButton();
@@ -115,7 +115,7 @@ function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
   });
 }
 
-/** Puts the selected head on the stage, as the tab needs it, and reads its feature points. */
+/** Shows the selected head on the stage in the form that the open tab needs, and loads its feature points. */
 function showSelected(studio: Studio, points: PointsModel, scene: SceneView): void {
   studio.tab.watch((tab) => {
     scene.show(tab === 'points' || tab === 'fit' ? 'preview' : 'face');
@@ -124,7 +124,7 @@ function showSelected(studio: Studio, points: PointsModel, scene: SceneView): vo
   let opened = '';
   studio.selected.watch((model) => {
     void scene.open(model);
-    // Points can be read once the import has ended; later changes of the model leave the draft alone.
+    // The points can be loaded once the import has ended; later changes of the model must not overwrite the draft.
     const key = model ? `${model.id}:${model.state === 'importing' || model.state === 'failed'}` : '';
     if (key === opened) return;
     opened = key;

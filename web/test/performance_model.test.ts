@@ -182,7 +182,7 @@ describe('performance model', () => {
     model.target.set('a');
     server.refuse = { type: '/problems/conflict', title: 'Conflict', status: 409 };
     await model.play();
-    expect(model.refusal.value?.holder).toBe('Somebody sends to this stream.');
+    expect(model.refusal.value?.holder).toBe('Another client publishes to this stream.');
   });
 
   test('Play_RefusedDocument_ShowsWhere', async () => {

@@ -9,7 +9,7 @@
 
 namespace semblante::bridges {
 
-/// A blend shape as authored, mirrored where it says so.
+/// A blend shape of arkit.json, with its mirrored copy if requested.
 struct ShapeData {
   std::string name;
   std::size_t mirror = 0;      ///< index of the shape of the other side; its own where it has two sides or none
@@ -24,7 +24,7 @@ struct ArkitData {
   std::array<double, 5> millimetres{};  ///< a FAPU's whole unit on a usual head, in the order of mpeg4::Unit
 };
 
-/// Reads arkit.json. Throws std::exception naming what is wrong: this runs at development time only.
+/// Reads arkit.json. Throws std::exception with the error: runs at development time only.
 ArkitData read_arkit_data(const std::string& file);
 
 /// core/bridges/generated/arkit_tables.h
@@ -32,7 +32,7 @@ std::string render_cpp(const ArkitData& data);
 /// protocol/ts/generated/arkit.ts
 std::string render_typescript(const ArkitData& data);
 
-/// All of them, from core/bridges/data.
+/// All generated files, from core/bridges/data.
 std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);
 
 }  // namespace semblante::bridges

@@ -44,7 +44,7 @@ inline constexpr std::size_t max_frames_per_message = 1024;
 inline constexpr std::size_t max_frame_time = 86400000;
 inline constexpr std::size_t max_level = 32767;
 
-/// What a client wants of the stream.
+/// The role of a client in the stream.
 enum class StreamRole : std::uint8_t {
   subscribe,  ///< to receive frames
   publish,  ///< to send frames
@@ -62,41 +62,41 @@ inline constexpr EnumNames stream_coding_names{stream_coding_value_names, true};
 
 /// Why a stream or a connection ends.
 enum class EndReason : std::uint8_t {
-  other,  ///< any reason this version does not know
-  finished,  ///< the source has no more
+  other,  ///< a reason unknown to this version
+  finished,  ///< the source has ended
   deleted,  ///< the stream was deleted
-  shutdown,  ///< the server stops; reconnect later
+  shutdown,  ///< the server shuts down; reconnect later
   replaced,  ///< another publisher took over
-  slow,  ///< the receiver does not keep up
+  slow,  ///< the receiver is too slow
 };
 inline constexpr std::array<std::string_view, 6> end_reason_value_names = {"other", "finished", "deleted", "shutdown", "replaced", "slow"};
 inline constexpr EnumNames end_reason_names{end_reason_value_names, true};
 
-/// What was wrong with a message.
+/// The kind of error in a message.
 enum class StreamErrorCode : std::uint8_t {
-  other,  ///< anything this version does not know
-  malformed,  ///< not of the form it claims, or a value of the wrong kind
-  truncated,  ///< ends before what it announced
-  out_of_range,  ///< a number outside its bounds
-  not_finite,  ///< NaN or infinity where a number belongs
+  other,  ///< an error unknown to this version
+  malformed,  ///< invalid syntax, or a value of the wrong type
+  truncated,  ///< ends before its declared content
+  out_of_range,  ///< a number outside its range
+  not_finite,  ///< NaN or infinity
   too_large,  ///< over a limit
-  unsupported,  ///< a version or message type that is not known
-  mismatch,  ///< does not fit what came before: frames without a keyframe, or after a gap
+  unsupported,  ///< an unknown version or message type
+  mismatch,  ///< inconsistent with earlier messages: frames without a keyframe, or after a gap
   missing,  ///< a required member is absent
-  invalid_argument,  ///< a value that cannot mean anything here
+  invalid_argument,  ///< a value without meaning here
   not_found,  ///< no such stream
-  conflict,  ///< someone else publishes already
-  throttled,  ///< too much in too short a time
-  unauthorized,  ///< the role is not allowed to this client
-  internal,  ///< a fault of the server
+  conflict,  ///< the stream already has a source
+  throttled,  ///< over the rate limit
+  unauthorized,  ///< the client may not have this role
+  internal,  ///< an error of the server
 };
 inline constexpr std::array<std::string_view, 15> stream_error_code_value_names = {"other", "malformed", "truncated", "out_of_range", "not_finite", "too_large", "unsupported", "mismatch", "missing", "invalid_argument", "not_found", "conflict", "throttled", "unauthorized", "internal"};
 inline constexpr EnumNames stream_error_code_names{stream_error_code_value_names, true};
 
-/// Where a client that lost its connection stopped.
+/// The last frame that a client received before it lost its connection.
 struct ResumePoint {
-  std::uint64_t epoch = 0;  ///< of the header it had
-  std::uint64_t sequence = 0;  ///< of the last frame it has
+  std::uint64_t epoch = 0;  ///< epoch of the last header
+  std::uint64_t sequence = 0;  ///< number of the last frame received
   friend bool operator==(const ResumePoint&, const ResumePoint&) = default;
 };
 
@@ -104,74 +104,74 @@ struct ResumePoint {
 struct Hello {
   std::uint32_t version = 1;  ///< highest protocol version the client knows
   StreamRole role{};
-  std::optional<ResumePoint> resume;  ///< given after a lost connection
-  StreamCoding coding{};  ///< the best form the client reads; on a JSON connection of no meaning
-  bool take_over = false;  ///< of a publisher: to replace the one there is
+  std::optional<ResumePoint> resume;  ///< present after a lost connection
+  StreamCoding coding{};  ///< the preferred form that the client can read; ignored on a JSON connection
+  bool take_over = false;  ///< for a publisher: replace the current source
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
-/// The first message of a server: what the stream is and how to read it.
+/// The first message of a server: properties of the stream and its encoding.
 struct Header {
-  std::uint32_t version = 1;  ///< protocol version of everything that follows
+  std::uint32_t version = 1;  ///< protocol version of this connection
   std::string stream;  ///< id of the stream
-  std::string title;  ///< for people; may be empty
-  std::string model;  ///< id of the model the stream suggests; may be empty
-  std::uint64_t epoch = 0;  ///< sequence numbers are comparable within one epoch only
-  std::uint64_t sequence = 0;  ///< of the newest frame the stream has had; 0 before the first
-  std::uint64_t media_time = 0;  ///< ms; of the stream's clock now
+  std::string title;  ///< for display; may be empty
+  std::string model;  ///< id of the suggested model; may be empty
+  std::uint64_t epoch = 0;  ///< sequence numbers are only comparable within one epoch
+  std::uint64_t sequence = 0;  ///< number of the stream's newest frame; 0 before the first
+  std::uint64_t media_time = 0;  ///< ms; current time of the stream's clock
   double server_time = 0.0;  ///< ms; since 1970-01-01 UTC
-  double fps_hint = 0.0;  ///< 1/s; frames a second the stream means to have; 0: unknown
-  std::uint32_t batch_interval = 0;  ///< ms; between messages the server means to send; 0: unknown
+  double fps_hint = 0.0;  ///< 1/s; intended frames per second; 0: unknown
+  std::uint32_t batch_interval = 0;  ///< ms; intended time between messages; 0: unknown
   std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
-  bool recovered = false;  ///< everything after the resume point follows: nothing was lost
-  std::optional<double> viseme_share;  ///< of Eq. 5, in place of rig.json's; absent: rig.json's
+  bool recovered = false;  ///< all frames after the resume point follow: none was lost
+  std::optional<double> viseme_share;  ///< viseme share of Eq. 5, in place of rig.json's; absent: rig.json's
   StreamCoding coding{};  ///< the form in which the server sends on this connection
   friend bool operator==(const Header&, const Header&) = default;
 };
 
-/// The whole state at one moment: a reader can start here.
+/// The complete state at one moment, from which a reader can start.
 struct Keyframe {
-  std::uint64_t sequence = 0;  ///< of the frame this is; 0: before the first
+  std::uint64_t sequence = 0;  ///< number of this frame; 0: before the first
   std::uint64_t media_time = 0;  ///< ms
   FaceFrame state;  ///< as differences to the neutral face
   friend bool operator==(const Keyframe&, const Keyframe&) = default;
 };
 
-/// A batch: frame i has the sequence number `sequence` + i and happens at `media_time` + its own time.
+/// A batch: frame i has the sequence number `sequence` + i and the media time `media_time` + its own time.
 struct Frames {
-  std::uint64_t sequence = 0;  ///< of the first frame; 0 (from a publisher): the next
+  std::uint64_t sequence = 0;  ///< number of the first frame; 0 (from a publisher): the next number
   std::uint64_t media_time = 0;  ///< ms; 0 (from a publisher): now
-  std::vector<TimedFrame> frames;  ///< 1 to 1024, each as differences to the one before
+  std::vector<TimedFrame> frames;  ///< 1 to 1024 frames, each as differences to the one before
   friend bool operator==(const Frames&, const Frames&) = default;
 };
 
-/// Nothing more comes.
+/// The last message of a connection.
 struct End {
   EndReason reason{};
   friend bool operator==(const End&, const End&) = default;
 };
 
-/// A message was refused; the connection goes on unless it is closed as well.
+/// A message was refused; the connection stays open unless it is closed as well.
 struct StreamError {
   StreamErrorCode code{};
-  std::string where;  ///< JSON pointer to what is wrong in the message, in both subprotocols
-  std::string message;  ///< for people
+  std::string where;  ///< JSON pointer to the invalid part of the message, in both subprotocols
+  std::string message;  ///< for display
   friend bool operator==(const StreamError&, const StreamError&) = default;
 };
 
-/// Asks for the clocks of server and stream.
+/// Requests the clocks of server and stream.
 struct Ping {
-  std::uint32_t id = 0;  ///< comes back in the pong
-  double client_time = 0.0;  ///< ms; of the client's own clock, of any origin
+  std::uint32_t id = 0;  ///< returned in the pong
+  double client_time = 0.0;  ///< ms; the client's own clock, with any origin
   friend bool operator==(const Ping&, const Ping&) = default;
 };
 
-/// The answer to a ping.
+/// The response to a ping.
 struct Pong {
-  std::uint32_t id = 0;  ///< of the ping
-  double client_time = 0.0;  ///< ms; as it came in the ping
-  double server_time = 0.0;  ///< ms; since 1970-01-01 UTC, when the ping was read
-  std::uint64_t media_time = 0;  ///< ms; of the stream's clock at that moment
+  std::uint32_t id = 0;  ///< id of the ping
+  double client_time = 0.0;  ///< ms; as in the ping
+  double server_time = 0.0;  ///< ms; since 1970-01-01 UTC, when the server read the ping
+  std::uint64_t media_time = 0;  ///< ms; the stream's clock at that moment
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 

@@ -1,23 +1,23 @@
 import { arkitSettings, arkitShapes } from '../generated/arkit.ts';
 
 export const arkitCount = arkitShapes.length;
-/** ARKit's 52, in the order of Live Link Face's stream. */
+/** ARKit's 52 blend shapes, in the order of Live Link Face's stream. */
 export const arkitNames: readonly string[] = arkitShapes.map((shape) => shape.name);
 
 const index = new Map(arkitNames.map((name, i) => [name, i]));
 
-/** By ARKit's name ("jawOpen") or Live Link's ("JawOpen"). */
+/** The index of a shape by ARKit's name ("jawOpen") or Live Link's ("JawOpen"). */
 export function findArkit(name: string): number | undefined {
   return index.get(name.charAt(0).toLowerCase() + name.slice(1));
 }
 
 export const shapeIndex = (name: string): number => index.get(name)!;
 
-/** What a shape does to a FAP at coefficient 1, FAP units. */
+/** The change of a FAP by a shape at coefficient 1, FAP units. */
 export const amount = (shape: number, fap: number): number =>
   arkitShapes[shape]!.faps.find(([number]) => number === fap)?.[1] ?? 0;
 
-/** What moves one eye and its lids; FAPs and shapes of that side. */
+/** The FAPs and shapes of one eye and its lids. */
 export interface Eye {
   blink: number;
   lookDown: number;
@@ -55,8 +55,8 @@ export const mouthFunnel = shapeIndex('mouthFunnel');
 export const mouthPucker = shapeIndex('mouthPucker');
 export const tongueOut = shapeIndex('tongueOut');
 
-/** Lids that have met: FAPs 19 and 21 sum to IRISD. */
+/** The sum of FAPs 19 and 21 for closed lids: IRISD. */
 export const lidsShut = 1024;
 export const lowerLidShut = (1 - arkitSettings.upper_lid_share) * lidsShut;
-/** FAP units of an eye that looks as far as a coefficient of 1 says. */
+/** The rotation of an eye at a look coefficient of 1, FAP units. */
 export const fullTurn = ((arkitSettings.eye_full_turn_degrees * Math.PI) / 180) * 1e5;

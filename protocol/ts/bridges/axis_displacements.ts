@@ -3,7 +3,7 @@ import { expressionSets, visemeSets, type DisplacementSet } from '../generated/d
 import { faps, featurePoints } from '../generated/mpeg4.ts';
 import type { FaceValues } from './face_values.ts';
 
-/** The share of the viseme where an expression acts too (Eq. 5). As float32, as it is everywhere. */
+/** The viseme share (Eq. 5: weight of the viseme where an expression acts too). float32, as in all implementations. */
 const visemeShare = Math.fround(0.85);
 
 const pointIndex = new Map(featurePoints.map((point, index) => [point.id, index]));
@@ -41,8 +41,8 @@ const moves = (blend: Blend, point: number): boolean =>
 const shareOf63 = (value: number): number => Math.min(value, maxBlend) / maxBlend;
 
 /**
- * By FAP number, FAP units: how far the feature point of each FAP is along that FAP's axis on a head with the library's
- * visemes and expressions. FAPs 1 and 2 joined by Eq. 5, low-level FAPs that are not zero over both.
+ * The displacement of each FAP's feature point along the FAP's axis, by FAP number, FAP units, on a head with the
+ * library's visemes and expressions. Eq. 5 combines FAPs 1 and 2; nonzero low-level FAPs override both.
  */
 export function axisDisplacements({ viseme, expression, faps: own }: FaceValues): Float64Array {
   const share = shareOf63(viseme.blend);

@@ -9,7 +9,7 @@ import {
 import { limits } from '../generated/messages.ts';
 import { quantize, type QuantizerSteps } from '../quantizers.ts';
 
-/** The state of a face with its FAPs in FAP units: what the bridges work on. By FAP number; 0..2 unused. */
+/** A face state with FAPs in FAP units, as the bridges use it. `faps` by FAP number; 0..2 unused. */
 export interface FaceValues {
   viseme: VisemeBlend;
   expression: ExpressionBlend;
@@ -27,7 +27,7 @@ export function valuesOf(frame: FaceFrame, steps: QuantizerSteps): FaceValues {
   return { viseme: frame.viseme, expression: frame.expression, faps };
 }
 
-/** Levels to the nearest; what is beyond the largest level becomes that. */
+/** Quantizes to the nearest level, clamped to the range of levels. */
 export function frameOf(values: FaceValues, steps: QuantizerSteps): FaceFrame {
   const frame = neutralFrame();
   frame.viseme = { ...values.viseme };

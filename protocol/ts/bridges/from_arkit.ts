@@ -21,24 +21,24 @@ import {
 import { axisDisplacements } from './axis_displacements.ts';
 import { clamp, frameOf, neutralValues, type FaceValues } from './face_values.ts';
 
-/** The 52 in order, or some of them by name; what is not named is 0. */
+/** All 52 coefficients in order, or some by name (the others are 0). */
 export type ArkitInput = ArrayLike<number> | Readonly<Record<string, number>>;
 
 export interface FromArkit {
   frame: FaceFrame;
-  /** Coefficients that were outside 0..1 and were taken as 0 or 1. */
+  /** Number of coefficients outside 0..1, which were clamped. */
   clamped: number;
 }
 
 function coefficientsOf(input: ArkitInput): { c: Float64Array; clamped: number } {
   const c = new Float64Array(arkitCount);
   if ('length' in input && typeof input.length === 'number') {
-    if (input.length !== arkitCount) throw new RangeError(`${arkitCount} coefficients, not ${input.length}`);
+    if (input.length !== arkitCount) throw new RangeError(`must be ${arkitCount} coefficients, not ${input.length}`);
     c.set(input as ArrayLike<number>);
   } else {
     for (const [name, value] of Object.entries(input)) {
       const shape = findArkit(name);
-      if (shape === undefined) throw new RangeError(`${name} is no shape of ARKit`);
+      if (shape === undefined) throw new RangeError(`${name} is not a shape of ARKit`);
       c[shape] = value;
     }
   }
@@ -51,7 +51,7 @@ function coefficientsOf(input: ArkitInput): { c: Float64Array; clamped: number }
   return { c, clamped };
 }
 
-/** mouthClose takes back what jawOpen parts, no more; and a tongue needs room to come out. */
+/** Limits mouthClose to jawOpen, and raises jawOpen where tongueOut needs an open mouth. */
 function settleTheMouth(c: Float64Array): void {
   const closed = Math.min(c[mouthClose]!, c[jawOpen]!);
   const parted = Math.max(c[jawOpen]! - closed, arkitSettings.tongue_parting * c[tongueOut]!);
@@ -59,7 +59,7 @@ function settleTheMouth(c: Float64Array): void {
   c[jawOpen] = closed + parted;
 }
 
-/** A blink takes the lids from wherever they are to where they meet. */
+/** A blink moves the lids from their current position to the closed position. */
 function closeLids(eye: Eye, c: Float64Array, faps: Float64Array): void {
   const crossed = Math.max(faps[eye.upperLid]! + faps[eye.lowerLid]! - lidsShut, 0);
   let upper = faps[eye.upperLid]! - crossed / 2;
@@ -77,7 +77,7 @@ function turnEye(eye: Eye, c: Float64Array, faps: Float64Array): void {
   faps[eye.pitch] = (c[eye.lookDown]! - c[eye.lookUp]!) * fullTurn;
 }
 
-/** Lips press into each other a little and no more, however many shapes close them. */
+/** Limits how far the lips press into each other when several shapes close them. */
 function stopLips(faps: Float64Array): void {
   for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]] as const) {
     const over = Math.max(faps[upper]! + faps[lower]! - arkitSettings.lip_overlap, 0);
@@ -97,11 +97,11 @@ function ofViseme(select1: number, blend: number): Float64Array {
 const open = ofViseme(visemeA, maxBlend)[3]!;
 const forward = ofViseme(visemeU, maxBlend)[16]!;
 
-/** FAP 1 carries what no low-level FAP moves: an open jaw by "a", lips pushed forward by "u", the stronger of the two. */
+/** Uses FAP 1 for motion without a low-level FAP: "a" for an open jaw or "u" for protruded lips, the stronger one. */
 function carryByViseme(c: Float64Array, faps: Float64Array, values: FaceValues): void {
   const share = (part: number, full: number): number => (full > 0 ? clamp(part / full, 0, 1) : 0);
   const pushed = c[mouthPucker]! * amount(mouthPucker, 16) + c[mouthFunnel]! * amount(mouthFunnel, 16);
-  // An "a" parts the lips where no FAP holds them: with lips shut it carries the chin, and that a little.
+  // An "a" also parts the lips at points without a FAP; with closed lips it only lowers the chin, a little.
   const shut = c[jawOpen]! > 0 ? c[mouthClose]! / c[jawOpen]! : 0;
   const carried = 1 - (1 - arkitSettings.carried_when_shut) * shut;
   const moreOpen = carried * share(faps[3]!, open) - share(pushed, forward);
@@ -110,7 +110,7 @@ function carryByViseme(c: Float64Array, faps: Float64Array, values: FaceValues):
   values.viseme = { select1: moreOpen > 0 ? visemeA : visemeU, select2: 0, blend };
 }
 
-/** What a viseme moves and no coefficient does must be held: a FAP of 0 would leave it to the viseme. */
+/** Sets the smallest level for FAPs that only the viseme would move: a FAP of 0 would not override the viseme. */
 function holdAgainstViseme(values: FaceValues): void {
   if (values.viseme.blend === 0) return;
   const moved = ofViseme(values.viseme.select1, values.viseme.blend);
@@ -120,7 +120,7 @@ function holdAgainstViseme(values: FaceValues): void {
   }
 }
 
-/** As fromArkit, in FAP units. */
+/** Like fromArkit, in FAP units. */
 export function valuesFromArkit(input: ArkitInput): { values: FaceValues; clamped: number } {
   const { c, clamped } = coefficientsOf(input);
   settleTheMouth(c);
@@ -135,7 +135,7 @@ export function valuesFromArkit(input: ArkitInput): { values: FaceValues; clampe
   stopLips(sum);
   const values = neutralValues();
   for (const fap of allFaps) {
-    // As float32, as frames are everywhere.
+    // float32, as in all implementations.
     if (fap.number > 2) values.faps[fap.number] = Math.fround(clamp(sum[fap.number]!, fap.min, fap.max));
   }
   carryByViseme(c, sum, values);
@@ -144,8 +144,8 @@ export function valuesFromArkit(input: ArkitInput): { values: FaceValues; clampe
 }
 
 /**
- * ARKit's coefficients as a frame for any head. What is outside 0..1 is taken as 0 or 1 and counted; NaN, infinity, an
- * unknown name or a wrong number of them throws RangeError. The rules: core/bridges/README.md.
+ * Converts ARKit's coefficients to a frame for any head. Values outside 0..1 are clamped and counted; NaN, infinity, an
+ * unknown name or a wrong number of coefficients throws RangeError. Rules: core/bridges/README.md.
  */
 export function fromArkit(input: ArkitInput, steps: QuantizerSteps = standardQuantizers): FromArkit {
   const { values, clamped } = valuesFromArkit(input);

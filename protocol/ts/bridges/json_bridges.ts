@@ -9,10 +9,10 @@ import { findOculus, fromOculus, oculusCount } from './oculus.ts';
 const withRotations = arkitCount + arkitRotationNames.length;
 const rotations = new Map(arkitRotationNames.map((name, i) => [name as string, arkitCount + i]));
 
-/** What is beyond 1e6 is clamped by the bridge anyway. */
+/** Reads a coefficient, clamped to +-1e6; the bridge clamps it further. */
 const coefficient = (at: JsonCursor): number => clamp(at.number(), -1e6, 1e6);
 
-/** FAPs 48 (pitch, down), 49 (yaw, to the left: the angle is to the right) and 50 (roll) from radians. */
+/** Sets FAPs 48 (pitch, down), 49 (yaw to the left; the angle's sign is to the right) and 50 (roll) from radians. */
 function turnHead(values: FaceValues, yaw: number, pitch: number, roll: number): void {
   for (const [number, angle] of [[48, pitch], [49, -yaw], [50, roll]] as const) {
     const { min, max } = faps[number - 1]!;
@@ -33,7 +33,7 @@ function readArkit(at: JsonCursor): FaceValues {
       const shape =
         findArkit(name) ??
         rotations.get(name.charAt(0).toLowerCase() + name.slice(1)) ??
-        value.fail('invalid_argument', "is none of ARKit's 52 shapes and no angle of head or eyes");
+        value.fail('invalid_argument', "is not one of ARKit's 52 shapes or an angle of head or eyes");
       all[shape] = coefficient(value);
     }
   }
@@ -50,19 +50,19 @@ function readOculus(at: JsonCursor): FaceValues['viseme'] {
     for (const [name, value] of at.members()) {
       const viseme =
         findOculus(name) ??
-        value.fail('invalid_argument', 'is none of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou');
+        value.fail('invalid_argument', 'is not one of the visemes sil PP FF TH DD kk CH SS nn RR aa E ih oh ou');
       weights[viseme] = coefficient(value);
     }
   }
   return fromOculus(weights).frame.viseme;
 }
 
-/** What the members `arkit` and `oculus` of a frame make of a face; undefined where it has neither. */
+/** Reads the members `arkit` and `oculus` of a frame; undefined when it has neither. */
 export function readJsonBridges(frame: JsonCursor): FaceValues | undefined {
   const arkit = frame.optional('arkit');
   const oculus = frame.optional('oculus');
   if (!arkit && !oculus) return undefined;
-  if (oculus && frame.optional('viseme')) oculus.fail('invalid_argument', 'says what `viseme` says: give one of them');
+  if (oculus && frame.optional('viseme')) oculus.fail('invalid_argument', 'is not allowed beside `viseme`');
   const values = arkit ? readArkit(arkit) : neutralValues();
   if (oculus) values.viseme = readOculus(oculus);
   return values;

@@ -5,25 +5,25 @@ import { standardQuantizers, type QuantizerSteps } from '../quantizers.ts';
 import { axisDisplacements } from './axis_displacements.ts';
 import { clamp, frameOf, neutralValues, valuesOf, type FaceValues } from './face_values.ts';
 
-/** The visemes of Oculus Lipsync, in their order, which is that of FAP 1. */
+/** The visemes of Oculus Lipsync in their order, which is also the order of FAP 1's visemes. */
 export const oculusNames = [
   'sil', 'PP', 'FF', 'TH', 'DD', 'kk', 'CH', 'SS', 'nn', 'RR', 'aa', 'E', 'ih', 'oh', 'ou',
 ] as const;
 export const oculusCount = oculusNames.length;
 
 const index = new Map(oculusNames.map((name, i) => [name.toLowerCase(), i]));
-/** Small and capital letters are the same. */
+/** The index of a viseme by name, case-insensitive. */
 export const findOculus = (name: string): number | undefined => index.get(name.toLowerCase());
 
-/** The 15 in order, or some of them by name; what is not named is 0. */
+/** All 15 weights in order, or some by name (the others are 0). */
 export type OculusInput = ArrayLike<number> | Readonly<Record<string, number>>;
 export interface FromOculus {
   frame: FaceFrame;
-  /** Weights that were outside 0..1 and were taken as 0 or 1. */
+  /** Number of weights outside 0..1, which were clamped. */
   clamped: number;
 }
 
-/** Square millimetres by which a weight of 1 is drawn to that of FAP 1, and by which any change from it must pay. */
+/** Regularization of the fit towards the weights of FAP 1, square millimetres: ridge, and cost of any change. */
 const trustInFap1 = 4;
 const costOfChange = 5;
 const sweeps = 60;
@@ -46,12 +46,12 @@ const gram = units.map((a) =>
 function weightsOf(input: OculusInput): { w: Float64Array; clamped: number } {
   const w = new Float64Array(oculusCount);
   if ('length' in input && typeof input.length === 'number') {
-    if (input.length !== oculusCount) throw new RangeError(`${oculusCount} weights, not ${input.length}`);
+    if (input.length !== oculusCount) throw new RangeError(`must be ${oculusCount} weights, not ${input.length}`);
     w.set(input as ArrayLike<number>);
   } else {
     for (const [name, value] of Object.entries(input)) {
       const viseme = findOculus(name);
-      if (viseme === undefined) throw new RangeError(`${name} is none of the visemes ${oculusNames.join(' ')}`);
+      if (viseme === undefined) throw new RangeError(`${name} is not one of the visemes ${oculusNames.join(' ')}`);
       w[viseme] = value;
     }
   }
@@ -68,9 +68,9 @@ function weightsOf(input: OculusInput): { w: Float64Array; clamped: number } {
 }
 
 /**
- * Weights as FAP 1. It holds two visemes whose strengths sum to 1: the two strongest, if what they lack to 1 is less than
- * 1.41 times the weaker, else the strongest with silence. Weights over 1 in sum are divided by their sum. NaN, infinity,
- * an unknown name or a wrong number of them throws RangeError.
+ * Converts weights to FAP 1, which holds two visemes whose weights sum to 1: the two strongest, if 1 minus their sum is
+ * less than 1.41 times the weaker, else the strongest and silence. A sum over 1 is normalized. NaN, infinity, an
+ * unknown name or a wrong number of weights throws RangeError.
  */
 export function fromOculus(input: OculusInput, steps: QuantizerSteps = standardQuantizers): FromOculus {
   const { w, clamped } = weightsOf(input);
@@ -93,7 +93,7 @@ export function fromOculus(input: OculusInput, steps: QuantizerSteps = standardQ
   return { frame: frameOf(values, steps), clamped };
 }
 
-/** As toOculus, of FAPs in FAP units. */
+/** Like toOculus, for FAPs in FAP units. */
 export function oculusOfValues(values: FaceValues): Float32Array {
   const said = new Float64Array(oculusCount);
   const { select1, select2, blend } = values.viseme;
@@ -131,7 +131,7 @@ export function oculusOfValues(values: FaceValues): Float32Array {
   return result;
 }
 
-/** What weights a mouth has, of sum 1: FAP 1's, changed by low-level FAPs to what comes nearest. Expressions do not count. */
+/** Weights of sum 1 that fit the mouth best: FAP 1's, modified by the low-level FAPs. Expressions are ignored. */
 export function toOculus(frame: FaceFrame, steps: QuantizerSteps = standardQuantizers): Float32Array {
   return oculusOfValues(valuesOf(frame, steps));
 }

@@ -20,13 +20,13 @@ import { clamp, valuesOf, type FaceValues } from './face_values.ts';
 const mostSweeps = 40;
 const leastStep = 1e-4;
 const lidRounds = 16;
-/** Millimetres squared by which a coefficient of 1 is drawn to 0. */
+/** Regularization of a coefficient towards 0, square millimetres. */
 const ridge = 0.05;
 
 const unitNames = ['IRISD', 'ES', 'ENS', 'MNS', 'MW'];
 const unitInterval = (value: number): number => clamp(value, 0, 1);
 
-/** Of a FAP unit on a usual head. The chin boss (18) is at the end of its range long before a jaw is: it says less. */
+/** Millimetres per FAP unit on a usual head. FAP 18 (chin boss) has less weight: its range ends before the jaw's. */
 const millimetres = new Float64Array(lastLowLevelFap + 1);
 for (const fap of allFaps) {
   if (fap.kind !== 'translation') continue;
@@ -43,19 +43,19 @@ const ownRule = new Set([
   tongueOut,
   ...eyes.flatMap((eye) => [eye.blink, eye.lookDown, eye.lookIn, eye.lookOut, eye.lookUp, eye.squint, eye.wide]),
 ]);
-/** FAPs the fit reads: mouth, jaw, brows, cheeks and nose. */
+/** The FAPs of the fit: mouth, jaw, brows, cheeks and nose. */
 const fittedFaps = allFaps
   .filter((fap) => fap.kind === 'translation' && [2, 4, 5, 8, 9].includes(fap.group))
   .map((fap) => fap.number);
 const fittedShapes = Array.from({ length: arkitCount }, (_, s) => s).filter((s) => !ownRule.has(s));
-/** In place of jawOpen and mouthClose: "parted" (jawOpen alone) and "shut" (both). */
+/** The fit's columns; jawOpen and mouthClose are replaced by "parted" (jawOpen only) and "shut" (both). */
 const columns = fittedShapes.map((s) =>
   fittedFaps.map((n) => millimetres[n]! * (amount(s, n) + (s === mouthClose ? amount(jawOpen, n) : 0))),
 );
 const mirrors = fittedShapes.map((s) => fittedShapes.indexOf(arkitShapes[s]!.mirror));
 const gram = columns.map((a) => Float64Array.from(columns, (b) => dot(a, b)));
 
-/** Coordinate descent on half the squared error + cost, both sides of a pair at once. */
+/** Coordinate descent on half the squared error + cost; the two sides of a pair are solved together. */
 function solve(displacement: Float64Array): Float64Array {
   const wanted = fittedFaps.map((n) => millimetres[n]! * displacement[n]!);
   const x = new Float64Array(fittedShapes.length);
@@ -95,7 +95,7 @@ const lidAmounts: LidAmounts[] = eyes.map((eye) => ({
   lower: Float64Array.from(arkitShapes, (_, s) => amount(s, eye.lowerLid)),
 }));
 
-/** Blink, squint and wide from where the two lids are, given what gaze and the other shapes make of them. */
+/** Blink, squint and wide from the positions of the two lids minus the effects of gaze and the other shapes. */
 function readLids(eye: Eye, lids: LidAmounts, displacement: Float64Array, x: Float64Array): void {
   let upperGiven = 0;
   let lowerGiven = 0;
@@ -132,7 +132,7 @@ function readGaze(eye: Eye, displacement: Float64Array, x: Float64Array): void {
   x[eye.lookUp] = unitInterval(-down);
 }
 
-/** As toArkit, of FAPs in FAP units. */
+/** Like toArkit, for FAPs in FAP units. */
 export function arkitOfValues(values: FaceValues): Float32Array {
   for (let n = firstLowLevelFap; n <= lastLowLevelFap; ++n) {
     if (!Number.isFinite(values.faps[n])) throw new RangeError(`FAP ${n} is not a finite number`);
@@ -150,7 +150,7 @@ export function arkitOfValues(values: FaceValues): Float32Array {
   return Float32Array.from(x);
 }
 
-/** What ARKit would say of the face of a frame: the 52 in order, each in 0..1. How it reads: core/bridges/README.md. */
+/** Converts a frame to ARKit's 52 coefficients in order, each in 0..1. Rules: core/bridges/README.md. */
 export function toArkit(frame: FaceFrame, steps: QuantizerSteps = standardQuantizers): Float32Array {
   return arkitOfValues(valuesOf(frame, steps));
 }

@@ -17,7 +17,7 @@ export const limits = {
   max_level: 32767,
 } as const;
 
-/** What a client wants of the stream. */
+/** The role of a client in the stream. */
 export type StreamRole = 'subscribe' | 'publish';
 
 /** The form of keyframes and frames on a binary connection. */
@@ -26,14 +26,14 @@ export type StreamCoding = 'plain' | 'packed';
 /** Why a stream or a connection ends. */
 export type EndReason = 'other' | 'finished' | 'deleted' | 'shutdown' | 'replaced' | 'slow';
 
-/** What was wrong with a message. */
+/** The kind of error in a message. */
 export type StreamErrorCode = 'other' | 'malformed' | 'truncated' | 'out_of_range' | 'not_finite' | 'too_large' | 'unsupported' | 'mismatch' | 'missing' | 'invalid_argument' | 'not_found' | 'conflict' | 'throttled' | 'unauthorized' | 'internal';
 
-/** Where a client that lost its connection stopped. */
+/** The last frame that a client received before it lost its connection. */
 export interface ResumePoint {
-  /** of the header it had */
+  /** epoch of the last header */
   epoch: number;
-  /** of the last frame it has */
+  /** number of the last frame received */
   sequence: number;
 }
 
@@ -43,51 +43,51 @@ export interface Hello {
   /** highest protocol version the client knows */
   version: number;
   role: StreamRole;
-  /** given after a lost connection */
+  /** present after a lost connection */
   resume: ResumePoint | null;
-  /** the best form the client reads; on a JSON connection of no meaning */
+  /** the preferred form that the client can read; ignored on a JSON connection */
   coding: StreamCoding;
-  /** of a publisher: to replace the one there is */
+  /** for a publisher: replace the current source */
   take_over: boolean;
 }
 
-/** The first message of a server: what the stream is and how to read it. */
+/** The first message of a server: properties of the stream and its encoding. */
 export interface Header {
   type: 'header';
-  /** protocol version of everything that follows */
+  /** protocol version of this connection */
   version: number;
   /** id of the stream */
   stream: string;
-  /** for people; may be empty */
+  /** for display; may be empty */
   title: string;
-  /** id of the model the stream suggests; may be empty */
+  /** id of the suggested model; may be empty */
   model: string;
-  /** sequence numbers are comparable within one epoch only */
+  /** sequence numbers are only comparable within one epoch */
   epoch: number;
-  /** of the newest frame the stream has had; 0 before the first */
+  /** number of the stream's newest frame; 0 before the first */
   sequence: number;
-  /** ms; of the stream's clock now */
+  /** ms; current time of the stream's clock */
   media_time: number;
   /** ms; since 1970-01-01 UTC */
   server_time: number;
-  /** 1/s; frames a second the stream means to have; 0: unknown */
+  /** 1/s; intended frames per second; 0: unknown */
   fps_hint: number;
-  /** ms; between messages the server means to send; 0: unknown */
+  /** ms; intended time between messages; 0: unknown */
   batch_interval: number;
   /** FAP units; steps of FAPs 3 to 68; empty: the standard steps */
   quantizers: number[];
-  /** everything after the resume point follows: nothing was lost */
+  /** all frames after the resume point follow: none was lost */
   recovered: boolean;
-  /** of Eq. 5, in place of rig.json's; absent: rig.json's */
+  /** viseme share of Eq. 5, in place of rig.json's; absent: rig.json's */
   viseme_share: number | null;
   /** the form in which the server sends on this connection */
   coding: StreamCoding;
 }
 
-/** The whole state at one moment: a reader can start here. */
+/** The complete state at one moment, from which a reader can start. */
 export interface Keyframe {
   type: 'keyframe';
-  /** of the frame this is; 0: before the first */
+  /** number of this frame; 0: before the first */
   sequence: number;
   /** ms */
   media_time: number;
@@ -95,52 +95,52 @@ export interface Keyframe {
   state: FaceFrame;
 }
 
-/** A batch: frame i has the sequence number `sequence` + i and happens at `media_time` + its own time. */
+/** A batch: frame i has the sequence number `sequence` + i and the media time `media_time` + its own time. */
 export interface Frames {
   type: 'frames';
-  /** of the first frame; 0 (from a publisher): the next */
+  /** number of the first frame; 0 (from a publisher): the next number */
   sequence: number;
   /** ms; 0 (from a publisher): now */
   media_time: number;
-  /** 1 to 1024, each as differences to the one before */
+  /** 1 to 1024 frames, each as differences to the one before */
   frames: TimedFrame[];
 }
 
-/** Nothing more comes. */
+/** The last message of a connection. */
 export interface End {
   type: 'end';
   reason: EndReason;
 }
 
-/** A message was refused; the connection goes on unless it is closed as well. */
+/** A message was refused; the connection stays open unless it is closed as well. */
 export interface StreamError {
   type: 'error';
   code: StreamErrorCode;
-  /** JSON pointer to what is wrong in the message, in both subprotocols */
+  /** JSON pointer to the invalid part of the message, in both subprotocols */
   where: string;
-  /** for people */
+  /** for display */
   message: string;
 }
 
-/** Asks for the clocks of server and stream. */
+/** Requests the clocks of server and stream. */
 export interface Ping {
   type: 'ping';
-  /** comes back in the pong */
+  /** returned in the pong */
   id: number;
-  /** ms; of the client's own clock, of any origin */
+  /** ms; the client's own clock, with any origin */
   client_time: number;
 }
 
-/** The answer to a ping. */
+/** The response to a ping. */
 export interface Pong {
   type: 'pong';
-  /** of the ping */
+  /** id of the ping */
   id: number;
-  /** ms; as it came in the ping */
+  /** ms; as in the ping */
   client_time: number;
-  /** ms; since 1970-01-01 UTC, when the ping was read */
+  /** ms; since 1970-01-01 UTC, when the server read the ping */
   server_time: number;
-  /** ms; of the stream's clock at that moment */
+  /** ms; the stream's clock at that moment */
   media_time: number;
 }
 

@@ -26,11 +26,11 @@ export interface ClipReport {
 
 let gltf: GLTF;
 let mixer: AnimationMixer;
-/** The clip's meshes, in the order of its primitives. */
+/** The clip's meshes in the order of its primitives. */
 let skinned: SkinnedMesh[] = [];
 let show: ((seconds: number) => void) | null = null;
 
-/** Loads a clip as any three.js page would, without a line of ours. */
+/** Loads a clip as any three.js page would, without Semblante's code. */
 export async function openClip(url: string): Promise<ClipReport> {
   gltf = await new GLTFLoader().loadAsync(url);
   skinned = [];
@@ -46,7 +46,7 @@ export async function openClip(url: string): Promise<ClipReport> {
   };
 }
 
-/** Where three.js has the vertices of each primitive at that time: x, y, z, ... */
+/** Vertex positions of each primitive at that time, as three.js computes them: x, y, z, ... */
 export function positionsAt(seconds: number): number[][] {
   seek(seconds);
   const at = new Vector3();
@@ -73,7 +73,7 @@ export function drawBeside(seconds: number, vertices: number[][]): void {
 const ours = new Group();
 
 function seek(seconds: number): void {
-  mixer.setTime(Math.min(seconds, gltf.animations[0]!.duration - 1e-6)); // at its end an action starts again
+  mixer.setTime(Math.min(seconds, gltf.animations[0]!.duration - 1e-6)); // at exactly its end an action restarts
   gltf.scene.updateMatrixWorld(true);
 }
 

@@ -16,11 +16,11 @@ export interface PrimitiveReport {
 export interface FaceReport {
   primitives: PrimitiveReport[];
   textures: number;
-  /** `format` of the rig inside. */
+  /** `format` of the embedded rig. */
   format: string | null;
 }
 
-/** Reads face.glb as any three.js page would, without a line of ours. */
+/** Loads face.glb as any three.js page would, without Semblante's code. */
 export async function readFace(url: string, draco: string): Promise<FaceReport> {
   const loader = new GLTFLoader().setDRACOLoader(new DRACOLoader().setDecoderPath(draco));
   const gltf = await loader.loadAsync(url);

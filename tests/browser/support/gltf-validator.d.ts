@@ -1,4 +1,4 @@
-/** The Khronos glTF validator, as npm ships it: without types. */
+/** Types of the Khronos glTF validator, whose npm package has none. */
 declare module 'gltf-validator' {
   export interface ValidationReport {
     issues: {

@@ -1,4 +1,4 @@
-// Runs in the page: the golden face, deformed by the shader alone.
+// Runs in the page: deforms the golden face by the shader only.
 import { WebGLRenderer } from 'three';
 import type { Pose } from '@client/index.ts';
 import type { DrawableMesh } from '../../../web/src/face/mesh.ts';
@@ -16,7 +16,7 @@ export interface GoldenMesh {
   rigid: number[];
 }
 
-/** For each pose the vertices that the shader makes, #V by 3. */
+/** For each pose the vertices that the shader computes, #V by 3. */
 function deformAll(given: GoldenMesh, poses: Record<keyof Pose, number[]>[]): number[][] {
   const mesh: DrawableMesh = {
     vertexCount: given.rigid.length,

@@ -9,6 +9,6 @@ export const sampleHead = join(buildDir, 'sample/sample-head.glb');
 export const samplePoints = join(buildDir, 'sample/sample-head.fps.json');
 export const chromium = process.env['SEMBLANTE_CHROMIUM'] ?? '/usr/bin/chromium';
 
-/** The folder of real heads, or null where it is not at hand. */
+/** The folder of real heads, or null when it is not available. */
 export const faces =
   [process.env['SEMBLANTE_FACES_DIR'], join(root, '../shared/faces')].find((dir) => dir && existsSync(dir)) ?? null;

@@ -1,7 +1,7 @@
-/** ms that a test waits for what must happen: far longer than it takes on the busiest machine, so only a fault meets it. */
+/** Timeout of a test's waits, ms: far longer than needed on a busy machine, so that only a fault reaches it. */
 export const patience = 600_000;
 
-/** Asks again and again until the answer is yes. */
+/** Polls a condition until it is true. */
 export async function eventually(what: string, condition: () => Promise<boolean>, pause = 100): Promise<void> {
   const deadline = Date.now() + patience;
   while (!(await condition())) {

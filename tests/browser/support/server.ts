@@ -11,7 +11,7 @@ export interface RunningServer {
   stop(): Promise<void>;
 }
 
-/** A port nobody uses now, below the range that outgoing connections take theirs from. */
+/** A free port below the ephemeral range of outgoing connections. */
 async function freePort(): Promise<number> {
   for (let tries = 0; tries < 50; tries += 1) {
     const port = 18_000 + Math.floor(Math.random() * 12_000);
@@ -25,7 +25,7 @@ async function freePort(): Promise<number> {
   throw new Error('no free port');
 }
 
-/** The real server with an empty store, the sample head and the demo stream; resolves once it is ready. */
+/** Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. */
 export async function startServer(): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));

@@ -16,11 +16,11 @@ export interface OpenOptions {
   width?: number;
   height?: number;
   dark?: boolean;
-  /** What the console may complain about in this test: an expected refusal shows up there as a failed request. */
+  /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
 
-/** A page on the studio that remembers every error its console or its scripts report. */
+/** A page of the studio that records all errors of its console and scripts. */
 export class StudioPage {
   readonly errors: string[] = [];
 
@@ -43,7 +43,7 @@ export class StudioPage {
     });
     page.on('pageerror', (error) => studio.errors.push(String(error)));
     page.on('requestfailed', (request) => {
-      // Requests that the page itself gave up (a newer one took over) are no faults.
+      // Requests that the page itself aborted (a newer one replaced them) are not faults.
       if (request.failure()?.errorText !== 'net::ERR_ABORTED')
         studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
     });
@@ -51,7 +51,7 @@ export class StudioPage {
     return studio;
   }
 
-  /** Until the stage shows the named state of the scene. */
+  /** Waits until the scene has this state. */
   async waitForStage(kind: 'ready' | 'failed'): Promise<void> {
     await this.page.waitForFunction(
       (wanted) => (window as unknown as Inside).semblante?.scene.state.value.kind === wanted,
@@ -66,7 +66,7 @@ export class StudioPage {
     );
   }
 
-  /** Until the page has come to draw so often, at whatever pace. */
+  /** Waits for this number of drawn frames. */
   async drawn(times: number): Promise<void> {
     await this.page.evaluate(
       (count) =>
@@ -83,7 +83,7 @@ export class StudioPage {
     );
   }
 
-  /** Drops a file on the page, as a person would from a folder. */
+  /** Drops a file on the page, as from a file manager. */
   async drop(path: string, name = basename(path)): Promise<void> {
     const base64 = readFileSync(path).toString('base64');
     const transfer = await this.page.evaluateHandle(
@@ -99,12 +99,12 @@ export class StudioPage {
       await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
   }
 
-  /** The picture of the stage alone. */
+  /** The picture of the stage only. */
   async picture(): Promise<Buffer> {
     return this.page.locator('canvas.canvas').screenshot();
   }
 
-  /** The picture of the stage once nothing has moved in it for a while. */
+  /** The picture of the stage after it has stopped changing. */
   async pictureAtRest(): Promise<Buffer> {
     let last = await this.picture();
     await eventually(
@@ -120,7 +120,7 @@ export class StudioPage {
     return last;
   }
 
-  /** Until the stage differs from an earlier picture of it by more than that within a region; see difference(). */
+  /** Waits until the stage differs from an earlier picture by more than a threshold in a region; see difference(). */
   async pictureUnlike(
     before: Buffer,
     region: readonly [number, number, number, number],
@@ -135,7 +135,7 @@ export class StudioPage {
   }
 
   /**
-   * Mean difference of two pictures, 0..255, within a region given in shares of width and height (x, y, width, height).
+   * Mean difference of two pictures, 0..255, within a region (x, y, width, height as fractions of the picture).
    */
   async difference(a: Buffer, b: Buffer, region: readonly [number, number, number, number]): Promise<number> {
     return this.page.evaluate(
@@ -159,7 +159,7 @@ export class StudioPage {
     );
   }
 
-  /** Where a place in model space shows on the page, in pixels. */
+  /** Projects a position in model space to page coordinates, pixels. */
   async project(position: readonly number[]): Promise<{ x: number; y: number }> {
     return this.page.evaluate((at) => {
       const { scene } = (window as unknown as Inside).semblante;
@@ -169,7 +169,7 @@ export class StudioPage {
     }, position);
   }
 
-  /** Saves the whole page for people to look at. */
+  /** Saves a screenshot of the whole page for inspection by people. */
   async keep(name: string): Promise<void> {
     const folder = join(buildDir, 'screenshots');
     mkdirSync(folder, { recursive: true });
@@ -181,7 +181,7 @@ export class StudioPage {
   }
 }
 
-/** What the studio shows to tests. */
+/** The part of `window.semblante` that the tests use. */
 export interface Inside {
   semblante: {
     scene: {

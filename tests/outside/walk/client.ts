@@ -1,4 +1,4 @@
-// The client that openapi-typescript and openapi-fetch make of /openapi.json, as anybody would make it.
+// A client generated from /openapi.json with openapi-typescript and openapi-fetch, as a third party would do it.
 import createClient, { type Middleware } from 'openapi-fetch';
 import assert from 'node:assert/strict';
 import type { components, paths } from '../generated/api.js';
@@ -6,7 +6,7 @@ import type { components, paths } from '../generated/api.js';
 export type Schemas = components['schemas'];
 export type Client = ReturnType<typeof createClient<paths>>;
 
-/** What sees every request and answer: the AnswerCheck of ../answers.mjs. */
+/** Receives every request and response: the AnswerCheck of ../answers.mjs. */
 export interface Check {
   request(method: string, path: string, contentType: string | null, body: string): void;
   response(method: string, path: string, response: Response, body: string): void;
@@ -37,13 +37,13 @@ interface Answer<Data, Fault> {
   response: Response;
 }
 
-/** The data of an answer that must be a good one. */
+/** The data of a response that must be successful. */
 export function good<Data>(answer: Answer<Data, unknown>): NonNullable<Data> {
   assert.ok(answer.data != null, `${answer.response.url} answered ${answer.response.status}: ${JSON.stringify(answer.error)}`);
   return answer.data;
 }
 
-/** The problem of an answer that must be a refusal with this status. */
+/** The problem document of a response that must have this error status. */
 export function refused<Fault>(answer: Answer<unknown, Fault>, status: number): NonNullable<Fault> {
   assert.equal(answer.response.status, status, `${answer.response.url}: ${JSON.stringify(answer.data ?? answer.error)}`);
   assert.equal(answer.response.headers.get('Content-Type'), 'application/problem+json');
@@ -51,7 +51,7 @@ export function refused<Fault>(answer: Answer<unknown, Fault>, status: number): 
   return answer.error;
 }
 
-/** Asks until the job has ended, well or not. */
+/** Polls until the job has ended, with or without success. */
 export async function ended(client: Client, id: string): Promise<Schemas['Job']> {
   const deadline = Date.now() + 120_000;
   for (;;) {
@@ -62,14 +62,14 @@ export async function ended(client: Client, id: string): Promise<Schemas['Job']>
   }
 }
 
-/** The same of a job that must have succeeded. */
+/** Polls until the job has ended; the job must succeed. */
 export async function finished(client: Client, id: string): Promise<Schemas['Job']> {
   const job = await ended(client, id);
   assert.equal(job.state, 'done', `${job.kind}: ${job.problem?.detail}`);
   return job;
 }
 
-/** A body that goes out as it is, with its media type. */
+/** Request options for a body that is sent unchanged with this media type. */
 export const raw = (type: string) => ({
   headers: { 'Content-Type': type },
   bodySerializer: (body: unknown) => body as Uint8Array | string,

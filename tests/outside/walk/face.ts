@@ -1,4 +1,4 @@
-// From a head to its face package, and displacement sets on it.
+// Walks from an uploaded head to its face package and displacement sets.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { type Client, type Schemas, finished, good, raw, refused } from './client.js';
@@ -8,7 +8,7 @@ export interface Head {
   points: Schemas['FeaturePointsBody'];
 }
 
-/** Bytes that the walk has met and other readers are to see. */
+/** glTF files received during the walk, for validation by other tools. */
 export interface Glbs {
   [name: string]: Uint8Array;
 }
@@ -31,7 +31,7 @@ async function upload(client: Client, head: Head): Promise<Schemas['Model']> {
   return good(await client.GET('/v1/models/{model}', { params: { path: { model: made.model.id } } }));
 }
 
-/** How the head stands: the types below are those of a model's frame, or this does not compile. */
+/** Type check of a model's `frame`: the declared types below match the generated ones, or this does not compile. */
 function readFrame(model: Schemas['Model']): void {
   const frame: Schemas['ModelFrame'] | null = model.frame;
   assert.ok(frame);
@@ -100,7 +100,7 @@ async function fetchPackage(client: Client, model: Schemas['Model'], glbs: Glbs)
   expect('weights', good(await client.GET('/v1/artefacts/{sha256}', { params: { path: { sha256 } }, parseAs })));
 }
 
-/** A sheet as an OBJ file; `lift` moves its left corner of the mouth up. */
+/** A flat sheet as an OBJ file; `lift` raises the vertex at the left corner of the mouth. */
 function sheet(lift: number): Uint8Array {
   const side = 9;
   const lines: string[] = [];
@@ -111,7 +111,7 @@ function sheet(lift: number): Uint8Array {
   return new TextEncoder().encode(`${lines.join('\n')}\n`);
 }
 
-/** A job may end before it is told to: then another one is begun. */
+/** Cancels a job; if the job ends before the cancellation, starts another one. */
 async function cancelOne(client: Client, model: string): Promise<void> {
   for (let left = 10; left > 0; left -= 1) {
     const job = good(await client.POST('/v1/models/{model}/parametrizations', { params: { path: { model } } }));
@@ -166,7 +166,7 @@ async function makeSets(client: Client, model: string): Promise<void> {
   }
 }
 
-/** Leaves a parametrized model and gives its id. */
+/** Creates a parametrized model and returns its id. */
 export async function walkFace(client: Client, head: Head, glbs: Glbs): Promise<string> {
   const model = await upload(client, head);
   const params = { path: { model: model.id } };

@@ -1,4 +1,4 @@
-// Streams: frames, what plays, and recordings.
+// Walks through streams: frames, playback and recordings.
 import assert from 'node:assert/strict';
 import { type Client, type Schemas, good, raw, refused } from './client.js';
 import type { Glbs } from './face.js';

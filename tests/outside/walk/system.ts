@@ -1,4 +1,4 @@
-// What the server says of itself, and how it refuses.
+// Walks through the server's own resources and its error responses.
 import assert from 'node:assert/strict';
 import { type Client, ended, good, raw, refused } from './client.js';
 
@@ -23,7 +23,7 @@ export async function walkSystem(client: Client): Promise<void> {
   refused(await client.POST('/v1/models', { ...raw('application/octet-stream'), body: noModel }), 415);
 }
 
-/** A model that cannot be read: the problem is kept with the job and with the model. */
+/** Imports an unreadable model: job and model both keep the problem document. */
 export async function walkFailedImport(client: Client): Promise<void> {
   const body = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n';
   const made = good(await client.POST('/v1/models', { ...raw('model/obj'), body }));

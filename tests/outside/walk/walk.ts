@@ -1,11 +1,11 @@
-// Everything that the document offers, by a client made of it, against a real server.
+// Calls all operations of the document with the generated client on a real server.
 import assert from 'node:assert/strict';
 import { type Check, checkedClient, refused } from './client.js';
 import { type Glbs, type Head, walkFace } from './face.js';
 import { walkLive } from './live.js';
 import { walkFailedImport, walkSystem } from './system.js';
 
-/** Gives the glTF files that were met. Throws at the first thing that is not as documented. */
+/** Returns the received glTF files. Throws at the first deviation from the document. */
 export async function walk(url: string, head: Head, check: Check): Promise<Glbs> {
   const client = checkedClient(url, check);
   const glbs: Glbs = {};

@@ -65,7 +65,7 @@ TEST(DoctorReport, ManyFindingsOfAKind_AreNotAllTold) {
   for (const Finding& finding : report.findings)
     if (finding.code == FindingCode::hole_near_points) told.push_back(&finding);
   ASSERT_EQ(told.size(), 100U);
-  EXPECT_THAT(told.back()->words, HasSubstr("; the same goes for "));
+  EXPECT_THAT(told.back()->words, HasSubstr("; the same applies to "));
 }
 
 TEST(DoctorReport, MeshWithoutTriangles_IsExaminedToo) {
@@ -134,7 +134,8 @@ TEST(DoctorReport, QuickSetOfPoints_IsToldInAFewGroupedFindings) {
   EXPECT_LE(report.findings.size(), 8U);
   for (const Finding& finding : report.findings) EXPECT_EQ(finding.code, FindingCode::missing_points) << finding.words;
   const auto brows = std::find_if(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
-    return finding.words.starts_with("brows: 4.1, 4.2, 4.3, 4.4, 4.5 and 4.6 are not marked; FAPs 31-38 move nothing");
+    return finding.words.starts_with(
+        "brows: 4.1, 4.2, 4.3, 4.4, 4.5 and 4.6 are not marked; FAPs 31-38 have no effect");
   });
   EXPECT_NE(brows, report.findings.end());
 }

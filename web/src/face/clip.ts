@@ -3,24 +3,24 @@ import type { FapFile } from '@protocol/fap_file.ts';
 import type { TimedFrame } from '@client/index.ts';
 import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 
-/** Where the face is at one moment of a clip: `t` (0..1) of the way between two frames. */
+/** One moment of a clip: the interpolation parameter `t` (0..1) between two frames. */
 export interface ClipMoment {
   from: TimedFrame;
   to: TimedFrame;
   t: number;
 }
 
-/** An animation whose every moment can be shown at any time, unlike that of a live stream. */
+/** An animation with random access to any moment, unlike a live stream. */
 export interface Clip {
-  /** ms; Infinity: endless. */
+  /** Duration, ms; Infinity for an endless clip. */
   readonly duration: number;
-  /** FAP units per quantizer level of its frames. */
+  /** Quantizer steps of the frames: FAP units per level. */
   readonly steps: QuantizerSteps;
-  /** `lap`: how many times it has been played to its end before. Returns the same object each time. */
+  /** `lap`: number of completed loops. Returns the same object at each call. */
   momentAt(position: number, lap?: number): ClipMoment;
 }
 
-/** A clip made of frames in memory, from 0 to `duration` ms. */
+/** A clip of frames held in memory, from 0 to `duration` ms. */
 export class FrameClip implements Clip {
   readonly duration: number;
   readonly steps = standardQuantizers;
@@ -29,7 +29,7 @@ export class FrameClip implements Clip {
 
   constructor(readonly frames: readonly TimedFrame[]) {
     const first = frames[0];
-    if (!first) throw new RangeError('a clip has a frame at least');
+    if (!first) throw new RangeError('a clip needs at least one frame');
     this.duration = frames.at(-1)!.time;
     this.moment = { from: first, to: first, t: 0 };
   }
@@ -38,7 +38,7 @@ export class FrameClip implements Clip {
     return new FrameClip(framesOfFap(file, meaning));
   }
 
-  /** Nothing is allocated per displayed frame. */
+  /** Allocates nothing. */
   momentAt(position: number): ClipMoment {
     const { frames, moment } = this;
     if (position < frames[this.at]!.time) this.at = this.search(position);
@@ -50,7 +50,7 @@ export class FrameClip implements Clip {
     return moment;
   }
 
-  /** The last frame at or before a position. */
+  /** Index of the last frame at or before `position`. */
   private search(position: number): number {
     let low = 0;
     let high = this.frames.length - 1;
@@ -63,7 +63,7 @@ export class FrameClip implements Clip {
   }
 }
 
-/** The position of a clip in time: play, pause, seek, loop. Needs no server. */
+/** Playback state of a clip: play, pause, seek, loop. Needs no server. */
 export class ClipPlayer {
   loop = false;
   /** ms */
@@ -84,7 +84,7 @@ export class ClipPlayer {
     return this.on;
   }
 
-  /** Replaces the clip. With `keepPlace` position and playing stay: for the same file read with another option. */
+  /** Replaces the clip. `keepPlace` keeps position and playback: for the same file read with another option. */
   load(clip: Clip | null, keepPlace = false): void {
     this.current = clip;
     if (!keepPlace || !clip) {
@@ -113,7 +113,7 @@ export class ClipPlayer {
     this.changed = true;
   }
 
-  /** Advances by the time of one displayed frame. Returns the moment to show, or null when nothing changed. */
+  /** Advances by one displayed frame, seconds. Returns the moment to show, or null when nothing changed. */
   step(deltaSeconds: number): ClipMoment | null {
     if (!this.current || (!this.on && !this.changed)) return null;
     if (this.on && !this.changed) this.advance(this.current.duration, deltaSeconds * 1000);

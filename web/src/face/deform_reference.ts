@@ -4,8 +4,8 @@ import type { DrawableMesh } from './mesh.ts';
 import { tangentFrame, type TangentTable } from './tangent_table.ts';
 
 /**
- * Normals of the deformed face, by the tangent table: what the shader does, on the CPU. Used when the WASM kernel moves
- * the vertices, and by the test that holds the shader to it. `out`: #V by 3, unit length.
+ * Computes the normals of the deformed face from the tangent table on the CPU, as the shader does on the GPU. Used when
+ * the WASM kernel moves the vertices, and as the reference of the shader's test. `out`: #V by 3, unit length.
  */
 export function deformNormals(mesh: DrawableMesh, table: TangentTable, pose: Pose, out: Float32Array): void {
   const { normals, rigid, vertexCount } = mesh;
@@ -45,7 +45,7 @@ export function deformNormals(mesh: DrawableMesh, table: TangentTable, pose: Pos
     turned[0] = x;
     turned[1] = y;
     turned[2] = z;
-    // A surface that a pupil stretches keeps its shape, and so its normals.
+    // A pupil stretches the iris within its own surface, so the normals do not change.
     const eye = eyeOf(rigid[v]!);
     if (eye >= 0) rotate(turned, pose.eyeRotations, eye * 4);
     if (rigid[v]! >= rigidMotion.tongue) turnWithTongue(mesh.positions, v, rigid[v]!, pose, turned);
@@ -56,7 +56,7 @@ export function deformNormals(mesh: DrawableMesh, table: TangentTable, pose: Pos
   }
 }
 
-/** The tongue's normals turn about its length by the angle of the arc: see core/kernel's roll_tongue. */
+/** Rotates a normal of the tongue about the tongue's length by the arc's angle: see roll_tongue in core/kernel. */
 function turnWithTongue(rest: Float32Array, v: number, rigid: number, pose: Pose, normal: Float64Array): void {
   const { tongue } = pose;
   const roll = tongueShare(rigid) * pose.tongueRoll[0]!;
@@ -81,7 +81,7 @@ function turnWithTongue(rest: Float32Array, v: number, rigid: number, pose: Pose
 const frame = new Float64Array(6);
 const turned = new Float64Array(3);
 
-/** v + 2 q × (q × v + w v), in place. */
+/** Rotates `v` in place by the unit quaternion (q, w) at index `at`: v + 2 q × (q × v + w v). */
 function rotate(v: Float64Array, quaternions: Float32Array, at: number): void {
   const qx = quaternions[at]!;
   const qy = quaternions[at + 1]!;

@@ -4,14 +4,14 @@ type MakeDecoder = (options: { locateFile: () => string }) => Promise<DracoModul
 
 let decoder: Promise<DracoModule> | null = null;
 
-/** The Draco decoder that lies beside the page, started at its first use. */
+/** The Draco decoder that is served with the page; loaded at its first use. */
 export function dracoDecoder(): Promise<DracoModule> {
   decoder ??= start();
   decoder.catch(() => (decoder = null));
   return decoder;
 }
 
-/** It is a classic script that leaves one global function. */
+/** The decoder is a classic script that defines one global function. */
 async function start(): Promise<DracoModule> {
   const base = new URL('./draco/', document.baseURI).href;
   await new Promise<void>((resolve, reject) => {
@@ -22,7 +22,7 @@ async function start(): Promise<DracoModule> {
     document.head.append(script);
   });
   const make = (globalThis as unknown as { DracoDecoderModule: MakeDecoder }).DracoDecoderModule;
-  // The module is a promise of itself ("then"): wrapped, so that awaiting it does not go round for ever.
+  // The module has a `then` that resolves to itself: unwrapped, `await` would never finish.
   const module = await new Promise<{ it: DracoModule }>((resolve, reject) => {
     make({ locateFile: () => `${base}draco_decoder.wasm` }).then((it) => {
       const bare = it as DracoModule & { then?: unknown };

@@ -21,7 +21,7 @@ const names: Record<number, string> = {
 
 export const groupOf = (id: string): number => Number(id.split('.')[0]);
 
-/** The 84 points in their groups, in the standard's order. */
+/** The 84 feature points by group, in the standard's order. */
 export const pointGroups: readonly PointGroup[] = Object.keys(names).map((key) => {
   const number = Number(key);
   return { number, name: names[number]!, points: featurePoints.filter((point) => groupOf(point.id) === number) };

@@ -3,7 +3,7 @@ import { maxBlend, type FaceFrame } from '@protocol/face_frame.ts';
 import { shutLidUnits } from '@protocol/performance_document.ts';
 import { quantize, standardQuantizers } from '@protocol/quantizers.ts';
 
-/** Edits of a frame made by hand; its levels count the standard's quantizer steps. */
+/** Editing of a frame by the sliders; its levels count the standard's quantizer steps. */
 
 export function clearFrame(frame: FaceFrame): void {
   Object.assign(frame.viseme, { select1: 0, select2: 0, blend: 0 });
@@ -20,8 +20,8 @@ export function isNeutral(frame: FaceFrame): boolean {
 }
 
 /**
- * Shows `first` with this share (0..1), and `second` with the rest. 0 is silence: a share of one viseme and silence is
- * that viseme, weaker.
+ * Blends two visemes: `first` with weight `share` (0..1), `second` with 1 - `share`. Viseme 0 is silence; blending with
+ * silence weakens a viseme.
  */
 export function setVisemes(frame: FaceFrame, first: number, second: number, share: number): void {
   const none = first === 0 && second === 0;
@@ -29,8 +29,8 @@ export function setVisemes(frame: FaceFrame, first: number, second: number, shar
 }
 
 /**
- * Sets one expression's intensity (0..63). Two fit into a frame: a third one takes the place of the weaker. Returns the
- * expression that had to go, or 0.
+ * Sets one expression's intensity (0..63). A frame holds two expressions: a third one replaces the weaker. Returns the
+ * replaced expression, or 0.
  */
 export function setExpression(frame: FaceFrame, expression: number, intensity: number): number {
   const e = frame.expression;
@@ -56,32 +56,32 @@ export function expressionIntensity(frame: FaceFrame, expression: number): numbe
   return 0;
 }
 
-/** In FAP units. */
+/** The value of a FAP, FAP units. */
 export const fapValue = (frame: FaceFrame, number: number): number =>
   frame.levels[number]! * standardQuantizers[number]!;
 
 /**
- * Sets a FAP (in FAP units, to the nearest level), and its partner on the other side of the face when `both`. Returns
- * the partner that changed, or 0.
+ * Sets a FAP (FAP units, rounded to the nearest level), and with `both` its mirror FAP on the other side of the face.
+ * Returns the mirror FAP that changed, or 0.
  */
 export function setFap(frame: FaceFrame, number: number, value: number, both: boolean): number {
   const level = quantize(value, standardQuantizers[number]!) ?? 0;
   frame.levels[number] = level;
   const fap = faps[number - 1];
   if (!both || !fap || fap.mirror === number || fap.mirror === 0) return 0;
-  // Gaze is the exception: eyes look the same way, so the partner takes the value as it is.
+  // Exception: both eyes look in the same direction, so the mirror FAP of a gaze FAP takes the value unmirrored.
   frame.levels[fap.mirror] = fap.unit === 'AU' ? level : level * fap.mirrorSign;
   return fap.mirror;
 }
 
-/** Exchanges left and right: what the face would be in a mirror. Visemes and expressions have no side. */
+/** Mirrors the frame: exchanges left and right. Visemes and expressions are symmetric and stay. */
 export function mirrorFrame(frame: FaceFrame): void {
   const before = frame.levels.slice();
   for (const { number, mirror, mirrorSign } of faps)
     if (mirror !== 0) frame.levels[mirror] = before[number]! * mirrorSign;
 }
 
-/** FAPs 19 to 22 of eyes that are shut, as performances shut them. FAP units: shares of 1024. */
+/** Values of FAPs 19 to 22 for closed eyes, as performances close them. FAP units: 1024ths. */
 export const shutLids: readonly (readonly [number, number])[] = [
   [19, shutLidUnits.upper],
   [20, shutLidUnits.upper],
@@ -89,7 +89,7 @@ export const shutLids: readonly (readonly [number, number])[] = [
   [22, shutLidUnits.lower],
 ];
 
-/** Shuts the eyes; returns what opens them again as they were. A lid that was moved meanwhile stays where it is. */
+/** Closes the eyes; returns the function that restores the lids. A lid that was moved meanwhile keeps its value. */
 export function shutEyes(frame: FaceFrame): () => void {
   const undo = shutLids.map(([number, value]) => {
     const before = frame.levels[number]!;

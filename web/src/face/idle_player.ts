@@ -7,7 +7,7 @@ import { shutLids } from './frame.ts';
 
 const unitsPerDegree = 1e5 * (Math.PI / 180); // AU: 1e-5 rad
 
-/** The rotation FAPs, and the part of the idle motion that each follows. */
+/** The rotation FAPs, each with the component of the idle motion that drives it. */
 const turns: readonly (readonly [number, Exclude<keyof IdleMotion, 'lidClosure'>])[] = [
   [23, 'eyeYaw'],
   [24, 'eyeYaw'],
@@ -18,9 +18,9 @@ const turns: readonly (readonly [number, Exclude<keyof IdleMotion, 'lidClosure'>
   [50, 'headRoll'],
 ];
 
-/** Adds idle life (blinks, glances, small motions of the head) to a frame that is set by hand. */
+/** Adds idle life (blinks, glances, small head motions) to the frame set with the sliders. */
 export class IdlePlayer {
-  /** Quantizer steps of the frames it makes. */
+  /** Quantizer steps of the frames that `step` returns. */
   readonly steps = fineSteps;
   private readonly frame = neutralFrame();
   private elapsed = 0;
@@ -30,7 +30,7 @@ export class IdlePlayer {
     private readonly settings: IdleLife,
   ) {}
 
-  /** Advances and returns the frame to show: the same object each time. */
+  /** Advances and returns the frame to show: the same object at each call. */
   step(deltaSeconds: number): FaceFrame {
     this.elapsed += deltaSeconds * 1000;
     const { frame, held, steps } = this;

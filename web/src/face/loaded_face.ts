@@ -1,7 +1,7 @@
 import type { Kernel } from '@client/index.ts';
 import type { DrawableMesh } from './mesh.ts';
 
-/** glTF's metallic-roughness in the few values a face needs. */
+/** The subset of glTF's metallic-roughness material that a face uses. */
 export interface FaceMaterial {
   name: string;
   /** linear RGBA */
@@ -15,11 +15,11 @@ export interface FaceMaterial {
   normalImage: Blob | null;
 }
 
-/** Everything of one face package, checked and ready to move. */
+/** One face package, validated and ready to animate. */
 export interface LoadedFace {
   mesh: DrawableMesh;
   materials: FaceMaterial[];
   kernel: Kernel;
-  /** Bytes of mesh and weights on the wire. */
+  /** Transferred bytes of mesh and weights. */
   packageBytes: number;
 }

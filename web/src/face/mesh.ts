@@ -9,7 +9,7 @@ export interface MaterialGroup {
 
 /**
  * A parametrized face as the view draws it. Row v of the influence table is entries rowOffsets[v] ..
- * rowOffsets[v + 1] - 1; an entry is the index of a feature point (0..83) and its share of Eq. 7.
+ * rowOffsets[v + 1] - 1; an entry is the index of a feature point (0..83) and its weight in Eq. 7.
  */
 export interface DrawableMesh {
   vertexCount: number;
@@ -28,7 +28,7 @@ export interface DrawableMesh {
   rigid: Uint8Array;
 }
 
-/** Area-weighted vertex normals over vertices joined by position; for meshes that bring none. */
+/** Area-weighted vertex normals, averaged over the vertices at one position; for meshes without normals. */
 export function smoothNormals(positions: Float32Array, indices: Uint32Array, group: Uint32Array): Float32Array {
   const count = positions.length / 3;
   const sums = new Float64Array(count * 3);
@@ -63,8 +63,8 @@ export function smoothNormals(positions: Float32Array, indices: Uint32Array, gro
 }
 
 /**
- * Joins the copies that UV seams make of a vertex: same position and, where normals are given, facing the same way (so
- * that lips that touch stay two). Returns for each vertex the first vertex of its group.
+ * Groups the duplicates of a vertex along UV seams: equal positions and, where normals are given, similar normals (so
+ * that touching lips stay separate). Returns for each vertex the first vertex of its group.
  */
 export function joinSeams(positions: Float32Array, normals: Float32Array | null): Uint32Array {
   const count = positions.length / 3;

@@ -4,17 +4,17 @@ import { joinSeams, smoothNormals, type DrawableMesh, type MaterialGroup } from 
 import { poseCount } from './performer.ts';
 
 export interface FaceSources {
-  /** Of the server; empty: the one the page came from. */
+  /** The server's base URL; empty: the server of this page. */
   base: string;
   draco: () => Promise<DracoModule>;
   kernel: () => Promise<WebAssembly.Module>;
-  /** An image of the package by its content hash. */
+  /** Fetches an image of the package by its content hash. */
   image: (sha256: string, signal: AbortSignal) => Promise<Uint8Array>;
 }
 
 /**
- * Fetches a model's face package, of one level of detail (0 is the full mesh), and makes it ready to draw and to move.
- * Throws when its parts do not fit together.
+ * Fetches one level of detail (0 is the full mesh) of a model's face package and prepares it for drawing and animation.
+ * Throws when the parts of the package are inconsistent.
  */
 export async function loadStageFace(
   sources: FaceSources,
@@ -31,7 +31,7 @@ export async function loadStageFace(
   return { mesh: drawableMesh(face), materials, kernel, packageBytes: face.rig.mesh.bytes + face.rig.weights.bytes };
 }
 
-/** The package's arrays as the view wants them: normals of unit length, triangles in runs of one material. */
+/** Converts the package's arrays for the view: normals of unit length, triangles sorted by material. */
 export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
   const { positions, uvs, triangles } = mesh;
   const normals = mesh.normals ?? smoothNormals(positions, triangles, joinSeams(positions, null));
@@ -41,7 +41,7 @@ export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
   return { vertexCount, positions, normals, uvs, indices, groups, rowOffsets, rowPoints, rowWeights, rigid };
 }
 
-/** Quantized normals come back a little short or long; the shader counts on unit length. */
+/** Normalizes in place: quantized normals decode to slightly other lengths, and the shader assumes unit length. */
 function normalize(normals: Float32Array): void {
   for (let i = 0; i < normals.length; i += 3) {
     const length = Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!);
@@ -50,7 +50,7 @@ function normalize(normals: Float32Array): void {
   }
 }
 
-/** Triangles of one material lie together, so that each material is one draw call. */
+/** Sorts the triangles by material, so that each material needs one draw call. */
 export function sortByMaterial(
   indices: Uint32Array,
   materials: Uint8Array | null,

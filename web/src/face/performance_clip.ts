@@ -2,10 +2,10 @@ import { Performance, type PerformanceScript, type TimedFrame } from '@client/in
 import type { Clip, ClipMoment } from './clip.ts';
 import { fineSteps } from './fine_steps.ts';
 
-/** ms between the frames that a performance is asked for; the face goes straight from one to the next. */
+/** Sampling interval of a performance, ms; the face is interpolated linearly between samples. */
 const interval = 20;
 
-/** A performance document as a clip: each frame is made when its time comes. */
+/** A performance document as a clip: frames are evaluated on demand. */
 export class PerformanceClip implements Clip {
   readonly duration: number;
   readonly steps = fineSteps;
@@ -36,7 +36,7 @@ export class PerformanceClip implements Clip {
     return moment;
   }
 
-  /** Idle life runs on where the cues begin again. */
+  /** A loop restarts the cues, but not idle life. */
   private frameAt(time: number): TimedFrame {
     const idle = this.lap > 0 ? time + this.lap * this.duration : time;
     return { time, state: this.performance.frameAt(time, idle, this.steps) };

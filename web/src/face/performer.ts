@@ -1,11 +1,11 @@
 import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 import { Player, shownPose, type FaceFrame, type Kernel, type Pose, type StreamClient } from '@client/index.ts';
 
-/** Seconds in which a pose set by hand closes 63 % of the way: quick, without a jump. */
+/** Time constant of the easing towards a frame set by hand, s: 63 % of the distance. Quick, without a jump. */
 const handTimeConstant = 0.055;
 const handDuration = 12 * handTimeConstant;
 
-// The player keeps poses 0 (shown), 1 and 2 in the kernel; these are ours.
+// The player uses the kernel's poses 0 (shown), 1 and 2; the poses below belong to this class.
 const handTarget = 3;
 const handShown = 4;
 const clipFrom = 5;
@@ -13,24 +13,24 @@ const clipTo = 6;
 export const poseCount = 7;
 
 /**
- * Computes the displayed pose in the kernel: of a stream (by the SDK's player), of a single frame, to which it eases, or
- * of a moment of a clip. Allocates nothing per displayed frame.
+ * Computes the displayed pose in the kernel: from a stream (with the SDK's player), by easing towards a single frame,
+ * or from a moment of a clip. Allocates nothing per displayed frame.
  */
 export class Performer {
-  /** Plays out the frames of the stream that is listened to. */
+  /** Playout of the stream whose client was given to `listen`. */
   readonly player: Player;
   private stopListening: (() => void) | null = null;
   private shown = handShown;
   private settled = handDuration;
   private enlivened = false;
-  // The frames of a clip whose poses are in the kernel.
+  // The two frames of a clip whose poses are in the kernel.
   private clipFrames: [FaceFrame | null, FaceFrame | null] = [null, null];
 
   constructor(readonly kernel: Kernel) {
     this.player = new Player(kernel);
   }
 
-  /** The pose to draw. */
+  /** The displayed pose. */
   get pose(): Pose {
     return this.kernel.poses[this.shown]!;
   }
@@ -39,14 +39,14 @@ export class Performer {
     return this.shown;
   }
 
-  /** Selects the client whose frames the player gets; null: none. */
+  /** Connects the player to the frames of a client; null disconnects it. */
   listen(client: StreamClient | null): void {
     this.stopListening?.();
     this.player.clear();
     this.stopListening = client ? this.player.follow(client) : null;
   }
 
-  /** Eases from the displayed pose to a frame. */
+  /** Starts easing from the displayed pose towards `frame`. */
   follow(frame: FaceFrame): void {
     if (this.shown !== handShown) this.kernel.interpolate(this.shown, this.shown, 0, handShown);
     this.kernel.evaluate(frame, handTarget);
@@ -55,15 +55,15 @@ export class Performer {
   }
 
   /**
-   * Replaces the frame that is eased to by the same frame with idle life added. Once the face has arrived it follows
-   * without easing, which would end a blink before the eye is shut.
+   * Replaces the target of the easing by the same frame with idle life added. Once the target is reached, the face
+   * follows without easing: easing would cut off a blink before the eye is closed.
    */
   enliven(frame: FaceFrame, steps: QuantizerSteps): void {
     this.kernel.evaluate(frame, handTarget, steps);
     this.enlivened = true;
   }
 
-  /** Shows a moment between two frames of a clip without easing. The frames must not be changed afterwards. */
+  /** Shows a moment between two frames of a clip, without easing. The caller must not modify the frames afterwards. */
   showBetween(from: FaceFrame, to: FaceFrame, t: number, steps: QuantizerSteps = standardQuantizers): void {
     if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom, steps);
     if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo, steps);
@@ -74,7 +74,7 @@ export class Performer {
     this.settled = handDuration;
   }
 
-  /** Advances by the time of one displayed frame; follows the stream when `live`. Returns whether the pose changed. */
+  /** Advances by one displayed frame, seconds; `live` follows the stream. Returns whether the pose changed. */
   step(deltaSeconds: number, live: boolean): boolean {
     if (live && this.player.update(deltaSeconds)) {
       this.shown = shownPose;

@@ -2,27 +2,27 @@ import { pointById } from './feature_points.ts';
 
 export type Confidence = 'high' | 'medium' | 'low';
 
-/** How a point was proposed that nobody has placed or confirmed yet. */
+/** Origin and quality of a proposed point that no person has placed or confirmed yet. */
 export interface PointProposal {
   method: string | null;
   confidence: Confidence | null;
-  /** Share of ES0, or null where it is not known. */
+  /** Expected error as a fraction of ES0 (the distance between the eyes); null when unknown. */
   expectedError: number | null;
-  /** What else makes it unsure, in words. */
+  /** A further reason for doubt, as text. */
   remark?: string;
 }
 
 export interface PlacedPoint {
-  /** The vertex of the file it lies on; null for a bare position. */
+  /** Number of the file's vertex at the point; null for a position without a vertex. */
   vertex: number | null;
   position: readonly [number, number, number];
-  /** Only of a point that is proposed. */
+  /** Present only for a proposed point. */
   proposal?: PointProposal;
 }
 
 export type PointsById = ReadonlyMap<string, PlacedPoint>;
 
-/** The feature points while they are edited: what is saved, what is not yet, and the way back. */
+/** The feature points during editing: the saved set, the unsaved changes and the undo history. */
 export class PointDraft {
   private saved = new Map<string, PlacedPoint>();
   private current = new Map<string, PlacedPoint>();
@@ -33,7 +33,7 @@ export class PointDraft {
     return this.current;
   }
 
-  /** Takes over what the server has; forgets the history. */
+  /** Replaces the draft by the server's points and clears the undo history. */
   reset(points: Iterable<[string, PlacedPoint]>): void {
     this.saved = new Map([...points].filter(([id]) => pointById(id) !== undefined));
     this.current = new Map(this.saved);
@@ -53,22 +53,22 @@ export class PointDraft {
     this.current.delete(id);
   }
 
-  /** Ids of the points that are proposed, in the order they came. */
+  /** Ids of the proposed points, in the server's order. */
   get proposed(): string[] {
     return [...this.current].filter(([, point]) => point.proposal).map(([id]) => id);
   }
 
-  /** Takes proposed points for placed ones. */
+  /** Turns proposed points into placed points. */
   confirm(ids: readonly string[]): void {
     this.change(ids, ({ vertex, position }) => ({ vertex, position }));
   }
 
-  /** Takes proposed points away. */
+  /** Removes proposed points. */
   discard(ids: readonly string[]): void {
     this.change(ids, () => null);
   }
 
-  /** Exchanges left and right of these points and their mirror points. */
+  /** Exchanges each of these points with its mirror point. */
   exchange(ids: readonly string[]): void {
     const before = new Map(this.current);
     const both = new Set(ids.flatMap((id) => [id, pointById(id)?.mirror ?? id]));
@@ -108,7 +108,7 @@ export class PointDraft {
     return !same(this.saved.get(id), this.current.get(id));
   }
 
-  /** How many points differ from what the server has. */
+  /** Number of points that differ from the server's. */
   get changes(): number {
     let count = 0;
     for (const id of new Set([...this.saved.keys(), ...this.current.keys()])) if (this.isChanged(id)) count += 1;
@@ -116,8 +116,8 @@ export class PointDraft {
   }
 
   /**
-   * The body of a PUT: the vertex where there is one, the position, and what is known of a proposal. The position goes
-   * along with the vertex: points marked on another file of the same head have vertex numbers that mean nothing here.
+   * The body of a PUT request: vertex (where known), position, and the facts of a proposal. The position is sent beside
+   * the vertex because points marked on another file of the same head have vertex numbers that are not valid here.
    */
   toBody(): { points: Record<string, PointBody> } {
     const points: Record<string, PointBody> = {};
@@ -154,7 +154,7 @@ export interface PointBody {
   remark?: string;
 }
 
-/** As the REST interface and files of feature points have it. */
+/** Converts a proposal to its JSON form in the REST interface and in feature point files. */
 export function proposalBody({ method, confidence, expectedError, remark }: PointProposal): PointBody {
   const body: PointBody = { proposed: true };
   if (method !== null) body.method = method;

@@ -1,12 +1,12 @@
 import { quickSet as ids } from '@protocol/generated/mpeg4.ts';
 
-/** Where each point of the quick set lies, in words. */
+/** A description of the place of each point of the quick set. */
 const hints: Record<string, string> = {
-  '9.3': 'The foremost point of the nose. Turn the head to the side to see it.',
+  '9.3': 'The tip of the nose. Turn the head to the side to see it.',
   '9.15': 'In the middle, under the nose, where it meets the upper lip.',
   '8.1': 'In the middle of the upper edge of the mouth, in the dip of the lip’s bow.',
   '2.2': 'In the middle of the upper lip, where the lips meet.',
-  '2.3': 'In the middle of the lower lip, where the lips meet; just below the one before.',
+  '2.3': 'In the middle of the lower lip, where the lips meet; just below the previous point.',
   '8.2': 'In the middle of the lower edge of the lower lip, where its red ends.',
   '2.1': 'The lowest point of the chin, in the middle.',
   '11.4': 'The highest point of the head, under the hair.',
@@ -17,15 +17,15 @@ const hints: Record<string, string> = {
   '3.12': 'The outer corner of the right eye: the only point on this side of the face.',
   '4.1': 'The end of the left eyebrow beside the nose.',
   '4.5': 'The outer end of the left eyebrow.',
-  '9.1': 'Where the wing of the nose goes furthest out, on the left.',
+  '9.1': 'The outermost point of the left wing of the nose.',
   '8.3': 'The left corner of the mouth, at the outer edge of the lips.',
   '2.13': 'Below the left ear, where the jaw turns from the chin up to the ear.',
   '10.1': 'The highest point of the left ear.',
   '10.5': 'The lowest point of the lobe of the left ear.',
 };
 
-/** The points to mark first, in that order: the rest are proposed from them. */
+/** The points to mark first, in this order: the server proposes the others from them. */
 export const quickSet: readonly { id: string; hint: string }[] = ids.map((id) => ({ id, hint: hints[id] ?? '' }));
 
-/** From fewer placed points than this the server proposes nothing. */
+/** The minimum number of placed points from which the server makes proposals. */
 export const leastKnownPoints = 8;

@@ -1,12 +1,12 @@
 import { featurePointCount, joinSeams, type DrawableMesh } from './mesh.ts';
 
 /**
- * The influence table made ready for the shader: for every entry the feature point, its weight (Eq. 7) and the slope of
+ * The influence table in the form of the shader: for every entry the feature point, its weight (Eq. 7) and the slope of
  * that weight along two tangents of the rest surface.
  *
  * Displacement is linear in the feature points, D(P) = sum w_i(P) D_i, so its derivative along a tangent t is
- * sum (dw_i/dt) D_i: the deformed tangents, and with them the normal, come out of the same loop that moves the vertex.
- * Slopes are least squares over the edges at a vertex, seams joined.
+ * sum (dw_i/dt) D_i: one loop computes the displacement, the deformed tangents and with them the normal. A slope is the
+ * least-squares fit over the edges at a vertex; duplicates along seams count as one vertex.
  */
 export interface TangentTable {
   /** #V + 1 */
@@ -16,7 +16,7 @@ export interface TangentTable {
 }
 
 /**
- * Two tangents that complete a unit normal to a right-handed frame; the shader builds the same ones. `out` is t1, t2.
+ * Two tangents that complete a unit normal to a right-handed frame; the shader computes the same. `out` is t1, t2.
  * (The branch on the sign of z keeps the divisor at 1 or more.)
  */
 export function tangentFrame(x: number, y: number, z: number, out: Float64Array): void {
@@ -82,7 +82,7 @@ export function makeTangentTable(mesh: DrawableMesh): TangentTable {
         slope[point * 2 + 1] = slope[point * 2 + 1]! + share * w * rowWeights[k]!;
       }
     }
-    // A vertex whose edges all point one way has no slope across them: a little on the diagonal keeps it solvable.
+    // Edges that are all parallel make the least-squares system singular; a small diagonal term keeps it solvable.
     const ridge = 1e-3 * (uu + vv) + 1e-30;
     uu += ridge;
     vv += ridge;
@@ -93,7 +93,7 @@ export function makeTangentTable(mesh: DrawableMesh): TangentTable {
       const bv = slope[point * 2 + 1]! - weight[point]! * sv;
       const s1 = (bu * vv - bv * uv) / determinant;
       const s2 = (bv * uu - bu * uv) / determinant;
-      // A weight that stays under 0.1 % over the whole ring turns no normal that anyone could see.
+      // A weight below 0.1 % over the whole ring changes the normal by too little to be visible.
       if (weight[point] === 0 && Math.hypot(s1, s2) * reach < 1e-3) continue;
       if ((used + 1) * 4 > entries.length) {
         const larger = new Float32Array(entries.length * 2);
@@ -111,7 +111,7 @@ export function makeTangentTable(mesh: DrawableMesh): TangentTable {
   return { offsets, entries: entries.slice(0, used * 4) };
 }
 
-/** For each group (named by its first vertex) the neighbouring groups, each once. */
+/** For each group (identified by its first vertex) its neighbouring groups, without duplicates. */
 function makeRings(
   indices: Uint32Array,
   group: Uint32Array,

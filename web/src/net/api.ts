@@ -32,11 +32,11 @@ import { upload } from './upload.ts';
 
 const segment = encodeURIComponent;
 
-/** The REST interface as functions. Each throws ApiError with the server's problem document. */
+/** One method per REST operation. Each throws ApiError with the server's problem document. */
 export class Api {
   constructor(readonly base = '') {}
 
-  /** All models, newest page first as the server orders them. */
+  /** All models of all pages, in the server's order: newest first. */
   async listModels(): Promise<Model[]> {
     const models: Model[] = [];
     let after: string | null = null;
@@ -68,7 +68,7 @@ export class Api {
     return (await this.patchModel(id, { roles })).value;
   }
 
-  /** Returns the changed model and, where the axes have changed, the job that imports its file again. */
+  /** Returns the changed model and, if the axes changed, the job that imports its file again. */
   async setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
     const { value: model, location } = await this.patchModel(id, { frame });
     const job = location === null ? null : (await requestJson<Job>(`${this.base}${location}`)).value;
@@ -105,7 +105,7 @@ export class Api {
     return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points`);
   }
 
-  /** Replaces the whole set. With the `etag` of the set it is based on, a newer set is not overwritten (412). */
+  /** Replaces the whole set. With the `etag` of the base set the server refuses to overwrite a newer set (412). */
   putFeaturePoints(
     id: string,
     body: FeaturePointsBody,
@@ -214,7 +214,7 @@ export class Api {
     const url = `${this.base}/v1/recordings/${segment(id)}/frames?at=${Math.round(at)}`;
     const { frames } = (await requestJson<RecordedFrames>(url)).value;
     const message = decodeJson(JSON.stringify({ type: 'frames', sequence: 0, media_time: 0, frames }));
-    if (message.type !== 'frames') throw new TypeError('not frames');
+    if (message.type !== 'frames') throw new TypeError('expected a message of type frames');
     return message.frames[0]!.state;
   }
 

@@ -42,7 +42,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
   return response;
 }
 
-/** A request whose answer is JSON, or nothing (`204`, then `value` is undefined). Throws ApiError. */
+/** A request with a JSON response, or an empty one (204: `value` is undefined). Throws ApiError. */
 export async function requestJson<T>(path: string, options: RequestOptions = {}): Promise<Answer<T>> {
   const response = await send(path, { ...options, headers: { Accept: 'application/json', ...options.headers } });
   const text = await response.text();
@@ -61,7 +61,7 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
   }
 }
 
-/** For bytes to be saved as a file: browsers keep large blobs on disk. */
+/** A request for bytes to save as a file, as a Blob: browsers keep large Blobs on disk. */
 export async function requestBlob(path: string): Promise<Blob> {
   return (await send(path, {})).blob();
 }

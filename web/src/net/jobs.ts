@@ -6,8 +6,8 @@ const finalStates: readonly JobState[] = ['done', 'failed', 'cancelled'];
 export const isFinal = (job: Job): boolean => finalStates.includes(job.state);
 
 /**
- * Follows a job to its end through its Server-Sent Events, and by asking where they break off (a proxy may hold them
- * back). Resolves with the job in its final state; rejects only if the job cannot be read at all.
+ * Follows a job to its end through its Server-Sent Events, and by polling when they break off (a proxy may buffer
+ * them). Resolves with the job in its final state; rejects only if the job cannot be read at all.
  */
 export async function followJob(api: Api, job: Job, onUpdate: (job: Job) => void, signal?: AbortSignal): Promise<Job> {
   onUpdate(job);

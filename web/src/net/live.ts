@@ -7,25 +7,25 @@ export interface LinkStatus {
   reason?: string;
 }
 
-/** How a subscription goes; rates are means over about the last second. */
+/** Measurements of a subscription; rates are means over about the last second. */
 export interface LiveStats {
   framesPerSecond: number;
   bytesPerSecond: number;
-  /** Of the stream's own clock now, ms; null while that is not known well. */
+  /** The stream's clock now, ms; null while its estimate is too uncertain. */
   mediaTime: number | null;
   sequence: number;
 }
 
 const endings: Record<EndReason, string> = {
   other: 'The stream ended.',
-  finished: 'The performance is over.',
+  finished: 'The performance has ended.',
   deleted: 'The stream was deleted.',
   shutdown: 'The server is shutting down.',
   replaced: 'Another connection took over.',
   slow: 'This connection was too slow for the stream.',
 };
 
-/** Turns a client's events into one status for people. */
+/** Converts a client's events into one status for display. */
 function report(client: StreamClient, title: string, onStatus: (status: LinkStatus) => void): void {
   let ended: string | null = null;
   let named = title;
@@ -37,7 +37,7 @@ function report(client: StreamClient, title: string, onStatus: (status: LinkStat
   client.on('state', (state) => {
     if (state === 'closed') onStatus(ended === null ? { kind: 'off' } : { kind: 'ended', title: named, reason: ended });
     else if (state === 'waiting')
-      onStatus({ kind: 'waiting', title: named, reason: ended ?? 'The connection is gone; trying again.' });
+      onStatus({ kind: 'waiting', title: named, reason: ended ?? 'The connection was lost; reconnecting.' });
     else {
       ended = null;
       onStatus({ kind: state, title: named });
@@ -45,7 +45,7 @@ function report(client: StreamClient, title: string, onStatus: (status: LinkStat
   });
 }
 
-/** A WebSocket that counts what comes in. */
+/** A WebSocket class that counts the received bytes. */
 function countingSocket(count: (bytes: number) => void): typeof WebSocket {
   return class extends WebSocket {
     constructor(url: string | URL, protocols?: string | string[]) {
@@ -57,10 +57,10 @@ function countingSocket(count: (bytes: number) => void): typeof WebSocket {
   };
 }
 
-/** A clock that is not known better, ms, is not shown. */
+/** A clock estimate with a larger uncertainty than this, ms, is not displayed. */
 const worstUncertainty = 125;
 
-/** Follows a stream. `client` feeds the player of the face. */
+/** A subscription to one stream. `client` feeds the player of the face. */
 export class LiveSubscriber {
   readonly client: StreamClient;
   readonly stats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
@@ -101,7 +101,7 @@ export class LiveSubscriber {
 
 const sendInterval = 40;
 
-/** Sends a frame set by hand to a stream: whenever it changed, at most 25 times a second. */
+/** Publishes the frame set with the sliders to a stream, after each change, at most 25 times a second. */
 export class LivePublisher {
   private readonly client: StreamClient;
   private changed = true;
@@ -124,7 +124,7 @@ export class LivePublisher {
     }, sendInterval);
   }
 
-  /** The frame is not what it was. */
+  /** Marks the frame as changed. */
   touch(): void {
     this.changed = true;
   }

@@ -8,7 +8,7 @@ interface ModelFormat {
   title: string;
 }
 
-/** The files of heads that the server reads: `model_files` of core/import/model_formats.h, which a test compares. */
+/** The model formats that the server imports. A test compares this list with `model_files` of core/import/model_formats.h. */
 export const modelFormats: readonly ModelFormat[] = [
   { extension: '.glb', mediaType: 'model/gltf-binary', title: 'GLB' },
   { extension: '.vrm', mediaType: 'model/gltf-binary', title: 'VRM' },
@@ -21,16 +21,16 @@ export const modelFormats: readonly ModelFormat[] = [
 
 const titles = modelFormats.map(({ title }) => title);
 
-/** "GLB, VRM, glTF" and so on. */
+/** All formats as a list: "GLB, VRM, glTF, ...". */
 export const formatList = titles.join(', ');
 
-/** "GLB, VRM, glTF" and so on, with "or" before the last. */
+/** All formats as alternatives: "GLB, VRM, ... or OBJ". */
 export const anyFormat = `${titles.slice(0, -1).join(', ')} or ${titles.at(-1)}`;
 
-/** For the `accept` of a file input. */
+/** All file extensions, for the `accept` attribute of a file input. */
 export const acceptedFiles = modelFormats.map(({ extension }) => extension).join(',');
 
-/** By the extension of the name; the server goes by the content. */
+/** The media type by the extension of the file name; the server decides by the content. */
 export function mediaTypeOf(fileName: string): UploadMediaType {
   const name = fileName.toLowerCase();
   return modelFormats.find(({ extension }) => name.endsWith(extension))?.mediaType ?? 'application/octet-stream';

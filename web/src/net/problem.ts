@@ -1,13 +1,13 @@
 import { anyFormat, formatList } from './model_formats.ts';
 import type { Problem } from './types.ts';
 
-/** One place that a problem names; without a pointer it concerns the whole request. */
+/** One error of a problem document; without a pointer it concerns the whole request. */
 export interface FieldProblem {
   pointer?: string;
   detail: string;
 }
 
-/** A failed request. `problem.status` is 0 when there was no answer. */
+/** A failed request. `problem.status` is 0 when there was no response. */
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
     super(problem.detail ?? problem.title);
@@ -17,19 +17,19 @@ export class ApiError extends Error {
 
 export const unreachable = (detail: string): Problem => ({
   type: '/problems/unreachable',
-  title: 'The server does not answer',
+  title: 'The server does not respond',
   status: 0,
   detail,
 });
 
-/** Reads the body of an error. One that is no problem document is made into one, so that callers have one case. */
+/** Parses the body of an error response. Any other body is wrapped in a problem document, so callers have one case. */
 export function problemFrom(status: number, statusText: string, contentType: string, body: string): Problem {
   if (/^application\/(problem\+)?json\b/.test(contentType)) {
     try {
       const value: unknown = JSON.parse(body);
       if (isProblem(value)) return { ...value, status: value.status || status };
     } catch {
-      // Not JSON after all: fall through to the plain form.
+      // Not valid JSON in spite of its media type: fall through to the plain form.
     }
   }
   const problem: Problem = { type: 'about:blank', title: statusText || `HTTP ${status}`, status };
@@ -42,20 +42,20 @@ function isProblem(value: unknown): value is Problem {
   return typeof value === 'object' && value !== null && typeof (value as Problem).title === 'string';
 }
 
-/** Every place a problem names, as (pointer, reason). A problem without a pointer gives one entry with none. */
+/** The errors of a problem as (pointer, reason); a problem without pointers gives one entry without a pointer. */
 export function fieldProblems(problem: Problem): FieldProblem[] {
   if (problem.errors && problem.errors.length > 0) return problem.errors;
   const detail = problem.detail ?? problem.title;
   return [problem.pointer === undefined ? { detail } : { pointer: problem.pointer, detail }];
 }
 
-/** The feature point that a pointer such as `/points/2.1/vertex` lies in, or null. */
+/** The feature point id in a pointer such as `/points/2.1/vertex`, or null. */
 export function featurePointOf(pointer: string | undefined): string | null {
   const match = /^\/points\/(\d{1,2}\.\d{1,2})(?:\/|$)/.exec(pointer ?? '');
   return match ? match[1]! : null;
 }
 
-/** What a person can do about it, in one sentence, where we know better than "try again". */
+/** Advice for the user in one sentence, or null when there is none better than "try again". */
 export function adviceFor(problem: Problem): string | null {
   const slug = problem.type.split('/').pop() ?? '';
   if (problem.status === 0) return 'Check that the server is running, then try again.';
@@ -63,7 +63,7 @@ export function adviceFor(problem: Problem): string | null {
   if (slug === 'unsupported-media-type') return `Use a file in one of these formats: ${formatList}.`;
   if (problem.status === 413 || slug === 'limit-exceeded')
     return 'Reduce the mesh or its textures and upload it again.';
-  if (slug === 'insufficient-storage') return "The server's disk is full: free some room on it, then try again.";
+  if (slug === 'insufficient-storage') return "The server's disk is full: free some space on it, then try again.";
   if (problem.status === 412 || problem.status === 428)
     return 'Someone else changed it meanwhile: reload, then make the change again.';
   if (slug === 'invalid-feature-point') return 'Move or remove the points marked in red, then save again.';

@@ -5,18 +5,18 @@ import type { components, operations } from './generated/api.ts';
 export type { PartRole };
 
 type Schemas = components['schemas'];
-/** The JSON body that a request of an operation takes. */
+/** The type of an operation's JSON request body. */
 type JsonBody<Request> = Request extends { requestBody?: { content: { 'application/json': infer Body } } }
   ? Body
   : never;
-/** The JSON of an operation's answer with a status. */
+/** The type of an operation's JSON response with a given status. */
 type JsonAnswer<Name extends keyof operations, Status extends number> = operations[Name]['responses'] extends {
   [status in Status]: { content: { 'application/json': infer Answer } };
 }
   ? Answer
   : never;
 
-/** RFC 9457. The server always gives `detail`; a proxy before it, or this page, may have none. */
+/** RFC 9457. The server always sends `detail`; a problem made by a proxy or by this page may lack it. */
 export type Problem = Omit<Schemas['Problem'], 'detail'> & Partial<Pick<Schemas['Problem'], 'detail'>>;
 export type Vector = Schemas['Vector'];
 
@@ -46,23 +46,23 @@ export type ParametrizationOptions = JsonBody<operations['createParametrization'
 
 export type Job = Schemas['Job'];
 export type JobState = Job['state'];
-/** The result of a finished job of proposals: how many points, and why others have none. */
+/** The result of a finished proposal job: the number of proposed points, and why others were not proposed. */
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
 
 export type StreamInfo = Schemas['Stream'];
 export type StreamPage = JsonAnswer<'listStreams', 200>;
-/** The options of a new stream; the server has a default for each. */
+/** The options of a new stream; each has a default on the server. */
 export type NewStream = JsonBody<operations['createStream']>;
 export type Playing = Schemas['Playing'];
 export type FapPlaying = JsonAnswer<'playFapFile', 202>;
 export type RecordingPlay = JsonBody<operations['playRecording']>;
-/** Where to begin (ms), whether to loop, and whether to take the stream over from its present source. */
+/** Start position (ms), looping, and whether to take the stream over from its current source. */
 export type PlayOptions = Required<Omit<RecordingPlay, 'recording'>>;
 export type AbsentFap = NonNullable<NonNullable<operations['playFapFile']['parameters']['query']>['absent']>;
 
 export type Recording = Schemas['Recording'];
 export type RecordingPage = Schemas['Recordings'];
-/** The download formats that the studio offers: all but the server's own file format. */
+/** The download formats that the studio offers: all except the server's own file format. */
 export type RecordingFormat = Exclude<components['parameters']['contentFormat'], 'recording'>;
 export type RecordedFrames = Schemas['RecordedFrames'];
 

@@ -1,6 +1,6 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
 
-/** Sends a file and reports the progress (0..1), which fetch cannot do. */
+/** Uploads a file with XMLHttpRequest, which, unlike fetch, reports the progress (0..1). */
 export function upload<T>(
   url: string,
   file: Blob,
@@ -34,7 +34,7 @@ export function upload<T>(
         );
       }
     };
-    request.onerror = () => reject(new ApiError(unreachable('The connection broke during the upload.')));
+    request.onerror = () => reject(new ApiError(unreachable('The connection was lost during the upload.')));
     request.onabort = () => reject(new DOMException('Upload cancelled', 'AbortError'));
     signal?.addEventListener('abort', () => request.abort(), { once: true });
     request.send(file);

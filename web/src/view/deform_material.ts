@@ -13,10 +13,10 @@ import { rigidMotion } from '@protocol/weights_format.ts';
 import { featurePointCount } from '../face/mesh.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
-/** Texels across the entry texture: entry k lies at (k mod width, k div width). */
+/** Width of the entry texture, texels: entry k is at (k mod width, k div width). */
 const tableWidth = 1024;
 
-/** What the shader reads each frame. One object serves all materials of a face. */
+/** The shader's uniforms. All materials of a face share one object. */
 export interface DeformUniforms {
   faceEntries: IUniform<DataTexture>;
   facePoints: IUniform<Float32Array>;
@@ -83,8 +83,8 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
 }
 
 /**
- * Eq. 7 and the motion of single parts in GLSL: the second version of core/kernel's semblante_deform. `faceRow` is (first entry, count + rigid << 16).
- * The normal comes from the slopes beside the weights: see face/tangent_table.ts.
+ * Eq. 7 and the rigid motion of parts in GLSL: the same as semblante_deform in core/kernel. `faceRow` is
+ * (first entry, count + rigid << 16). The normal is computed from the slopes of the weights: see face/tangent_table.ts.
  */
 export const deformDeclarations = /* glsl */ `
 attribute uvec2 faceRow;
@@ -108,7 +108,7 @@ vec3 faceRotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
 
-/** How far a growing pupil moves a vertex of the iris. */
+/** The displacement of a vertex of the iris by the pupil's growth. */
 vec3 faceIris(int eye, vec3 rest) {
   vec3 shape = faceIrisShape[eye];
   float growth = facePupilGrowth[eye];
@@ -122,7 +122,7 @@ vec3 faceIris(int eye, vec3 rest) {
   return stretch * outwards + shape.z * r * r * stretch * (2.0 + stretch) * axis;
 }
 
-/** GLSL promises no more than eleven bits of its own. To 1e-7 for |x| < pi / 2; a tongue rolls less than twice that. */
+/** Sine, as GLSL's own guarantees eleven bits only. Error 1e-7 for |x| < pi / 2; a tongue rolls less than twice that. */
 float faceSine(float x) {
   float y = x * x;
   return x * (1.0 + y * (-1.0 / 6.0 + y * (1.0 / 120.0 + y * (-1.0 / 5040.0 + y * (1.0 / 362880.0 - y / 39916800.0)))));
@@ -132,7 +132,7 @@ float faceCosine(float x) {
   return 1.0 + y * (-0.5 + y * (1.0 / 24.0 + y * (-1.0 / 720.0 + y * (1.0 / 40320.0 - y / 3628800.0))));
 }
 
-/** Rolls the tongue: moves a vertex and turns its normal. */
+/** Rolls the tongue: moves a vertex and rotates its normal. */
 void faceRollTongue(float roll, vec3 rest, inout vec3 p, inout vec3 n) {
   if (roll == 0.0 || faceTongueHalfWidth <= 0.0) return;
   vec3 d = rest - faceTongueOrigin;
@@ -191,13 +191,13 @@ void faceDeform(inout vec3 p, inout vec3 n) {
 }
 `;
 
-/** Makes one of three.js' own materials move its vertices by the face's pose. */
+/** Adds the deformation by the face's pose to the vertex shader of a three.js material. */
 export function deformByShader(material: Material, uniforms: DeformUniforms): void {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     const deform =
       'vec3 facePosition = position; vec3 faceNormal = vec3(normal); faceDeform(facePosition, faceNormal);';
-    // Lit materials need the normal before the position; unlit ones have no use for it.
+    // Lit materials compute the normal before the position; unlit materials have no normal.
     const lit = shader.vertexShader.includes('#define STANDARD');
     const normals = lit ? `${deform} vec3 objectNormal = faceNormal;` : '#include <beginnormal_vertex>';
     const positions = `${lit ? '' : deform} vec3 transformed = facePosition;`;

@@ -15,8 +15,8 @@ import { deformDeclarations } from './deform_material.ts';
 import type { FaceView } from './face_view.ts';
 
 /**
- * Reads back what the shader makes of the current pose: one point per vertex, drawn into the pixel of its number with
- * position or normal as its colour. For tests and diagnosis, not for the frame loop.
+ * Reads back the vertices that the shader computes for the current pose: draws each vertex as a point into the pixel of
+ * its index, with position or normal as the colour. For tests and diagnosis, not for the frame loop.
  */
 export function readDeformed(
   renderer: WebGLRenderer,

@@ -29,7 +29,7 @@ async function makeMaterial(facts: FaceMaterial, richSkin: boolean): Promise<Mat
   if (facts.baseColorImage) material.map = await makeTexture(facts.baseColorImage, true);
   if (facts.normalImage) {
     material.normalMap = await makeTexture(facts.normalImage, false);
-    // Without tangents three.js derives the frame from the picture; glTF's green points up.
+    // Without tangents three.js derives the tangent frame from screen space; the green channel of glTF points up.
     material.normalScale = new Vector2(1, -1);
   }
   return studioMaterial(material, richSkin);

@@ -16,7 +16,7 @@ import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUn
 
 export type DeformPath = 'gpu' | 'wasm';
 
-/** A face that moves. Both paths draw the same picture; the GPU's is the default. */
+/** An animated face, deformed by the shader (default) or by the WASM kernel. Both paths draw the same picture. */
 export class FaceView {
   readonly object: Mesh;
   readonly uniforms: DeformUniforms;
@@ -38,7 +38,7 @@ export class FaceView {
     for (const group of mesh.groups) geometry.addGroup(group.start, group.count, group.material);
     geometry.computeBoundingSphere();
     this.object = new Mesh(geometry, materials);
-    // The head turns and the jaw drops out of the box of the rest pose.
+    // The deformed head leaves the bounding box of the rest pose, so frustum culling would be wrong.
     this.object.frustumCulled = false;
     this.object.castShadow = true;
     this.object.receiveShadow = true;
@@ -54,12 +54,12 @@ export class FaceView {
     if (path === 'gpu') this.write(this.mesh.positions, this.mesh.normals);
   }
 
-  /** For the GPU's path. No allocation: runs once per displayed frame. */
+  /** GPU path: sets the pose of the shader. Allocates nothing, as it runs once per displayed frame. */
   setPose(pose: Pose): void {
     setPose(this.uniforms, pose);
   }
 
-  /** For the other path: the vertices as the kernel moved them for this pose. */
+  /** WASM path: sets the vertices that the kernel computed for this pose. */
   setVertices(positions: Float32Array, pose: Pose): void {
     const normal = this.object.geometry.getAttribute('normal') as BufferAttribute;
     this.writePositions(positions);

@@ -2,7 +2,7 @@ import { Vector3, type PerspectiveCamera } from 'three';
 
 const duration = 0.45; // seconds
 
-/** The way of the camera from one look to another: around what it looks at, not through it. */
+/** Animates the camera from one view to another, on an arc around its target instead of through it. */
 export class Flight {
   private readonly fromTarget = new Vector3();
   private readonly fromArm = new Vector3();
@@ -18,7 +18,7 @@ export class Flight {
     this.time = 1;
   }
 
-  /** `target` is what the camera looks at and is moved along; `arm` leads from there to the camera. */
+  /** `target`: the point that the camera looks at, animated in place; `toArm`: vector from `toTarget` to the camera. */
   start(camera: PerspectiveCamera, target: Vector3, toTarget: Vector3, toArm: Vector3): void {
     this.fromTarget.copy(target);
     this.fromArm.copy(camera.position).sub(target);
@@ -39,7 +39,7 @@ export class Flight {
     target.lerpVectors(this.fromTarget, this.toTarget, ease);
     const reach = this.fromArm.length() * (1 - ease) + this.toArm.length() * ease;
     camera.position.lerpVectors(this.fromArm, this.toArm, ease);
-    // Half way between opposite looks the arm has no length; the look that is flown to gives it a direction again.
+    // Half way between opposite views the interpolated arm has zero length: use the arm of the destination.
     if (camera.position.lengthSq() < 1e-6 * reach * reach) camera.position.copy(this.toArm);
     camera.position.setLength(reach).add(target);
   }

@@ -4,12 +4,12 @@ import type { PreviewView } from './preview_view.ts';
 
 export type HighlightTone = 'error' | 'warning' | 'note' | 'part';
 
-/** What to point out on the still model. */
+/** What to highlight on the still model. */
 export interface HighlightTarget {
   tone: HighlightTone;
-  /** Vertices of the file. */
+  /** Vertex numbers of the file. */
   vertices: readonly number[];
-  /** Indices of parts. */
+  /** Part indices. */
   parts: readonly number[];
 }
 
@@ -17,7 +17,7 @@ const colors: Record<HighlightTone, number> = { error: 0xe5322d, warning: 0xf0a0
 
 const dotTones: Record<HighlightTone, MarkerTone> = { error: 'error', warning: 'warning', note: 'note', part: 'note' };
 
-/** Vertices as dots and parts as a tint over the still model; what lies inside the head shines through faintly. */
+/** Highlights vertices as dots and parts as a tint over the still model; hidden places are drawn faintly. */
 export class Highlight {
   readonly object = new Group();
   readonly parts = new Group();
@@ -52,7 +52,7 @@ export class Highlight {
   clear(): void {
     this.dots.object.visible = false;
     for (const child of [...this.parts.children] as Mesh<BufferGeometry, Material>[]) {
-      // A part borrows the preview's vertices, which must stay on the graphics card.
+      // The geometry of a part shares the preview's vertex buffer, which must not be disposed with it.
       child.geometry.deleteAttribute('position');
       child.geometry.dispose();
       child.material.dispose();
@@ -75,7 +75,7 @@ function tints(color: number): MeshBasicMaterial[] {
   ];
 }
 
-/** Where to look to see these places, and how far around. */
+/** A ball that contains all the places: the target and radius for the camera. */
 export function ballAround(places: readonly Vector3[]): { center: Vector3; radius: number } {
   const center = new Vector3();
   for (const place of places) center.add(place);

@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera } from 'three';
 
-/** Of feature points, and of vertices that a finding names. */
+/** Marker styles of feature points and of the vertices of a finding. */
 export type MarkerTone = 'error' | 'warning' | 'note' | 'placed' | 'proposed' | 'changed' | 'wrong' | 'selected';
 
 export interface Marker {
@@ -21,8 +21,8 @@ const tones: Record<MarkerTone, { color: string; size: number; ring?: true }> = 
 };
 
 /**
- * Feature points as round marks of constant size on the screen: solid where they can be seen, faint where the head
- * hides them (teeth, tongue, back of the head).
+ * Draws feature points as discs of constant screen size: opaque where visible, faint where the head hides them (teeth,
+ * tongue, back of the head).
  */
 export class Markers {
   readonly object = new Group();
@@ -35,7 +35,7 @@ export class Markers {
     for (const [order, one] of [hidden, seen].entries()) {
       const points = new Points(this.geometry, one);
       points.frustumCulled = false;
-      // Sizes are in pixels of the page, whatever resolution the stage draws in.
+      // Sizes are in CSS pixels, independent of the render resolution.
       points.onBeforeRender = (renderer) => (one.uniforms['ratio']!.value = renderer.getPixelRatio());
       points.renderOrder = 10 + order;
       this.object.add(points);
@@ -65,7 +65,7 @@ export class Markers {
     this.geometry.setAttribute('ring', new BufferAttribute(rings, 1));
   }
 
-  /** The marker drawn within `reach` pixels of a place on the canvas, nearest first. */
+  /** The marker nearest to a place on the canvas, within `reach` pixels; else null. */
   at(x: number, y: number, camera: Camera, width: number, height: number, reach: number): Marker | null {
     let best: Marker | null = null;
     let bestDistance = reach;
@@ -108,7 +108,7 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
         tint = color;
         open = ring;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-        // A little towards the eye, so that the skin a point lies on does not cover it.
+        // A small depth offset towards the camera, so that the skin at the point does not hide the marker.
         gl_Position.z -= 0.0025 * gl_Position.w;
         gl_PointSize = size * ratio;
         rim = 1.6 / size;
@@ -123,7 +123,7 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
         float edge = fwidth(r);
         float inside = 1.0 - smoothstep(0.5 - edge, 0.5, r);
         float core = 1.0 - smoothstep(0.5 - rim - edge, 0.5 - rim, r);
-        // A ring is a disc with a pale middle: proposed points differ by more than their colour.
+        // Proposed points have a pale centre, so that they differ by shape and not by colour alone.
         float middle = 1.0 - smoothstep(0.13, 0.13 + edge, r);
         core *= 1.0 - open * middle;
         if (inside * opacity < 0.01) discard;

@@ -1,8 +1,8 @@
 import { Color, DoubleSide, MeshPhysicalMaterial, MeshStandardMaterial, type Material } from 'three';
 
 /**
- * Materials as the file gives them, with what a face under studio light needs: skin that is not chalk where the file
- * says nothing, and a soft sheen at grazing angles in place of light that would pass through skin.
+ * The file's material, adapted to studio light: a skin colour instead of plain white, limited metalness and roughness,
+ * and a soft sheen at grazing angles as an approximation of subsurface scattering in skin.
  */
 export function studioMaterial(material: Material, richSkin: boolean): Material {
   if (!(material instanceof MeshStandardMaterial)) return material;
@@ -24,11 +24,11 @@ export function studioMaterial(material: Material, richSkin: boolean): Material 
 }
 
 function tidy<T extends Material>(material: T): T {
-  // Open meshes (heads cut at the neck, lids, lashes) show their back faces.
+  // The back faces of open meshes (heads cut at the neck, lids, lashes) are visible.
   material.side = DoubleSide;
   material.shadowSide = DoubleSide;
   if (material.transparent) {
-    // Lashes and brows: sorted poorly by depth alone, well enough when they leave no hard rim.
+    // Transparent lashes and brows are not sorted per triangle; without depth writes they leave no hard edges.
     material.depthWrite = false;
     material.alphaTest = Math.max(material.alphaTest, 0.02);
   }
@@ -40,7 +40,7 @@ function isSkinLike(material: MeshStandardMaterial): boolean {
   return !/eye|iris|cornea|sclera|teeth|tooth|tongue|lash|brow|hair|fluid/.test(name);
 }
 
-/** For meshes without any material. */
+/** The material of meshes without one. */
 export function defaultMaterial(richSkin: boolean): Material {
   return studioMaterial(new MeshStandardMaterial({ color: 0xffffff, roughness: 0.6 }), richSkin);
 }

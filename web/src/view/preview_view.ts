@@ -13,15 +13,15 @@ import {
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from './materials.ts';
 
-/** A place on the mesh: the file's own number of the vertex nearest to where the pointer hit. */
+/** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
 export interface Pick {
   fileVertex: number;
-  /** Index of the model's part, or null for a model that was imported before vertices knew it. */
+  /** Part index, or null for a model imported by a version that did not store parts. */
   part: number | null;
   position: [number, number, number];
 }
 
-/** The model as it was imported: still, with its materials, and every vertex knows its number in the file. */
+/** The imported model: still, with its materials, and with the file's vertex number of every vertex. */
 export class PreviewView {
   readonly object = new Group();
   private readonly meshes: Mesh[] = [];
@@ -31,7 +31,7 @@ export class PreviewView {
 
   private constructor(
     scene: Object3D,
-    /** By the number of the material in the file. */
+    /** Indexed by the material's number in the file. */
     readonly materials: Material[],
   ) {
     this.object.add(scene);
@@ -74,7 +74,7 @@ export class PreviewView {
       if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
   }
 
-  /** `x`, `y` in -1..1 from the lower left. */
+  /** `x`, `y`: normalized device coordinates, -1..1 from the lower left. */
   pick(x: number, y: number, camera: Camera): Pick | null {
     this.raycaster.setFromCamera(this.pointer.set(x, y), camera);
     const hit = this.raycaster.intersectObjects(this.meshes, false)[0];
@@ -101,7 +101,7 @@ export class PreviewView {
     };
   }
 
-  /** The triangles of a part, one geometry a mesh that has some; they share the preview's vertices. */
+  /** The triangles of a part, one geometry per mesh that has any; they share the preview's vertex buffers. */
   geometriesOf(part: number): BufferGeometry[] {
     const found: BufferGeometry[] = [];
     for (const { geometry } of this.meshes) {
@@ -119,7 +119,7 @@ export class PreviewView {
     return found;
   }
 
-  /** The mean normal at these vertices of the file; zero where they face all ways. */
+  /** The mean normal at these vertices of the file; zero where the normals cancel out. */
   normalAt(fileVertices: readonly number[]): Vector3 {
     const wanted = new Set(fileVertices);
     const sum = new Vector3();
@@ -135,7 +135,7 @@ export class PreviewView {
     return count > 0 ? sum.divideScalar(count) : sum;
   }
 
-  /** Where a vertex of the file lies, or null if no triangle uses it. */
+  /** The position of a vertex of the file, or null if no triangle uses it. */
   positionOf(fileVertex: number): Vector3 | null {
     if (!this.positionOfFileVertex) {
       this.positionOfFileVertex = new Map();
@@ -165,7 +165,7 @@ const corner = new Vector3();
 const partOf = (geometry: BufferGeometry, vertex: number): number =>
   Math.round(geometry.getAttribute('_part').getX(vertex));
 
-/** GLTFLoader lowers the case of `_FILE_VERTEX`. */
+/** GLTFLoader converts the attribute name `_FILE_VERTEX` to lower case. */
 function fileVertexOf(geometry: BufferGeometry, vertex: number): number {
   const numbers = geometry.getAttribute('_file_vertex');
   return numbers ? Math.round(numbers.getX(vertex)) : vertex;

@@ -1,10 +1,10 @@
-/** What the graphics card is asked for. */
+/** Render settings for the graphics card. */
 export interface Quality {
   antialias: boolean;
   shadows: boolean;
-  /** Sheen and second highlight on skin. */
+  /** Whether skin has sheen and a second highlight. */
   richSkin: boolean;
-  /** Edge of the reflected room's cube, pixels. */
+  /** Edge length of the environment cube map, pixels. */
   roomSize: number;
   maxPixelRatio: number;
 }
@@ -12,12 +12,12 @@ export interface Quality {
 const full: Quality = { antialias: true, shadows: true, richSkin: true, roomSize: 256, maxPixelRatio: 2 };
 const light: Quality = { antialias: false, shadows: false, richSkin: false, roomSize: 64, maxPixelRatio: 1 };
 
-/** Light where the browser draws without a graphics card; there every shaded pixel costs. Throws where WebGL 2 is missing. */
+/** Lower quality for software renderers, where every shaded pixel is slow. Throws where WebGL 2 is missing. */
 export function chooseQuality(): Quality {
   const context = document.createElement('canvas').getContext('webgl2');
   if (!context)
     throw new Error(
-      'This browser gives no WebGL 2, which drawing a head needs. Turn on hardware acceleration, or try another browser.',
+      'This browser has no WebGL 2, which the studio needs. Enable hardware acceleration, or try another browser.',
     );
   const facts = context.getExtension('WEBGL_debug_renderer_info');
   const name = facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : '';
@@ -25,13 +25,13 @@ export function chooseQuality(): Quality {
   return /swiftshader|llvmpipe|software|basic render/i.test(name) ? light : full;
 }
 
-/** Watches the time between drawn frames; tells once when a device does not keep up. */
+/** Detects, from the time between drawn frames, a device that is too slow for the current settings. */
 export class PaceWatch {
   private slow = 0;
 
-  /** Call after each frame that moves. Returns true when it is time to ask for less. */
+  /** To call after each animated frame. Returns true when the quality should be lowered. */
   tick(deltaSeconds: number): boolean {
-    // A tab that comes back has one long frame: that is not the device's fault.
+    // A long frame comes from a hidden tab that became visible, not from a slow device.
     if (deltaSeconds > 0.09) return false;
     this.slow = Math.max(0, this.slow + (deltaSeconds > 1 / 28 ? 1 : -1));
     if (this.slow < 45) return false;

@@ -27,15 +27,14 @@ const directions: Record<ViewName, [number, number, number]> = {
   'three-quarter': [0.55, 0.06, 0.83],
 };
 
-/** Pixels that tools and messages take at the top and the bottom of the stage. */
+/** Height of the tools and messages at the top and the bottom of the stage, pixels. */
 const toolRoom = 124;
 
-/** Something that moves: called once per frame before drawing; returns whether the picture changed. */
+/** A callback of the frame loop: called once per frame before drawing; returns whether the picture changed. */
 export type FrameHook = (deltaSeconds: number) => boolean;
 
 /**
- * The canvas: camera, light and the frame loop. Draws only when something changed. Owned by the page; all calls on the
- * main thread.
+ * The canvas with camera, lights and frame loop. Draws only when something changed.
  */
 export class Stage {
   readonly scene = new Scene();
@@ -48,7 +47,7 @@ export class Stage {
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
   private readonly flight = new Flight();
-  /** Where the camera was before it went to look at a place: what it looked at, and the way from there. */
+  /** The view before `lookAt`, for `lookBack`: the camera's target and the vector from there to the camera. */
   private before: { target: Vector3; arm: Vector3 } | null = null;
   private radius = 1;
   private dirty = true;
@@ -98,7 +97,7 @@ export class Stage {
     this.renderer.setAnimationLoop(this.frame);
   }
 
-  /** Asks for one more picture. */
+  /** Requests one more drawn frame. */
   invalidate(): void {
     this.dirty = true;
   }
@@ -107,7 +106,7 @@ export class Stage {
     this.hooks.push(hook);
   }
 
-  /** Fits camera and lights to an object and looks at its front. */
+  /** Fits camera and lights to an object and shows its front. */
   frameObject(object: Object3D): void {
     const box = new Box3().setFromObject(object);
     if (box.isEmpty()) return;
@@ -127,11 +126,11 @@ export class Stage {
     this.fly(this.center, this.radius * 1.06, new Vector3(...directions[view]), atOnce);
   }
 
-  /** Looks at a place of the model so that a ball of `radius` about it fits, from where it can be seen. */
+  /** Moves the camera to a place of the model so that a ball of `radius` fits; `outward`: the surface normal there. */
   lookAt(place: Vector3, radius: number, outward: Vector3): void {
     const { target } = this.controls;
     this.before ??= { target: target.clone(), arm: this.camera.position.clone().sub(target) };
-    // Never from below or behind only because a triangle faces there: half of the way is the front's.
+    // The mean of the normal and the front: no view from below or behind because of one triangle's normal.
     const direction = outward
       .clone()
       .normalize()
@@ -141,7 +140,7 @@ export class Stage {
     this.fly(place, Math.max(radius, this.radius * 0.22), direction, false);
   }
 
-  /** From a place that was looked at to where the camera was before. */
+  /** Restores the view before `lookAt`. */
   lookBack(): void {
     if (!this.before) return;
     const { target, arm } = this.before;
@@ -151,7 +150,7 @@ export class Stage {
 
   private fly(target: Vector3, radius: number, direction: Vector3, atOnce: boolean): void {
     const half = (this.camera.fov * Math.PI) / 360;
-    // Room for the tools that float above and below the head.
+    // Leave space for the tools that float above and below the head.
     const height = this.canvas.clientHeight;
     const free = Math.max(0.6, (height - toolRoom) / Math.max(height, 1));
     const narrow = Math.min(1, this.camera.aspect * 1.3);
@@ -165,13 +164,13 @@ export class Stage {
       this.flight.arrive(this.camera, this.controls.target);
       this.camera.updateProjectionMatrix();
       this.controls.update();
-      // A click may come before the next picture: it must meet what that picture will show.
+      // A click may arrive before the next drawn frame: picking must use the camera of that frame.
       this.camera.updateMatrixWorld();
     }
     this.invalidate();
   }
 
-  /** Turns the camera around the head, for the keyboard. Angles in radians. */
+  /** Rotates the camera around the head, for the keyboard. Angles in radians. */
   orbit(yaw: number, pitch: number): void {
     this.flight.stop();
     const arm = this.camera.position.clone().sub(this.controls.target);
@@ -184,7 +183,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Moves what is looked at across the picture, in shares of its height; for the keyboard. */
+  /** Moves the camera's target parallel to the screen, in fractions of the picture's height; for the keyboard. */
   pan(right: number, up: number): void {
     this.flight.stop();
     const arm = this.camera.position.clone().sub(this.controls.target);
@@ -204,7 +203,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** The picture as it is now, small: for the shelf. */
+  /** A small image of the current picture, as a data URL, for the shelf. */
   thumbnail(size: number): string {
     this.renderer.render(this.scene, this.camera);
     const from = this.renderer.domElement;

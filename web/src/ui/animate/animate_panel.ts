@@ -20,16 +20,16 @@ import { VisemeGrid } from './viseme_grid.ts';
 
 export interface AnimatePanelOptions {
   frame: FaceFrame;
-  /** The frame was changed by hand. */
+  /** Called after a slider or button changed the frame. */
   onChange: () => void;
-  /** Idle life was switched on or off. */
+  /** Called when idle life is switched on or off. */
   onIdle: (on: boolean) => void;
 }
 
-/** ms that a blink keeps the eyes shut; the face eases there and back. */
+/** How long a blink keeps the eyes closed, ms; the face eases to and from the closed pose. */
 const blinkTime = 160;
 
-/** Drives the face by hand: visemes, expressions and every low-level FAP. */
+/** The controls that set the frame: visemes, expressions and all low-level FAPs. */
 export class AnimatePanel {
   readonly element: HTMLElement;
   private readonly grid: VisemeGrid;
@@ -77,7 +77,7 @@ export class AnimatePanel {
       h(
         'div',
         { class: 'row wrap quick-acts', role: 'group', 'aria-label': 'Whole face' },
-        act('Blink', 'blink', 'Shut the eyes for a moment', () => this.blink()),
+        act('Blink', 'blink', 'Close the eyes for a moment', () => this.blink()),
         act('Mirror', 'mirror', 'Exchange left and right', () => this.mirror()),
         h('span', { class: 'grow' }),
         this.resetAll,
@@ -111,18 +111,18 @@ export class AnimatePanel {
     this.refresh();
   }
 
-  /** The face on the stage from now on, in any pose; null: none. */
+  /** Sets the face on the stage (any pose of it); null: none. */
   showFace(pose: Pose | null): void {
     if (pose) this.faps.hide(fapsWithoutEffect(pose));
   }
 
-  /** Shows the frame as it is now, after someone else changed it. */
+  /** Updates the controls after other code changed the frame. */
   refresh(): void {
     const { frame } = this.options;
     this.grid.show(frame.viseme.select1 === 0 && frame.viseme.blend === 0 ? 0 : frame.viseme.select1);
     for (const [i, feeling] of this.feelings.entries()) {
       const intensity = expressionIntensity(frame, i + 1);
-      // 64 steps against 100: a slider that already stands on the step keeps its place under the finger.
+      // The frame has 64 steps, the slider 100: do not move a slider that already rounds to the step, during a drag.
       if (Math.round((feeling.slider.value / 100) * maxBlend) !== intensity)
         feeling.slider.set(Math.round((intensity / maxBlend) * 100));
       feeling.row.classList.toggle('on', intensity > 0);

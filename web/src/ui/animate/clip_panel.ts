@@ -15,10 +15,10 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
 
-/** Plays a performance document or .fap file on this page, without the server. */
+/** Plays a performance document or .fap file on this page only, without the server. */
 export class ClipPanel {
   readonly element: HTMLElement;
-  /** The state of the file in words; null while another source has the face. */
+  /** The playback state as text; null while another source drives the face. */
   readonly shown = new Signal<string | null>(null);
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
@@ -41,7 +41,7 @@ export class ClipPanel {
     this.element = h(
       'section',
       { class: 'clip' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, 'on this page alone')),
+      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, 'on this page only')),
       h(
         'div',
         { class: 'script-source' },
@@ -56,7 +56,7 @@ export class ClipPanel {
       this.body,
     );
     driver.source.watch((source) => {
-      // Redrawn only when it loses the face: a redraw on taking it would interrupt the drag of the position slider.
+      // Redraw only when the clip loses the face: a redraw on gaining it would interrupt a drag of the slider.
       if (source !== 'clip' && this.shown.value !== null) this.draw();
       else this.tell();
     });
@@ -67,7 +67,7 @@ export class ClipPanel {
     this.element.scrollIntoView({ block: 'nearest' });
   }
 
-  /** To be called a few times a second. */
+  /** Call a few times a second. */
   tick(): void {
     this.tell();
     if (!this.file) return;
@@ -203,7 +203,7 @@ function sizeOf(content: ClipFile): string {
   return cues.length > 0 ? `${count}, idle life` : 'Idle life';
 }
 
-/** A JSON pointer as it is, "line 3, word 2" in words. */
+/** The place of an error: a JSON pointer as code, "line 3, word 2" as text. */
 function placeOf(where: string): HTMLElement | null {
   if (where === '') return null;
   return where.startsWith('/') ? h('p', {}, 'At ', h('code', {}, where)) : h('p', {}, capital(where));

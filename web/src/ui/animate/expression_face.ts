@@ -1,6 +1,6 @@
 import { svg } from '../shared/dom.ts';
 
-/** What a few strokes need to show a feeling: brow heights (inner, outer), eye opening, mouth corner and opening. */
+/** The parameters of a drawn expression: brow heights (inner, outer), eye opening, mouth corner and opening. */
 interface Feeling {
   inner: number;
   outer: number;
@@ -19,7 +19,7 @@ const feelings: Feeling[] = [
   { inner: 2, outer: 2, eye: 2.4, corner: 0.2, open: 5 },
 ];
 
-/** A small drawn face for expression 1..6 (0: neutral). */
+/** A small line drawing of expression 1..6 (0: neutral). */
 export function expressionFace(expression: number, size = 34): SVGElement {
   const { inner, outer, eye, corner, open } = feelings[expression] ?? feelings[0]!;
   const brow = (side: 1 | -1): string =>

@@ -11,7 +11,7 @@ export interface FapSlidersOptions {
   onChange: () => void;
 }
 
-/** FAPs that this face cannot show, for want of an iris or a tongue: a slider that does nothing would be a lie. */
+/** FAPs without effect on this face, because it has no iris or no tongue; their sliders are hidden. */
 export function fapsWithoutEffect(pose: Pose): ReadonlySet<number> {
   const without = new Set<number>();
   if (pose.irises[3] === 0) without.add(29);
@@ -20,7 +20,7 @@ export function fapsWithoutEffect(pose: Pose): ReadonlySet<number> {
   return without;
 }
 
-/** Low-level FAPs in the standard's groups, folded away until opened. */
+/** Sliders of the low-level FAPs in the standard's groups, collapsed at first. */
 export class FapSliders {
   readonly element = h('div', { class: 'fap-groups' });
   private readonly sliders = new Map<number, Slider>();
@@ -35,13 +35,13 @@ export class FapSliders {
       if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
   }
 
-  /** Hides the sliders of what the face cannot do. */
+  /** Hides the sliders of these FAPs and shows all others. */
   hide(without: ReadonlySet<number>): void {
     this.without = without;
     for (const [number, slider] of this.sliders) slider.element.hidden = without.has(number);
   }
 
-  /** Shows the frame's values. */
+  /** Sets the sliders to the frame's values. */
   refresh(): void {
     for (const [number, slider] of this.sliders) slider.set(fapValue(this.options.frame, number));
     for (const [group, count] of this.counts) {
@@ -86,7 +86,7 @@ export class FapSliders {
       ),
       body,
     );
-    // Built when first opened: 66 sliders at once are felt on a phone.
+    // Sliders are created when a group is first opened: creating all 66 at once is slow on a phone.
     details.addEventListener('toggle', () => {
       if (details.open && body.childElementCount === 0) {
         for (const fap of list) body.append(this.makeSlider(fap).element);

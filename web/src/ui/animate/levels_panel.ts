@@ -5,7 +5,7 @@ import { formatBytes, formatCount } from '../shared/format.ts';
 import type { SceneView } from '../stage/scene.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** The levels of detail of the open face: how heavy each is, how far off, and which is on the stage. */
+/** The levels of detail of the open face: size and error of each, and which one is on the stage. */
 export class LevelsPanel {
   readonly element: HTMLElement;
   private readonly body = h('div', {});
@@ -22,7 +22,7 @@ export class LevelsPanel {
         'header',
         { class: 'section-head' },
         h('h2', {}, 'Levels of detail'),
-        h('span', { class: 'muted small' }, 'for light devices'),
+        h('span', { class: 'muted small' }, 'for slow devices'),
       ),
       this.body,
     );
@@ -46,7 +46,7 @@ export class LevelsPanel {
             { class: 'levels' },
             levels.map((level) => this.row(level, told)),
           )
-        : h('p', { class: 'muted small' }, 'The full mesh alone: it is light already, or no levels were asked for.'),
+        : h('p', { class: 'muted small' }, 'Only the full mesh: it is small already, or no levels were requested.'),
       told?.missed.map(({ words }) =>
         h('p', { class: 'muted small' }, `${words.charAt(0).toUpperCase()}${words.slice(1)}.`),
       ),
@@ -77,7 +77,7 @@ export class LevelsPanel {
   }
 }
 
-/** "Off by 0.4 % of the distance of the eyes at most, in expressions by 0.9 %". */
+/** "Error at most 0.4 % of the eye distance, in expressions 0.9 %". */
 function errorWords({
   neutral,
   expressions,
@@ -86,10 +86,10 @@ function errorWords({
   expressions: Record<string, LevelError>;
 }): string {
   const worst = (error: LevelError): number => error.of_es0?.max ?? error.max;
-  const unit = neutral.of_es0 ? ' of the distance of the eyes' : ' units';
+  const unit = neutral.of_es0 ? ' of the eye distance' : ' units';
   const word = (value: number): string =>
     neutral.of_es0 ? `${Number((value * 100).toPrecision(2))} %` : String(Number(value.toPrecision(2)));
   const faces = Object.values(expressions).map(worst);
-  const moved = faces.length > 0 ? `, in expressions by ${word(Math.max(...faces))}` : '';
-  return `Off by ${word(worst(neutral))}${unit} at most${moved}`;
+  const moved = faces.length > 0 ? `, in expressions ${word(Math.max(...faces))}` : '';
+  return `Error at most ${word(worst(neutral))}${unit}${moved}`;
 }

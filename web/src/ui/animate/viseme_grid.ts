@@ -5,7 +5,7 @@ export interface VisemeGridOptions {
   onChoose: (viseme: number) => void;
 }
 
-/** 15 buttons, each with its sounds and a word to hear them in. */
+/** 15 buttons, each with its sounds and an example word. */
 export class VisemeGrid {
   readonly element = h('div', { class: 'visemes', role: 'group', 'aria-label': 'Visemes' });
   private readonly buttons: HTMLButtonElement[] = [];

@@ -2,7 +2,7 @@ import { h } from '../shared/dom.ts';
 
 export type Absent = 'zero' | 'keep';
 
-/** What a FAP is that a frame of a .fap file leaves out: the files do not say. */
+/** The choice of the value of FAPs that a frame of a .fap file omits; the format does not define it. */
 export function absentChoice(chosen: Absent, choose: (absent: Absent) => void): HTMLElement {
   const button = (value: Absent, title: string): HTMLElement =>
     h(
@@ -18,8 +18,8 @@ export function absentChoice(chosen: Absent, choose: (absent: Absent) => void): 
   return h(
     'div',
     { class: 'row' },
-    h('span', { class: 'muted grow', title: 'What a FAP is in a frame that leaves it out' }, 'Left out'),
-    h('div', { class: 'segments', role: 'group', 'aria-label': 'FAPs that a frame leaves out' }, [
+    h('span', { class: 'muted grow', title: 'The value of a FAP in a frame that omits it' }, 'Omitted FAPs'),
+    h('div', { class: 'segments', role: 'group', 'aria-label': 'FAPs that a frame omits' }, [
       button('zero', 'Are zero'),
       button('keep', 'Stay'),
     ]),

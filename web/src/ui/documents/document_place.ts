@@ -1,8 +1,8 @@
-/** A line of somebody's document, shortened around the place that matters. */
+/** A line of a document, shortened around the error. */
 export interface ExcerptLine {
   number: number;
   text: string;
-  /** The fault is on this line. */
+  /** Whether the error is on this line. */
   marked: boolean;
 }
 
@@ -10,8 +10,8 @@ const around = 1;
 const longestLine = 72;
 
 /**
- * The lines about the place that a problem names: a JSON pointer (`/cues/3/viseme`), or `line 12, word 3` of a .fap
- * file. Empty where it names no place in the text. A member that is not there leads to what it is missing from.
+ * The lines around the place of an error: a JSON pointer (`/cues/3/viseme`), or `line 12, word 3` of a .fap file.
+ * Empty when the text has no such place. For a missing member, the place is the object that lacks it.
  */
 export function excerptAt(text: string, where: string | undefined): ExcerptLine[] {
   if (where === undefined) return [];
@@ -27,7 +27,7 @@ export function excerptAt(text: string, where: string | undefined): ExcerptLine[
   return excerpt;
 }
 
-/** Keeps what is about `column`: a document may be one line of a megabyte. */
+/** Keeps the text around `column`: a document may be a single line of a megabyte. */
 function shorten(line: string, column: number): string {
   if (line.length <= longestLine) return line;
   const begin = Math.max(0, Math.min(column - longestLine / 3, line.length - longestLine));
@@ -52,7 +52,7 @@ function offsetOfLine(text: string, where: string): number | null {
   return at;
 }
 
-/** Where the value begins; null when the text is no JSON along the way. */
+/** The offset of the pointer's value; null when the text is not valid JSON up to there. */
 function offsetOfPointer(text: string, pointer: string): number | null {
   let at = skipBlanks(text, 0);
   for (const part of pointer.split('/').slice(1)) {
@@ -103,7 +103,7 @@ function skipString(text: string, at: number): number {
   return Math.min(i + 1, text.length);
 }
 
-/** Counts brackets instead of calling itself: depth is whatever the document has. */
+/** Counts brackets instead of recursing: the nesting depth of the document is not limited. */
 function skipValue(text: string, at: number): number {
   let depth = 0;
   let i = at;

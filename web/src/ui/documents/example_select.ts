@@ -1,7 +1,7 @@
 import { h } from '../shared/dom.ts';
 import { examples } from './examples.ts';
 
-/** A list of the project's own performance documents; one that is chosen is handed over with its name. */
+/** A select of the project's example performance documents; `take` receives name and text of the chosen one. */
 export function exampleSelect(take: (name: string, text: string) => void): HTMLSelectElement {
   const select = h(
     'select',

@@ -1,4 +1,4 @@
-/** The project's own performance documents, loaded when chosen. */
+/** The project's example performance documents, loaded on demand. */
 export const examples: readonly { name: string; title: string; text: () => Promise<string> }[] = [
   {
     name: 'hello.json',

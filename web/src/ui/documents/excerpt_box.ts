@@ -1,7 +1,7 @@
 import type { ExcerptLine } from './document_place.ts';
 import { h } from '../shared/dom.ts';
 
-/** Lines of a document, the faulty one marked; null where there are none. */
+/** Lines of a document with the erroneous line marked; null when there are no lines. */
 export function excerptBox(lines: readonly ExcerptLine[]): HTMLElement | null {
   if (lines.length === 0) return null;
   return h(

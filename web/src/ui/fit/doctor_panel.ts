@@ -9,16 +9,16 @@ import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
 
 export interface DoctorOptions {
-  /** Whether there are as many placed points as proposals are made from. */
+  /** Whether enough points are placed for the server to make proposals. */
   enoughPoints: () => boolean;
   onAction: (action: FindingAction, finding: Finding) => void;
 }
 
-/** The findings of the open head, worst first; a click shows where. */
+/** The findings of the open head, worst first; a click on a finding shows its place. */
 export class DoctorPanel {
   readonly element: HTMLElement;
   private readonly body = h('div', { class: 'doctor' });
-  /** Which groups a person has opened or closed, by severity. */
+  /** The severities whose group the user has opened (true) or closed (false). */
   private readonly open = new Map<Severity, boolean>();
   private rows: { finding: Finding; element: HTMLElement; button: HTMLButtonElement }[] = [];
 
@@ -58,20 +58,20 @@ export class DoctorPanel {
     }
     const words =
       model === null
-        ? 'Choose a head to have it looked at.'
+        ? 'Choose a head to check it.'
         : state.kind === 'loading' || model.state === 'importing'
-          ? 'Looking at the head…'
+          ? 'Checking the head…'
           : model.state === 'failed'
-            ? 'The file could not be read, so there is nothing to look at.'
-            : 'This head was imported before there was a doctor. Parametrize it again to have it looked at.';
+            ? 'The file could not be read, so there is nothing to check.'
+            : 'This head was imported by a version without the fit doctor. Parametrize it again to check it.';
     replace(this.body, h('p', { class: 'empty' }, words));
   }
 
   private drawReport(report: FitReport, model: Model): void {
     const whole = model.state === 'parametrized';
     const looked = whole
-      ? 'Mesh, points, parts and weights were looked at when the head was last parametrized.'
-      : 'So far the mesh was looked at. Points, parts and weights follow when the head is parametrized.';
+      ? 'Mesh, points, parts and weights were checked when the head was last parametrized.'
+      : 'Only the mesh has been checked so far. Points, parts and weights follow when the head is parametrized.';
     if (report.findings.length === 0) {
       replace(
         this.body,
@@ -133,7 +133,7 @@ export class DoctorPanel {
       place.vertices.count > 0
         ? `${formatCount(place.vertices.count)} ${place.vertices.count === 1 ? 'vertex' : 'vertices'}`
         : '',
-      measured ? `${measured.what}: ${figure(measured.value)}, from ${figure(measured.threshold)} on a finding` : '',
+      measured ? `${measured.what}: ${figure(measured.value)}, a finding from ${figure(measured.threshold)}` : '',
     ].filter((text) => text !== '');
     const element = h(
       'li',
@@ -162,13 +162,13 @@ export class DoctorPanel {
   }
 }
 
-/** What reading the file and placing the points had to say. */
+/** The warnings of the import and of the feature points. */
 function remarks({ warnings = [] }: Model): HTMLElement | null {
   if (warnings.length === 0) return null;
   return h(
     'div',
     { class: 'remarks small' },
-    h('h3', {}, 'Said of the file and its points'),
+    h('h3', {}, 'Warnings of the file and its points'),
     h(
       'ul',
       {},

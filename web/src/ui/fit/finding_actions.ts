@@ -1,6 +1,6 @@
 import type { Finding } from '../../net/types.ts';
 
-/** What a person can do about a finding right here. */
+/** An action of the studio that may resolve a finding. */
 export type FindingAction =
   | { kind: 'propose'; label: string }
   | { kind: 'mark'; label: string }
@@ -12,12 +12,12 @@ export type FindingAction =
 const aboutAxes = new Set(['upside-down', 'facing-away', 'not-upright']);
 const aboutRoles = new Set(['idle-part', 'second-skin', 'eye-cannot-turn', 'point-on-wrong-part']);
 
-/** How thick the hair is shows on no bare head. */
+/** Points that the server never proposes: 11.5, the top of the hair, depends on the hair's thickness. */
 const neverProposed = new Set(['11.5']);
 
 /**
- * The obvious action, or null where it is not one of this page: a mesh is mended in the tool that made it. `enough`:
- * there are as many placed points as proposals are made from.
+ * The suggested action for a finding, or null when the studio has none: faults of the mesh are repaired in the tool
+ * that made it. `enough`: enough points are placed for the server to make proposals.
  */
 export function actionFor(finding: Finding, enough: boolean): FindingAction | null {
   const { code, place } = finding;
@@ -25,7 +25,7 @@ export function actionFor(finding: Finding, enough: boolean): FindingAction | nu
   if (code === 'missing-points' || code === 'no-points') {
     if (enough && (code === 'no-points' || place.points.some((id) => !neverProposed.has(id))))
       return { kind: 'propose', label: 'Propose the missing points' };
-    // What nothing needs may well be left unmarked.
+    // A note means that nothing depends on the missing points, so no action is suggested.
     return enough || finding.severity === 'note' ? null : { kind: 'mark', label: 'Mark the first points' };
   }
   if (code === 'left-right-swapped') return { kind: 'exchange', label: 'Exchange left and right' };
@@ -35,6 +35,6 @@ export function actionFor(finding: Finding, enough: boolean): FindingAction | nu
       : { kind: 'role', part: place.part, label: 'Set the role of this part' };
   const point = place.points[0];
   if ((code.startsWith('point') || code.startsWith('unit')) && point !== undefined)
-    return { kind: 'point', point, label: `Look at point ${point}` };
+    return { kind: 'point', point, label: `Show point ${point}` };
   return null;
 }

@@ -7,7 +7,7 @@ import type { Studio } from '../shared/studio.ts';
 
 type Place = readonly [number, number, number];
 
-/** Keeps the stage pointing at what is chosen: a finding, a part, or the feature points. */
+/** Keeps the stage's highlight in step with the selection: a finding, a part, or the feature points. */
 export function pointOutFindings(studio: Studio, fit: FitModel, points: PointsModel, scene: SceneView): void {
   const markers = (): void => scene.setMarkers(makeMarkers(studio, fit, points));
   const target = (): void => {
@@ -38,18 +38,18 @@ export function pointOutFindings(studio: Studio, fit: FitModel, points: PointsMo
     const model = studio.selected.value;
     if (finding && model) scene.flyTo(placesOf(finding, model, points, scene), finding.place.vertices.sample);
   });
-  // A head that has just come onto the stage shows what was chosen meanwhile.
+  // A head that has just been loaded gets the highlight of the current selection.
   scene.state.watch(target);
 }
 
-/** A tint over the largest part, the skin, would show nothing but itself. */
+/** Whether the part is the whole head: a tint over the largest part, the skin, would carry no information. */
 function isWhole(studio: Studio, part: number): boolean {
   const parts = studio.selected.value?.parts ?? [];
   const most = Math.max(...parts.map((one) => one.vertices));
   return parts.find((one) => one.index === part)?.vertices === most;
 }
 
-/** Everything of a finding that has a place; the whole part only where nothing says more. */
+/** The places of a finding; the whole part only when the finding names no more precise place. */
 function placesOf({ place }: Finding, model: Model, points: PointsModel, scene: SceneView): Place[] {
   const places: Place[] = place.vertices.sample.flatMap((vertex) => {
     const at = scene.preview?.positionOf(vertex);
@@ -65,7 +65,7 @@ function placesOf({ place }: Finding, model: Model, points: PointsModel, scene: 
   return box ? [box.min, box.max] : [];
 }
 
-/** On the Fit tab only the points that a finding names; else all of them. */
+/** The markers of the points: on the Fit tab only those of the chosen finding, else all. */
 function makeMarkers(studio: Studio, fit: FitModel, points: PointsModel): Marker[] {
   const named = studio.tab.value === 'fit' ? new Set(fit.chosen.value?.place.points) : null;
   const markers: Marker[] = [];

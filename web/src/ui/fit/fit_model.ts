@@ -6,13 +6,13 @@ import type { Studio } from '../shared/studio.ts';
 export type ReportState =
   { kind: 'none' } | { kind: 'loading' } | { kind: 'ready'; report: FitReport } | { kind: 'failed'; problem: Problem };
 
-/** What the fit doctor says of the open head, and what of it, or which part, is pointed out on the stage. */
+/** The fit doctor's report of the open head, and the finding or part that is highlighted on the stage. */
 export class FitModel {
   readonly report = new Signal<ReportState>({ kind: 'none' });
   readonly chosen = new Signal<Finding | null>(null);
-  /** Index of the part that is pointed out. */
+  /** Index of the selected part. */
   readonly part = new Signal<number | null>(null);
-  /** The part under the pointer or the keyboard's focus; it goes before what is chosen. */
+  /** The part under the pointer or with the keyboard focus; highlighted in place of the selection. */
   readonly hoveredPart = new Signal<number | null>(null);
   private shown = '';
 
@@ -20,7 +20,7 @@ export class FitModel {
     studio.selected.watch((model) => void this.open(model));
   }
 
-  /** Points out a finding, or nothing. */
+  /** Selects a finding, or none. */
   choose(finding: Finding | null): void {
     this.part.set(null);
     this.chosen.set(finding);
@@ -33,7 +33,7 @@ export class FitModel {
 
   private async open(model: Model | null): Promise<void> {
     const has = model !== null && (model.state === 'ready' || model.state === 'parametrized') && !!model.findings;
-    // Every job and every edit that may change the report also changes when the model was updated.
+    // Every job and edit that may change the report also changes the model's update time.
     const key = has ? `${model.id} ${model.updated}` : '';
     if (key === this.shown) return;
     const another = key.split(' ')[0] !== this.shown.split(' ')[0];

@@ -10,7 +10,7 @@ import { PartsPanel } from './parts_panel.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Whether a head fits: what the doctor found, how it stands, what its parts are. */
+/** The Fit tab: findings of the fit doctor, unit and axes, and parts of the open head. */
 export class FitPanel {
   readonly element: HTMLElement;
   private readonly frame: FramePanel;
@@ -44,7 +44,7 @@ export class FitPanel {
     );
   }
 
-  /** Brings a part's row under the eyes. */
+  /** Scrolls to a part's row. */
   revealPart(part: number): void {
     this.parts.reveal(part, false);
   }

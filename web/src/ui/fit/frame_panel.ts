@@ -12,7 +12,7 @@ const units: readonly { unit: LengthUnit; name: string }[] = [
 ];
 const directions: readonly Direction[] = ['+X', '-X', '+Y', '-Y', '+Z', '-Z'];
 
-/** How the open head stands in its file and what its unit is: what was guessed and why, and a form to say it. */
+/** Unit and axes of the open head: the server's guess with its reasons, and a form to correct it. */
 export class FramePanel {
   readonly element: HTMLElement;
   private readonly said = h('div', { class: 'frame-said', 'aria-live': 'polite' });
@@ -28,7 +28,7 @@ export class FramePanel {
   );
   private readonly front = choice(
     'frame-front',
-    'The face looks',
+    'Front of the face',
     directions.map((one) => [one, one]),
   );
   private readonly apply = h('button', { type: 'submit', class: 'primary small' }, 'Apply');
@@ -65,7 +65,7 @@ export class FramePanel {
       h(
         'p',
         { class: 'muted small' },
-        'Directions are those of the file. A change of axes turns the head in the picture.',
+        'Directions are axes of the file. A change of axes rotates the head on the stage.',
       ),
       form,
     );
@@ -73,7 +73,7 @@ export class FramePanel {
     studio.activities.watch(() => this.check());
   }
 
-  /** Brings the form under the eyes and the fingers. */
+  /** Opens the form, scrolls to it and focuses it. */
   reveal(): void {
     this.element.scrollIntoView({ block: 'center' });
     this.up.select.focus({ preventScroll: true });
@@ -104,7 +104,7 @@ export class FramePanel {
           `${frame.axes.up} up, ${frame.axes.front} to the front`,
           origin(frame.by_user.axes, frame.sure.axes),
         ),
-        size === '' ? null : [h('dt', {}, 'So the model is'), h('dd', { class: 'number' }, size)],
+        size === '' ? null : [h('dt', {}, 'Resulting size'), h('dd', { class: 'number' }, size)],
       ),
       frame.reasons.length > 0
         ? h(
@@ -122,7 +122,7 @@ export class FramePanel {
     this.check();
   }
 
-  /** What the form says that is not said yet. A guess that is not sure may be said as it is. */
+  /** The values of the form that differ from the set ones. An uncertain guess may be confirmed unchanged. */
   private wish(): FrameWish {
     const frame = this.studio.selected.value?.frame;
     if (!frame) return {};
@@ -173,7 +173,7 @@ function origin(byUser: boolean, sure: boolean): HTMLElement {
   return h('span', { class: `tag ${byUser ? 'by-hand' : sure ? '' : 'unsure'}` }, words);
 }
 
-/** "24 × 31 × 26 cm", wide, high and deep. */
+/** "24 × 31 × 26 cm": width, height and depth. */
 function sizeWords(model: Model, frame: ModelFrame): string {
   if (!model.bounds) return '';
   const { min, max } = model.bounds;

@@ -8,7 +8,7 @@ import type { Studio } from '../shared/studio.ts';
 
 const roles = Object.keys(roleTitles) as PartRole[];
 
-/** The parts of the open head with their roles, to look at and to correct. */
+/** The parts of the open head with their roles, which the user can correct. */
 export class PartsPanel {
   readonly element: HTMLElement;
   private readonly note = h('p', { class: 'muted small' });
@@ -34,7 +34,7 @@ export class PartsPanel {
     });
   }
 
-  /** Brings a part's row, or the first one, under the eyes; with `focus`, its choice of roles under the fingers. */
+  /** Scrolls to a part's row, or to the first; `focus` also focuses its role select. */
   reveal(part: number | null, focus: boolean): void {
     const row = this.list.querySelector<HTMLElement>(part === null ? '[data-part]' : `[data-part="${part}"]`);
     const group = row?.closest('details');
@@ -59,10 +59,10 @@ export class PartsPanel {
     const byHand = parts.filter((part) => part.role_by_user).length;
     replace(
       this.note,
-      'What hangs together is a part. Correct the roles that were guessed wrongly, then parametrize.',
+      'A part is a connected piece of the mesh. Correct wrongly guessed roles, then parametrize.',
       byHand > 0 ? ` ${byHand} ${byHand === 1 ? 'is' : 'are'} yours.` : '',
     );
-    // Teeth may be thirty parts: many of one role come together, folded.
+    // Teeth may be thirty parts: many parts of one role form a collapsed group.
     const groups = new Map<PartRole, ModelPart[]>();
     for (const part of parts) groups.set(part.role, [...(groups.get(part.role) ?? []), part]);
     replace(
@@ -137,7 +137,7 @@ export class PartsPanel {
       ),
       select,
     );
-    // Under the pointer a part shows itself for a moment; a click keeps it.
+    // Hovering highlights a part temporarily; a click selects it.
     row.addEventListener('pointerenter', (event) => {
       if (event.pointerType === 'mouse') this.fit.hoveredPart.set(part.index);
     });

@@ -1,6 +1,6 @@
 import type { Model } from '../../net/types.ts';
 import { formatBytes, formatCount } from '../shared/format.ts';
 
-/** How large a head is: its vertices, or the bytes of its file as long as they have not been counted. */
+/** The size of a head for display: number of vertices or, before the import has counted them, bytes of the file. */
 export const headSize = ({ counts, source }: Model): string =>
   counts.vertices > 0 ? `${formatCount(counts.vertices)} vertices` : formatBytes(source.bytes);

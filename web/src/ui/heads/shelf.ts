@@ -12,7 +12,7 @@ import type { Activity, Studio } from '../shared/studio.ts';
 const stateWords: Record<Model['state'], string> = {
   importing: 'Importing',
   ready: 'Needs points',
-  parametrized: 'Ready to move',
+  parametrized: 'Ready to animate',
   failed: 'Failed',
 };
 
@@ -30,7 +30,7 @@ export class Shelf {
     'aria-label': 'Model files',
   });
 
-  /** Pictures of heads as data URLs, by id of the model. */
+  /** Thumbnails as data URLs, by model id. */
   readonly thumbnails = new Map<string, string>();
 
   constructor(private readonly studio: Studio) {
@@ -222,7 +222,7 @@ export class Shelf {
   private async remove(model: Model): Promise<void> {
     const yes = await ask({
       title: `Delete ${model.name}?`,
-      text: 'Its feature points and its face package go with it. This cannot be undone.',
+      text: 'Its feature points and its face package are deleted too. This cannot be undone.',
       accept: 'Delete',
       danger: true,
     });

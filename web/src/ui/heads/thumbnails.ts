@@ -4,7 +4,7 @@ import type { Studio } from '../shared/studio.ts';
 
 const size = 112;
 
-/** Has the shelf show a picture of each head, taken when the head first stands on the stage. */
+/** Gives the shelf a thumbnail of each head, taken when the head is first shown on the stage. */
 export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf): void {
   scene.state.watch((state) => {
     const model = studio.selected.value;

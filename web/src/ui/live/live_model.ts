@@ -9,9 +9,9 @@ import type { Studio } from '../shared/studio.ts';
 const off: LinkStatus = { kind: 'off' };
 const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
 
-/** All streams, the one that this page subscribes to, and the one that the sliders are sent to. */
+/** All streams, the stream that this page subscribes to, and the stream that the sliders are published to. */
 export class LiveModel {
-  /** null until the first answer. */
+  /** null until the first response. */
   readonly streams = new Signal<readonly StreamInfo[] | null>(null);
   readonly problem = new Signal<Problem | null>(null);
   readonly following = new Signal<string | null>(null);
@@ -23,7 +23,7 @@ export class LiveModel {
 
   constructor(
     private readonly studio: Studio,
-    /** Set with the sliders; published while `sending` names a stream. */
+    /** The frame set with the sliders; published while `sending` names a stream. */
     private readonly frame: FaceFrame,
     readonly driver: FaceDriver,
   ) {}
@@ -54,7 +54,7 @@ export class LiveModel {
     void this.refresh();
   }
 
-  /** Streams that may be played into: all but the demo, which everyone shares. */
+  /** Streams that may be played into: all except the demo, which all users share. */
   get ownStreams(): readonly StreamInfo[] {
     return (this.streams.value ?? []).filter((stream) => stream.source !== 'demo');
   }
@@ -63,11 +63,11 @@ export class LiveModel {
     return this.streams.value?.find((stream) => stream.id === id)?.title || id;
   }
 
-  /** Opens the stream to play into (empty: one of this head, created if there is none) and has the face follow it. */
+  /** Subscribes to the stream to play into (`target` empty: one for this head, created if needed). Returns its id. */
   async openFor(target: string): Promise<string | null> {
     let id: string | null = target;
     if (id === '') {
-      // A free stream of an earlier visit is used again, so that they do not pile up.
+      // A free stream of an earlier visit is reused, so that streams do not accumulate.
       const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
       const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
       id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
@@ -79,7 +79,7 @@ export class LiveModel {
     return id;
   }
 
-  /** Resolves when the subscription is open, or after `patience` ms. */
+  /** Resolves when the subscription is open, or after a timeout of `patience` ms. */
   async opened(patience = 2000): Promise<void> {
     const end = performance.now() + patience;
     while (this.status.value.kind !== 'open' && performance.now() < end)
@@ -97,7 +97,7 @@ export class LiveModel {
 
   async create(title: string, options: NewStream = {}): Promise<string | null> {
     let id: string | null = null;
-    await this.studio.attempt('The stream was not made', async () => {
+    await this.studio.attempt('The stream was not created', async () => {
       id = (await this.studio.api.createStream(title, this.studio.selected.value?.id ?? null, options)).id;
       await this.refresh();
     });
@@ -111,7 +111,7 @@ export class LiveModel {
     await this.refresh();
   }
 
-  /** Starts (id) or stops (null) publishing the frame set by hand. */
+  /** Starts (id) or stops (null) publishing the frame set with the sliders. */
   send(id: string | null): void {
     this.publisher?.close();
     this.publisher = null;
@@ -127,7 +127,7 @@ export class LiveModel {
     publisher.open();
   }
 
-  /** To be called after each change of the frame set by hand. */
+  /** Call after each change of the frame. */
   touch(): void {
     this.publisher?.touch();
   }

@@ -18,10 +18,10 @@ const stateWords = {
   ended: 'Ended',
 } as const;
 
-/** Milliseconds; a face that plays never lags so far. */
+/** Larger differences between stream and playhead, ms, are not a delay: the player never lags that far. */
 const longestDelay = 2000;
 
-/** How the network is, as far as it explains the delay. */
+/** The network measurements that explain the delay. */
 function networkWords({ clock, jitter, starved }: Player['stats']): string {
   if (Number.isNaN(clock.uncertainty)) return '';
   const words = [
@@ -33,7 +33,7 @@ function networkWords({ clock, jitter, starved }: Player['stats']): string {
   return words.join(' · ');
 }
 
-/** Streams: what there is, what the face follows, how it goes, and sending one's own. */
+/** The list of streams, the state of the subscription, and publishing of the sliders. */
 export class LivePanel {
   readonly element: HTMLElement;
   private readonly list = h('ul', { class: 'streams', 'aria-label': 'Streams' });
@@ -71,8 +71,8 @@ export class LivePanel {
         h(
           'dl',
           { class: 'figures-grid' },
-          figure('Frames a second', this.figures.rate),
-          figure('On the wire', this.figures.bytes),
+          figure('Frames per second', this.figures.rate),
+          figure('Data rate', this.figures.bytes),
           figure('Delay', this.figures.latency),
           figure('Frame', this.figures.frames),
         ),
@@ -112,8 +112,8 @@ export class LivePanel {
           h(
             'span',
             { class: 'grow' },
-            h('strong', {}, 'Send what I do by hand'),
-            h('small', { class: 'muted' }, 'Everyone subscribed sees your sliders move.'),
+            h('strong', {}, 'Publish my sliders'),
+            h('small', { class: 'muted' }, 'All subscribers see your changes.'),
           ),
           this.publishBox,
         ),
@@ -129,15 +129,14 @@ export class LivePanel {
     live.sendStatus.watch(() => this.drawSending());
   }
 
-  /** Called twice a second. `playhead`: ms of the stream's clock on display. */
-  /** `player`: of the face that is shown, if there is one. */
+  /** Call twice a second. `player`: the player of the displayed face, or null. */
   refreshFigures(player: Player | null): void {
     const playhead = player?.playhead ?? NaN;
     const { stats } = this.live;
     const open = this.live.status.value.kind === 'open';
     setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
-    // While the face is moved by hand the playhead rests, and how far the stream is ahead says nothing.
+    // While another source drives the face the playhead stands still, so its distance to the stream is meaningless.
     const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
     setText(this.figures.latency, delay !== null && delay < longestDelay ? `${Math.max(0, delay)} ms` : '–');
     setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
@@ -179,7 +178,7 @@ export class LivePanel {
           'li',
           { class: 'notice error', role: 'alert' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, problem.title), h('p', {}, 'The list is tried again every few seconds.')),
+          h('div', {}, h('strong', {}, problem.title), h('p', {}, 'Retrying every few seconds.')),
         ),
       );
       return;
@@ -191,7 +190,7 @@ export class LivePanel {
     replace(
       this.list,
       streams.length === 0
-        ? h('li', { class: 'empty' }, 'No streams yet. Make one with the plus.')
+        ? h('li', { class: 'empty' }, 'No streams yet. Create one with the plus button.')
         : streams.map((stream) => this.item(stream)),
     );
     const kept = this.target.value;
@@ -199,7 +198,7 @@ export class LivePanel {
     replace(
       this.target,
       own.length === 0
-        ? h('option', { value: '' }, 'Make a new stream')
+        ? h('option', { value: '' }, 'Create a new stream')
         : own.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
     );
     if (own.some((stream) => stream.id === kept)) this.target.value = kept;
@@ -208,14 +207,14 @@ export class LivePanel {
 
   private item(stream: StreamInfo): HTMLElement {
     const on = this.live.following.value === stream.id;
-    const viewers = `${stream.subscribers} watching`;
+    const viewers = `${stream.subscribers} ${stream.subscribers === 1 ? 'subscriber' : 'subscribers'}`;
     const senders = stream.playing
-      ? `plays ${stream.playing.name || 'without a name'}`
+      ? `plays ${stream.playing.name || 'an unnamed performance'}`
       : stream.source === 'demo'
-        ? 'plays by itself'
+        ? 'plays on the server'
         : stream.publishers === 0
-          ? 'nobody sends'
-          : `${stream.publishers} sending`;
+          ? 'no publisher'
+          : `${stream.publishers} ${stream.publishers === 1 ? 'publisher' : 'publishers'}`;
     return h(
       'li',
       { class: `stream${on ? ' selected' : ''}`, 'data-stream': stream.id },
@@ -260,7 +259,7 @@ export class LivePanel {
       this.live.sending.value === null
         ? (reason ?? '')
         : kind === 'open'
-          ? 'Sending: move a slider in Animate.'
+          ? 'Publishing: move a slider in Animate.'
           : (reason ?? 'Connecting…');
     setText(this.publishNote, text);
     this.publishNote.classList.toggle('error', kind === 'ended' || reason !== undefined);
@@ -274,7 +273,7 @@ export class LivePanel {
   private async remove(stream: StreamInfo): Promise<void> {
     const yes = await ask({
       title: `Delete ${stream.title || stream.id}?`,
-      text: 'Everyone watching is disconnected.',
+      text: 'All subscribers are disconnected.',
       accept: 'Delete',
       danger: true,
     });

@@ -5,36 +5,36 @@ import type { LiveModel } from './live_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Something to play, as it came from a file or an example. */
+/** The text of a document or file to play. */
 export interface Script {
   kind: 'performance' | 'fap';
   title: string;
   text: string;
 }
 
-/** Why the server did not play it. */
+/** The server's reason for not playing a script. */
 export interface Refusal {
   problem: Problem;
   excerpt: ExcerptLine[];
-  /** Who holds the stream, when that is the reason. */
+  /** The present source of the stream, when that is the reason; else null. */
   holder: string | null;
 }
 
-/** A performance document or .fap file to play, the stream it is played into, and the state of that. */
+/** A performance document or .fap file, the target stream, and the playback state on the server. */
 export class PerformanceModel {
   readonly script = new Signal<Script | null>(null);
-  /** Id of a stream; empty: a new one. */
+  /** Id of the target stream; empty: a new stream. */
   readonly target = new Signal('');
-  /** What is being played into the target, whoever started it. */
+  /** The playback into the target stream, started by any client. */
   readonly playing = new Signal<Playing | null>(null);
   readonly refusal = new Signal<Refusal | null>(null);
   readonly busy = new Signal(false);
-  /** The value of a FAP that a frame of a .fap file leaves out. */
+  /** The value of a FAP that a frame of a .fap file omits. */
   readonly absent = new Signal<AbsentFap>('zero');
-  /** The server's warnings about the .fap file that it plays. */
+  /** The server's warnings about the played .fap file. */
   readonly warnings = new Signal<readonly string[]>([]);
   loop = false;
-  /** ms */
+  /** Start position, ms. */
   from = 0;
   private heard = 0;
   private own: string | null = null;
@@ -62,12 +62,12 @@ export class PerformanceModel {
     return this.live.ownStreams;
   }
 
-  /** Whether this page started what is playing, from the present script; then it may be sought and restarted. */
+  /** Whether this page started the current playback with the current script, so that it may seek and restart it. */
   get mine(): boolean {
     return this.own !== null && this.playing.value?.id === this.own;
   }
 
-  /** ms, extrapolated from the server's last answer. */
+  /** Playback position, ms, extrapolated from the server's last response. */
   get position(): number {
     const playing = this.playing.value;
     if (!playing) return 0;
@@ -91,7 +91,7 @@ export class PerformanceModel {
     try {
       const stream = await this.openTarget();
       if (stream === null) return;
-      // A performance that this page started may be replaced without asking.
+      // This page's own playback may be replaced without a question to the user.
       const whole = { loop: this.loop, from: this.from, take_over: this.mine, ...options };
       const { api } = this.studio;
       const body = new Blob([script.text]);
@@ -118,11 +118,13 @@ export class PerformanceModel {
   async stop(): Promise<void> {
     const playing = this.playing.value;
     if (!playing) return;
-    await this.studio.attempt('It was not stopped', () => this.studio.api.stopPlaying(this.target.value, playing.id));
+    await this.studio.attempt('The performance was not stopped', () =>
+    this.studio.api.stopPlaying(this.target.value, playing.id),
+    );
     await this.live.refresh();
   }
 
-  /** To be called a few times a second: refreshes once a performance has reached its end. */
+  /** Call a few times a second: refreshes the state when a performance has reached its end. */
   tick(): void {
     const playing = this.playing.value;
     if (playing && !playing.loop && playing.duration !== null && this.position >= playing.duration) {
@@ -150,7 +152,7 @@ export class PerformanceModel {
   private holder(): string {
     const id = this.target.value;
     if (this.playing.value) return `“${this.playing.value.name || 'A performance'}” plays into this stream.`;
-    if (this.live.sending.value === id) return 'You send your own sliders to this stream.';
-    return 'Somebody sends to this stream.';
+    if (this.live.sending.value === id) return 'You publish your sliders to this stream.';
+    return 'Another client publishes to this stream.';
   }
 }

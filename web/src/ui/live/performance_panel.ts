@@ -12,7 +12,7 @@ import type { LiveModel } from './live_model.ts';
 import { capital } from '../shared/names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
 
-/** Plays a performance document or a .fap file into a stream, onto the face on screen and that of everyone who watches. */
+/** Plays a performance document or a .fap file into a stream, for this page and all other subscribers. */
 export class PerformancePanel {
   readonly element: HTMLElement;
   private readonly script = h('div', { class: 'script' });
@@ -95,7 +95,7 @@ export class PerformancePanel {
     live.streams.watch(() => this.drawTargets());
     let shown: string | undefined;
     model.playing.watch((playing) => {
-      // News of the position alone moves the slider, and leaves the buttons where they are under the finger.
+      // A change of the position alone moves the slider only; redrawing the buttons would interrupt a click.
       const key = `${playing?.id ?? ''}:${String(model.mine)}`;
       if (key !== shown) draw();
       shown = key;
@@ -106,7 +106,7 @@ export class PerformancePanel {
     this.model.choose({ kind: kindOfClip(file.name), title: file.name, text: await file.text() });
   }
 
-  /** Called a few times a second. */
+  /** Call a few times a second. */
   tick(): void {
     this.model.tick();
     if (this.model.playing.value && !this.held) this.showClock(this.model.position);
@@ -129,7 +129,7 @@ export class PerformancePanel {
       this.script,
       script
         ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
-        : h('p', { class: 'muted small' }, 'Visemes, expressions, looks and blinks in time. Everyone watching sees it.'),
+        : h('p', { class: 'muted small' }, 'A timeline of visemes, expressions, gaze and blinks, for all subscribers.'),
       script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
       fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
     );
@@ -138,7 +138,7 @@ export class PerformancePanel {
   private drawTargets(): void {
     replace(
       this.target,
-      h('option', { value: '' }, 'Make a new stream'),
+      h('option', { value: '' }, 'Create a new stream'),
       this.model.ownStreams.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
     );
     this.target.value = this.model.target.value;
@@ -192,7 +192,7 @@ export class PerformancePanel {
   private drawTrouble(refusal: Refusal | null): void {
     if (!refusal) return replace(this.trouble);
     const { problem, excerpt, holder } = refusal;
-    // What helps a model that is too large does not help a document.
+    // The advice for 413 is about models that are too large, not about documents.
     const advice = holder === null && problem.status !== 413 ? adviceFor(problem) : null;
     replace(
       this.trouble,

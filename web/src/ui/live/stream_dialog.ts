@@ -2,11 +2,11 @@ import type { NewStream } from '../../net/types.ts';
 import { openDialog } from '../shared/dialog.ts';
 import { h } from '../shared/dom.ts';
 
-/** ms; the server's default and maximum. */
+/** The server's default and maximum batch interval, ms. */
 const usualBatch = 100;
 const mostBatch = 1000;
 
-/** Asks for title and options of a new stream; null: cancelled. */
+/** Asks the user for title and options of a new stream; null when cancelled. */
 export async function askForStream(): Promise<{ title: string; options: NewStream } | null> {
   const title = h('input', { type: 'text', id: 'stream-title', maxlength: 120, required: true, autocomplete: 'off' });
   title.value = 'My stream';
@@ -26,19 +26,19 @@ export async function askForStream(): Promise<{ title: string; options: NewStrea
     min: 0,
     max: 100,
     step: 1,
-    placeholder: 'as the head has it',
+    placeholder: 'default of the head',
     'aria-describedby': 'stream-share-note',
   });
   const accepted = await openDialog(
     { title: 'New stream', accept: 'Create' },
     h('label', { for: 'stream-title' }, 'Title'),
     title,
-    h('label', { for: 'stream-batch' }, 'Gather frames for, ms'),
+    h('label', { for: 'stream-batch' }, 'Batch interval, ms'),
     batch,
-    h('p', { class: 'small', id: 'stream-batch-note' }, '0 sends each at once; longer is fewer bytes, and later.'),
-    h('label', { for: 'stream-share' }, 'Share of visemes, %'),
+    h('p', { class: 'small', id: 'stream-batch-note' }, '0 sends each frame at once; longer saves bytes, adds latency.'),
+    h('label', { for: 'stream-share' }, 'Viseme share, %'),
     share,
-    h('p', { class: 'small', id: 'stream-share-note' }, 'Where a viseme and an expression move the same point.'),
+    h('p', { class: 'small', id: 'stream-share-note' }, 'Its weight where an expression moves the same point.'),
   );
   if (!accepted) return null;
   const options: NewStream = { batch_interval: batch.valueAsNumber };

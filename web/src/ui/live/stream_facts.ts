@@ -14,20 +14,20 @@ const sourceWords: Record<NonNullable<StreamInfo['active_source']>, string> = {
 
 const codingWords: Record<StreamCoding, string> = { plain: 'Plain', packed: 'Packed' };
 
-/** The active source of a stream, in words. */
+/** The active source of a stream as text. */
 export function fedBy({ active_source: source, playing }: StreamInfo): string {
-  if (source === null) return 'Nobody';
+  if (source === null) return 'No source';
   return playing?.name ? `${sourceWords[source]}: ${playing.name}` : sourceWords[source];
 }
 
-/** Facts about the stream that is followed: from the server, and the coding of this subscription. */
+/** Facts about the subscribed stream: the server's, and the encoding of this subscription. */
 export class StreamFacts {
   readonly element = h('dl', { class: 'facts', 'aria-label': 'About the stream' });
-  private readonly fed = this.fact('Fed by');
-  private readonly watching = this.fact('Watching');
-  private readonly batch = this.fact('Gathered for');
-  private readonly coding = this.fact('Coding');
-  private readonly share = this.fact('Share of visemes');
+  private readonly fed = this.fact('Source');
+  private readonly watching = this.fact('Subscribers');
+  private readonly batch = this.fact('Batch interval');
+  private readonly coding = this.fact('Encoding');
+  private readonly share = this.fact('Viseme share');
 
   constructor(private readonly live: LiveModel) {
     for (const signal of [live.streams, live.following, live.status]) signal.watch(() => this.draw());
@@ -46,9 +46,9 @@ export class StreamFacts {
     setText(this.fed, fedBy(stream));
     setText(this.watching, String(stream.subscribers));
     const { batch_interval: batch, viseme_share: share } = stream;
-    setText(this.batch, batch === 0 ? 'Not at all' : `${batch} ms`);
+    setText(this.batch, batch === 0 ? 'None' : `${batch} ms`);
     const header = this.live.status.value.kind === 'open' ? this.live.subscriber.value?.client.header : null;
     setText(this.coding, header ? codingWords[header.coding] : '–');
-    setText(this.share, share === null ? 'As the head has it' : `${Math.round(share * 100)} %`);
+    setText(this.share, share === null ? 'Default of the head' : `${Math.round(share * 100)} %`);
   }
 }

@@ -10,18 +10,18 @@ import type { Tab } from '../shared/studio.ts';
 export interface DriverChipParts {
   driver: FaceDriver;
   live: LiveModel;
-  /** What the face shows of a file that plays on this page, in words. */
+  /** Description of the clip that drives the face; null when none does. */
   clip: Signal<string | null>;
   recordings: RecordingsModel;
   scene: SceneView;
   tab: Signal<Tab>;
-  /** Played where no stream is followed. */
+  /** The stream to subscribe to when no stream is followed. */
   demo: { id: string; title: string };
 }
 
-/** Says on the stage what moves the face, and lets the stream take over again. */
+/** The chip on the stage that names what drives the face, with a button that lets the stream take over again. */
 export function makeDriverChip({ driver, live, clip, recordings, scene, tab, demo }: DriverChipParts): HTMLElement {
-  /** What the face shows of a file or a recording; null: the frame set by hand. */
+  /** Description of the clip or recording that drives the face; null when the sliders drive it. */
   const shown = (): string | null => {
     if (driver.source.value === 'recording') return recordings.looksAt;
     return driver.source.value === 'clip' ? clip.value : null;

@@ -3,7 +3,7 @@ import { dropPlace, type DropPlace } from './drop_place.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Takes files that are dropped anywhere on the page to the panel that reads them. */
+/** Routes a file dropped anywhere on the page to the panel that reads it. */
 export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel): void {
   acceptDrops(page, (files) => {
     const going = (place: DropPlace): File[] => files.filter(({ name }) => dropPlace(name, studio.tab.value) === place);

@@ -15,14 +15,14 @@ interface Edit {
   faps?: Record<number, number>;
 }
 
-/** What the tests and a developer's console see of the page as `window.semblante`. Nothing on the page uses it. */
+/** Exposes the page's state as `window.semblante` to tests and the developer console. The page does not use it. */
 export function exposeInspection(scene: SceneView, studio: Studio, driver: FaceDriver): void {
   Object.assign(window, {
     semblante: { scene, studio, driver, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
   });
 }
 
-/** One frame through the shader and through the kernel: differences of positions (in diagonals) and normals (degrees). */
+/** Deforms one frame by shader and by kernel: differences of positions (diagonals) and normals (degrees). */
 function compareDeformation(
   scene: SceneView,
   driver: FaceDriver,
@@ -60,7 +60,7 @@ function compareDeformation(
     worstPosition = Math.max(worstPosition, distance(shader.positions, positions, v) / diagonal);
     moved = Math.max(moved, distance(mesh.positions, positions, v) / diagonal);
     worstNormal = Math.max(worstNormal, angle(shader.normals, normals, v));
-    // Where the file's own normals already are not those of its triangles (hard edges), there is nothing to compare.
+    // Skip vertices whose rest normal already differs from the triangles' normal (hard edges).
     if (angle(mesh.normals, restTriangles, v) > 3) continue;
     sum += angle(normals, triangles, v);
     counted += 1;
@@ -71,7 +71,7 @@ function compareDeformation(
 const distance = (a: Float32Array, b: Float32Array, v: number): number =>
   Math.hypot(a[v * 3]! - b[v * 3]!, a[v * 3 + 1]! - b[v * 3 + 1]!, a[v * 3 + 2]! - b[v * 3 + 2]!);
 
-/** Between two unit vectors, degrees; by the chord, which keeps its digits at small angles. */
+/** Angle between two unit vectors, degrees, from the chord length, which is accurate at small angles. */
 const angle = (a: Float32Array, b: Float32Array, v: number): number =>
   (2 * Math.asin(Math.min(1, distance(a, b, v) / 2)) * 180) / Math.PI;
 

@@ -61,7 +61,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
     inspector.append(panels[tab]);
   }
 
-  // One shelf, in the place the width of the page gives it.
+  // The one shelf element moves between the side column and its tab with the width of the page.
   const narrow = matchMedia('(max-width: 1080px)');
   const seat = (): void => {
     panels.heads.id = 'panel-heads';
@@ -111,7 +111,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
   );
 }
 
-/** How many findings the open head has, on the tab that shows them. */
+/** The number of findings of the open head, on the Fit tab. */
 function fitBadge(studio: Studio): HTMLElement {
   const seat = h('span', { class: 'badge-seat' });
   studio.selected.watch((model) => replace(seat, findingBadge(model?.findings)));

@@ -16,7 +16,7 @@ export interface PolledParts {
   clip: ClipPanel;
 }
 
-/** Draws what changes by itself, and asks the server for streams and recordings while the Live tab is open. */
+/** Updates the displays that change with time, and polls streams and recordings while the Live tab is open. */
 export function startPolling({ studio, scene, live, livePanel, recordings, performance, clip }: PolledParts): void {
   setInterval(() => livePanel.refreshFigures(scene.performer.value?.player ?? null), 500);
   setInterval(() => {

@@ -5,7 +5,7 @@ import { icon } from '../shared/icons.ts';
 import type { SceneState } from '../stage/scene.ts';
 import type { Activity } from '../shared/studio.ts';
 
-/** What lies over the stage while there is no head on it. */
+/** The card over the stage while no head is shown. */
 export function overlayCard(
   state: SceneState,
   activity: Activity | undefined,

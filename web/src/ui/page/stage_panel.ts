@@ -15,7 +15,7 @@ const views: { name: ViewName; label: string; key: string }[] = [
   { name: 'right', label: 'Right', key: '4' },
 ];
 
-/** The picture with its tools: views, wireframe, deformation path, and placing feature points with the pointer. */
+/** The stage with its tools: views, wireframe, deformation path, and placing of feature points with the pointer. */
 export class StagePanel {
   readonly element: HTMLElement;
   private readonly overlay = h('div', { class: 'stage-overlay' });
@@ -24,7 +24,7 @@ export class StagePanel {
   private readonly figures = h('output', { class: 'figures', 'aria-label': 'Display rate' });
   private down: { x: number; y: number; time: number } | null = null;
   private lastFigures = 0;
-  /** A part was clicked on while parts can be chosen. */
+  /** Called when a part is clicked while parts can be selected. */
   onPart: (part: number) => void = () => {};
 
   constructor(
@@ -79,7 +79,7 @@ export class StagePanel {
       {
         type: 'button',
         class: 'tool path',
-        title: 'Where the vertices are moved: by the graphics card or by the WebAssembly kernel',
+        title: 'Where the vertices are deformed: on the graphics card or by the WebAssembly kernel',
         'aria-label': 'Deform on the GPU',
         on: {},
       },
@@ -118,7 +118,7 @@ export class StagePanel {
     if (
       !down ||
       event.button !== 0 ||
-      // A finger is less steady than a mouse.
+      // Touch needs a larger threshold between a click and a drag than a mouse.
       Math.hypot(event.clientX - down.x, event.clientY - down.y) > (event.pointerType === 'touch' ? 12 : 5) ||
       event.timeStamp - down.time > 600
     )
@@ -139,7 +139,7 @@ export class StagePanel {
     this.placeAt((x / width) * 2 - 1, 1 - (y / height) * 2);
   }
 
-  /** Puts the chosen point where the head is seen at `x`, `y` (-1..1 from the lower left). */
+  /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   private placeAt(x: number, y: number): void {
     const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera);
     if (pick) this.points.place(pick.fileVertex, pick.position);
@@ -226,7 +226,7 @@ export class StagePanel {
     this.lastFigures = now;
     const rate = this.scene.stage.framesPerSecond;
     const bytes = this.scene.packageBytes.value;
-    // At rest the stage draws only on demand: a rate would say nothing.
+    // A stage at rest draws only on demand, so its frame rate is meaningless.
     const words = [bytes > 0 ? `${formatBytes(bytes)} face` : '', rate > 4 ? `${rate} fps` : ''];
     setText(this.figures, words.filter((word) => word !== '').join(' · '));
   }

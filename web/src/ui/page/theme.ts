@@ -5,7 +5,7 @@ type Theme = 'light' | 'dark';
 const key = 'semblante.theme';
 const system = (): Theme => (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light');
 
-/** Follows the system until the button is used; then keeps what was chosen. */
+/** The theme button. The theme follows the system until the button is used; then the choice is stored. */
 export function themeButton(): HTMLElement {
   const button = h('button', {
     class: 'quiet square',
@@ -32,7 +32,7 @@ export function themeButton(): HTMLElement {
 
 const current = (): Theme => (document.documentElement.dataset['theme'] === 'dark' ? 'dark' : 'light');
 
-// Storage may be forbidden (private windows): the choice then lasts for the page.
+// Storage may be forbidden (private windows): the choice then lasts as long as the page.
 function kept(): Theme | null {
   try {
     const value = localStorage.getItem(key);

@@ -6,7 +6,7 @@ export interface GuideOptions {
   onSelect: (id: string) => void;
 }
 
-/** The line drawing that shows where a feature point belongs; its dots select points. */
+/** The line drawing that shows the place of each feature point; a click on a dot selects the point. */
 export class Guide {
   readonly element: HTMLElement;
   private readonly picture = h('div', { class: 'guide-picture' });

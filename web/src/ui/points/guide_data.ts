@@ -1,6 +1,6 @@
 /**
- * Where the 84 feature points lie, in three line drawings of our own. The face's left is on the right of the front view,
- * as on the stage. Coordinates are those of each drawing's viewBox.
+ * Places of the 84 feature points in three line drawings. The face's left is on the right of the front view, as on the
+ * stage. Coordinates are in each drawing's viewBox.
  */
 export type GuideView = 'front' | 'mouth' | 'side';
 
@@ -13,7 +13,7 @@ export interface Drawing {
 }
 
 const axis = 120;
-/** Both sides of a symmetric pair: (id on the face's left, id on its right, x, y of the left one). */
+/** Expands symmetric pairs (id on the face's left, id on its right, x and y of the left one) to both sides. */
 function pairs(list: [string, string, number, number][]): Record<string, [number, number]> {
   const spots: Record<string, [number, number]> = {};
   for (const [left, right, x, y] of list) {
@@ -169,7 +169,7 @@ const side: Drawing = {
 
 export const drawings: Record<GuideView, Drawing> = { front, mouth, side };
 
-/** The drawing on which a point shows best. */
+/** The drawing that shows a point most clearly. */
 export function bestView(id: string): GuideView {
   const group = Number(id.split('.')[0]);
   if (/^2\.[2-9]$/.test(id) || group === 6 || /^9\.(8|9|10|11)$/.test(id)) return 'mouth';

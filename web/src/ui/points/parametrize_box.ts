@@ -5,7 +5,7 @@ import type { PointsModel } from './points_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** The foot of a panel: options, save, parametrize, and how far that is. */
+/** The footer of a panel: options, Save, Parametrize and its progress. */
 export class ParametrizeBox {
   readonly element: HTMLElement;
   private readonly progress = h('div', { class: 'progress-slot' });

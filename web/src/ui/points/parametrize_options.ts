@@ -8,22 +8,22 @@ interface Choice {
 }
 
 const weightChoices: readonly Choice[] = [
-  { value: 'smooth', title: 'Smooth skin', note: 'Shares of the points fade out without steps: looks best.' },
+  { value: 'smooth', title: 'Smooth skin', note: 'Weights fade out smoothly: looks best.' },
   { value: 'paper', title: 'As in the paper', note: 'Weights exactly as published, Eq. 1 to 4.' },
 ];
 const metricChoices: readonly Choice[] = [
-  { value: 'edge', title: 'Along edges', note: 'The paper’s way, and the quickest.' },
-  { value: 'unfolded', title: 'Across triangles', note: 'Nearer to the true distance over the skin.' },
+  { value: 'edge', title: 'Along edges', note: 'As in the paper; fastest.' },
+  { value: 'unfolded', title: 'Across triangles', note: 'Closer to the true distance over the skin.' },
 ];
 const levelChoices: readonly Choice[] = [
-  { value: 'auto', title: 'As suit the head', note: 'Some levels of fewer vertices, for phones and crowds.' },
-  { value: 'none', title: 'None', note: 'The full mesh alone.' },
-  { value: 'own', title: 'Own', note: 'The most vertices of each level, from many to few.' },
+  { value: 'auto', title: 'Automatic', note: 'Several levels with fewer vertices, for phones and crowds.' },
+  { value: 'none', title: 'None', note: 'Only the full mesh.' },
+  { value: 'own', title: 'Custom', note: 'The maximum number of vertices of each level, in descending order.' },
 ];
 
 let boxes = 0;
 
-/** How a head is to be parametrized. */
+/** The form of the parametrization options. */
 export class ParametrizeOptions {
   readonly element: HTMLElement;
   private readonly summary = h('span', { class: 'muted small grow' });
@@ -33,7 +33,7 @@ export class ParametrizeOptions {
     class: 'budgets',
     inputmode: 'numeric',
     value: '20000, 8000, 3000',
-    'aria-label': 'The most vertices of each level',
+    'aria-label': 'Maximum number of vertices of each level',
     pattern: '\\s*\\d+(\\s*[,;\\s]\\s*\\d+)*\\s*',
     on: { change: () => this.setLevels('own') },
   });

@@ -5,7 +5,7 @@ import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
 import { needsCare, type Studio } from '../shared/studio.ts';
 
-/** Always sent in full: the server's defaults follow the paper and make no levels of detail. */
+/** All options are always sent: the server's defaults follow the paper and make no levels of detail. */
 export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>>;
 
 /** Starts parametrizations with the chosen options and reports the outcome. */
@@ -30,7 +30,7 @@ export class Parametrizer {
       if (!(await studio.parametrize(model, this.options.value))) return;
       const now = studio.models.value.find((one) => one.id === model.id) ?? model;
       const found = now.findings ? countWords(now.findings) : '';
-      studio.toasts.say(`${now.name} can move now.${found === '' ? '' : ` The fit doctor found ${found}.`}`);
+      studio.toasts.say(`${now.name} is ready to animate.${found === '' ? '' : ` The fit doctor found ${found}.`}`);
       if (studio.selected.value?.id === now.id)
         studio.tab.set(needsCare(now) && (now.findings?.errors ?? 0) > 0 ? 'fit' : 'animate');
     } catch (error) {

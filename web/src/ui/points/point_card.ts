@@ -6,7 +6,7 @@ import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
 import { proposalWords } from './proposal_words.ts';
 
-/** The chosen point: what it is, where it lies, what can be done with it. Guided, it leads through the quick set. */
+/** The selected point: name, place and actions. In guided mode it leads through the quick set. */
 export class PointCard {
   readonly element = h('div', { class: 'point-card', 'aria-live': 'polite' });
 
@@ -53,7 +53,7 @@ export class PointCard {
                 type: 'button',
                 class: 'small',
                 'data-focus': 'confirm',
-                title: 'Confirm (Enter on the picture)',
+                title: 'Confirm (Enter on the stage)',
                 on: { click: () => this.points.confirmAndNext(point.id) },
               },
               icon('check', 15),
@@ -108,20 +108,20 @@ export class PointCard {
     return h(
       'p',
       { class: 'muted' },
-      'Choose a point in the drawing or the list, then click where it lies on the head.',
+      'Choose a point in the drawing or the list, then click its place on the head.',
     );
   }
 
   private invitation(): Child {
     const left = this.points.quickLeft;
     if (left === 0)
-      return h('p', {}, h('strong', {}, 'All twenty are placed. '), 'Have the rest proposed, then look them over.');
+      return h('p', {}, h('strong', {}, 'All twenty are placed. '), 'Propose the missing points, then review them.');
     return [
       h(
         'p',
         {},
-        `${quickSet.length} points are enough for a talking face. One after the other: read where it lies, click there. `,
-        `From ${leastKnownPoints} on the rest can be proposed.`,
+        `${quickSet.length} points are enough for a talking face. For each one, read its place and click there. `,
+        `From ${leastKnownPoints} placed points on, the others can be proposed.`,
       ),
       h(
         'div',

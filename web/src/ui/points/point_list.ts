@@ -9,7 +9,7 @@ import { confidenceWords } from './proposal_words.ts';
 
 type Filter = 'all' | 'open' | 'proposed';
 
-/** The points by group, or guided the quick set in its order; with a search. */
+/** The list of points with a search: by group, or in guided mode the quick set in its order. */
 export class PointList {
   readonly search: HTMLElement;
   readonly element = h('div', { class: 'point-groups' });
@@ -38,7 +38,7 @@ export class PointList {
     });
   }
 
-  /** Scrolls the list, and nothing else, until a row can be seen. */
+  /** Scrolls the list (not the page) to a row. */
   private reveal(id: string): void {
     const list = this.element;
     const row = list.querySelector<HTMLElement>(`[data-point="${id}"]`);

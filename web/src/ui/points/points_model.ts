@@ -6,25 +6,25 @@ import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Feature points of the open head: the draft, the chosen point, and what the server said against any of them. */
+/** The feature points of the open head: the draft, the selected point, and the server's errors by point. */
 export class PointsModel {
   readonly draft = new PointDraft();
-  /** Counts up with every change of the draft or the problems. */
+  /** Incremented by every change of the draft or the problems. */
   readonly changed = new Signal(0);
   readonly chosen = new Signal<string | null>(null);
   readonly busy = new Signal(false);
-  /** Reasons by feature point id; "" holds what concerns no point. */
+  /** Errors by feature point id; "" holds the errors that concern no single point. */
   problems: ReadonlyMap<string, readonly string[]> = new Map();
-  /** Whether a person is led through the quick set, point by point. */
+  /** Whether guided mode leads the user through the quick set. */
   readonly guided = new Signal(true);
-  /** Why a point could not be proposed, by id; of the last proposals. */
+  /** The reasons why points could not be proposed, by id; of the last proposal job. */
   notProposed: ReadonlyMap<string, string> = new Map();
   private guidedByUser = false;
   private etag: string | null = null;
   private model: Model | null = null;
-  /** A vertex of the file in model units: asked for points whose answer names no position. */
+  /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
-  /** A proposed point is to be looked at. */
+  /** Called when a proposed point is to be shown for review. */
   onReview: (point: PlacedPoint) => void = () => {};
 
   constructor(private readonly studio: Studio) {}
@@ -68,12 +68,12 @@ export class PointsModel {
     this.guided.set(on);
   }
 
-  /** How many points of the quick set are not placed. */
+  /** The number of points of the quick set that are not placed. */
   get quickLeft(): number {
     return quickSet.filter(({ id }) => !this.draft.points.has(id)).length;
   }
 
-  /** Whether there is a point to go on to: one that is not placed, or one to look over. */
+  /** Whether `chooseNext` has a point: an unplaced one, or a proposed one to review. */
   get hasNext(): boolean {
     if (this.guided.value) return this.quickLeft > 0;
     return this.draft.points.size < this.total || this.draft.proposed.length > 0;
@@ -120,7 +120,7 @@ export class PointsModel {
     if (this.draft.redo()) this.touch();
   }
 
-  /** The next unplaced point after the chosen one, in the order that is gone by; where all are, the next proposed. */
+  /** Selects the next unplaced point in the current order or, when all are placed, the next proposed one. */
   chooseNext(): void {
     const order = (this.guided.value ? quickSet : featurePoints).map(({ id }) => id);
     if (order.every((id) => this.draft.points.has(id))) this.chooseNextProposed();
@@ -133,7 +133,7 @@ export class PointsModel {
     this.chosen.set(rest.find(wanted) ?? null);
   }
 
-  /** Saves what is not saved, and has the server propose the missing points. */
+  /** Saves the draft and starts a job that proposes the missing points. */
   async propose(): Promise<void> {
     const { model, studio } = this;
     if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
@@ -147,7 +147,7 @@ export class PointsModel {
       this.take(answer.value, answer.etag);
       await studio.reload(model.id);
       const { length } = this.draft.proposed;
-      studio.toasts.say(length > 0 ? `${length} points are proposed: look them over.` : 'No point could be proposed.');
+      studio.toasts.say(length > 0 ? `${length} points are proposed: review them.` : 'No point could be proposed.');
     });
     this.busy.set(false);
     this.touch();
@@ -161,7 +161,7 @@ export class PointsModel {
     );
   }
 
-  /** A file in the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server reads it. */
+  /** Uploads a file of the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server validates it. */
   async importFile(file: File): Promise<boolean> {
     let body: FeaturePointsBody;
     try {
@@ -191,7 +191,7 @@ export class PointsModel {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
-  /** Shows a refusal beside the points it names. */
+  /** Shows the errors of a refused request beside the points that they name. */
   show(error: unknown): void {
     const problem = problemOf(error);
     const byPoint: Record<string, string[]> = {};
@@ -202,12 +202,12 @@ export class PointsModel {
     if (first) this.chosen.set(first);
   }
 
-  /** Whether proposals can be made: from fewer points than this nothing can be told. */
+  /** Whether enough points are placed for proposals. */
   get canPropose(): boolean {
     return this.draft.points.size - this.draft.proposed.length >= leastKnownPoints;
   }
 
-  /** Exchanges left and right of these points; not saved yet. */
+  /** Exchanges these points with their mirror points in the draft, without saving. */
   exchange(ids: readonly string[]): void {
     this.draft.exchange(ids);
     this.touch();
@@ -247,7 +247,7 @@ export class PointsModel {
       placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
     }
     this.draft.reset(placed);
-    // Someone who has gone beyond the quick set, or has proposals to look over, needs the whole list.
+    // With points beyond the quick set, or with proposals to review, the user needs the whole list.
     if (!this.guidedByUser) {
       const quick = new Set(quickSet.map(({ id }) => id));
       this.guided.set(placed.every(([id, point]) => quick.has(id) && !point.proposal));

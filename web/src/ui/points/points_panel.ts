@@ -10,7 +10,7 @@ import type { PointsModel } from './points_model.ts';
 import { ProposalsBox } from './proposals_box.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Marks where the 84 feature points lie on the open head. */
+/** The Points tab: placing the 84 feature points on the open head. */
 export class PointsPanel {
   readonly element: HTMLElement;
   private readonly guide: Guide;
@@ -151,7 +151,7 @@ export class PointsPanel {
     if (this.points.draft.points.size > 0) {
       const yes = await ask({
         title: 'Replace the feature points?',
-        text: `${file.name} takes the place of the ${this.points.draft.points.size} points of this head.`,
+        text: `${file.name} replaces the ${this.points.draft.points.size} points of this head.`,
         accept: 'Replace',
       });
       if (yes === null) return;

@@ -8,12 +8,12 @@ const methods: Record<string, string> = {
 
 export const confidenceWords: Record<Confidence, string> = { high: 'sure', medium: 'fairly sure', low: 'unsure' };
 
-/** "Proposed from the shape of the head: fairly sure, about 9 % of the distance of the eyes off at most." */
+/** "Proposed from the shape of the head: fairly sure, expected within 9 % of the eye distance." */
 export function proposalWords({ method, confidence, expectedError, remark }: PointProposal): string {
   const how = method === null ? '' : ` ${methods[method] ?? method}`;
   const sure = confidence === null ? '' : `: ${confidenceWords[confidence]}`;
   const off =
-    expectedError === null ? '' : `, expected within ${Math.ceil(expectedError * 100)} % of the distance of the eyes`;
+    expectedError === null ? '' : `, expected within ${Math.ceil(expectedError * 100)} % of the eye distance`;
   const look = remark === undefined ? '' : ` Look closely: ${remark}.`;
   return `Proposed${how}${sure}${off}.${look}`;
 }

@@ -5,7 +5,7 @@ import type { PointsModel } from './points_model.ts';
 import { confidenceWords } from './proposal_words.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Has missing points proposed, and leads through what was proposed. */
+/** Starts the proposal of missing points, and leads the user through the proposed points. */
 export class ProposalsBox {
   readonly element = h('div', { class: 'proposals' });
 
@@ -28,7 +28,7 @@ export class ProposalsBox {
     this.element.hidden = proposed.length === 0 && (missing === 0 || !points.canPropose);
     if (this.element.hidden) return;
     if (proposed.length === 0) {
-      // Points that were asked for and could not be proposed are no reason to ask again.
+      // Points that the last job could not propose are not a reason to offer another job.
       const open = missing - points.notProposed.size;
       this.element.hidden = open <= 0;
       const first = points.guided.value && points.quickLeft === 0;
@@ -43,7 +43,7 @@ export class ProposalsBox {
             disabled: busy,
             on: { click: () => void points.propose() },
           },
-          'Propose the rest',
+          'Propose missing points',
         ),
       );
       return;

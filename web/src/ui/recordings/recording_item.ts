@@ -6,17 +6,17 @@ import { icon } from '../shared/icons.ts';
 const formats: readonly [RecordingFormat, string, string][] = [
   ['performance', 'Performance', 'A performance document, JSON'],
   ['fap', '.fap', 'A .fap file, in whole FAP units'],
-  ['arkit-csv', 'ARKit CSV', 'A take as Live Link Face writes it'],
+  ['arkit-csv', 'ARKit CSV', 'A take in the format of Live Link Face'],
   ['glb', 'GLB clip', 'The open head with its skin and one animation'],
   ['frames-json', 'Frames', 'Every frame, JSON'],
 ];
 
-/** Why it ended, where nobody stopped it. */
+/** Why a recording ended, when no client stopped it. */
 const endingWords: Record<string, string> = {
   'stream-ended': 'ended with its stream',
-  'max-duration': 'ended at its longest duration',
-  'max-bytes': 'ended at the size a recording may have',
-  'max-total-bytes': 'ended: recordings take all the space they may',
+  'max-duration': 'ended at the maximum duration',
+  'max-bytes': 'ended at the maximum size of a recording',
+  'max-total-bytes': 'ended at the maximum size of all recordings',
   'disk-full': 'ended: the disk is full',
   'server-stopped': 'ended with the server',
   'server-killed': 'cut off when the server was killed',
@@ -34,15 +34,15 @@ export interface RecordingActs {
 export interface RecordingSight {
   open: boolean;
   busy: boolean;
-  /** ms, of the moment the face shows; null: another one's, or none. */
+  /** The displayed moment of this recording, ms; null when the face does not show this recording. */
   at: number | null;
-  /** Whether the head on screen can have a clip made. */
+  /** Whether a GLB clip can be made for the displayed head. */
   clip: boolean;
-  /** Title of the stream, where the list is of many. */
+  /** Title of the stream, in a list of several streams; else null. */
   stream: string | null;
 }
 
-/** The facts in one line. */
+/** The facts of a recording in one line. */
 export function recordingWords({ created, duration, bytes, frames, lost, ended }: Recording, stream: string | null): string {
   const date = new Date(created).toLocaleString('en-US', { dateStyle: 'medium', timeStyle: 'short' });
   const words = [date, formatTime(duration), `${formatCount(frames)} frames`, formatBytes(bytes)];
@@ -53,7 +53,7 @@ export function recordingWords({ created, duration, bytes, frames, lost, ended }
   return words.join(' · ');
 }
 
-/** One recording that has ended: played by a button, the rest behind another. */
+/** The list item of one recording that has ended: a play button, and the other actions in a menu. */
 export function recordingItem(recording: Recording, sight: RecordingSight, acts: RecordingActs): HTMLElement {
   const { id, name } = recording;
   const empty = recording.frames === 0 || recording.state === 'broken';
@@ -112,7 +112,7 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
     value: sight.at ?? 0,
     'data-focus': `seek-${id}`,
     'aria-label': `Moment of ${name}`,
-    title: 'Show this moment on the head on screen, on this page alone',
+    title: 'Show this moment on the head, on this page only',
   });
   const tell = (): void => {
     const at = Number(seek.value);

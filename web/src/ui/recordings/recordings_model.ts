@@ -6,10 +6,10 @@ import type { LiveModel } from '../live/live_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** The moment of a recording that is looked at. */
-export interface Look {
+/** A moment of a recording that is displayed. */
+export interface ShownMoment {
   id: string;
-  /** ms */
+  /** ms after the first frame. */
   at: number;
 }
 
@@ -21,18 +21,18 @@ const endings: Record<RecordingFormat, string> = {
   'frames-json': '.frames.json',
 };
 
-/** Recordings of a stream: to record, play, look at single moments, download. */
+/** Recordings: start and stop, play, show single moments, download. */
 export class RecordingsModel {
-  /** Id of a stream; empty: the recordings of all streams, also deleted ones. */
+  /** Id of the stream whose recordings are listed; empty: all streams, including deleted ones. */
   readonly stream = new Signal('');
-  /** Newest first; null until the first answer. */
+  /** Newest first; null until the first response. */
   readonly recordings = new Signal<readonly Recording[] | null>(null);
   readonly problem = new Signal<Problem | null>(null);
-  /** Id of a stream to play into; empty: a new one. */
+  /** Id of the stream to play into; empty: a new stream. */
   readonly target = new Signal('');
-  /** The request in progress: the id of its recording, or `record`. */
+  /** The request in progress: the id of its recording, or `record`; null: none. */
   readonly busy = new Signal<string | null>(null);
-  readonly look = new Signal<Look | null>(null);
+  readonly look = new Signal<ShownMoment | null>(null);
   private looking = false;
 
   constructor(
@@ -77,7 +77,7 @@ export class RecordingsModel {
   }
 
   async record(): Promise<void> {
-    await this.work('record', 'The recording did not begin', async () => {
+    await this.work('record', 'The recording was not started', async () => {
       await this.studio.api.startRecording(this.stream.value);
     });
   }
@@ -94,10 +94,10 @@ export class RecordingsModel {
     );
   }
 
-  /** Plays into the target. Resolves with the reason for refusal where somebody else has the stream. */
+  /** Plays a recording into the target. Resolves with the reason when another source holds the stream, else null. */
   async play(recording: Recording, takeOver: boolean): Promise<string | null> {
     let held: string | null = null;
-    await this.work(recording.id, `${recording.name} does not play`, async () => {
+    await this.work(recording.id, `${recording.name} was not played`, async () => {
       const stream = await this.live.openFor(this.target.value);
       if (stream === null) return;
       this.target.set(stream);
@@ -106,7 +106,7 @@ export class RecordingsModel {
         this.driver.byStream();
       } catch (error) {
         const problem = problemOf(error);
-        // Other conflicts concern the recording itself; taking the stream over would not help.
+        // Other conflicts concern the recording itself and are not resolved by taking the stream over.
         await this.live.refresh();
         if (problem.status !== 409 || takeOver || !this.taken(stream)) throw error;
         held = problem.detail ?? problem.title;
@@ -120,7 +120,7 @@ export class RecordingsModel {
     const stream = this.live.streams.value?.find(({ id }) => id === this.target.value);
     const playing = stream?.playing;
     if (!playing) return;
-    await this.studio.attempt('It was not stopped', () => this.studio.api.stopPlaying(stream.id, playing.id));
+    await this.studio.attempt('The playback was not stopped', () => this.studio.api.stopPlaying(stream.id, playing.id));
     await this.live.refresh();
   }
 
@@ -132,13 +132,13 @@ export class RecordingsModel {
     });
   }
 
-  /** Shows a moment, on this page only. While a request is in progress only the newest moment is kept. */
+  /** Shows a moment, on this page only. Calls during a pending request replace each other; the newest is shown. */
   async lookAt(recording: Recording, at: number): Promise<void> {
     this.look.set({ id: recording.id, at });
     if (this.looking) return;
     this.looking = true;
     await this.studio.attempt('That moment cannot be shown', async () => {
-      for (let shown: Look | null = null; this.look.value && shown !== this.look.value; ) {
+      for (let shown: ShownMoment | null = null; this.look.value && shown !== this.look.value; ) {
         shown = this.look.value;
         const frame = await this.studio.api.recordedFrame(shown.id, shown.at);
         if (this.look.value) this.driver.byRecording(frame);
@@ -147,12 +147,12 @@ export class RecordingsModel {
     this.looking = false;
   }
 
-  /** The moment that is looked at, in words; null: none. */
+  /** Description of the displayed moment; null when none is displayed. */
   get looksAt(): string | null {
     const look = this.look.value;
     if (!look) return null;
     const name = this.recordings.value?.find(({ id }) => id === look.id)?.name ?? 'Recording';
-    // The time first: a long name is cut short.
+    // The time comes first, because a long name is truncated.
     return `${formatTime(look.at)} of ${name}`;
   }
 
@@ -170,7 +170,7 @@ export class RecordingsModel {
   }
 }
 
-/** A name that every file system takes. */
+/** Converts a title to a file name that is valid on every file system. */
 const fileName = (name: string): string =>
   name
     .replaceAll(/[^\p{L}\p{N}._ -]+/gu, '-')

@@ -10,7 +10,7 @@ import type { RecordingsModel } from './recordings_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Studio } from '../shared/studio.ts';
 
-/** Records streams, and what there is to do with a recording. */
+/** Starts recordings of streams and lists the recordings with their actions. */
 export class RecordingsPanel {
   readonly element: HTMLElement;
   private readonly source = h('select', { 'aria-label': 'Stream to record' });
@@ -18,7 +18,7 @@ export class RecordingsPanel {
   private readonly recorder = h('div', { class: 'recorder' });
   private readonly player = h('div', { class: 'recorder' });
   private readonly list = h('ul', { class: 'streams', 'aria-label': 'Recordings' });
-  /** Of the recordings that run: what changes every second. */
+  /** The elements that change every second, by id of a running recording. */
   private readonly running = new Map<string, HTMLElement>();
   private open: string | null = null;
   private drawn = '';
@@ -42,15 +42,15 @@ export class RecordingsPanel {
     );
     for (const signal of [live.streams, model.stream, model.target]) signal.watch(() => this.drawStreams());
     for (const signal of [model.recordings, model.busy, model.problem]) signal.watch(() => this.draw());
-    // Titles of streams stand in the lines, and whether there is a clip depends on the head.
+    // The lines contain stream titles, and the clip format depends on the selected head.
     for (const signal of [live.streams, model.stream, studio.selected]) signal.watch(() => this.draw());
   }
 
   private drawStreams(): void {
     const option = ({ id, title }: { id: string; title: string }): HTMLElement => h('option', { value: id }, title || id);
-    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, 'All streams, also deleted ones'));
+    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, 'All streams, including deleted ones'));
     this.source.value = this.model.stream.value;
-    replace(this.target, h('option', { value: '' }, 'Make a new stream'), this.live.ownStreams.map(option));
+    replace(this.target, h('option', { value: '' }, 'Create a new stream'), this.live.ownStreams.map(option));
     this.target.value = this.model.target.value;
     const into = this.live.ownStreams.find(({ id }) => id === this.model.target.value);
     const name = into?.playing?.kind === 'recording' ? into.playing.name || 'A recording' : null;
@@ -83,7 +83,7 @@ export class RecordingsPanel {
 
   private draw(): void {
     const { running } = this.model;
-    // What only counts on leaves the buttons where they are under the finger, and the slider in the hand.
+    // A change of the counters alone must not redraw the list: that would interrupt a click or a drag.
     const resting = (this.model.recordings.value ?? []).filter(({ state }) => state !== 'recording');
     const clip = this.studio.selected.value?.state === 'parametrized';
     const { recordings, busy, problem, stream } = this.model;
@@ -171,7 +171,7 @@ export class RecordingsPanel {
           'li',
           { class: 'notice error', role: 'alert' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, 'It is tried again every few seconds.')),
+          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, 'Retrying every few seconds.')),
         ),
       );
       return;
@@ -221,7 +221,7 @@ export class RecordingsPanel {
   private async remove(recording: Recording): Promise<void> {
     const yes = await ask({
       title: `Delete ${recording.name}?`,
-      text: 'It is removed from the server for good.',
+      text: 'It is permanently removed from the server.',
       accept: 'Delete',
       danger: true,
     });

@@ -5,12 +5,12 @@ interface Question {
   text?: string;
   accept: string;
   danger?: boolean;
-  /** Asks for a text, starting from this one. */
+  /** The initial text of the input; without it the dialog has no input. */
   value?: string;
   label?: string;
 }
 
-/** Asks in a modal dialog. Resolves with the text (empty where none was asked for), or null when cancelled. */
+/** A modal question. Resolves with the entered text (empty without an input), or null when cancelled. */
 export async function ask(question: Question): Promise<string | null> {
   const input =
     question.value === undefined
@@ -25,7 +25,7 @@ export async function ask(question: Question): Promise<string | null> {
   return accepted ? (input?.value.trim() ?? '') : null;
 }
 
-/** A modal dialog with this content, whose first text is selected. Resolves with whether it was accepted. */
+/** A modal dialog; selects the text of the first input. Resolves with whether the dialog was accepted. */
 export function openDialog(words: Pick<Question, 'title' | 'accept' | 'danger'>, ...content: Child[]): Promise<boolean> {
   return new Promise((resolve) => {
     const dialog = h(

@@ -7,7 +7,7 @@ export interface Props {
   [attribute: string]: string | number | boolean | null | undefined | Handlers;
 }
 
-/** An element with attributes, listeners and children. `true` sets an empty attribute, `false` and null leave it out. */
+/** An element with attributes, listeners and children. `true` sets an empty attribute; `false` and null set none. */
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   props: Props = {},
@@ -39,7 +39,7 @@ export function replace(parent: Element, ...children: Child[]): void {
   append(parent, children);
 }
 
-/** Draws a container anew; the control that had the focus, known by its `data-focus`, has it again. */
+/** Redraws a container and restores the focus to the control with the same `data-focus`. */
 export function redraw(container: Element, draw: () => void): void {
   const active = container.contains(document.activeElement) ? document.activeElement : null;
   const key = active?.getAttribute('data-focus') ?? null;
@@ -48,7 +48,7 @@ export function redraw(container: Element, draw: () => void): void {
     container.querySelector<HTMLElement>(`[data-focus="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
 }
 
-/** Changes a text only when it differs: cheap enough for the frame loop. */
+/** Sets an element's text if it differs; cheap enough for the frame loop. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }

@@ -4,12 +4,12 @@ import { icon } from './icons.ts';
 export interface FileButtonOptions {
   label: string;
   note: string;
-  /** As of `<input accept>`. */
+  /** The `accept` attribute of the file input. */
   accept: string;
   take: (file: File) => void;
 }
 
-/** A button that asks for one file; dropping one on the page is taken care of by the page. */
+/** A button that opens a file chooser for one file; ui/page/file_drop.ts handles dropped files. */
 export function chooseFile({ label, note, accept, take }: FileButtonOptions): HTMLElement {
   const input = h('input', { type: 'file', accept, hidden: true, 'aria-label': label });
   input.addEventListener('change', () => {

@@ -2,7 +2,7 @@ import type { FindingCounts } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { badgeOf, countWords } from './finding_words.ts';
 
-/** How many findings a head has, in the colour of the worst; nothing where there are none. */
+/** The number of findings in the colour of the worst one; null when there are none. */
 export function findingBadge(counts: FindingCounts | null | undefined): HTMLElement | null {
   const badge = badgeOf(counts);
   if (!badge || !counts) return null;

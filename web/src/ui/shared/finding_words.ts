@@ -7,7 +7,7 @@ export const severities: readonly { severity: Severity; one: string; many: strin
   { severity: 'note', one: 'note', many: 'notes' },
 ];
 
-/** What each severity means, in the panel's words. */
+/** The meaning of each severity, as shown in the panel. */
 export const severityMeanings: Record<Severity, string> = {
   error: 'moves wrongly, or not at all',
   warning: 'looks worse than it could',
@@ -26,10 +26,10 @@ const titles: Record<string, string> = {
 export const findingTitle = (finding: Finding): string =>
   titles[finding.code] ?? capital(finding.code.replaceAll('-', ' '));
 
-/** The report's sentences come without capital and full stop, so that they can be joined. */
+/** Adds capital and full stop; the report's sentences have neither, so that they can be joined. */
 export const sentence = (text: string): string => (text === '' ? '' : capital(text) + (/[.!?]$/.test(text) ? '' : '.'));
 
-/** "2 errors, 1 warning"; empty where there is nothing. */
+/** "2 errors, 1 warning"; empty when there are no findings. */
 export function countWords(counts: FindingCounts): string {
   const numbers = { error: counts.errors, warning: counts.warnings, note: counts.notes };
   return severities
@@ -38,7 +38,7 @@ export function countWords(counts: FindingCounts): string {
     .join(', ');
 }
 
-/** How many findings there are and how bad the worst is; null where there is nothing to count. */
+/** The number of findings and the worst severity; null when there are none. */
 export function badgeOf(counts: FindingCounts | null | undefined): { count: number; severity: Severity } | null {
   if (!counts) return null;
   const count = counts.errors + counts.warnings + counts.notes;

@@ -15,7 +15,7 @@ export function formatCount(count: number): string {
   return count.toLocaleString('en-US');
 }
 
-/** 83400 ms -> "1:23.4"; tenths, as a director counts. */
+/** 83400 ms -> "1:23.4". */
 export function formatTime(ms: number): string {
   const tenths = Math.max(0, Math.floor(ms / 100));
   const minutes = Math.floor(tenths / 600);

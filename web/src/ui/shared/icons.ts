@@ -1,6 +1,6 @@
 import { svg } from './dom.ts';
 
-/** Our own line icons on a grid of 20. */
+/** Line icons on a grid of 20. */
 const paths = {
   upload:
     'M10 13.500V4M6.200 7.500 10 3.700l3.800 3.800M3.500 13v2a1.500 1.500 0 0 0 1.500 1.500h10a1.500 1.500 0 0 0 1.500-1.500v-2',

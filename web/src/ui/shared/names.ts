@@ -1,4 +1,4 @@
-/** The standard's names in plain words. */
+/** The standard's names as readable titles. */
 
 const words: Record<string, string> = {
   l: 'left',
@@ -13,7 +13,7 @@ const words: Record<string, string> = {
 };
 const joined: Record<string, string> = { midlip: 'lip middle', cornerlip: 'lip corner', cornerlips: 'lip corners' };
 
-/** "stretch_l_cornerlip_o" -> "Stretch left lip corner"; the group says that it is the outer contour. */
+/** "stretch_l_cornerlip_o" -> "Stretch left lip corner"; the title of the group names the outer contour. */
 export function fapTitle(name: string, group: number): string {
   const parts = name.split('_').filter((part, i, all) => !(part === 'o' && group === 8 && i === all.length - 1));
   const text = parts.map((part) => words[part] ?? joined[part] ?? part).join(' ');
@@ -50,7 +50,7 @@ export const stageTitles: Record<string, string> = {
   import: 'Reading the file',
   surface: 'Joining seams',
   proposals: 'Proposing points',
-  report: 'Looking for faults',
+  report: 'Checking the fit',
   distances: 'Measuring distances',
   regions: 'Finding regions',
   weights: 'Computing weights',

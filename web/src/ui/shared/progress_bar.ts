@@ -1,7 +1,7 @@
 import { h } from './dom.ts';
 import type { Activity } from './studio.ts';
 
-/** A progress bar; without a known progress it runs to and fro. */
+/** A progress bar; indeterminate while the progress is unknown. */
 export function progressBar(activity: Activity): HTMLElement {
   const percent = activity.progress === null ? null : Math.round(activity.progress * 100);
   const fill = h('span', {});

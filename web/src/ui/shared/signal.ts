@@ -1,4 +1,4 @@
-/** A value that tells when it changes. */
+/** An observable value. */
 export class Signal<T> {
   private readonly listeners = new Set<(value: T) => void>();
 
@@ -14,12 +14,12 @@ export class Signal<T> {
     this.notify();
   }
 
-  /** For values changed in place. */
+  /** Calls the listeners, for a value that was changed in place. */
   notify(): void {
     for (const listener of [...this.listeners]) listener(this.current);
   }
 
-  /** Calls at once and on every change. */
+  /** Calls the listener immediately and on every change. Returns the function that removes it. */
   watch(listener: (value: T) => void): () => void {
     this.listeners.add(listener);
     listener(this.current);

@@ -2,7 +2,7 @@ import { h } from './dom.ts';
 
 export interface SliderOptions {
   label: string;
-  /** Shown small after the label. */
+  /** Small text after the label. */
   note?: string;
   title?: string;
   min: number;
@@ -12,7 +12,7 @@ export interface SliderOptions {
   onInput: (value: number) => void;
 }
 
-/** A range with its number beside it. The fill starts at zero; a double click goes back there. */
+/** A range input with its value beside it. The fill starts at zero; a double click resets to zero. */
 export class Slider {
   readonly element: HTMLElement;
   private readonly range: HTMLInputElement;
@@ -50,7 +50,7 @@ export class Slider {
     return Number(this.range.value);
   }
 
-  /** Shows a value without telling anyone. */
+  /** Sets the displayed value without calling the listener. */
   set(value: number): void {
     const { min, max } = this.options;
     const shown = Math.round(value * 100) / 100;

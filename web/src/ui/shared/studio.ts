@@ -8,7 +8,7 @@ import type { Toasts } from './toast.ts';
 
 export type Tab = 'heads' | 'fit' | 'points' | 'animate' | 'live';
 
-/** Something that takes a while, shown with a bar. `progress` is 0..1, or null while unknown. */
+/** A running operation, shown with a progress bar. `progress` is 0..1, or null while unknown. */
 export interface Activity {
   title: string;
   progress: number | null;
@@ -17,13 +17,13 @@ export interface Activity {
 
 export type ShelfState = { kind: 'loading' } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
 
-/** The models and what is being done with them: the page's state that is not a picture. */
+/** The page's state apart from the stage: the models and the operations on them. */
 export class Studio {
   readonly models = new Signal<readonly Model[]>([]);
   readonly shelf = new Signal<ShelfState>({ kind: 'loading' });
   readonly selected = new Signal<Model | null>(null);
   readonly tab = new Signal<Tab>('animate');
-  /** By model id; uploads go by a name of their own until the server has given them one. */
+  /** Running operations by model id; an upload has a temporary id until the server has assigned one. */
   readonly activities = new Signal<ReadonlyMap<string, Activity>>(new Map());
   private uploads = 0;
 
@@ -32,7 +32,7 @@ export class Studio {
     readonly toasts: Toasts,
   ) {}
 
-  /** Loads the shelf and opens the head of the address, or the sample, or the first one that moves. */
+  /** Loads the shelf and opens the head in the page's address, else the sample, else the first parametrized one. */
   async start(): Promise<void> {
     if (!(await this.refresh())) return;
     const wanted = decodeURIComponent(location.hash.slice(1));
@@ -63,7 +63,7 @@ export class Studio {
     this.selected.set(model);
     if (!model) return;
     history.replaceState(null, '', `#${encodeURIComponent(id)}`);
-    // Where work goes on: marking points, or moving the face.
+    // Open the tab of the next step: placing points, or animating the face.
     const { value: tab } = this.tab;
     if (model.state === 'ready' && tab !== 'points' && tab !== 'fit') this.tab.set('points');
     else if (model.state === 'parametrized' && tab !== 'live' && tab !== 'fit') this.tab.set('animate');
@@ -109,13 +109,13 @@ export class Studio {
     );
   }
 
-  /** Says the unit or the axes of a head; a change of axes has its file read again. */
+  /** Sets the unit or the axes of a head; a change of axes imports its file again. */
   async setFrame(model: Model, wish: FrameWish): Promise<void> {
     await this.attempt('Unit and axes were not changed', async () => {
       const { model: now, job } = await this.api.setFrame(model.id, wish);
       this.replaceModel(now);
       if (!job) return;
-      await this.follow(model.id, job, 'Turning the head');
+      await this.follow(model.id, job, 'Rotating the head');
       await this.reload(model.id);
     });
   }
@@ -133,7 +133,7 @@ export class Studio {
     });
   }
 
-  /** Computes weights and package. Resolves with whether the face can now move; throws ApiError where points are refused. */
+  /** Computes weights and package. Resolves with whether the job succeeded; throws ApiError when points are refused. */
   async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
     const job = await this.api.parametrize(model.id, options);
     const last = await this.follow(model.id, job, 'Parametrizing');
@@ -143,7 +143,7 @@ export class Studio {
     return last.state === 'done';
   }
 
-  /** Has missing feature points proposed. Resolves with the result, or null when it was cancelled; throws ApiError. */
+  /** Proposes missing feature points. Resolves with the result, or null when cancelled; throws ApiError. */
   async propose(model: Model, etag: string | null): Promise<ProposalsResult | null> {
     const job = await this.api.proposePoints(model.id, etag);
     const last = await this.follow(model.id, job, 'Proposing points');
@@ -163,7 +163,7 @@ export class Studio {
     }
   }
 
-  /** Runs an action; a failure becomes a message. */
+  /** Runs an action and shows a failure as a message. Resolves with whether it succeeded. */
   async attempt(what: string, action: () => Promise<void>): Promise<boolean> {
     try {
       await action();
@@ -174,9 +174,9 @@ export class Studio {
     }
   }
 
-  /** Follows a job of a model to its end, and shows it as the model's activity. */
+  /** Follows a job of a model to its end and shows it as the model's activity. */
   private async follow(model: string, job: Job, title: string): Promise<Job> {
-    const cancel = (): void => void this.attempt('The work was not stopped', () => this.api.cancelJob(job.id));
+    const cancel = (): void => void this.attempt('The job was not cancelled', () => this.api.cancelJob(job.id));
     try {
       return await followJob(this.api, job, (now) =>
         this.setActivity(model, {
@@ -215,12 +215,12 @@ export class Studio {
     const open = this.selected.value;
     if (open?.id !== model.id) return;
     this.selected.set(model);
-    // Imported while we looked at it: the next thing to do is to mark its points, unless the file itself needs care.
+    // The open head has just been imported: the next step is placing points, unless the file has findings.
     if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit')
       this.tab.set(needsCare(model) ? 'fit' : 'points');
   }
 }
 
-/** Whether the fit doctor found more than what is merely worth knowing. */
+/** Whether the fit doctor found errors or warnings. */
 export const needsCare = ({ findings }: Model): boolean =>
   findings !== null && findings.errors + findings.warnings > 0;

@@ -3,7 +3,7 @@ import type { Problem } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { icon } from './icons.ts';
 
-/** Messages that come and go at the foot of the page. Errors stay until closed. */
+/** Temporary messages at the bottom of the page. Errors stay until closed. */
 export class Toasts {
   readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': 'Messages', 'aria-live': 'polite' });
 
@@ -30,7 +30,7 @@ export class Toasts {
   }
 
   private show(kind: 'note' | 'error', ...content: Node[]): HTMLElement {
-    // The same thing failing again replaces the message instead of piling up.
+    // A repeated failure replaces its earlier message.
     for (const old of this.element.querySelectorAll(`.toast-${kind}`)) {
       if (old.querySelector('strong, p')?.textContent === content[1]?.firstChild?.textContent) old.remove();
     }

@@ -5,7 +5,7 @@ import type { Performer } from '../../face/performer.ts';
 import { Signal } from '../shared/signal.ts';
 
 /**
- * What moves the face on this page:
+ * The source that drives the face on this page:
  * - `hand`: the frame set with the sliders; the only source under which idle life runs.
  * - `clip`: a performance document or .fap file played on this page, also while it is paused.
  * - `recording`: one moment of a recording, held still.
@@ -15,7 +15,7 @@ export type MotionSource = 'hand' | 'clip' | 'recording' | 'stream';
 
 export type DrivenFace = Pick<Performer, 'follow' | 'showBetween' | 'enliven' | 'step' | 'listen'>;
 
-/** A calm person. The seed is fixed, so that each visit looks the same. */
+/** Calm idle life. The seed is fixed, so that each visit looks the same. */
 const idleSettings = { seed: 1, blinksPerMinute: 15, head: 0.3, eyes: 0.5 };
 
 /**
@@ -30,17 +30,17 @@ export class FaceDriver {
   private idle: IdlePlayer | null = null;
 
   constructor(
-    /** Set with the sliders, which change it in place. */
+    /** The frame set with the sliders, which change it in place. */
     private readonly frame: FaceFrame,
     readonly clip = new ClipPlayer(),
   ) {}
 
-  /** Calls the listener whenever a source takes the face, also when it already has it. */
+  /** Calls the listener whenever a source takes the face, even if it already has the face. */
   onTake(listener: (source: MotionSource) => void): void {
     this.listeners.add(listener);
   }
 
-  /** Shows the frame set by hand, as it is now. */
+  /** Shows the frame set with the sliders. */
   byHand(): void {
     this.take('hand');
     this.face?.follow(this.frame);
@@ -62,18 +62,18 @@ export class FaceDriver {
     this.take('stream');
   }
 
-  /** The source ends or is paused: the hand takes the face, if that source has it. */
+  /** To call when a source ends or is paused: if it has the face, `hand` takes the face. */
   release(source: MotionSource): void {
     if (this.source.value === source) this.byHand();
   }
 
-  /** Switching idle life on takes the face to show it; switching it off does not interrupt a clip or stream. */
+  /** Switching idle life on makes `hand` take the face; switching it off does not interrupt a clip or stream. */
   setIdle(on: boolean): void {
     this.idle = on ? new IdlePlayer(this.frame, idleSettings) : null;
     if (on || this.source.value === 'hand' || this.source.value === 'recording') this.byHand();
   }
 
-  /** Replaces the face, or its level of detail. Each source goes on, but the moment of a recording is dropped. */
+  /** Replaces the face or its level of detail. The current source continues, except `recording`, which ends. */
   setFace(face: DrivenFace | null): void {
     this.face = face;
     face?.listen(this.client);
@@ -89,7 +89,7 @@ export class FaceDriver {
     this.face?.listen(client);
   }
 
-  /** Advances by the time of one displayed frame. Returns whether the pose changed. */
+  /** Advances by one displayed frame, seconds. Returns whether the pose changed. */
   step(deltaSeconds: number): boolean {
     const { face, clip, idle } = this;
     if (!face) return false;

@@ -29,10 +29,10 @@ export class SceneView {
   readonly markers: Markers;
   readonly highlight = new Highlight();
   readonly state = new Signal<SceneState>({ kind: 'empty' });
-  /** Of the animated face; null while there is none. */
+  /** The performer of the animated face; null while there is none. */
   readonly performer = new Signal<Performer | null>(null);
   readonly packageBytes = new Signal(0);
-  /** Which level of detail of the face is shown; 0 is the full mesh. */
+  /** The displayed level of detail of the face; 0 is the full mesh. */
   readonly level = new Signal(0);
   preview: PreviewView | null = null;
   face: FaceView | null = null;
@@ -56,10 +56,10 @@ export class SceneView {
     this.stage.onFrame((delta) => this.step(delta));
   }
 
-  /** Moves the performer on by a displayed frame, seconds; returns whether its pose changed. */
+  /** Advances the performer by one displayed frame, seconds; returns whether its pose changed. */
   animate: (deltaSeconds: number) => boolean = () => false;
 
-  /** Shows a model, or its changes. The old picture stays until the new one is loaded. */
+  /** Shows a model or the changes of the shown model. The old picture stays until the new one is loaded. */
   async open(model: Model | null): Promise<void> {
     if (packageOf(model) !== packageOf(this.model)) this.level.set(0);
     this.model = model;
@@ -109,13 +109,12 @@ export class SceneView {
     }
   }
 
-  /** Shows another level of detail of the face. */
   showLevel(level: number): void {
     this.level.set(level);
     void this.open(this.model);
   }
 
-  /** The still model with points on it, or the face that moves (where there is one). */
+  /** Switches between the still model with its markers and the animated face (if there is one). */
   show(what: 'preview' | 'face'): void {
     this.wanted = what;
     const face = what === 'face' && this.face !== null;
@@ -131,13 +130,13 @@ export class SceneView {
     this.stage.invalidate();
   }
 
-  /** Marks vertices and parts of the still model, in place of those before. */
+  /** Highlights vertices and parts of the still model, replacing the previous highlight. */
   pointOut(target: HighlightTarget | null): void {
     this.highlight.show(this.preview, target);
     this.stage.invalidate();
   }
 
-  /** Brings these places of the still model before the camera, with `least` (model units) around them. */
+  /** Moves the camera to these places of the still model, with a radius of at least `least` (model units). */
   flyTo(places: readonly (readonly [number, number, number])[], vertices: readonly number[], least = 0): void {
     if (!this.preview || places.length === 0) return;
     const { center, radius } = ballAround(places.map((place) => new Vector3(...place)));
@@ -178,7 +177,7 @@ export class SceneView {
     face.setVertices(performer.kernel.positions, performer.pose);
   }
 
-  /** The one that is shown stays, unless the head has been turned. */
+  /** Loads the preview; the shown one is kept unless the axes of the head have changed. */
   private async openPreview(model: Model, signal: AbortSignal): Promise<PreviewView> {
     const key = `${model.id}:${JSON.stringify(model.frame?.axes)}`;
     if (this.preview && this.previewKey === key) return this.preview;
