@@ -155,7 +155,8 @@ http::Response content_of(Context& context, const http::Request& request, const 
   return response;
 }
 
-answer::RecordedFrame represent(const recordings::RecordingReader& reader, const recordings::RecordingFrame& frame) {
+answer::RecordedFrame represent_frame(const recordings::RecordingReader& reader,
+                                      const recordings::RecordingFrame& frame) {
   const auto time = static_cast<std::uint32_t>(frame.media_time - reader.begin());
   return {.face_frame = {encode_json_value({time, to_values(frame.state, quantizers_of(reader.header()))})},
           .time = time,
@@ -188,7 +189,8 @@ http::Response get_recording_frames(Context& context, http::Request& request) {
     const auto frame = reader->at(whole_number(request, "at", 0, max_ms));
     if (!frame) refuse_damaged(frame.error());
     if (!*frame) refuse("conflict", "there is no frame in the recording yet");
-    return json_response(200, answer::RecordedFrames{.frames = {represent(*reader, **frame)}, .next = std::nullopt});
+    return json_response(200,
+                         answer::RecordedFrames{.frames = {represent_frame(*reader, **frame)}, .next = std::nullopt});
   }
   const auto from = whole_number(request, "from", 0, max_ms);
   const auto to = whole_number(request, "to", max_ms, max_ms);
@@ -212,7 +214,7 @@ http::Response get_recording_frames(Context& context, http::Request& request) {
                   "&to=" + std::to_string(to) + "&after=" + std::to_string(last) + "&limit=" + std::to_string(limit);
       break;
     }
-    part.frames.push_back(represent(*reader, *cursor.frame()));
+    part.frames.push_back(represent_frame(*reader, *cursor.frame()));
     last = cursor.frame()->sequence;
     last_time = cursor.time();
   }

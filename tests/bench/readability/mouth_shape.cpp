@@ -44,7 +44,7 @@ glm::dvec3 nearest_on(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3
   return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-double share_of(const WeightTable<float>& rows, std::size_t vertex, std::span<const char* const> names) {
+double share_of_named(const WeightTable<float>& rows, std::size_t vertex, std::span<const char* const> names) {
   double sum = 0.0;
   const auto points = rows.points_of(vertex);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -128,7 +128,7 @@ std::optional<Mouth> Mouth::find(const PosedFace& face) {
     if (face.role_of(t[0]) != PartRole::skin) continue;
     mouth.skin_.push_back(t);
     const bool lip = std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
-      return share_of(face.rig().influence, v, lower_lip_names) >= least_share;
+      return share_of_named(face.rig().influence, v, lower_lip_names) >= least_share;
     });
     if (lip) mouth.lower_lip_.push_back(t);
   }
