@@ -3,6 +3,9 @@
 # Warnings and sanitizers for our own targets only: other people's headers come in as SYSTEM.
 add_library(semblante_flags INTERFACE)
 target_compile_options(semblante_flags INTERFACE -Wall -Wextra -Werror)
+# For core and protocol, which the shared library of the SDK is made of: the linker can leave out each function by itself,
+# though several files were compiled together.
+set(SEMBLANTE_SDK_FLAGS -ffunction-sections -fdata-sections)
 if(SEMBLANTE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # A type of a .cpp file may have members of its anonymous namespace; compiled together, GCC takes the file for a header.
   target_compile_options(semblante_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)

@@ -70,17 +70,17 @@ glm::dvec3 direction(const std::string& name) {
 struct SameAsWorker : ::testing::Test {
   Workspace work;
 
-  /// Runs one job as the server would; the result.
-  [[nodiscard]] json run_worker(json request, const std::string& folder) const {
+  /// Runs one job as the server would; its outcome.
+  [[nodiscard]] json run_worker(const char* kind, const json& asked, const std::string& folder) const {
     std::filesystem::create_directories(work.path(folder));
-    request["output_directory"] = work.path(folder);
+    const json request = {{"kind", kind}, {"output_directory", work.path(folder)}, {"request", asked}};
     const std::string input = work.write(folder + ".json", request.dump());
     const Outcome outcome = run_semblante({"worker"}, {}, input);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
     std::istringstream lines(outcome.out);
     json last;
     for (std::string line; std::getline(lines, line);) last = json::parse(line);
-    return last.value("done", json::object());
+    return last.contains("done") ? last["done"].value("outcome", json::object()) : json::object();
   }
 
   /// The warnings both gave, of import and of the package.
@@ -96,15 +96,10 @@ struct SameAsWorker : ::testing::Test {
                                            "head", "--weights", "smooth", "--lods", "1500"});
     EXPECT_EQ(command.exit_code, 0) << command.err;
 
-    json request = {{"kind", "import"},      {"source", model},         {"file_name", "head.obj"},
-                    {"name", "head"},        {"metric", "edge"},        {"weights", "smooth"},
-                    {"weight_bits", 12},     {"points", json::array()}, {"frame_wish", json::object()},
-                    {"lods", {1500}},        {"worn", json::array()},   {"expression_source", ""},
-                    {"parts", json::array()}};
-    const json imported = run_worker(request, "import");
-    request["kind"] = "parametrize";
-    request["frame"] = imported["frame"];
-    request["parts"] = imported["parts"];
+    json source = {{"path", model}, {"file_name", "head.obj"}, {"frame_wish", json::object()}};
+    const json imported = run_worker("import", {{"model", source}}, "import");
+    source["frame"] = imported["frame"];
+    json marked = {{"model", source}, {"points", json::array()}, {"parts", imported["parts"]}};
     // The store keeps positions as the import made the head stand.
     const glm::dvec3 up = direction(imported["frame"]["axes"]["up"]);
     const glm::dvec3 front = direction(imported["frame"]["axes"]["front"]);
@@ -116,9 +111,11 @@ struct SameAsWorker : ::testing::Test {
         const glm::dvec3 p = turn * glm::dvec3(point["position"][0], point["position"][1], point["position"][2]);
         record["position"] = {p.x, p.y, p.z};
       }
-      request["points"].push_back(record);
+      marked["points"].push_back(record);
     }
-    const json made = run_worker(request, "made");
+    const json options = {{"metric", "edge"}, {"weights", "smooth"}, {"weight_bits", 12}, {"lods", {1500}}};
+    const json made = run_worker(
+        "parametrize", {{"name", "head"}, {"head", marked}, {"options", options}, {"worn", json::object()}}, "made");
 
     for (const char* const name : {"mesh.drc", "weights", "rig.json", "face.glb"}) {
       EXPECT_EQ(read_text(work.path("cli") + "/" + name), read_text(work.path("made") + "/" + name)) << name;
