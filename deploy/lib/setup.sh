@@ -8,14 +8,15 @@ fail() {
 
 # What the server and the studio are built with and run on.
 product_packages=(build-essential cmake ninja-build pkg-config
-  libboost1.81-dev libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
+  'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
   libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenmesh-dev libstb-dev nlohmann-json3-dev libglm-dev
   libcli11-dev
-  clang-14 lld-14 curl ca-certificates)
+  'clang|clang-14' 'lld|lld-14' curl ca-certificates)
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
-  g++-aarch64-linux-gnu qemu-user-static
-  libeigen3-dev libgtest-dev libgmock-dev libclang-rt-14-dev clang-format-14 clang-tidy-14 chromium fonts-dejavu-core git)
+  g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
+  libeigen3-dev libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
+  'chromium|chromium-browser' fonts-dejavu-core git ccache)
 
 as_root() {
   if [ "$(id -u)" = 0 ]; then
@@ -27,6 +28,25 @@ as_root() {
   fi
 }
 
+# A name of a package may be several, `a|b`: whichever is installed serves, otherwise the first that the system offers.
+is_installed() {
+  local name
+  for name in ${1//|/ }; do
+    dpkg-query -W -f '${Status}' "$name" 2>/dev/null | grep -q 'ok installed' && return
+  done
+  return 1
+}
+first_available() {
+  local name
+  for name in ${1//|/ }; do
+    if LC_ALL=C apt-cache policy "$name" 2>/dev/null | grep '^  Candidate:' | grep -qv '(none)'; then
+      echo "$name"
+      return
+    fi
+  done
+  echo "${1%%|*}" # apt-get says that there is none
+}
+
 # install_packages NAME...: installs what is missing, after saying what and how much. Silent when nothing is.
 install_packages() {
   local wanted=("$@") missing=() package
@@ -34,15 +54,16 @@ install_packages() {
   command -v node >/dev/null || wanted+=(nodejs)
   command -v npm >/dev/null || wanted+=(npm)
   for package in "${wanted[@]}"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    is_installed "$package" || missing+=("$package")
   done
   [ ${#missing[@]} = 0 ] && return
   command -v apt-get >/dev/null || fail "this script installs Debian packages, and there is no apt-get here; missing: ${missing[*]}"
-  grep -q '^VERSION_ID="12"' /etc/os-release 2>/dev/null ||
-    printf 'Note: made for Debian 12; this is %s\n' "$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}")" >&2
+  grep -qE '^VERSION_ID="(12|13|24.04)"' /etc/os-release 2>/dev/null ||
+    printf 'Note: made for Debian 12 and 13 and Ubuntu 24.04; this is %s\n' "$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}")" >&2
 
-  say "Debian packages to install: ${missing[*]}"
-  as_root apt-get -qq update || fail "apt-get update failed: is a Debian mirror reachable?"
+  as_root apt-get -qq update || fail "apt-get update failed: is a mirror of packages reachable?"
+  mapfile -t missing < <(for package in "${missing[@]}"; do first_available "$package"; done)
+  say "Packages to install: ${missing[*]}"
   local plan
   plan=$(LC_ALL=C as_root apt-get install --no-install-recommends --assume-no "${missing[@]}" 2>&1) || true
   grep -q 'Unable to locate package' <<<"$plan" && fail "$(grep -m3 'Unable to locate' <<<"$plan")"
@@ -62,7 +83,7 @@ install_packages() {
   rm -f "$log"
 }
 
-# configure DIR [cmake options]: configures once; again only if an option changed.
+# configure DIR PRESET [cmake options]: configures once; again only if an option changed. The presets: CMakePresets.json.
 configure() {
   local dir=$1 log
   shift
@@ -70,7 +91,7 @@ configure() {
   mkdir -p "$dir"
   if [ -f "$dir/build.ninja" ] && [ "$(cat "$dir/.options" 2>/dev/null)" = "$*" ]; then return; fi
   say "Configuring $(realpath --relative-to="$root" "$dir")"
-  cmake -S "$root" -B "$dir" -G Ninja "$@" >"$log" 2>&1 || {
+  (cd "$root" && cmake --preset "$@" -B "$dir") >"$log" 2>&1 || {
     tail -n 20 "$log" >&2
     fail "cmake could not configure (whole log: $log)"
   }
