@@ -164,7 +164,8 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
       const auto self = weak.lock();
       if (!error && self && !self->ended_) self->ws_->next_layer().close();
     });
-    websocket::close_reason words(std::string_view(reason.text).substr(0, longest_reason));
+    const std::string_view text = std::string_view(reason.text).substr(0, longest_reason);
+    websocket::close_reason words(beast::string_view(text.data(), text.size()));
     words.code = reason.code;
     ws_->async_close(words, [self = shared_from_this()](error_code) {});
   }

@@ -110,7 +110,8 @@ struct StreamClient::Impl {
       }
       return shaken;
     }
-    if (response[http::field::sec_websocket_protocol] != protocol) {
+    const auto agreed = response[http::field::sec_websocket_protocol];
+    if (std::string_view(agreed.data(), agreed.size()) != protocol) {
       return Error{ErrorCode::mismatch, where, "the server does not speak " + std::string(protocol)};
     }
     return Unit{};
