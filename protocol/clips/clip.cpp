@@ -11,7 +11,7 @@
 #include "protocol/clips/face_skin.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/rig_kernel.h"
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 #include "protocol/package/quantization.h"
 
 namespace semblante {
@@ -239,7 +239,7 @@ class ClipMaker {
   std::vector<glm::vec3> exact_, skinned_;
 };
 
-void add_mesh(const PackedFace& face, const FaceSkin& skin, GltfDocument& document) {
+void add_mesh(const PackedFace& face, const FaceSkin& skin, GltfBuilder& document) {
   using Kind = DracoAttribute::Kind;
   using Type = DracoAttribute::Type;
   for (const Slice& slice : slice_by_material(face.mesh, face.materials.size())) {
@@ -317,7 +317,7 @@ Result<Clip> make(const FaceParts& parts, std::span<const TimedValues> frames, c
   ClipMaker maker(*face, *skin, options);
   if (const Status taken = maker.take(frames); !taken) return taken.error();
 
-  GltfDocument document(face->materials, face->images);
+  GltfBuilder document(face->materials, face->images);
   add_mesh(*face, *skin, document);
   if (!frames.empty()) document.add_animation(options.name, maker.channels());
   Clip clip;

@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 
 namespace semblante {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/streams/stream_client.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 namespace {
@@ -54,7 +54,7 @@ void FanOut::count_sent(const http::WireMessage& message) {
   counts_.bytes_sent += message.bytes.size();
 }
 
-void FanOut::add(StreamClient& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin,
+void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin,
                  bool waits, const BatchLog& log) {
   Subscriber subscriber;
   subscriber.client = &client;
@@ -67,7 +67,7 @@ void FanOut::add(StreamClient& client, http::WebSocketSink& sink, Coding coding,
   subscribers_.add(subscriber);
 }
 
-void FanOut::remove(StreamClient& client) {
+void FanOut::remove(StreamPeer& client) {
   if (client.notes().subscriber != Subscriber::nowhere) subscribers_.remove(client.notes().subscriber);
 }
 
@@ -135,7 +135,7 @@ void FanOut::send_rest(BatchLog& log) {
   passes_.clear();
 }
 
-void FanOut::writable(StreamClient& client, BatchLog& log) {
+void FanOut::writable(StreamPeer& client, BatchLog& log) {
   const auto slot = client.notes().subscriber;
   if (slot == Subscriber::nowhere) return;
   auto& subscriber = subscribers_[slot];
@@ -153,8 +153,8 @@ void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
   count_sent(*newest);
 }
 
-std::vector<StreamClient*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {
-  std::vector<StreamClient*> stalled;
+std::vector<StreamPeer*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {
+  std::vector<StreamPeer*> stalled;
   for (auto& subscriber : subscribers_.all()) {
     if (!subscriber.waits) continue;
     const auto since = subscriber.sink->stalled_since();

@@ -27,7 +27,7 @@ class Slice {
   friend class FanOut;
   struct Target {
     http::WebSocketSink* sink;
-    StreamClient* client;
+    StreamPeer* client;
     Coding coding;
     http::Sent sent;
   };
@@ -51,9 +51,9 @@ class FanOut {
   [[nodiscard]] std::array<std::size_t, coding_count> by_coding() const;
 
   /// A subscriber whose `begin` has been sent; the log's next batch is its first. `waits`: not all of it has gone yet.
-  void add(StreamClient& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin, bool waits,
+  void add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin, bool waits,
            const BatchLog& log);
-  void remove(StreamClient& client);
+  void remove(StreamPeer& client);
   void remove_all();
 
   /// Takes a closed batch on its way to all subscribers there are now.
@@ -70,9 +70,9 @@ class FanOut {
   void send_rest(BatchLog& log);
 
   /// All that waited for a subscriber has gone: one that fell behind gets the newest state.
-  void writable(StreamClient& client, BatchLog& log);
+  void writable(StreamPeer& client, BatchLog& log);
   /// Removes, and returns, subscribers that have read nothing for longer than `patience` although something waits.
-  std::vector<StreamClient*> remove_stalled(std::chrono::milliseconds patience, Clock::time_point now);
+  std::vector<StreamPeer*> remove_stalled(std::chrono::milliseconds patience, Clock::time_point now);
 
  private:
   /// When sending takes longer than frames do to come, they gather into longer batches instead of a longer queue.

@@ -16,7 +16,7 @@ using Clock = Stream::Clock;
 Error has_ended() { return {ErrorCode::missing, "", "the stream has ended"}; }
 Error has_no_frame() { return {ErrorCode::empty, "/frames", "there is no frame in it"}; }
 
-void close_as_slow(StreamClient& client) {
+void close_as_slow(StreamPeer& client) {
   client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: come back later"});
 }
 
@@ -135,7 +135,7 @@ Result<PublishReceipt> Stream::publish_request(const std::vector<TimedFrame>& fr
   return take(Source::request, std::get<std::uint64_t>(placement), std::move(placed), now);
 }
 
-std::optional<SourceArbiter::Refusal> Stream::publish(StreamClient& client, std::uint64_t media_time,
+std::optional<SourceArbiter::Refusal> Stream::publish(StreamPeer& client, std::uint64_t media_time,
                                                       const std::vector<TimedFrame>& frames) {
   using Refusal = SourceArbiter::Refusal;
   if (frames.empty()) return Refusal{has_no_frame(), std::nullopt};
@@ -157,7 +157,7 @@ std::optional<SourceArbiter::Refusal> Stream::publish(StreamClient& client, std:
   return std::nullopt;
 }
 
-Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over, StreamClient* publisher) {
+Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over, StreamPeer* publisher) {
   if (ended_) return has_ended();
   auto claim = sources_.claim(source, rate, take_over, Clock::now());
   if (!claim) return std::move(claim).error();
@@ -169,11 +169,11 @@ Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over,
   return claim->ticket;
 }
 
-void Stream::release(StreamClient& publisher) {
+void Stream::release(StreamPeer& publisher) {
   if (sources_.release(publisher.notes().ticket, Clock::now())) publisher_ = nullptr;
 }
 
-Result<Header> Stream::begin_publishing(StreamClient& client, bool take_over) {
+Result<Header> Stream::begin_publishing(StreamPeer& client, bool take_over) {
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
   auto ticket = claim(Source::connection, 0.0, take_over, &client);
@@ -185,7 +185,7 @@ Result<Header> Stream::begin_publishing(StreamClient& client, bool take_over) {
   return header_for(false, StreamCoding::plain);
 }
 
-void Stream::end_publishing(StreamClient& client) {
+void Stream::end_publishing(StreamPeer& client) {
   const std::lock_guard lock(mutex_);
   release(client);
 }
@@ -228,7 +228,7 @@ Clock::time_point Stream::newest_frame_time() const {
 
 // ---- connections
 
-bool Stream::admit(const std::shared_ptr<StreamClient>& client) {
+bool Stream::admit(const std::shared_ptr<StreamPeer>& client) {
   const std::lock_guard lock(mutex_);
   if (ended_ || clients_.size() >= limits_.max_connections) {
     ++counts_.refused;
@@ -238,15 +238,15 @@ bool Stream::admit(const std::shared_ptr<StreamClient>& client) {
   return true;
 }
 
-void Stream::leave(StreamClient& client) {
-  std::shared_ptr<StreamClient> kept;  // let go of after the mutex
+void Stream::leave(StreamPeer& client) {
+  std::shared_ptr<StreamPeer> kept;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   release(client);
   fan_out_.remove(client);
   kept = clients_.remove(client);
 }
 
-void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) {
+void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) {
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
   if (ended_) return;
@@ -271,13 +271,13 @@ void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const He
   fan_out_.add(client, sink, coding, *begin.wire, sent != http::Sent::handed, log_);
 }
 
-void Stream::writable(StreamClient& client) {
+void Stream::writable(StreamPeer& client) {
   const std::lock_guard lock(mutex_);
   fan_out_.writable(client, log_);
 }
 
 void Stream::look_after_connections() {
-  std::vector<std::shared_ptr<StreamClient>> silent;  // let go of after the mutex
+  std::vector<std::shared_ptr<StreamPeer>> silent;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   for (auto* client : fan_out_.remove_stalled(limits_.stalled, now)) {
@@ -338,7 +338,7 @@ Clock::time_point Stream::advance(Clock::time_point now) {
     clients_.begin_slice();
   }
   slice_.send(*lateness_);
-  std::vector<std::shared_ptr<StreamClient>> left;  // let go of after the mutex
+  std::vector<std::shared_ptr<StreamPeer>> left;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   left = clients_.end_slice();
   fan_out_.finish_slice(slice_, log_);

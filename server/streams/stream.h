@@ -16,9 +16,9 @@
 #include "server/streams/client_list.h"
 #include "server/streams/fan_out.h"
 #include "server/streams/source_arbiter.h"
-#include "server/streams/stream_client.h"
 #include "server/streams/stream_info.h"
 #include "server/streams/stream_limits.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 
@@ -67,18 +67,18 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   // ---- connections
 
   /// A new connection, before its hello. False when there are as many as the limit says, or the stream has ended.
-  bool admit(const std::shared_ptr<StreamClient>& client);
+  bool admit(const std::shared_ptr<StreamPeer>& client);
 
   [[nodiscard]] const QuantizerSteps& steps() const override { return steps_; }
   [[nodiscard]] http::OutboxLimits outbox_limits() const override;
   [[nodiscard]] std::uint64_t media_time_now() const override { return media_time_at(began_, Clock::now()); }
-  void subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) override;
-  Result<Header> begin_publishing(StreamClient& client, bool take_over) override;
-  std::optional<SourceArbiter::Refusal> publish(StreamClient& client, std::uint64_t media_time,
+  void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) override;
+  Result<Header> begin_publishing(StreamPeer& client, bool take_over) override;
+  std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                 const std::vector<TimedFrame>& frames) override;
-  void end_publishing(StreamClient& client) override;
-  void writable(StreamClient& client) override;
-  void leave(StreamClient& client) override;
+  void end_publishing(StreamPeer& client) override;
+  void writable(StreamPeer& client) override;
+  void leave(StreamPeer& client) override;
   void answer_dropped() override { ++answers_dropped_; }
 
   // ---- threads of the hub
@@ -98,8 +98,8 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
 
   // All with mutex_ held:
   PublishReceipt take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames, Clock::time_point now);
-  Result<Ticket> claim(Source source, double rate, bool take_over, StreamClient* publisher);
-  void release(StreamClient& publisher);
+  Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
+  void release(StreamPeer& publisher);
   [[nodiscard]] StreamCounts all_counts() const;
   [[nodiscard]] Header header_for(bool recovered, StreamCoding coding) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
@@ -123,7 +123,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   BatchLog log_;
   FanOut fan_out_{counts_};
   ClientList clients_;
-  StreamClient* publisher_ = nullptr;  ///< the connection that holds the stream, if one does
+  StreamPeer* publisher_ = nullptr;  ///< the connection that holds the stream, if one does
   std::shared_ptr<BatchListener> listener_;
   Clock::time_point wanted_ = Clock::time_point::max();  ///< when the sender is to call
   bool ended_ = false;

@@ -161,7 +161,7 @@ void StreamConnection::refuse(StreamErrorCode code, std::string where, std::stri
   send(Message(StreamError{code, std::move(where), std::move(message)}));
 }
 
-// ---- StreamClient
+// ---- StreamPeer
 
 bool StreamConnection::close(const Message& last, http::CloseReason reason) {
   if (closing_.exchange(true)) return false;

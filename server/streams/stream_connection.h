@@ -10,14 +10,14 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
 #include "server/http/websocket_peer.h"
-#include "server/streams/stream_client.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 
 /// One WebSocket of a stream: decodes and checks what the client says, tells the stream, and answers. Shared by the
 /// stream and net's connection. There are thousands of them and most only listen, so what only publishers need is made
 /// when one publishes.
-class StreamConnection : public http::WebSocketPeer, public StreamClient {
+class StreamConnection : public http::WebSocketPeer, public StreamPeer {
  public:
   StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered);
   ~StreamConnection() override;
@@ -33,7 +33,7 @@ class StreamConnection : public http::WebSocketPeer, public StreamClient {
   void writable() override;
   void disconnected() override;
 
-  // ---- StreamClient: any thread
+  // ---- StreamPeer: any thread
   bool close(const Message& last, http::CloseReason reason) override;
 
  private:

@@ -13,13 +13,13 @@
 
 namespace semblante::streams {
 
-class StreamClient;
+class StreamPeer;
 
 /// One subscriber, as the fan-out sees it.
 struct Subscriber {
   static constexpr std::size_t nowhere = SIZE_MAX;
 
-  StreamClient* client = nullptr;
+  StreamPeer* client = nullptr;
   http::WebSocketSink* sink = nullptr;
   std::size_t* slot = nullptr;   ///< where its index in the list is written
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent

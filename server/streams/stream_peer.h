@@ -16,7 +16,7 @@
 namespace semblante::streams {
 
 /// Stream to connection.
-class StreamClient {
+class StreamPeer {
  public:
   static constexpr std::size_t nowhere = SIZE_MAX;
   /// What the stream notes about a connection, so that it needs no map. Guarded by the stream's mutex.
@@ -27,7 +27,7 @@ class StreamClient {
     bool said_hello = false;
   };
 
-  virtual ~StreamClient() = default;
+  virtual ~StreamPeer() = default;
   /// Sends a last message, then closes; false when it was closing already. Any thread, also with the stream's mutex
   /// held: it must not call the stream.
   virtual bool close(const Message& last, http::CloseReason reason) = 0;
@@ -50,19 +50,19 @@ class StreamAccess {
 
   /// A hello asks to subscribe: sends the header, then the join point or the gap since the hello's resume point; the
   /// batches follow that are closed from then on. `sink` stays valid as long as the client.
-  virtual void subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) = 0;
+  virtual void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) = 0;
   /// A hello asks to publish: the header for it. Errors: `mismatch` when another source holds the stream and
   /// `take_over` is not set, `missing` when the stream has ended.
-  virtual Result<Header> begin_publishing(StreamClient& client, bool take_over) = 0;
+  virtual Result<Header> begin_publishing(StreamPeer& client, bool take_over) = 0;
   /// Frames came; `media_time` is by the publisher's clock, 0: now. Nothing when they were taken.
-  virtual std::optional<SourceArbiter::Refusal> publish(StreamClient& client, std::uint64_t media_time,
+  virtual std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                         const std::vector<TimedFrame>& frames) = 0;
   /// A publisher has finished; the next one need not wait until its socket is closed.
-  virtual void end_publishing(StreamClient& client) = 0;
+  virtual void end_publishing(StreamPeer& client) = 0;
   /// All that waited for the client has gone to the kernel.
-  virtual void writable(StreamClient& client) = 0;
+  virtual void writable(StreamPeer& client) = 0;
   /// The socket is gone. No event follows.
-  virtual void leave(StreamClient& client) = 0;
+  virtual void leave(StreamPeer& client) = 0;
   /// An answer was not sent because the client read none of many before it.
   virtual void answer_dropped() = 0;
 };

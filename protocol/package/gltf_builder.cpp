@@ -1,4 +1,4 @@
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 
 #include <algorithm>
 #include <cstring>
@@ -61,7 +61,7 @@ int vector_type(int components) {
 
 }  // namespace
 
-class GltfDocument::Content {
+class GltfBuilder::Content {
  public:
   Content(const std::vector<Material>& materials, const std::vector<Image>& images) {
     gltf_.asset.version = "2.0";
@@ -303,29 +303,29 @@ class GltfDocument::Content {
   std::size_t first_joint_ = 0;  ///< node of the skin's first joint
 };
 
-GltfDocument::GltfDocument(const std::vector<Material>& materials, const std::vector<Image>& images)
+GltfBuilder::GltfBuilder(const std::vector<Material>& materials, const std::vector<Image>& images)
     : content_(std::make_unique<Content>(materials, images)) {}
 
-GltfDocument::~GltfDocument() = default;
+GltfBuilder::~GltfBuilder() = default;
 
-Status GltfDocument::add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
+Status GltfBuilder::add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
   return content_->add_draco_primitive(slice, attributes);
 }
 
-void GltfDocument::add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
+void GltfBuilder::add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
   content_->add_plain_primitive(slice, attributes);
 }
 
-void GltfDocument::set_rig(const std::string& rig_json) { content_->set_rig(rig_json); }
+void GltfBuilder::set_rig(const std::string& rig_json) { content_->set_rig(rig_json); }
 
-void GltfDocument::set_skin(std::span<const GltfJoint> joints) { content_->set_skin(joints); }
+void GltfBuilder::set_skin(std::span<const GltfJoint> joints) { content_->set_skin(joints); }
 
-void GltfDocument::add_animation(const std::string& name, std::span<const GltfChannel> channels) {
+void GltfBuilder::add_animation(const std::string& name, std::span<const GltfChannel> channels) {
   content_->add_animation(name, channels);
 }
 
-void GltfDocument::set_asset_extras(const std::string& json) { content_->set_asset_extras(json); }
+void GltfBuilder::set_asset_extras(const std::string& json) { content_->set_asset_extras(json); }
 
-Result<std::vector<std::uint8_t>> GltfDocument::finish() { return content_->finish(); }
+Result<std::vector<std::uint8_t>> GltfBuilder::finish() { return content_->finish(); }
 
 }  // namespace semblante

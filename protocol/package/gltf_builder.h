@@ -38,12 +38,12 @@ struct GltfChannel {
 
 /// A glTF 2.0 document in the making: one mesh named "face" in one scene, its materials and images. tinygltf's types
 /// stay behind it.
-class GltfDocument {
+class GltfBuilder {
  public:
-  GltfDocument(const std::vector<Material>& materials, const std::vector<Image>& images);
-  ~GltfDocument();
-  GltfDocument(const GltfDocument&) = delete;
-  GltfDocument& operator=(const GltfDocument&) = delete;
+  GltfBuilder(const std::vector<Material>& materials, const std::vector<Image>& images);
+  ~GltfBuilder();
+  GltfBuilder(const GltfBuilder&) = delete;
+  GltfBuilder& operator=(const GltfBuilder&) = delete;
 
   Status add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
   void add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
