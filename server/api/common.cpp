@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t default_page = 50;
 constexpr std::size_t max_page = 200;
-/// A body is to take no more than some 20 MB of memory; a marked head has a few thousand values.
+/// Limits the memory of a parsed body to about 20 MB; a marked head has a few thousand values.
 constexpr std::size_t max_body_values = 200'000;
 constexpr std::size_t max_file_name_bytes = 200;
-/// A request waits for the one that has its key on a worker thread. The body of either is there already, so the wait is
-/// for one creation, which waits for the disk and for no client: milliseconds, seconds for the largest model. The bound
-/// is for a disk that hangs.
+/// A request waits on a worker thread for the request that holds its key. Both bodies have arrived already, so the wait
+/// is for one creation, which depends on the disk but on no client: milliseconds, or seconds for the largest model. The
+/// timeout is for a disk that hangs.
 constexpr std::chrono::seconds longest_key_wait{10};
 
 }  // namespace

@@ -36,7 +36,7 @@ store::SetRecord own_set_of(Context& context, const http::Request& request) {
   refuse("not-found", "there is no expression " + id);
 }
 
-/// What a model's rig says that its sets depend on.
+/// The data of a model's rig that displacement sets depend on.
 Rig rig_of(Context& context, const std::string& id) {
   const auto model = context.store.model(id);
   if (!model) refuse("invalid-argument", "there is no model " + id, "?model");
@@ -53,7 +53,7 @@ Rig rig_of(Context& context, const std::string& id) {
   return rig;
 }
 
-/// The set on one face: model units, stopped where lips meet.
+/// The set applied to one face: in model units, stopped where lips meet.
 answer::Expression::OnModel on_model(const NamedSet& set, const std::string& model, const Rig& rig) {
   const auto worn = on_face(set.view(), rig.fapu, rig.points);
   answer::Members<std::string> skipped;

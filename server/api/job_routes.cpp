@@ -14,7 +14,7 @@
 namespace semblante::api {
 namespace {
 
-/// Budgets of levels of detail: a list, or "auto" for those worth having for a model of that many vertices.
+/// Vertex budgets of the levels of detail: a list, or "auto" for a choice by the model's number of vertices.
 std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vertices) {
   if (lods == "auto") return default_budgets(vertices);
   if (!lods.is_array() || lods.size() > max_levels)

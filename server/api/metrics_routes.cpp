@@ -45,7 +45,7 @@ void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
       writer.sample(jobs.ended(kind.name, state), {{"kind", kind.name}, {"state", to_string(state)}});
 }
 
-/// Streams are summed up: their ids are chosen by clients.
+/// The values are sums over all streams, because clients choose stream ids and a label for each would be unbounded.
 void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
   using streams::source_names;
   std::array<std::uint64_t, streams::source_count + 1> fed{};

@@ -55,8 +55,8 @@ const Format& format_of(const http::Request& request) {
   refuse_damaged(error);
 }
 
-/// What is written chunk by chunk goes through a file, so that a long recording takes no memory and a fault in its
-/// middle is an answer and not half a file.
+/// Exports that are written chunk by chunk go through a temporary file, so that a long recording takes no memory, and a
+/// fault in its middle gives an error answer instead of a truncated file.
 template <class Write>
 http::Body through_a_file(Context& context, Write write) {
   auto file = std::make_shared<http::TemporaryFile>(context.blobs.temporary() / ("export-" + store::random_id()));

@@ -56,7 +56,7 @@ void refuse_damaged(const Error& error) {
 
 std::shared_ptr<const recordings::ByteSource> bytes_of(Context& context, const RecordingStatus& recording) {
   const auto& record = recording.record;
-  // Of one that runs, what is known to be whole.
+  // While it runs: only the durable part.
   const bool runs = record.state == store::RecordingState::recording;
   auto bytes = recordings::open_bytes(context.recorder->path_of(record.id), runs ? record.bytes : UINT64_MAX);
   if (!bytes) refuse_damaged(bytes.error());

@@ -16,11 +16,11 @@
 namespace semblante::api {
 namespace {
 
-/// What arrived, whichever way it was sent.
+/// An uploaded file, sent as a body or in a form.
 struct Upload {
   std::filesystem::path path;
   std::string file_name, name;
-  std::shared_ptr<http::TemporaryFile> extracted;  ///< holds the file of a form's part
+  std::shared_ptr<http::TemporaryFile> extracted;  ///< owns the file of a form's part
 };
 
 Upload take_form(const http::Request& request) {
