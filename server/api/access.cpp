@@ -41,8 +41,8 @@ std::optional<http::Problem> Access::refuse_reading(const http::Request& head) c
                        return item == "*" || http::equal_ignoring_case(item, host);
                      });
   if (known) return std::nullopt;
-  return http::make_problem("foreign-host",
-                            "this server does not go by the name " + std::string(*authority) + " (see --allow-host)");
+  return http::make_problem(
+      "foreign-host", "this server does not accept the host name " + std::string(*authority) + " (see --allow-host)");
 }
 
 std::optional<http::Problem> Access::refuse_changing(const http::Request& head) const {

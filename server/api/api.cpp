@@ -130,9 +130,9 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
   const auto content_type = http::essence(head.header("Content-Type").value_or(""));
   if (!takes(route->body, content_type))
-    return to_response(
-        make_problem("unsupported-media-type",
-                     content_type + " is not read here; send it with Content-Type: " + in_words(route->body.types)));
+    return to_response(make_problem(
+        "unsupported-media-type",
+        content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
   return plan_body(*route, content_type, context_.config.limits);
 }
 
@@ -173,7 +173,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
 
-    return to_response(Refused{make_problem("too-many-requests", "the stream has as many connections as it takes"),
+    return to_response(Refused{make_problem("too-many-requests", "the stream has reached its limit of connections"),
                                connections_retry_after});
   return to_response(make_problem("not-found", "there is no stream " + id));
 }

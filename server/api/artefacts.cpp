@@ -9,7 +9,7 @@ namespace {
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control) {
   const auto path = context.blobs.find(artefact.sha256);
-  if (!path) refuse("internal", "the bytes of this artefact are not in the data folder any more");
+  if (!path) refuse("internal", "the bytes of this artefact are missing in the data folder");
   http::Response response;
   response.headers["Content-Type"] = artefact.content_type;
   response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";

@@ -65,7 +65,7 @@ std::string checked_text(std::string_view value, std::size_t max, const std::str
 }
 
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer) {
-  if (!value.is_string()) refuse("invalid-field", "it must be a text", pointer);
+  if (!value.is_string()) refuse("invalid-field", "it must be a string", pointer);
   return checked_text(std::string_view(value.get_ref<const std::string&>()), max, pointer);
 }
 
@@ -88,7 +88,7 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   const auto earlier = context.store.idempotency(*key);
   if (!earlier) return {std::move(record), std::nullopt, std::move(held)};
   if (earlier->fingerprint != record.fingerprint)
-    refuse("idempotency-key-reused", "this key came with another request before");
+    refuse("idempotency-key-reused", "this Idempotency-Key was used for another request before");
   return {std::nullopt, earlier->resource, std::move(held)};
 }
 

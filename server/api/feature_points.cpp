@@ -65,7 +65,7 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
     // For a placed point these members are ignored.
     if (value.contains("method")) {
       if (!is_one_of(value["method"], proposal_method_names))
-        return fault("/method", "it is no way to propose a point");
+        return fault("/method", "it is not a method of proposing a point");
       proposal.method = value["method"].get<std::string>();
     }
     if (value.contains("confidence")) {
@@ -81,7 +81,7 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
     }
     if (value.contains("remark")) {
       if (!value["remark"].is_string() || value["remark"].get_ref<const std::string&>().size() > max_remark)
-        return fault("/remark", "it must be a text of at most " + std::to_string(max_remark) + " bytes");
+        return fault("/remark", "it must be a string of at most " + std::to_string(max_remark) + " bytes");
       proposal.remark = value["remark"].get<std::string>();
     }
   }
@@ -169,7 +169,7 @@ http::Response put_feature_points(Context& context, http::Request& request) {
     fill_by_mirror(points, VertexPositions(context, model));
   }
   if (!context.store.put_feature_points(model.id, points, model.feature_points_revision))
-    refuse("conflict", "the points were changed by somebody else in the same moment: read them and try again");
+    refuse("conflict", "another request changed the points at the same time: read them and try again");
   return represent_points(context, model_of(context, request));
 }
 

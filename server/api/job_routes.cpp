@@ -60,7 +60,7 @@ jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) 
 
 http::Response earlier_job(Context& context, const std::string& id) {
   if (const auto job = context.jobs.find(id)) return accepted(*job);
-  refuse("conflict", "what this key made has been removed");
+  refuse("conflict", "what this Idempotency-Key created has been removed");
 }
 
 store::JobRecord job_of(Context& context, const http::Request& request) {

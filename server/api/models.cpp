@@ -91,7 +91,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
     job = jobs::new_record(jobs::ImportJob{}, model.id);
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
-    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+    refuse("conflict", "another request changed the model at the same time: read it and try again");
   if (job) context.jobs.enqueue(*job);
   return job;
 }
@@ -103,7 +103,7 @@ std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord&
   const auto job = package_goes ? std::nullopt : make_package_again(context, model);
   if (job) refuse_unless_room(context.jobs);
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
-    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+    refuse("conflict", "another request changed the model at the same time: read it and try again");
   if (job) context.jobs.enqueue(*job);
   return job;
 }
@@ -120,7 +120,7 @@ http::Response list_models(Context& context, http::Request& request) {
   const auto limit = page_size(request);
   const auto after = request.query_value("after").value_or("");
   auto models = context.store.models(after, limit + 1);
-  if (!models) refuse("invalid-argument", "there is no model to go on after", "?after");
+  if (!models) refuse("invalid-argument", "there is no model with this id", "?after");
   answer::Models page{.models = {}, .next = cut_to_page(*models, limit)};
   for (const auto& model : *models) page.models.push_back(represent(model, context.store.artefacts(model.id)));
   return json_response(200, page);
@@ -153,7 +153,7 @@ http::Response patch_model(Context& context, http::Request& request) {
   for (int left = has_more ? attempts : 0; left > 0; --left) {
     if (context.store.edit_model(model.id, name, roles, now.revision)) break;
     if (left == 1 || request.header("If-Match"))
-      refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+      refuse("conflict", "another request changed the model at the same time: read it and try again");
     now = model_of(context, request);
     if (body.contains("roles")) roles = role_changes(body["roles"], now.parts.size());
   }

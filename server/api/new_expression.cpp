@@ -154,13 +154,13 @@ std::string keep(Context& context, std::string_view bytes) {
 http::Response earlier(Context& context, const std::string& id) {
   if (const auto job = context.jobs.find(id)) return accepted(*job);
   if (const auto set = context.store.set(id)) return new_set_response(*set, 201);
-  refuse("conflict", "what this key made has been removed");
+  refuse("conflict", "what this Idempotency-Key created has been removed");
 }
 
 void refuse_too_many(Context& context) {
   const auto most = context.config.limits.max_expressions;
   if (context.store.set_count() >= most)
-    refuse("limit-exceeded", "the server holds its " + std::to_string(most) + " expressions");
+    refuse("limit-exceeded", "the server has reached its limit of " + std::to_string(most) + " expressions");
 }
 
 http::Response create_by_hand(Context& context, const http::Request& request) {
@@ -225,7 +225,7 @@ http::Response create_expression(Context& context, http::Request& request) {
   if (body.contains("displacements")) return create_by_hand(context, request);
   ExampleRequest example = read_options(body);
   if (example.model.empty())
-    refuse("invalid-field", "say \"displacements\", or a \"model\" and its morph \"target\"", "/model");
+    refuse("invalid-field", "give \"displacements\", or a \"model\" and its morph \"target\"", "/model");
   if (example.wish.target.empty())
     refuse("invalid-field", "name a morph target of the model, or send the file of the expression in a form",
            "/target");

@@ -75,12 +75,12 @@ http::Body through_a_file(Context& context, Write write) {
 http::Body clip_of(Context& context, const http::Request& request, const RecordingStatus& recording,
                    const SharedReader& reader, const Cut& cut) {
   const std::string id(request.query_value("model").value_or(recording.record.model));
-  if (id.empty()) refuse("conflict", "the stream had no model: say ?model", "?model");
+  if (id.empty()) refuse("conflict", "the stream had no model: give ?model", "?model");
   const auto model = context.store.model(id);
   if (!model) refuse("not-found", "there is no model " + id, "?model");
   const auto file_of = [&](std::string_view sha256) {
     const auto path = context.blobs.find(sha256);
-    if (!path) refuse("internal", "the bytes of an artefact are not in the data folder any more");
+    if (!path) refuse("internal", "the bytes of an artefact are missing in the data folder");
     return MappedFile(*path);
   };
   const auto artefact = [&](const char* name) {

@@ -67,10 +67,11 @@ http::Response create_stream(Context& context, http::Request& request) {
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) {
     if (const auto earlier = context.hub.info(*check.earlier)) return created(*earlier);
-    refuse("conflict", "what this key made has been removed");
+    refuse("conflict", "what this Idempotency-Key created has been removed");
   }
   if (context.hub.list().size() >= context.config.limits.max_streams)
-    refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_streams) + " streams");
+    refuse("limit-exceeded",
+           "the server has reached its limit of " + std::to_string(context.config.limits.max_streams) + " streams");
   if (check.record) check.record->resource = info.id;
   // Stored before it is opened, so that a stream that a client has seen survives a crash.
   if (context.hub.info(info.id) || !context.store.create_stream({info.id, info.created, info.settings}, check.record))

@@ -46,7 +46,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"worker-limit", 422, "The job used up what it was given"},
     {"cancelled", 409, "It was stopped on request"},
     {"internal", 500, "A fault of the server"},
-    {"overloaded", 503, "The server has as many connections as it takes"},
+    {"overloaded", 503, "The server has reached its limit of connections"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
     {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are spoken here"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},

@@ -39,7 +39,7 @@ struct JobSources {
   const store::BlobStore& blobs;
 };
 
-/// The path of a blob that a job needs. Error: io, "the bytes of <what> are not in the data folder any more".
+/// The path of a blob that a job needs. Error: io, "the bytes of <what> are missing in the data folder".
 Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what);
 /// The model of a job. Error: missing.
 Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources);

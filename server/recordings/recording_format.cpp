@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t at_length = 4, at_crc = 8, at_kind = 12, at_frames = 16, at_lost = 20, at_sequence = 24,
                       at_begin = 32, at_end = 40;
-constexpr std::uint64_t max_number = 9'007'199'254'740'991U;  ///< as sequences and times of messages
+constexpr std::uint64_t max_number = 9'007'199'254'740'991U;  ///< the same limit as in messages
 
 void put_u64(std::uint8_t* to, std::uint64_t value) {
   put_u32(to, static_cast<std::uint32_t>(value));
@@ -37,7 +37,7 @@ std::uint32_t checksum(Bytes chunk) {
   return static_cast<std::uint32_t>(crc32_z(0, chunk.data() + at_kind, chunk.size() - at_kind));
 }
 
-/// Fills in the head before messages that are there already.
+/// Writes the head of a chunk whose messages are complete.
 void finish(std::vector<std::uint8_t>& chunk, const ChunkHead& head) {
   std::copy(chunk_magic.begin(), chunk_magic.end(), chunk.begin());
   put_u32(&chunk[at_length], static_cast<std::uint32_t>(chunk.size() - chunk_head_bytes));
@@ -53,7 +53,7 @@ void finish(std::vector<std::uint8_t>& chunk, const ChunkHead& head) {
 
 Error malformed(std::string message) { return {ErrorCode::malformed, "", std::move(message)}; }
 
-/// The head of a whole chunk, its length and checksum being right.
+/// The head of a complete chunk, after checking its length and checksum.
 Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
   auto head = read_chunk_head(bytes);
   if (!head) return head;
@@ -64,7 +64,7 @@ Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
   return head;
 }
 
-/// Reads messages that have their length before them.
+/// Reads messages with a length prefix.
 class Messages {
  public:
   explicit Messages(Bytes bytes) : reader_(bytes) {}

@@ -70,7 +70,7 @@ std::optional<Error> RecordingReader::walk(Check check) {
       }
       add(chunk);
     } else if (const auto intact = check_chunk(*bytes_, chunk.offset, *head); !intact) {
-      return intact.error();  // frames whose kind was damaged must not be skipped
+      return intact.error();  // a frames chunk with a damaged kind must not be skipped
     }
     whole_bytes_ = end;
   }

@@ -91,7 +91,7 @@ Status RecordingWriter::flush() {
   auto status = write_at(descriptor_, durable_.bytes, chunk);
   if (status && ::fdatasync(descriptor_) != 0) status = io_error("a recording cannot be made durable");
   if (!status) {
-    // Whether it reached the disk nobody knows after a failed sync: what was durable before is what stays.
+    // After a failed sync it is unknown what is durable: only what was durable before counts.
     broken_ = true;
     if (::ftruncate(descriptor_, static_cast<off_t>(durable_.bytes)) == 0) ::fdatasync(descriptor_);
     return status;

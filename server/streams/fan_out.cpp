@@ -9,11 +9,11 @@ namespace {
 
 using Clock = FanOut::Clock;
 
-/// Subscribers served before another stream has its turn.
+/// Subscribers per slice, after which another stream has its turn.
 constexpr std::size_t slice_size = 256;
-/// The clock is read once for so many messages.
+/// The clock is read once per this number of messages.
 constexpr std::size_t messages_per_look = 16;
-/// Outboxes are scattered over memory: those of the next few targets are fetched while one is served.
+/// Outboxes are scattered over memory: those of the next few targets are prefetched.
 constexpr std::size_t looks_ahead = 4;
 
 void fetch(const http::WebSocketSink* sink) {
@@ -109,12 +109,12 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
       if (target.sent == http::Sent::handed) continue;
     }
     const auto slot = target.client->notes().subscriber;
-    if (slot == Subscriber::nowhere) continue;  // it has left meanwhile
+    if (slot == Subscriber::nowhere) continue;  // removed meanwhile
     auto& subscriber = subscribers_[slot];
     subscriber.waits = true;
     if (target.sent != http::Sent::refused) continue;
     subscriber.behind = true;
-    // It may have become writable since; then nothing else would report it.
+    // The socket may have become writable meanwhile; no other event would report that.
     if (subscriber.sink->idle()) send_newest(subscriber, log);
   }
   slice.wires_ = {};

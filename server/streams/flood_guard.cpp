@@ -5,7 +5,7 @@
 namespace semblante::streams {
 namespace {
 
-/// A flood has ended when nothing was left out for so long; and messages about one flood are so far apart.
+/// A flood has ended when no frame was dropped for this time; also the minimum interval of messages about one flood.
 constexpr std::chrono::milliseconds pause{1000};
 
 }  // namespace

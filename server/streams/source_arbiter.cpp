@@ -9,7 +9,7 @@ namespace {
 
 using Clock = SourceArbiter::Clock;
 
-constexpr double filling_rate = 25.0;  ///< frames a second
+constexpr double filling_rate = 25.0;  ///< frames per second
 
 SourceArbiter::Placement placement(Result<std::uint64_t> media_time) {
   if (!media_time) return SourceArbiter::Refusal{std::move(media_time).error(), std::nullopt};
@@ -50,7 +50,7 @@ Result<SourceArbiter::Claim> SourceArbiter::claim(Source source, double rate, bo
 
 bool SourceArbiter::release(Ticket ticket, Clock::time_point now) {
   if (!holder_ || holder_->ticket != ticket) return false;
-  // A publisher's silence began with its last frame. What plays may have been between two frames.
+  // The silence of a publisher begins with its last frame; a player may be between two frames.
   if (holder_->source != Source::connection) heard(false, now);
   holder_.reset();
   return true;
@@ -67,7 +67,7 @@ SourceArbiter::Placement SourceArbiter::place_published(Ticket ticket, std::uint
   if (const auto verdict = holder_->guard.offer(frames.size(), now); verdict != FloodGuard::Verdict::take) {
     auto refusal = too_many(holder_->guard, verdict);
     if (verdict == FloodGuard::Verdict::close) {
-      // It was heard until now, even if its frames were left out.
+      // The publisher counts as active until now, even if its frames were dropped.
       heard(false, now);
       holder_.reset();
     }

@@ -14,15 +14,15 @@ namespace {
 using Clock = Stream::Clock;
 
 Error has_ended() { return {ErrorCode::missing, "", "the stream has ended"}; }
-Error has_no_frame() { return {ErrorCode::empty, "/frames", "there is no frame in it"}; }
+Error has_no_frame() { return {ErrorCode::empty, "/frames", "there are no frames"}; }
 
 void close_as_slow(StreamPeer& client) {
-  client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: come back later"});
+  client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: reconnect later"});
 }
 
 }  // namespace
 
-/// Sends what was taken when there is no sender to do it. Declared before the lock, so that it runs after the mutex has
+/// Sends accepted frames when the stream has no sender. Declared before the lock, so that it runs after the mutex has
 /// been released.
 class Stream::SendAfter {
  public:
@@ -60,7 +60,7 @@ http::OutboxLimits Stream::outbox_limits() const {
   return limits;
 }
 
-// ---- what it says about itself
+// ---- status
 
 StreamInfo Stream::info() const {
   StreamInfo info = made_;
@@ -112,7 +112,7 @@ PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector
   counts_.clamped_values += clamped;
   counts_.frames += frames.size();
   counts_.frames_by_source[static_cast<std::size_t>(source)] += frames.size();
-  // Before they gather: a frame that a client was told is taken must be in a recording that ends now.
+  // The listener is called first: a frame that is acknowledged to a client must be in a recording that ends now.
   if (listener_) listener_->taken(made_.id, made_.epoch, {log_.taken() + 1, media_time, frames});
   if (auto full = log_.add(media_time, frames, now)) fan_out_.push(std::move(full));
   if (made_.settings.batch_interval == 0 && fan_out_.has_room()) fan_out_.push(log_.close(now, now));
@@ -201,7 +201,7 @@ Status Stream::publish_playing(Ticket ticket, Clock::time_point when, const Time
   const auto now = Clock::now();
   const auto source = sources_.active(now);
   const auto media_time = ended_ ? std::nullopt : sources_.place_played(ticket, when, now);
-  if (!media_time) return Error{ErrorCode::mismatch, "", "it plays no more"};
+  if (!media_time) return Error{ErrorCode::mismatch, "", "the play has ended"};
   take(*source, *media_time, {frame}, now);
   return Unit{};
 }
@@ -263,7 +263,7 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
   const auto sent = sink.send(begin.wire, http::Purpose::answer);
   if (sent == http::Sent::closed) return;
   if (sent == http::Sent::refused) {
-    // It has read nothing of many answers before its hello. Batches without a beginning are no use to it.
+    // It has not read the many answers before its hello, and batches without a beginning cannot be decoded.
     ++counts_.closed_slow;
     close_as_slow(client);
     return;
@@ -286,14 +286,14 @@ void Stream::look_after_connections() {
   }
   silent = clients_.silent(limits_.hello_time, now);
   for (const auto& client : silent) {
-    if (client->close(Message(StreamError{StreamErrorCode::missing, "", "no hello came in time"}),
-                      {1008, "no hello came in time"}))
+    if (client->close(Message(StreamError{StreamErrorCode::missing, "", "no hello received in time"}),
+                      {1008, "no hello received in time"}))
       ++counts_.closed_silent;
   }
 }
 
 void Stream::end(EndReason reason) {
-  // The slice under way, if there is one, is finished: what follows comes behind it.
+  // Waits for the slice that is being sent: later messages must follow it.
   const std::lock_guard pass(pass_mutex_);
   const std::lock_guard lock(mutex_);
   if (ended_) return;
@@ -305,7 +305,7 @@ void Stream::end(EndReason reason) {
   const bool stops = reason == EndReason::shutdown;
   for (const auto& client : clients_.all())
     client->close(Message(End{reason}), {static_cast<std::uint16_t>(stops ? 1001 : 1000),
-                                         stops ? "the server stops" : "the stream has ended"});
+                                         stops ? "the server is shutting down" : "the stream has ended"});
   counts_.closed_ended += clients_.size();
   fan_out_.remove_all();
 }
