@@ -102,7 +102,7 @@ Cancelled JobQueue::cancel(std::string_view id) {
   try {
     return pending_.with_reserve([&] { return store_.request_cancel(id); }) ? Cancelled::recorded : Cancelled::none;
   } catch (const store::StoreError& fault) {
-    pending_.note(fault);  // its end is recorded as soon as its worker is gone and the store can be written
+    pending_.note(fault);  // its end is stored when its worker has ended and the store can be written
     return Cancelled::pending;
   }
 }

@@ -22,7 +22,7 @@ void limit(int what, std::uint64_t value) {
   setrlimit(static_cast<__rlimit_resource>(what), &limits);
 }
 
-/// The whole line at once: a line that is cut by a crash must not look like another.
+/// Writes the whole line with one call: a line cut off by a crash must not look like another one.
 void say(const WorkerLine& line) {
   const auto text = to_json_line(line);
   std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
@@ -36,7 +36,7 @@ int report(http::Problem problem) {
 }  // namespace
 
 void limit_this_process(const WorkerLimits& limits) {
-  // A server that is killed cannot stop its workers: the kernel does it.
+  // The kernel kills the worker when its server is killed.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_CPU, limits.cpu_seconds);
