@@ -23,7 +23,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
 
 enum class RangeKind { none, satisfiable, outside };
 
-/// A Range that is not of the form `bytes=a-b` is ignored, as the RFC asks.
+/// A Range that is not of the form `bytes=a-b` is ignored, as the RFC requires.
 RangeKind parse_range(std::string_view value, std::uint64_t size, ByteRange& out) {
   constexpr std::string_view unit = "bytes=";
   if (value.substr(0, unit.size()) != unit) return RangeKind::none;

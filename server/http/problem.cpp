@@ -110,7 +110,7 @@ Problem make_problem(std::string_view slug, std::string detail, std::string poin
 }
 
 Problem problem_from(const Error& error) {
-  // What points at a feature point is about that point, whatever went wrong with it.
+  // Every error at a feature point gets the problem of feature points.
   const bool about_point = error.where.rfind("/points", 0) == 0 && error.code != ErrorCode::missing;
   return make_problem(about_point ? "invalid-feature-point" : slug_of(error.code), error.message, error.where);
 }

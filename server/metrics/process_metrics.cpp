@@ -14,7 +14,7 @@
 namespace semblante::metrics {
 namespace {
 
-/// Fields of /proc/self/stat after the command's name, which may hold blanks: field 3 (the state) is the first.
+/// Fields of /proc/self/stat after the command's name, which may contain blanks: field 3 (the state) is the first.
 std::vector<std::string> stat_fields() {
   std::ifstream file("/proc/self/stat");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -36,7 +36,7 @@ std::optional<double> number(const std::vector<std::string>& fields, std::size_t
   return value;
 }
 
-/// Seconds since 1970 when the machine started.
+/// When the machine started, seconds since 1970.
 std::optional<double> boot_time() {
   std::ifstream file("/proc/stat");
   for (std::string line; std::getline(file, line);) {
@@ -55,7 +55,7 @@ std::optional<double> open_descriptors() {
        entry.increment(error))
     ++count;
   if (error || count == 0.0) return std::nullopt;
-  return count - 1.0;  // the one that reads the folder
+  return count - 1.0;  // without the descriptor that reads the folder
 }
 
 }  // namespace
