@@ -26,10 +26,10 @@ std::string grace_text(std::chrono::seconds grace) {
                                       : count_of(static_cast<std::uint64_t>(seconds), "second"));
 }
 
-/// What there is to say about the database; empty when it is the one that worked here last.
+/// What is unusual about the database; empty when it is the one last used in this folder.
 std::string strangeness(const store::DatabaseIdentity& now, const std::optional<store::DatabaseIdentity>& last) {
   if (now.starts == 0) return "is new";
-  if (!last) return {};  // written by a version that did not note it
+  if (!last) return {};  // written by a version without this file
   if (now.id != last->id) return "is not the one that worked in this folder last";
   if (now.starts < last->starts) return "is an older copy of the one that worked in this folder last";
   return {};
@@ -87,7 +87,7 @@ void report_moved(const std::filesystem::path& data, const store::Trash& trash, 
       "trash by itself");
 }
 
-/// Notes that this database works here now.
+/// Stores that this database is used in this folder now.
 void count_start(const std::filesystem::path& data, store::DatabaseFacts& store) {
   try {
     if (const auto noted = write_last_database(data, store.count_start()); !noted)
