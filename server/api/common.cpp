@@ -72,7 +72,7 @@ std::string checked_text(const JsonBody& value, std::size_t max, const std::stri
 void check_if_match(const http::Request& request, const std::string& etag) {
   const auto match = request.header("If-Match");
   if (match && !http::etag_matches(*match, etag, false))
-    refuse("precondition-failed", "the resource has the tag " + etag + " now");
+    refuse("precondition-failed", "the ETag of the resource is " + etag + " now");
 }
 
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash) {

@@ -112,8 +112,7 @@ std::vector<store::FeaturePointRecord> read_points(const JsonBody& body, std::ui
 void refuse_other_frames(const JsonBody& body) {
   static const JsonBody identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   if (body.contains("to_mpeg4_axes") && !body["to_mpeg4_axes"].is_null() && body["to_mpeg4_axes"] != identity)
-    refuse("invalid-field",
-           "only models that stand in MPEG-4's axes are taken: +X to the face's left, +Y up, +Z out of it",
+    refuse("invalid-field", "only models in MPEG-4's axes are accepted: +X to the face's left, +Y up, +Z out of it",
            "/to_mpeg4_axes");
   if (body.contains("vertex_index_base") && body["vertex_index_base"] != 0)
     refuse("invalid-field", "it must be 0: vertices count from 0", "/vertex_index_base");

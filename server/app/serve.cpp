@@ -42,10 +42,9 @@ std::string checked_address(std::string address) {
   if (!is_four && !is_six) fail_input("--address: " + address + " is not an IP address");
   const bool loopback = is_four ? (ntohl(four.s_addr) >> 24U) == 127U : IN6_IS_ADDR_LOOPBACK(&six);
   if (!loopback)
-    fail_input(
-        "--address: " + address +
-        " can be reached from other machines, and this server asks nobody who they are; use 127.0.0.1 or ::1 and "
-        "put a proxy that does in front of it");
+    fail_input("--address: " + address +
+               " can be reached from other machines, and this server has no authentication; use 127.0.0.1 or ::1 and "
+               "put a proxy with authentication in front of it");
   return address;
 }
 
@@ -128,10 +127,10 @@ void write_net_metrics(metrics::TextWriter& writer, const net::ServerCounts& cou
   using metrics::MetricType;
   writer.single("semblante_connections", MetricType::gauge, "Connections open, WebSockets among them.",
                 counts.connections_open);
-  writer.single("semblante_connections_accepted_total", MetricType::counter, "Connections that came.",
+  writer.single("semblante_connections_accepted_total", MetricType::counter, "Connections accepted.",
                 counts.connections_total);
   writer.single("semblante_connections_refused_total", MetricType::counter,
-                "Connections turned away because as many were open as are served.", counts.connections_refused);
+                "Connections refused because of the limit of open connections.", counts.connections_refused);
   writer.single("semblante_websockets", MetricType::gauge, "WebSockets open.", counts.websockets_open);
 }
 
@@ -144,7 +143,7 @@ std::string url_of(const std::string& address, std::uint16_t port) {
 
 void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
-  if (!level) fail_input("--log-level: " + options.log_level + " is none of debug, info, warning, error");
+  if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
   log::set_level(*level);
   std::signal(SIGPIPE,
               SIG_IGN);  // a write to a dead worker or closed connection must return an error, not end the server
@@ -165,7 +164,7 @@ void run_serve(const ServeOptions& options) {
   bring_files_in_line(options.data, **store, *trash);
   const store::TrashPurger purger(*trash, purge_interval, [](const store::Trash::Counts& removed) {
     log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
-              " bytes) removed from the trash: their time of grace is over");
+              " bytes) removed from the trash after the grace period");
   });
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});

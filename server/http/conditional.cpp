@@ -76,7 +76,7 @@ Response apply_conditions(const Request& request, Response response) {
   const std::string etag = etag_field->second;
 
   if (const auto match = request.header("If-Match"); match && !etag_matches(*match, etag, false))
-    return to_response(make_problem("precondition-failed", "the resource has the tag " + etag));
+    return to_response(make_problem("precondition-failed", "the ETag of the resource is " + etag));
   if (const auto none = request.header("If-None-Match"); none && etag_matches(*none, etag, true))
     return not_modified(response);
 

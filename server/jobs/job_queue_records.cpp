@@ -22,7 +22,7 @@ JobQueue::Unrecorded JobQueue::after_store_error(const Running& running, const J
     const std::lock_guard lock(mutex_);
     shortages = shortages_[job.id] += attempt.has_begun() ? 1 : 0;
   }
-  log::warning("job " + job.id + " has to wait for the disk: " + fault.what());
+  log::warning("job " + job.id + " waits for the disk: " + fault.what());
   if (shortages >= config_.max_attempts)
     return ending(job, JobState::failed,
                   disk_full ? http::make_problem("insufficient-storage", "the disk had no room for what it makes, " +

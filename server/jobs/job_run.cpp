@@ -108,7 +108,7 @@ std::optional<JobRecord> JobRun::work(const JobRecord& job, const WorkerRequest&
   }
   const bool cancelled = exit->kind == WorkerExit::Kind::cancelled;
   if (!cancelled && !exit->last_words.empty())
-    log::warning("the worker of job " + job.id + " said: " + exit->last_words);
+    log::warning("the worker of job " + job.id + " wrote: " + exit->last_words);
   return ended_job(job, cancelled ? JobState::cancelled : JobState::failed, problem_of(*exit));
 }
 
@@ -123,7 +123,7 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
     case WorkerExit::Kind::signalled:
       if (exit.code == SIGXCPU)
         return http::make_problem(
-            "worker-limit", "it used up its " + std::to_string(limits.cpu_seconds) + " s of processor time (SIGXCPU)");
+            "worker-limit", "it exceeded its " + std::to_string(limits.cpu_seconds) + " s of processor time (SIGXCPU)");
       if (exit.code == SIGXFSZ)
         return http::make_problem(
             "worker-limit", "it wrote a file of more than " + std::to_string(limits.file_bytes) + " bytes (SIGXFSZ)");
@@ -162,7 +162,7 @@ std::optional<http::Problem> JobRun::adopt_artefacts(const WorkerRequest& reques
     const std::filesystem::path name(artefact.name);
     auto blob = name.filename() == name ? blobs_.adopt(request.output_directory / name)
                                         : Result<store::Blob>(Error{ErrorCode::internal, "", "a path for a name"});
-    if (!blob) return http::make_problem("internal", "a result could not be kept: " + blob.error().message);
+    if (!blob) return http::make_problem("internal", "a result could not be stored: " + blob.error().message);
     artefact.sha256 = blob->sha256;
     artefact.bytes = blob->bytes;
     adopted_bytes_ += blob->bytes;

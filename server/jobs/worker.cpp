@@ -48,7 +48,7 @@ void limit_this_process(const WorkerLimits& limits) {
 int run_worker() {
   const std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
   const auto request = worker_request_from_json(text);
-  if (!request) return report(http::make_problem("internal", "the worker was asked nothing it knows"));
+  if (!request) return report(http::make_problem("internal", "the worker cannot read its request"));
   const Progress progress = [](double share, std::string_view stage) {
     say(WorkerProgress{share, std::string(stage)});
     return true;
@@ -64,7 +64,7 @@ int run_worker() {
   } catch (const store::DiskFull& fault) {
     return report(http::make_problem("insufficient-storage", fault.what()));
   } catch (const std::exception& fault) {
-    return report(http::make_problem("worker-crashed", std::string("a fault of the program: ") + fault.what()));
+    return report(http::make_problem("worker-crashed", std::string("an internal error: ") + fault.what()));
   }
 }
 

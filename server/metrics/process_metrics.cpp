@@ -81,7 +81,7 @@ void write_process_metrics(TextWriter& writer) {
         sum(boot_time(), product(number(fields, 22), 1.0 / ticks)));
   write("process_threads", MetricType::gauge, "Threads of the process.", number(fields, 20));
   write("process_virtual_memory_bytes", MetricType::gauge, "Address space of the process.", number(fields, 23));
-  write("process_resident_memory_bytes", MetricType::gauge, "Memory of the process that lies in RAM.",
+  write("process_resident_memory_bytes", MetricType::gauge, "Resident memory of the process.",
         product(number(fields, 24), page));
   write("process_open_fds", MetricType::gauge, "Open file descriptors of the process.", open_descriptors());
   rlimit limit{};

@@ -186,7 +186,7 @@ class Session {
       co_return Unread{http::make_problem("length-required", "the request has neither Content-Length nor chunks")};
     if (const auto expect = request.header("Expect")) {
       if (!http::equal_ignoring_case(*expect, "100-continue"))
-        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is known")};
+        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
       stream_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
       error_code error;
@@ -207,7 +207,7 @@ class Session {
     constexpr std::size_t key_characters = 24;  // 16 bytes in base64
     if (request.header("Sec-WebSocket-Version").value_or("") != "13") {
       auto response = http::to_response(
-          http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the one that is spoken here"));
+          http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the only supported one"));
       response.headers["Sec-WebSocket-Version"] = "13";
       return response;
     }

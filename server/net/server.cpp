@@ -36,8 +36,7 @@ namespace {
 
 /// Answers a connection over the limit with 503 and closes it.
 asio::awaitable<void> turn_away(tcp::socket socket) {
-  const auto body =
-      std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again in a moment")).body);
+  const auto body = std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again later")).body);
   const std::string text =
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/problem+json\r\nRetry-After: 1\r\nConnection: "
       "close\r\nContent-Length: " +

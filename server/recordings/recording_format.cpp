@@ -59,8 +59,8 @@ Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
   if (!head) return head;
   if (bytes.size() - chunk_head_bytes < head->bytes) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
   if (!has_right_checksum(bytes.first(chunk_head_bytes + head->bytes)))
-    return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
-  if (head->kind != kind) return malformed("a chunk of another kind is expected");
+    return Error{ErrorCode::mismatch, "", "the checksum of the chunk is wrong"};
+  if (head->kind != kind) return malformed("unexpected kind of chunk");
   return head;
 }
 
@@ -132,11 +132,11 @@ Result<ChunkHead> read_chunk_head(Bytes bytes) {
   head.sequence = get_u64(&bytes[at_sequence]);
   head.begin = get_u64(&bytes[at_begin]);
   head.end = get_u64(&bytes[at_end]);
-  if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk says it is too long"};
+  if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk's length is over the limit"};
   if (head.kind != ChunkKind::frames) return head;
   const bool in_range = head.frames >= 1 && head.frames <= max_chunk_frames && head.sequence <= max_number &&
                         head.end <= max_number && head.begin <= head.end;
-  if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk says what cannot be"};
+  if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk has impossible values"};
   return head;
 }
 
@@ -152,7 +152,7 @@ Result<Header> read_header_chunk(Bytes bytes) {
   auto message = messages.next();
   if (!message) return message.error();
   if (auto* header = std::get_if<Header>(&*message)) return std::move(*header);
-  return malformed("the first chunk holds no header");
+  return malformed("the first chunk has no header");
 }
 
 Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
@@ -177,7 +177,7 @@ Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
   const bool in_order =
       std::is_sorted(frames.begin(), frames.end(),
                      [](const RecordingFrame& a, const RecordingFrame& b) { return a.media_time < b.media_time; });
-  if (!as_said || !in_order) return malformed("the frames of a chunk are not what its head says");
+  if (!as_said || !in_order) return malformed("the frames of a chunk do not match its head");
   return frames;
 }
 

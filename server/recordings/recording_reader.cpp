@@ -23,7 +23,7 @@ Result<std::vector<std::uint8_t>> read_chunk(const ByteSource& from, std::uint64
 Status check_chunk(const ByteSource& from, std::uint64_t offset, const ChunkHead& head) {
   const auto bytes = read_chunk(from, offset, head);
   if (!bytes) return bytes.error();
-  if (!has_right_checksum(*bytes)) return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
+  if (!has_right_checksum(*bytes)) return Error{ErrorCode::mismatch, "", "the checksum of the chunk is wrong"};
   return Unit{};
 }
 

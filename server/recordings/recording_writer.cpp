@@ -76,7 +76,7 @@ Status RecordingWriter::add(const Frames& batch) {
     const std::uint64_t time = std::max(last_time_, batch.media_time + frame.time);
     if (is_first) first_time_ = time;
     if (time - first_time_ > max_recording_ms)
-      return Error{ErrorCode::out_of_range, "", "a recording lasts a day at most"};
+      return Error{ErrorCode::out_of_range, "", "a recording is limited to one day"};
     waiting_.push_back({sequence, time, frame.state});
     last_sequence_ = sequence++;
     last_time_ = time;
