@@ -87,7 +87,7 @@ class GltfBuilder::Content {
     }
     auto bytes = encode_draco(slice.vertices.size(), slice.triangles, inputs);
     if (!bytes) return bytes.error();
-    // The accessors must state what a decoder will find, and Draco may split or drop vertices.
+    // The accessors must match the decoded data, and Draco may split or drop vertices.
     const auto decoded = DracoMesh::decode(*bytes);
     if (!decoded) return decoded.error();
 
@@ -225,7 +225,7 @@ class GltfBuilder::Content {
     accessor.componentType = component_type(attribute.type);
     accessor.normalized = attribute.normalized;
     accessor.type = vector_type(attribute.components);
-    if (attribute.name == "POSITION") {  // glTF demands the bounds of positions
+    if (attribute.name == "POSITION") {  // glTF requires the bounds of positions
       accessor.minValues.assign(3, std::numeric_limits<double>::max());
       accessor.maxValues.assign(3, std::numeric_limits<double>::lowest());
       for (std::size_t i = 0; i < attribute.bytes.size() / sizeof(float); ++i) {
@@ -238,7 +238,7 @@ class GltfBuilder::Content {
     return add(accessor);
   }
 
-  /// `before`: floats of the view that come earlier.
+  /// `before`: number of earlier floats in the view.
   static tinygltf::Accessor floats(int view, std::size_t before, std::size_t count, int components) {
     tinygltf::Accessor accessor;
     accessor.bufferView = view;
@@ -251,7 +251,7 @@ class GltfBuilder::Content {
 
   int add_view(std::span<const std::byte> bytes, int target) {
     std::vector<unsigned char>& data = gltf_.buffers[0].data;
-    data.resize((data.size() + 3) / 4 * 4);  // accessors want their component size, images do not mind
+    data.resize((data.size() + 3) / 4 * 4);  // accessors need alignment to their component size
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = data.size();

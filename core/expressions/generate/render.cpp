@@ -57,7 +57,7 @@ AuthoredSet read_set(const json& entry, const std::map<std::string, Displacement
     add(set.displacements, action->second, amount.get<double>());
   }
   add(set.displacements, read_displacements(entry.value("displacements", json::object())), 1.0);
-  // Whole units are fine enough (a unit is about 0.02 mm), and keep the table readable.
+  // Whole units are precise enough (a unit is about 0.02 mm) and readable.
   for (auto& [point, d] : set.displacements) {
     for (double& component : d) component = std::round(component) + 0.0;  // + 0.0: no negative zero
   }
@@ -65,12 +65,11 @@ AuthoredSet read_set(const json& entry, const std::map<std::string, Displacement
   return set;
 }
 
-/// A motion of eyes, cheeks or nose below this goes unseen while the mouth moves; FAPU units.
+/// A motion of eyes, cheeks or nose below this is not noticed while the mouth moves; FAPU units.
 constexpr double unseen = 50.0;
 
-/// Where a viseme moves a point that an expression moves too, Eq. 5 leaves 15 % of the expression. So a viseme says
-/// nothing of eyes, cheeks and nose unless it moves them by more than goes unseen: a smile keeps its cheeks while it
-/// talks.
+/// If a viseme and an expression move the same point, Eq. 5 keeps only 15 % of the expression. So a viseme omits points
+/// of eyes, cheeks and nose with displacements too small to notice: a smile keeps its cheeks during speech.
 void leave_to_expressions(AuthoredSet& viseme) {
   std::erase_if(viseme.displacements, [](const auto& item) {
     const auto& [point, d] = item;
