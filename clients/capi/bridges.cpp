@@ -16,7 +16,7 @@ using semblante::capi::copy_text;
 
 static_assert(semblante::arkit_count == 52 && semblante::oculus_count == 15, "as the header says");
 
-/// Runs `make`, which gives a Result of something with a frame; no exception leaves.
+/// Runs `make`, which returns a Result of a value with a frame; catches all exceptions.
 template <class Make>
 semblante_result make_frame(semblante_frame* frame, semblante_error* error, const Make& make) {
   try {

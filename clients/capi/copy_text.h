@@ -7,7 +7,7 @@
 
 namespace semblante::capi {
 
-/// A text into a field of a C struct: cut to what fits, and ended by 0.
+/// Copies a text to a field of a C struct: truncated to its size, and zero-terminated.
 template <std::size_t N>
 void copy_text(char (&to)[N], std::string_view text) {
   const std::size_t length = std::min(text.size(), N - 1);

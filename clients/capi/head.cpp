@@ -100,7 +100,7 @@ void fill_face(semblante_head& head) {
   head.face.row_points = head.points.data();
   head.face.row_weights = head.table.rows.weights.data();
   head.face.rigid = head.table.rigid.data();
-  // Cannot be 0: decode_weights lets no row pass whose points do not rise.
+  // Cannot be 0: decode_weights refuses rows whose points are not rising.
   head.prepared_memory.reset(::operator new (semblante_prepared_size(&head.face), std::align_val_t{64}));
   head.prepared = semblante_prepare(&head.face, head.prepared_memory.get());
 }
@@ -235,7 +235,7 @@ semblante_result semblante_head_create(const semblante_package* package, const s
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "head", "there is nowhere to put the head");
   }
   *head = nullptr;
-  // JSON and containers report by exceptions; none may leave.
+  // JSON and containers throw; no exception may cross the C boundary.
   try {
     if (const semblante_result checked = check_arguments(package, options, error); checked != SEMBLANTE_OK) {
       return checked;

@@ -1,8 +1,8 @@
 /* The C SDK of Semblante: a face package in, moving vertices out.
  *
- * The caller fetches the package by its own means (HTTP), decodes mesh.drc by its own means (Draco) and hands the
- * bytes over. From then on: frame in, positions out. No network, no files, no threads, no logging, no locale, no
- * callbacks; no exception ever crosses this boundary. Options and structs are valid when zeroed.
+ * The caller fetches the package (HTTP), decodes mesh.drc (Draco) and passes the bytes. From then on: frame in,
+ * positions out. No network, no files, no threads, no logging, no locale, no callbacks; no exception ever crosses this
+ * boundary. Options and structs are valid when zeroed.
  *
  *   semblante_package package = {0};
  *   package.positions = positions;  package.vertex_count = n;   // decoded mesh.drc, in decoded order
@@ -36,20 +36,22 @@ extern "C" {
 
 #define SEMBLANTE_SDK_VERSION 0x000100u /* 0.1.0: 8 bits each */
 
-/* What was wrong. Values never change; new ones are added at the end. */
+/* Result codes. Values never change; new ones are added at the end. */
 typedef enum semblante_result {
   SEMBLANTE_OK = 0,
-  SEMBLANTE_INVALID_ARGUMENT = 1, /* a null that may not be, a number that is not finite, a value out of its range */
-  SEMBLANTE_MALFORMED = 2,        /* the bytes are not of the format they claim, or end early */
-  SEMBLANTE_UNSUPPORTED = 3,      /* a version this SDK does not read */
-  SEMBLANTE_MISMATCH = 4,         /* mesh, weights and rig are not of one package */
-  SEMBLANTE_TOO_LARGE = 5,        /* over a documented limit (4 million vertices, 48 million weights) */
+  SEMBLANTE_INVALID_ARGUMENT =
+      1,                     /* a null that is not allowed, a number that is not finite, a value out of its range */
+  SEMBLANTE_MALFORMED = 2,   /* the bytes are not of the format they claim, or end early */
+  SEMBLANTE_UNSUPPORTED = 3, /* a version this SDK does not read */
+  SEMBLANTE_MISMATCH = 4,    /* mesh, weights and rig are not of one package */
+  SEMBLANTE_TOO_LARGE = 5,   /* over a documented limit (4 million vertices, 48 million weights) */
   SEMBLANTE_BUFFER_TOO_SMALL = 6, /* nothing was written */
   SEMBLANTE_OUT_OF_MEMORY = 7,
   SEMBLANTE_INTERNAL = 8
 } semblante_result;
 
-/* Words for people, zero-terminated UTF-8, cut to fit. `where` names the member or byte at fault; may be empty. */
+/* Text for display, zero-terminated UTF-8, truncated to fit. `where` names the member or byte at fault; may be empty.
+ */
 typedef struct semblante_error {
   char where[96];
   char message[256];
@@ -65,7 +67,7 @@ typedef struct semblante_package {
   size_t weights_size;
   const char* rig_json; /* bytes of rig.json, UTF-8, need not end in zero */
   size_t rig_json_size;
-  /* For semblante_head_normals; all null and 0 if the caller has its own way. */
+  /* For semblante_head_normals; all null and 0 if the caller does not use it. */
   const uint32_t* triangles; /* #T by 3: faces of mesh.drc in decoded order */
   uint32_t triangle_count;   /* #T */
   const float* normals;      /* #V by 3: NORMAL of mesh.drc */
@@ -77,7 +79,7 @@ typedef struct semblante_head_options {
   uint32_t reserved[7];
 } semblante_head_options;
 
-/* One parametrized head and the pose it is in. */
+/* One parametrized head and its current pose. */
 typedef struct semblante_head semblante_head;
 
 /* Version of the library that runs, to compare with SEMBLANTE_SDK_VERSION. */
@@ -89,7 +91,7 @@ const char* semblante_result_name(semblante_result result);
  * says why. */
 semblante_result semblante_head_create(const semblante_package* package, const semblante_head_options* options,
                                        semblante_head** head, semblante_error* error);
-/* Null is fine. */
+/* Accepts null. */
 void semblante_head_destroy(semblante_head* head);
 
 /* 0 for null. */
@@ -106,10 +108,10 @@ semblante_result semblante_head_set_viseme_share(semblante_head* head, float vis
 
 /* Frame -> pose of this head (Eq. 5, 6), kept in the head. FAPs that are not finite are refused. */
 semblante_result semblante_head_set_frame(semblante_head* head, const semblante_frame* frame);
-/* The pose t of the way between two frames, 0..1: what a display that is faster than the stream shows. */
+/* Sets the pose at t (0..1) between two frames, for displays faster than the stream. */
 semblante_result semblante_head_set_interpolated(semblante_head* head, const semblante_frame* from,
                                                  const semblante_frame* to, float t);
-/* The pose in use, and a pose of the caller's own making (a blend, a filter). */
+/* Gets the current pose, or sets one made by the caller (a blend, a filter). */
 semblante_result semblante_head_get_pose(const semblante_head* head, semblante_pose* pose);
 semblante_result semblante_head_set_pose(semblante_head* head, const semblante_pose* pose);
 
@@ -117,13 +119,13 @@ semblante_result semblante_head_set_pose(semblante_head* head, const semblante_p
  * `capacity` is in floats. */
 semblante_result semblante_head_positions(const semblante_head* head, float* positions, size_t capacity);
 
-/* The same when `positions` still holds what this head gave in the pose `before`: only vertices that may have changed
- * are written. A face that talks but does not turn its head moves half of them. */
+/* The same when `positions` still has the result of this head in the pose `before`: only vertices that may have changed
+ * are written. A talking face without head motion moves half of them. */
 semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
                                                  float* positions, size_t capacity);
 
-/* Unit normals of `positions`, which this head gave: both 3 * #V floats, `capacity` of `normals`. Seams do not show,
- * hard edges stay. INVALID_ARGUMENT for a head whose package came without triangles and normals. */
+/* Unit normals of `positions` from this head: both 3 * #V floats, `capacity` of `normals`. Seams are smooth, hard edges
+ * stay hard. INVALID_ARGUMENT for a head whose package came without triangles and normals. */
 semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
                                         size_t capacity);
 
@@ -131,12 +133,12 @@ semblante_result semblante_head_normals(const semblante_head* head, const float*
  * what is outside is taken as 0 or 1. NaN and infinity are refused, `where` names the shape. `error` may be null. */
 semblante_result semblante_frame_from_arkit(const float coefficients[52], semblante_frame* frame,
                                             semblante_error* error);
-/* What ARKit would say of the face of a frame, each in 0..1. FAPs that are not finite are refused. */
+/* ARKit's coefficients for the face of a frame, each in 0..1. FAPs that are not finite are refused. */
 semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float coefficients[52]);
 /* The 15 visemes of Oculus Lipsync, in its order, which is that of FAP 1: sets FAP 1 of the frame and clears the rest.
  */
 semblante_result semblante_frame_from_oculus(const float weights[15], semblante_frame* frame, semblante_error* error);
-/* The weights of a mouth, at least 0, of sum 1. FAPs that are not finite are refused. */
+/* The weights of a frame's viseme, at least 0, with sum 1. FAPs that are not finite are refused. */
 semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]);
 
 #ifdef __cplusplus

@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// An eye seen along its axis: how far out a place lies, and how far along.
+/// Coordinates of a place relative to an eye's axis: the distance from it, and the distance along it.
 struct Polar {
   double radius = 0.0;
   double along = 0.0;
@@ -24,16 +24,17 @@ Polar seen_along(const glm::dvec3& axis, const glm::dvec3& pivot, const glm::dve
   return {glm::length(d - along * axis), along};
 }
 
-/// The middle of the flat regular polygon with the corner `marked` at the front of an eye; nothing where there is none.
+/// The centre of the flat regular polygon with the corner `marked` at the front of an eye; nullopt if there is none.
 std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface& surface, SurfaceVertexId marked,
                                               const glm::dvec3& axis) {
-  constexpr double flat = 0.9945;            // cosine of six degrees: files round to three decimals
-  constexpr std::size_t most_corners = 256;  // of a face, and facets at the marked one: what has more is no polygon
+  constexpr double flat = 0.9945;  // cosine of six degrees: files may have only three decimals
+  constexpr std::size_t most_corners =
+      256;  // of a face, and facets at the marked vertex: with more it is not a polygon
   struct Facet {
     std::array<SurfaceVertexId, 3> corners;
     glm::dvec3 normal;
   };
-  std::vector<Facet> front;  // that face about the same way as the eye
+  std::vector<Facet> front;  // that face in about the same direction as the eye
   for (const Triangle& triangle : model.triangles) {
     Facet facet;
     for (std::size_t i = 0; i < 3; ++i) facet.corners[i] = surface.surface_of[triangle[i]];
@@ -74,7 +75,7 @@ std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface&
     for (const SurfaceVertexId v : corners) mean += glm::distance(surface.positions[v.value()], middle);
     mean /= static_cast<double>(corners.size());
     for (const SurfaceVertexId v : corners) {
-      // A vertex in the middle, or a ring that is none: the marked point itself is as good as anything.
+      // A vertex in the middle, or not a regular ring: keeps the marked point.
       if (std::abs(glm::distance(surface.positions[v.value()], middle) - mean) > 0.2 * mean) return std::nullopt;
     }
     return middle;
@@ -88,7 +89,7 @@ std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface&
   return std::nullopt;
 }
 
-/// What a part of the eye has within the iris, seen from the front.
+/// The vertices of one part of the eye within the iris, seen from the front.
 struct Layer {
   std::vector<SurfaceVertexId> vertices;
   double mean_along = 0.0;
@@ -121,8 +122,8 @@ std::vector<Layer> layers_of(const Surface& surface, std::span<const Part> parts
   return layers;
 }
 
-/// Least squares of along = a + b r^2. One ring of vertices says nothing of the bend: then that of a ball. No iris is
-/// deeper than it is wide, as a pivot close to the plane of a flat eye would have it.
+/// Least squares of along = a + b r^2. One ring of vertices does not determine the bend: then that of a ball is used.
+/// The bend is limited to an iris no deeper than wide, because the pivot may be close to the plane of a flat eye.
 double bend_of(const Surface& surface, const std::vector<SurfaceVertexId>& vertices, const glm::dvec3& axis,
                const glm::dvec3& pivot, double iris_radius) {
   double n = 0.0;
@@ -180,7 +181,7 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
   double radius = 0.5 * *iris_diameter;
   const double pupil_radius = radius / 3.0;
   std::vector<Layer> layers = layers_of(surface, parts, role, axis, center, radius);
-  // Over another, and over the middle of the iris too: not a ball with a hole for it.
+  // In front of another layer, and also in front of the middle of the iris: excludes a ball with a hole for the iris.
   const auto lies_over = [&](const Layer& a, const Layer& b) {
     const bool covers = std::any_of(a.vertices.begin(), a.vertices.end(), [&](SurfaceVertexId v) {
       return seen_along(axis, center, surface.positions[v.value()]).radius < 0.6 * radius;
@@ -195,7 +196,7 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     });
     if (over_all) layers.erase(outermost);
   }
-  // A disc of its own says how large it is.
+  // A separate disc determines the size of the iris.
   if (layers.size() == 1 && layers[0].depth < 0.5 * layers[0].farthest_out && layers[0].farthest_out < 1.4 * radius) {
     radius = layers[0].farthest_out;
   }

@@ -24,7 +24,7 @@ std::vector<glm::dvec3> teeth_of_row(const Surface& surface, std::span<const Par
   return positions;
 }
 
-/// The vertices of a part in which a row of teeth stands; empty if it does not stand in this part.
+/// The vertices of a part that hold a row of teeth; empty if the row is not in this part.
 std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, const std::vector<glm::dvec3>& teeth) {
   const std::span<const SurfaceVertexId> members = surface.members_of(part);
   if (teeth.empty()) return {};
@@ -37,25 +37,25 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
     low = std::min(low, t.x);
     high = std::max(high, t.x);
   }
-  // Two millimetres or so: a row of teeth is some 60 mm wide.
+  // About two millimetres: a row of teeth is about 60 mm wide.
   const double touch = 0.04 * (high - low);
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
   for (const glm::dvec3& t : teeth) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
-  // Gums hold a good part of every tooth (a quarter of their vertices on the head this was tried on); a tongue at rest
-  // keeps off them but for its tip (one in fifty).
+  // Gums touch many vertices of the teeth (a quarter of them on the head used for tests); a tongue at rest touches them
+  // only with its tip (one in fifty).
   if (touching * 10 < teeth.size()) return {};
 
   const NearestPoint near_teeth(teeth);
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t m = 0; m < members.size(); ++m) {
-    // Half of it: the rims of the tongue lie along the teeth too.
+    // Half the distance, because the borders of the tongue are close to the teeth too.
     if (near_teeth.nearest(positions[m]).distance < 0.5 * touch) sockets.push_back(members[m]);
   }
   return sockets;
 }
 
-/// Where on the way from a place `a` away to one `b` away: 0..1. Half way where it is at both.
+/// The position between two places at the distances `a` and `b`: 0..1. One half if both distances are zero.
 double part_of_way(double a, double b) { return a + b > 0.0 ? a / (a + b) : 0.5; }
 
 void share_joined_part(const Surface& surface, PartId part, const std::vector<SurfaceVertexId>& upper,

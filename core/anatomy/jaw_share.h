@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// How much of the jaw's motion, and of the tongue's own, a vertex inside the mouth takes: 0..1.
+/// The shares of the jaw's motion and of the tongue's own motion at a vertex inside the mouth: 0..1.
 struct MouthShare {
   double jaw = 0.0;
   double tongue = 0.0;
@@ -17,11 +17,11 @@ struct MouthShare {
 
 /// #S shares; zero outside the parts with a tooth's or the tongue's role.
 ///
-/// Lower teeth and tongue take the jaw fully, upper teeth not at all. On many heads, though, both gums and the tongue
-/// are one piece, joined at the throat: taken as a tongue it would pull the upper gum off its teeth. Such a part is
-/// known by the teeth of both rows standing in it. Its vertices then go by the way along the surface: with the upper
-/// teeth where those are nearer, with the jaw where lower teeth or tongue points are, smoothly between; and the
-/// tongue's own points do not move the gums.
+/// Lower teeth and tongue follow the jaw fully, upper teeth not at all. On many heads, though, both gums and the tongue
+/// are one part, joined at the throat: treated as a tongue it would pull the upper gum off its teeth. Such a part is
+/// recognized by both rows of teeth in it. The shares of its vertices depend on distances along the surface: they
+/// follow the upper teeth where those are nearer, the jaw where lower teeth or tongue points are nearer, with a smooth
+/// transition; and the tongue's own points do not move the gums.
 std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
                                      std::span<const SurfacePoint> points);
 

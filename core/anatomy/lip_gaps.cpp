@@ -21,19 +21,19 @@ namespace semblante {
 namespace {
 
 constexpr std::size_t columns = 61;
-/// Depths at which the lips of one column are compared.
+/// Number of depths at which the lips of one column are compared.
 constexpr std::size_t depths = 400;
-/// Left out at either corner, as share of the width: there both lips are one skin.
+/// Omitted at each corner, as a fraction of the width: there both lips are one skin.
 constexpr double corner_share = 0.05;
-/// A triangle is of a lip whose points have at least this share in it, and more than those of the other lip. Near the
-/// corners most is the share of the corners' own points.
+/// A triangle belongs to a lip if the lip's points have at least this share in it, and more than those of the other
+/// lip. Near the corners the points of the corners have the largest share.
 constexpr double least_share = 0.05;
-/// A mask has skin between its lips: there the way along it is no longer than so many times the straight distance.
+/// A mask has skin between its lips: there the distance along the surface is at most this many times the straight one.
 constexpr double detour_of_mask = 3.0;
 constexpr int rounds = 100;
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
-/// A place of a lip in one column; `moves` says how far it goes up or down with one unit of each facing point.
+/// A place of a lip in one column; `moves` is its vertical displacement per unit of each facing point.
 struct Place {
   double y = 0.0, z = 0.0;
   glm::dvec3 moves{0.0};
@@ -90,7 +90,7 @@ class Lips {
       x[c] = p.x;
       corners[c] = {p.y, p.z, {}};
       for (int i = 0; i < 3; ++i) {
-        // With weights of Eq. 4 a lip follows the points of the other one too.
+        // With the weights of Eq. 4 a lip also follows the points of the other lip.
         const double by_upper = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].upper));
         const double by_lower = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].lower));
         corners[c].moves[i] = is_upper ? by_upper - by_lower : by_lower - by_upper;
@@ -115,9 +115,10 @@ class Lips {
   std::array<Section, columns> upper_, lower_;
 };
 
-/// One column: with `moves` closing by c, the view is shut from c = `seen` on, and surfaces touch from `touch` on.
+/// One column: when the lips close by c, the gap is no longer visible from c = `seen` on, and surfaces touch from c =
+/// `touch` on.
 struct Column {
-  glm::dvec3 moves{0.0};  ///< with one unit of closing of each facing pair, half of it by either point
+  glm::dvec3 moves{0.0};  ///< per unit of closing of each facing pair, half of it by each point
   double seen = 0.0;
   double touch = 0.0;
 };
@@ -170,16 +171,16 @@ std::optional<Column> measure(const Section& upper, const Section& lower) {
     column.touch = above[k]->y - below[k]->y;
     column.moves = (above[k]->moves + below[k]->moves) / 2.0;
   }
-  // Lips one behind the other pass without touching: they stop where they shut the view.
+  // Lips at different depths pass without touching: they stop where the gap is no longer visible.
   if (column.touch == no_bound) column.touch = column.seen;
   return column;
 }
 
 double reach_of(const Column& column) { return glm::dot(column.moves, column.moves); }
 
-/// Least squares of what columns are away from their range between `seen` and `touch`; a convex problem, by turns for
-/// the aims in the ranges and for the gaps. A column counts by how far the points move it: to close what they hardly
-/// move, near the corners, lips would have to pass through each other elsewhere.
+/// Least squares of the columns' distances from their ranges between `seen` and `touch`: a convex problem, solved
+/// alternately for the targets in the ranges and for the gaps. Columns are weighted by how far the points move them:
+/// closing columns that hardly move, near the corners, would make the lips pass through each other elsewhere.
 LipGaps fit(const std::vector<Column>& columns_of_head) {
   glm::dmat3 normal(0.0);
   for (const Column& c : columns_of_head) normal += reach_of(c) * glm::outerProduct(c.moves, c.moves);

@@ -13,10 +13,11 @@
 namespace semblante {
 namespace {
 
-/// At most so many places between the middle of a lid and a corner, or between two points of a lip.
+/// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_lip = 2;
-/// A corner that is no vertex of the lid's part may be this far from it, as share of the eye's width.
+/// Maximum distance of a corner from the lid's part if it is not a vertex of that part, as a fraction of the eye's
+/// width.
 constexpr double greatest_step_to_corner = 0.25;
 
 const SurfacePoint* find(std::span<const SurfacePoint> points, const char* name) {
@@ -32,7 +33,7 @@ SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::
   });
 }
 
-/// Vertices at even distances between the ends of a path, ends left out.
+/// Vertices evenly spaced between the ends of a path, without the ends.
 std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector<SurfaceVertexId>& path,
                                        std::size_t count) {
   std::vector<double> along = {0.0};
@@ -52,7 +53,7 @@ std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector
   return places;
 }
 
-/// The edge of a lid from corner to corner, by way of its middle.
+/// The edge of a lid from corner to corner, through its middle.
 struct LidEdge {
   const SurfacePoint* middle = nullptr;
   std::array<const SurfacePoint*, 2> corners{};
@@ -81,7 +82,7 @@ std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfaceP
   return edge;
 }
 
-/// y of the edge where it passes `x`; the mean where it does so several times, empty where it does not.
+/// y of the edge at `x`; the mean if it passes `x` several times, nullopt if it does not.
 std::optional<double> height_of(const Surface& surface, const LidEdge& edge, double x) {
   double sum = 0.0;
   int count = 0;
@@ -131,7 +132,7 @@ void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std:
       Eye{lid_edge(surface, points, "3.1", {"3.11", "3.7"}),  //
           lid_edge(surface, points, "3.3", {"3.11", "3.7"})},
       Eye{lid_edge(surface, points, "3.2", {"3.12", "3.8"}), lid_edge(surface, points, "3.4", {"3.12", "3.8"})}};
-  // A lid at FAP 1024 goes IRISD0, which is the mean of both eyes.
+  // A lid at FAP 1024 moves by IRISD0, which is the mean of both eyes.
   double travel = 0.0;
   int open = 0;
   for (const Eye& eye : eyes) {
@@ -159,7 +160,7 @@ void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std:
            places_on(surface, shortest_path(surface, a->vertex, b->vertex), places_of_lip)) {
         const double x = surface.positions[vertex.value()].x;
         const double t = std::clamp((x - a->position.x) / (b->position.x - a->position.x), 0.0, 1.0);
-        // Half way between a straight line, which bends at the points, and a curve that is level at them.
+        // The mean of linear interpolation, which has corners at the points, and a curve with slope zero at them.
         const double to_b = (t + t * t * (3.0 - 2.0 * t)) / 2.0;
         MarginSite site{vertex, {}};
         if (to_b < 1.0) site.shares.emplace_back(a->id, 1.0 - to_b);
@@ -176,7 +177,7 @@ std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const Sur
   std::vector<MarginSite> sites;
   add_lids(surface, points, sites);
   add_lips(surface, points, sites);
-  // A vertex that is a point follows that point; one that two edges share follows the first.
+  // A vertex with a point follows that point; a vertex shared by two edges follows the first.
   std::vector<MarginSite> result;
   for (MarginSite& site : sites) {
     const bool is_point =

@@ -15,7 +15,8 @@ struct MarginSite {
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
 };
 
-/// Places along the edges of lips and lids, so that the smooth weights know how an edge goes between its few points:
+/// Places along the edges of lips and lids, which define for the smooth weights how an edge moves between its few
+/// points:
 ///
 /// - A lid's edge is moved by its middle (3.1 to 3.4) in the measure of the eye's opening there: where the eye is open
 ///   half as high as IRISD0, half as far; the rest is the corners' share. So FAPs 19 to 22 shut the eye along its whole

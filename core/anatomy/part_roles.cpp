@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// What role a point on a part speaks for, skin included. Empty for 7.1 and group 11.
+/// The role of a part that has this point, including skin. nullopt for 7.1 and group 11.
 std::optional<PartRole> role_of_point(FeaturePointId id) {
   if (is_skin_point(id)) return PartRole::skin;
   const int number = number_of(id);
@@ -40,7 +40,7 @@ std::vector<Votes> votes_of_points(const Surface& surface, std::span<const Surfa
   return votes;
 }
 
-/// A mesh often has one name and several materials; then the material tells its parts apart.
+/// A mesh often has one name and several materials; then the material distinguishes its parts.
 std::string most_telling_name(const Model& model, const PartShape& shape) {
   if (shape.material.empty()) return shape.name;
   const auto shared = std::count_if(model.primitives.begin(), model.primitives.end(),
@@ -92,7 +92,7 @@ std::vector<std::optional<PartRole>> roles_clear_from_points(const Surface& surf
     inner[skin] = 0;
     const auto most = std::max_element(inner.begin(), inner.end());
     if (*most == 0 || p == largest) continue;
-    // A head whose eyes are painted on its skin holds the pupils too, but far more skin points.
+    // A skin with painted eyes has the pupils too, but many more skin points.
     if (p == main && votes[p][skin] > *most) continue;
     roles[p] = static_cast<PartRole>(most - inner.begin());
   }

@@ -12,8 +12,8 @@
 
 namespace semblante {
 
-/// The parts of a model by PartId, with their roles: what the user set, else a guess from the
-/// points marked on a part, its name, its place and its size. `points` may be empty: then names and places alone speak.
+/// The parts of a model by PartId, with their roles: those set by the user, else guesses from the points marked on a
+/// part, its name, its place and its size. `points` may be empty: then only names, places and sizes are used.
 std::vector<Part> describe_parts(const Model& model, const Surface& surface, const FeaturePointSet& points,
                                  std::span<const std::optional<PartRole>> roles_by_user = {});
 
@@ -21,8 +21,8 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
 /// (9.1-9.7, 9.12-9.15).
 bool is_skin_point(FeaturePointId id);
 
-/// The role that its own points give a part beyond doubt: one that holds a pupil, a tongue or a teeth point and is not
-/// the skin. Empty for every other part. #P entries.
+/// The role of a part that follows with certainty from its own points: a part with a pupil, a tongue or a teeth point
+/// that is not the skin. Empty for every other part. #P entries.
 std::vector<std::optional<PartRole>> roles_clear_from_points(const Surface& surface,
                                                              std::span<const SurfacePoint> points);
 

@@ -59,7 +59,7 @@ std::vector<PartShape> measure_parts(const Model& model, const Surface& surface)
 
 bool is_ball(const PartShape& shape) {
   if (!shape.sphere) return false;
-  // A cornea's bulge or an optic nerve leaves a few per cent; a hemisphere is one radius deep along one axis.
+  // A cornea's bulge or an optic nerve causes a few per cent; a hemisphere is one radius deep along one axis.
   constexpr double rough = 0.08;
   constexpr double least_extent = 0.9;
   const double radius = shape.sphere->radius;

@@ -12,9 +12,9 @@
 
 namespace semblante {
 
-/// What a part looks like from outside: what the guess of its role goes by, beside the points on it.
+/// The shape of a part, used together with its points to guess its role.
 struct PartShape {
-  std::string name;      ///< of the primitive most of its triangles belong to
+  std::string name;      ///< of the primitive with most of its triangles
   std::string material;  ///< of that primitive
   std::uint32_t file_vertices = 0;
   std::uint32_t triangles = 0;
@@ -30,7 +30,7 @@ struct PartShape {
 /// #P shapes, by PartId.
 std::vector<PartShape> measure_parts(const Model& model, const Surface& surface);
 
-/// Part of an eyeball or not: nearly a sphere, and more of it than a cap.
+/// Whether a part can be an eyeball: nearly a sphere, and more than a cap of it.
 bool is_ball(const PartShape& shape);
 
 }  // namespace semblante

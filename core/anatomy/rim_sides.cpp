@@ -62,7 +62,7 @@ double RimSides::side(SurfaceVertexId vertex) const {
   if (!have_anchors()) return 0.0;
   double upper = from_upper_[vertex.value()];
   double lower = from_lower_[vertex.value()];
-  // Lips or lids that are parts of their own.
+  // Lips or lids that are separate parts.
   if (std::isinf(upper) || std::isinf(lower)) return std::isinf(upper) ? (std::isinf(lower) ? 0.0 : -1.0) : 1.0;
   double way_round = upper + lower;
   double nearest = std::numeric_limits<double>::infinity();

@@ -9,39 +9,39 @@
 
 namespace semblante {
 
-/// The opening whose upper or lower flesh a point belongs to, and which of the two; no opening for all other points
-/// (corners belong to both sides).
+/// The opening whose upper or lower flesh has this point, and which of the two; null for all other points (corners
+/// belong to both sides).
 struct RimOfPoint {
   const mpeg4::Opening* opening = nullptr;
   bool is_upper = false;
 };
 RimOfPoint rim_of_point(FeaturePointId id);
 
-/// Tells the upper lip or lid from the lower one along the surface. Straight distance cannot: rims that touch, or pass
-/// each other, are near to each other through the gap, while the surface leads round a corner or through the cavity
-/// behind.
+/// Distinguishes the upper lip or lid from the lower one along the surface. The straight distance cannot: touching or
+/// overlapping rims are close to each other across the gap, while the path on the surface goes around a corner or
+/// through the cavity behind.
 ///
-/// `anchors` are points whose vertices are beyond doubt. Those of the flesh and beside the opening count, whichever are
-/// given: distance is compared after that from the anchors to the nearest corner is taken off, so that no side wins
-/// because its anchors happen to be nearer.
+/// `anchors` are points with certain vertices. All given ones of the flesh and beside the opening are used: the
+/// distance from the anchors to the nearest corner is subtracted before the comparison, so that no side has an
+/// advantage because its anchors are nearer.
 class RimSides {
  public:
   RimSides(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> anchors);
 
-  /// Whether there are anchors on both sides. Without, every side is 0.
+  /// Whether both sides have anchors. Otherwise every side is 0.
   [[nodiscard]] bool have_anchors() const { return !from_upper_.empty() && !from_lower_.empty(); }
 
-  /// From 1 (upper) to -1 (lower): the detour from the anchors of the other side, as a share of the way to the nearest
-  /// corner and back. 1 is a slit that is open to the depth; about 0 are the corners, a membrane or welded rims, and
-  /// vertices that no path joins to any anchor.
+  /// From 1 (upper) to -1 (lower): the detour from the anchors of the other side, as a fraction of the path to the
+  /// nearest corner and back. 1 is a slit open to its depth; about 0 are the corners, a membrane or welded rims, and
+  /// vertices without a path to any anchor.
   [[nodiscard]] double side(SurfaceVertexId vertex) const;
-  /// The same with the sign of the side asked for: positive on that side.
+  /// The same with the sign of the given side: positive on that side.
   [[nodiscard]] double side(SurfaceVertexId vertex, bool is_upper) const {
     return is_upper ? side(vertex) : -side(vertex);
   }
 
-  /// At this share and above the side is beyond doubt: rims joined within less than half of the way round the corner
-  /// are what the doctor reports as joined.
+  /// From this value on the side is certain: the doctor reports rims as joined if the path between them is less than
+  /// half of that around the corner.
   static constexpr double clear = 0.5;
 
  private:

@@ -20,7 +20,7 @@ bool has_any(const std::string& name, std::initializer_list<std::string_view> wo
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return name.find(w) != std::string::npos; });
 }
 
-/// "eye_l", "l_eye", "eyeleft", "eye.l": a letter alone counts only beside a separator or the end.
+/// "eye_l", "l_eye", "eyeleft", "eye.l": a single letter counts only next to a separator or at the end.
 bool has_side(const std::string& name, std::string_view word, char letter) {
   if (name.find(word) != std::string::npos) return true;
   const auto apart = [&](std::size_t i) {
@@ -35,7 +35,7 @@ bool has_side(const std::string& name, std::string_view word, char letter) {
 bool names_teeth(const std::string& name) { return has_any(name, {"teeth", "tooth", "gum", "denture"}); }
 
 std::optional<PartRole> role_of_name(const std::string& name, double x) {
-  // Most telling words first: an "eyelash" is no eye, "eyeglasses" are neither.
+  // Most specific words first: "eyelash" and "eyeglasses" are not eyes.
   if (has_any(name, {"lash", "brow", "tear", "lacrimal", "occlusion", "eyeblend", "eye_blend", "caruncle", "fluid",
                      "beard", "mustache", "moustache"})) {
     return PartRole::attached;

@@ -24,11 +24,11 @@ constexpr double mouth_below_eyes = 1.1;
 constexpr double mouth_half_width = 0.6;
 constexpr double mouth_half_height = 0.55;
 constexpr double mouth_depth = 1.6;
-constexpr double attached_mean = 0.15;  // lashes: a centimetre long at most, roots on the lid
+constexpr double attached_mean = 0.15;  // lashes: at most a centimetre long, with roots on the lid
 constexpr double attached_most = 0.4;
-constexpr double attached_width = 1.3;  // a brow, a row of lashes; hair in one piece is wider and keeps its shape
+constexpr double attached_width = 1.3;  // a brow, a row of lashes; hair in one piece is wider and stays rigid
 constexpr double attached_height = 1.0;
-constexpr double of_skin_height = 0.25;  // ES0 of a cut head, where nothing else tells
+constexpr double of_skin_height = 0.25;  // ES0 of a head cut at the neck, if it is otherwise unknown
 }  // namespace share_of_es
 
 std::optional<glm::dvec3> mean_of(const FeaturePointSet& points, std::initializer_list<std::string_view> names) {
@@ -83,7 +83,7 @@ class PlaceGuess {
     }
   }
 
-  /// Two balls of one size, mirror images in the middle plane of the skin, in its front half.
+  /// Finds two balls of one size, mirror images in the middle plane of the skin, in its front half.
   void eyes_from_pair_of_balls() {
     const double middle = skin_.box_center().x;
     for (std::size_t a = 0; a < shapes_.size(); ++a) {
@@ -116,12 +116,12 @@ class PlaceGuess {
     }
   }
 
-  /// Iris, pupil and cornea: within the eyeball, or a little outside but centred on its axis and no wider than a
-  /// cornea. What else lies on the eyeball (tears, occlusion, the blend to the lids) is wider or off to a side.
+  /// Finds iris, pupil and cornea: inside the eyeball, or a little outside but centred on its axis and no wider than a
+  /// cornea. Other parts on the eyeball (tears, occlusion, the blend to the lids) are wider or off-centre.
   void find_parts_of_eyes() {
     constexpr double bulge = 1.12;
     constexpr double widest = 1.5;
-    constexpr double off_axis = 0.3;  // a gaze to the side in the neutral face stays within
+    constexpr double off_axis = 0.3;  // allows a sideways gaze in the neutral face
     for (std::size_t side = 0; side < 2; ++side) {
       const PartShape* const eye = largest(eye_roles[side]);
       if (eye == nullptr || !eye->sphere) continue;
@@ -166,7 +166,7 @@ class PlaceGuess {
     if (!inside.empty()) split_mouth(inside, mouth);
   }
 
-  /// An arch of teeth is hollow in its middle, a tongue is not.
+  /// Distinguishes a tongue from an arch of teeth, which is hollow in its middle.
   [[nodiscard]] static bool fills_its_middle(const PartShape& shape) {
     const glm::dvec3 center = shape.box_center();
     const glm::dvec3 room = 0.15 * shape.extent();
@@ -178,7 +178,7 @@ class PlaceGuess {
   void split_mouth(const std::vector<std::size_t>& inside, const std::optional<glm::dvec3>& mouth) {
     const bool teeth_elsewhere = largest(PartRole::upper_teeth) != nullptr || largest(PartRole::lower_teeth) != nullptr;
     if (largest(PartRole::tongue) == nullptr && (inside.size() >= 2 || teeth_elsewhere)) {
-      // A single tooth fills its middle as well: the tongue reaches across a good part of the mouth.
+      // A single tooth fills its middle too, so a tongue must also span much of the mouth.
       for (const std::size_t p : inside) {
         const PartShape& shape = shapes_[p];
         const bool midline = std::abs(shape.box_center().x - skin_.box_center().x) < 0.1 * shape.extent().x;
@@ -187,7 +187,7 @@ class PlaceGuess {
         break;
       }
     }
-    // Where the teeth meet: between the edges marked; else the line of the lips, behind which they meet.
+    // The line where the teeth meet: between the marked edges; else the line of the lips.
     const std::optional<glm::dvec3> upper_edge = mean_of(points_, {"9.10"});
     const std::optional<glm::dvec3> lower_edge = mean_of(points_, {"9.11"});
     double line = mouth ? mouth->y : skin_.box_center().y;
@@ -226,7 +226,7 @@ class PlaceGuess {
   const PartShape& skin_;
   std::span<std::optional<PartRole>> roles_;
   NearestPoint near_skin_;
-  std::array<std::optional<glm::dvec3>, 2> eyes_;  ///< left, right: about where they are
+  std::array<std::optional<glm::dvec3>, 2> eyes_;  ///< left, right: approximate positions
   double es_ = 0.0;
 };
 

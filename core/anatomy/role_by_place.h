@@ -10,8 +10,9 @@
 
 namespace semblante {
 
-/// Fills the roles that points and names left empty, from place and size against the marked points, or against the eyes
-/// found and the skin's box where points are missing. `skin` is the part that is the face. What fits nothing is `rest`.
+/// Fills roles still empty after points and names, from place and size relative to the marked points, or to the
+/// detected eyes and the skin's box if points are missing. `skin` is the part of the face. Parts that match no rule
+/// become `rest`.
 void guess_roles_by_place(std::span<const PartShape> shapes, const FeaturePointSet& points, std::size_t skin,
                           std::span<std::optional<PartRole>> roles);
 

@@ -14,13 +14,13 @@
 namespace semblante {
 namespace {
 
-/// What counts as tongue when its extent is measured.
+/// Minimum share of vertices that count as tongue when its extent is measured.
 constexpr double mostly = 0.5;
 
-/// From the first border point's place to the rear, where none is marked: of the length.
+/// Distance from the border points to the rear if none are marked, as a fraction of the length.
 constexpr double rear_part = 0.35;
 
-/// Borders that turn by half a turn meet; a little before, a tongue as thick as tongues are touches itself.
+/// Borders rotated by half a turn meet; a tongue of typical thickness touches itself a little before.
 constexpr double greatest_roll = 2.6;
 
 struct Range {
@@ -67,7 +67,7 @@ std::optional<TongueOfHead> find_tongue(const Surface& surface, std::span<const 
   }
   if (!(total > 0.0)) return std::nullopt;
   middle /= total;
-  // Both borders say where the middle line is, better than the mean of vertices that lie as they do.
+  // Both border points determine the middle line better than the mean of the vertices.
   const auto border = [&](std::string_view name) -> const SurfacePoint* {
     const auto found = std::find_if(points.begin(), points.end(), [&](const SurfacePoint& point) {
       return to_string(point.id) == name && tongue.share[point.vertex.value()] > 0.0;
@@ -114,7 +114,7 @@ std::optional<TongueOfHead> find_tongue(const Surface& surface, std::span<const 
   tongue.shape.left = glm::vec3(left);
   tongue.shape.up = glm::vec3(up);
   tongue.shape.half_width = static_cast<float>(half_width);
-  // What is above the sheet goes round an arc so much smaller: it may not shrink to nothing.
+  // Vertices above the sheet move on a smaller arc, whose radius must stay positive.
   const double room = thickest > 0.0 ? 0.85 * half_width / thickest : greatest_roll;
   tongue.shape.roll_limit = static_cast<float>(std::min(greatest_roll, room));
   return tongue;

@@ -11,15 +11,15 @@
 
 namespace semblante {
 
-/// What FAP 47 rolls.
+/// The tongue that FAP 47 rolls.
 struct TongueOfHead {
   Tongue shape;
   std::vector<double> share;  ///< #S: how much of the roll a vertex takes, 0..1
 };
 
-/// The tongue: the parts with that role, of one in a piece with the gums what is tongue of it. Its width is that of its
-/// border points 6.3 and 6.4 where they are marked. From those points to the tip it rolls as a whole; behind them,
-/// where a tongue is held by its root, less and less. Nothing where there is no tongue, or none with a breadth.
+/// Finds the tongue: the parts with that role, or the tongue's portion of a part joined with the gums. Its width is
+/// that of its border points 6.3 and 6.4 if they are marked. From those points to the tip it rolls fully; behind them,
+/// towards its root, decreasingly. nullopt without a tongue, or if it has no width.
 std::optional<TongueOfHead> find_tongue(const Surface& surface, std::span<const Part> parts,
                                         std::span<const SurfacePoint> points);
 

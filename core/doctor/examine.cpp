@@ -52,7 +52,7 @@ Report errors_first(Report report) {
 
 /// The places of lips and lids, which may be borders of the mesh and may touch. Their points are a fifth of ES0 apart,
 /// so a radius of slightly more than half of that around each covers the whole rim.
-Slits slits_of(const FaceFrame& face, const FeaturePointSet& points) {
+Slits slits_of(const FaceAxes& face, const FeaturePointSet& points) {
   Slits slits;
   slits.reach = 0.12 * face.eye_separation.value_or(0.0);
   for (const Opening& opening : openings)
@@ -79,7 +79,7 @@ Report examine_mesh(const Model& model, const Surface& surface, std::span<const 
 
 Report examine(const Model& model, const Surface& surface, const Rig& rig, WeightMethod method) {
   const MeshSides mesh = sort_sides(model, surface);
-  const Subject head{model, surface, mesh, rig, method, fit_face_frame(rig.points)};
+  const Subject head{model, surface, mesh, rig, method, fit_face_axes(rig.points)};
   Report report;
   for (const auto check : {find_wrong_way_round, find_points_on_wrong_surface, find_unit_faults, find_joined_rims,
                            find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,

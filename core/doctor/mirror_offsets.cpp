@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-std::array<double, feature_point_count> mirror_offsets(const FaceFrame& face) {
+std::array<double, feature_point_count> mirror_offsets(const FaceAxes& face) {
   std::array<double, feature_point_count> offsets{};
   if (!face.eye_separation) return offsets;
   // The plane is parallel to the model's axes, half way between the pairs; the median is robust against misplaced

@@ -177,7 +177,7 @@ struct Broken {
   [[nodiscard]] bool concerns(FeaturePointId id) const { return id == more || id == less; }
 };
 
-std::vector<Broken> broken_relations(const FaceFrame& face) {
+std::vector<Broken> broken_relations(const FaceAxes& face) {
   std::vector<Broken> broken;
   for (const Relation& relation : relations) {
     const auto& more = face.place(relation.more);

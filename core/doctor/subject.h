@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/doctor/face_frame.h"
+#include "core/doctor/face_axes.h"
 #include "core/doctor/mesh_sides.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_method.h"
@@ -16,7 +16,7 @@ struct Subject {
   const MeshSides& mesh;
   const Rig& rig;
   WeightMethod method;
-  FaceFrame frame;
+  FaceAxes frame;
 };
 
 }  // namespace semblante

@@ -27,7 +27,7 @@ std::vector<FeaturePointId> ids_of(const FeaturePointSet& points) {
 }
 
 std::optional<Finding> wrong_axes(const Subject& head) {
-  const FaceFrame& face = head.frame;
+  const FaceAxes& face = head.frame;
   const double of_up = degrees_between(face.up, {0, 1, 0});
   const double of_forward = degrees_between(face.forward, {0, 0, 1});
   const double tilt = std::max(of_up, of_forward);

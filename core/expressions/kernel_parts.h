@@ -14,7 +14,7 @@ inline void copy_vector(const glm::vec3& from, float (&to)[3]) {
   to[2] = from.z;
 }
 
-/// Irises (left, right) and tongue as the kernel takes them; what is empty becomes what does not move.
+/// Sets irises (left, right) and tongue of a kernel rig; an empty one becomes one that does not move.
 inline void set_moving_parts(const std::array<std::optional<Iris>, 2>& irises, const std::optional<Tongue>& tongue,
                              semblante_rig& rig) {
   for (std::size_t eye = 0; eye < irises.size(); ++eye) {

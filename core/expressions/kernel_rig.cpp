@@ -17,7 +17,7 @@ static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_
 static_assert(static_cast<int>(RigidMotion::left_iris) == SEMBLANTE_RIGID_LEFT_IRIS);
 static_assert(static_cast<int>(RigidMotion::right_iris) == SEMBLANTE_RIGID_RIGHT_IRIS);
 static_assert(static_cast<int>(RigidMotion::tongue_least) == SEMBLANTE_RIGID_TONGUE);
-// The kernel reads our strong ids and enums as the bytes they are.
+// The kernel reads the strong ids and enums as bytes.
 static_assert(sizeof(FeaturePointId) == 1 && std::is_standard_layout_v<FeaturePointId>);
 static_assert(sizeof(RigidMotion) == 1);
 

@@ -11,14 +11,14 @@ namespace semblante {
 /// Share of the viseme at an FP that an expression moves too (Eq. 5).
 inline constexpr float default_viseme_share = 0.85F;
 
-/// What the kernel needs to know about one head, with the library's visemes and expressions in its units. Owns the
-/// arrays that view() points to; copies and moves freely.
+/// The kernel's data of one head, with the library's visemes and expressions in its units. Owns the arrays that view()
+/// points to; copies and moves freely.
 struct KernelRig {
   std::vector<float> visemes;      ///< 15 by 84 by 3, model units
   std::vector<float> expressions;  ///< 7 by 84 by 3, model units
-  semblante_rig fixed{};           ///< all but the two pointers
+  semblante_rig fixed{};           ///< all members except the two pointers
 
-  /// Valid while this object lives and its arrays are not touched.
+  /// Valid while this object exists and its arrays are not modified.
   [[nodiscard]] semblante_rig view() const;
 };
 

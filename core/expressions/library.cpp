@@ -27,7 +27,7 @@ Library build(const std::array<generated::Set, N>& source) {
       const generated::Entry& entry = generated::displacements[i];
       library.displacements.push_back({FeaturePointId(entry.point), {entry.x, entry.y, entry.z}});
     }
-    // Reserved above, so the array does not move and the spans stay.
+    // Reserved above, so the array does not move and the spans stay valid.
     library.sets.push_back(
         {set.name, std::span<const Displacement>(library.displacements).subspan(first), set.meets_upper_teeth});
   }

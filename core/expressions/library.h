@@ -14,7 +14,7 @@ namespace semblante {
 
 struct Displacement {
   FeaturePointId point;
-  glm::vec3 value;  ///< in what unit, the owner says
+  glm::vec3 value;  ///< the unit is that of the owner
 };
 
 /// A viseme or an expression for any head: how far each FP moves, per axis in units of that FP's and axis' FAPU
@@ -22,20 +22,20 @@ struct Displacement {
 struct DisplacementSet {
   std::string_view name;
   std::span<const Displacement> displacements;
-  bool meets_upper_teeth = false;  ///< the lower lip goes to the edge of the upper teeth, wherever a head has it
+  bool meets_upper_teeth = false;  ///< the lower lip moves to the edge of the upper teeth of each head
 };
 
 /// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Lives as long as the
 /// program.
 std::span<const DisplacementSet> viseme_library();
-/// The expressions of FAP 2, by number: none joy sadness anger fear disgust surprise. Lives as long as the program.
+/// The expressions of FAP 2, by number: none joy sadness anger fear disgust surprise. Static lifetime.
 std::span<const DisplacementSet> expression_library();
 
 /// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it so, else that of its region
 /// (mouth and jaw: MW, MNS; eyes: ES, IRISD; all else: ES, ENS).
 FapuUnit fapu_of(FeaturePointId point, int axis);
 
-/// A displacement that a head cannot have, because the unit it is measured in is not known there.
+/// A displacement that cannot be applied to a head, because its unit is unknown there.
 struct MissingUnit {
   FeaturePointId point;
   FapuUnit unit;
@@ -44,13 +44,13 @@ struct MissingUnit {
 /// A displacement set on one head.
 struct ModelDisplacements {
   std::vector<Displacement> displacements;  ///< model units
-  std::vector<MissingUnit> skipped;         ///< FPs left out whole, each with the first unit that is missing
+  std::vector<MissingUnit> skipped;         ///< omitted FPs, each with its first missing unit
 };
 
-/// The set in model units of a head. An FP with a non-zero component in an unknown FAPU is left out and reported.
+/// The set in model units of a head. An FP with a non-zero component in an unknown FAPU is omitted and reported.
 ModelDisplacements to_model_units(const DisplacementSet& set, const Fapu& fapu);
 
-/// 84 by 3 floats, zero where the set says nothing: what the kernel reads.
+/// 84 by 3 floats for the kernel, zero for points that are not in the set.
 std::array<float, feature_point_count * 3> to_dense(std::span<const Displacement> displacements);
 
 }  // namespace semblante

@@ -5,8 +5,8 @@
 
 namespace semblante {
 
-/// The frame that makes the mirror image of the face: left becomes right. Visemes and expressions are symmetric by
-/// their nature and stay.
+/// The frame that makes the mirror image of the face: left becomes right. Visemes and expressions are symmetric and are
+/// not changed.
 inline semblante_frame mirrored(const semblante_frame& frame) {
   semblante_frame result = frame;
   for (std::size_t n = 3; n <= mpeg4::fap_count; ++n) {

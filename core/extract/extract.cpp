@@ -27,7 +27,7 @@ Status check_shapes(std::span<const glm::vec3> neutral, std::span<const glm::vec
                  "the expression has " + std::to_string(expression.size()) + " vertices, the neutral head " +
                      std::to_string(neutral.size()) + ": both must be the same mesh, vertices in the same order"};
   }
-  // A morph target can take finite vertices beyond what a float holds, the neutral shape's too.
+  // A morph target can move finite vertices outside the range of float; checks the neutral shape too.
   const auto is_finite = [](const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   };
@@ -38,7 +38,7 @@ Status check_shapes(std::span<const glm::vec3> neutral, std::span<const glm::vec
   return Unit{};
 }
 
-/// Eq. 6 backwards: from model units to those of the FAPU along each axis. The unit that is missing, if one is needed.
+/// Eq. 6 inverted: from model units to those of the FAPU along each axis; with the missing unit, if one is needed.
 struct InUnits {
   glm::dvec3 value{0.0};
   std::optional<FapuUnit> missing;
@@ -58,8 +58,8 @@ InUnits in_units(FeaturePointId point, const glm::dvec3& moved, const Fapu& fapu
   return result;
 }
 
-/// A point of which one component has no unit moves when any component that has one does, or, unknown as they are, when
-/// the length is more than rounding.
+/// A point with a component without a unit moves if any other component does, or if the length of the unknown ones is
+/// more than rounding.
 bool is_at_rest(const InUnits& units, double least) {
   if (units.missing) return false;
   const glm::dvec3 size = glm::abs(units.value);

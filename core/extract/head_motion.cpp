@@ -24,7 +24,7 @@ std::optional<HeadMotion> fit(std::span<const glm::dvec3> neutral, std::span<con
     from.push_back(moved[i]);
     to.push_back(neutral[i]);
   }
-  // A head does not grow: the turn of a similarity is that of the rigid fit, and its scale is left alone.
+  // A head does not grow: uses the rotation of the similarity, which is that of the rigid fit, and ignores its scale.
   const auto similarity = fit_similarity(from, to);
   if (!similarity) return std::nullopt;
   return HeadMotion{similarity->rotation, similarity->to, similarity->from};
@@ -57,7 +57,7 @@ std::optional<HeadMotion> find_head_motion(std::span<const glm::vec3> neutral, s
       const glm::dvec3 off = motion->undo(after[i]) - before[i];
       residual[i] = glm::dot(off, off);
     }
-    // The lower number first on a tie, so that the same files give the same set.
+    // The lower number is first on a tie, so that the result is deterministic.
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return residual[a] != residual[b] ? residual[a] < residual[b] : a < b;
     });

@@ -37,7 +37,7 @@ void read_displacements(const JsonCursor& displacements, std::vector<Displacemen
   std::sort(out.begin(), out.end(), [](const Displacement& a, const Displacement& b) { return a.point < b.point; });
 }
 
-/// The double whose shortest text is that of the float: 0.1 for 0.1F, not 0.10000000149011612.
+/// The double with the same shortest text as the float: 0.1 for 0.1F, not 0.10000000149011612.
 double as_short_as_may_be(float value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;

@@ -15,7 +15,7 @@
 namespace semblante {
 namespace {
 
-/// 84 points with a page of remarks each are far below this.
+/// Far above the size of 84 points with a page of remarks each.
 constexpr JsonLimits point_limits = {.max_bytes = std::size_t{4} << 20U, .max_depth = 64, .max_values = 500'000};
 
 MarkedPoint read_point(FeaturePointId id, const JsonCursor& point) {
@@ -41,7 +41,7 @@ glm::dmat3 read_axes(const JsonCursor& rows) {
     const glm::dvec3 values = import::read_vector(rows.element(static_cast<std::size_t>(row)));
     for (int column = 0; column < 3; ++column) matrix[column][row] = values[column];
   }
-  // Relative to the size of its rows, so that a change of unit is fine and a flattening is not.
+  // Relative to the size of its rows, so that a change of unit is accepted and a singular matrix is not.
   const double size = glm::length(matrix[0]) * glm::length(matrix[1]) * glm::length(matrix[2]);
   if (!(std::abs(glm::determinant(matrix)) > 1e-6 * size) || !std::isfinite(size)) {
     rows.fail(ErrorCode::invalid_argument, "has no inverse");

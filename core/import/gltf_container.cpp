@@ -67,7 +67,7 @@ Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
     if (!json) {
       if (type != chunk_json) return error_at(ErrorCode::malformed, at + 4, "the first chunk of a GLB must be JSON");
       json = as_text(data);
-      // Padding is to be of spaces; some exporters pad with NUL bytes.
+      // The standard's padding is spaces; some exporters pad with NUL bytes.
       while (!json->empty() && json->back() == '\0') json->remove_suffix(1);
     } else if (type == chunk_bin && !binary) {
       binary = data;

@@ -45,7 +45,7 @@ T load(const std::uint8_t* from) {
   return value;
 }
 
-/// One component as a float; signed normalized values go down to -1, as glTF says.
+/// One component as a float; signed normalized values are clamped at -1, as in glTF.
 float to_float(const std::uint8_t* from, std::uint64_t type, bool normalized) {
   switch (type) {
     case i8:
@@ -311,7 +311,8 @@ std::vector<GltfDocument::Row> GltfDocument::rows(std::size_t accessor, std::siz
       if (read_row(where, source, index, from, value.data()))
         rows.push_back({static_cast<std::uint32_t>(index), value});
     });
-    // A file lists its sparse rows in rising order; one that does not is read all the same, the last of equals counts.
+    // The standard requires sparse rows in rising order; other orders are accepted, and the last of equal indices is
+    // used.
     const auto by_index = [](const Row& a, const Row& b) { return a.index < b.index; };
     std::stable_sort(rows.begin() + first, rows.end(), by_index);
     std::inplace_merge(rows.begin(), rows.begin() + first, rows.end(), by_index);

@@ -43,7 +43,7 @@ class MaterialReader {
     material.normal_image = image_of(source, "normalTexture", &normal_uv);
     if (material.base_color_image < 0) uv = normal_uv;
     if (material.normal_image >= 0 && (normal_uv.set != uv.set || normal_uv.transform != uv.transform)) {
-      // One set of texture coordinates is kept: the base colour's. On it the bumps would lie in the wrong places.
+      // Only the texture coordinates of the base colour are kept. With them the normal map would be misplaced.
       builder_.warn("the normal map of material " + shown(material.name) +
                     " lies otherwise than its base colour and is left out");
       material.normal_image = -1;
@@ -128,7 +128,7 @@ class MaterialReader {
       auto loaded = document_.resource(source.member("uri").text());
       if (document_.failed()) return -1;
       if (!loaded) {
-        // A head without its texture is still a head.
+        // A missing texture is not an error.
         builder_.warn("image " + std::to_string(index) + " " + loaded.error().message + "; it is left out");
         return -1;
       }

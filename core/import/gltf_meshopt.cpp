@@ -9,7 +9,7 @@ namespace {
 using Mode = MeshoptLayout::Mode;
 using Filter = MeshoptLayout::Filter;
 
-/// The library asserts what the extension demands of these numbers, and in a release build believes them.
+/// The library asserts the extension's conditions for these numbers, and does not check them in a release build.
 Status check(const MeshoptLayout& layout) {
   const std::string stride = "byteStride " + std::to_string(layout.stride);
   if (layout.mode != Mode::attributes) {
@@ -29,8 +29,8 @@ Status check(const MeshoptLayout& layout) {
   return Unit{};
 }
 
-/// The most elements that this many bytes can hold. Attributes: each byte of an element costs at least 2 bits per 16
-/// elements; indices: at least a byte a triangle, and a byte an index.
+/// The maximum number of elements in this many bytes. Attributes: each byte of an element takes at least 2 bits per 16
+/// elements; indices: at least one byte per triangle, or one byte per index.
 std::size_t most_elements(const MeshoptLayout& layout, std::size_t bytes) {
   switch (layout.mode) {
     case Mode::attributes:

@@ -6,7 +6,7 @@
 namespace semblante::import {
 namespace {
 
-/// ARKit has 52, a game head a few hundred.
+/// ARKit has 52 targets, a game head a few hundred.
 constexpr std::size_t max_examples = 4096;
 
 }  // namespace
@@ -43,7 +43,7 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
     if (document_.failed()) return;
     if (!accessor) continue;
     if (document_.item("accessors", *accessor).member("count").integer(0, ~std::uint64_t{0}) != count) {
-      // Draco may have merged vertices that a target still tells apart.
+      // Draco may have merged vertices that are separate in a target.
       builder_.warn(target.pointer() + " has another number of vertices than its primitive and is left out");
       continue;
     }
@@ -57,7 +57,7 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
     const std::string name =
         i < names.size() && !names[i].empty() ? printable(names[i]) : "target " + std::to_string(i);
     Example& kept = example(name);
-    // A name that one mesh uses twice would give a vertex twice: the first stands.
+    // If one mesh uses a name twice, a vertex would be listed twice: the first is kept.
     const bool follows = kept.vertices.empty() || kept.vertices.back() < first;
     for (const auto& [index, value] : rows) {
       if (!follows) break;

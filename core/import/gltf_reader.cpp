@@ -20,8 +20,8 @@ namespace {
 
 enum PrimitiveMode : std::uint64_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
 
-/// Extensions we read, or that change only how a surface looks. Any other that a file *requires* is refused: without it
-/// the geometry would be wrong.
+/// Extensions that are read, or change only the look of a surface. Any other *required* extension is refused: without
+/// it the geometry would be wrong.
 constexpr std::array<std::string_view, 12> known_extensions = {
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",
     "KHR_texture_transform",      "KHR_animation_pointer",   "EXT_lights_image_based",
@@ -49,7 +49,7 @@ void check_asset(GltfDocument& document) {
   }
 }
 
-/// Where a primitive's attributes come from: accessors, or the Draco data that stands in for them.
+/// The source of a primitive's attributes: accessors, or the Draco data that replaces them.
 class PrimitiveData {
  public:
   PrimitiveData(GltfDocument& document, JsonCursor primitive, const ImportLimits& limits)
@@ -67,7 +67,7 @@ class PrimitiveData {
     } else {
       draco_ = std::move(*decoded);
     }
-    // The decoded triangles count the decoded points, so no other positions can go with them.
+    // The decoded triangles index the decoded points, so other positions cannot be used.
     if (draco_ && !in_draco("POSITION")) draco_place_->fail(ErrorCode::missing, "compresses no POSITION");
   }
 
@@ -108,7 +108,7 @@ class PrimitiveData {
     return in_order;
   }
 
-  /// Draco holds triangles (or a strip turned into them) whatever `mode` says.
+  /// Draco data always has triangles, independent of `mode`.
   [[nodiscard]] std::uint64_t mode() const { return draco_ ? triangles : primitive_.integer_or("mode", triangles); }
 
  private:
@@ -145,7 +145,7 @@ class GltfReader {
  private:
   void read_mesh(std::size_t index) {
     const JsonCursor mesh = document_.item("meshes", index);
-    const std::string name = printable(mesh.text_or("name", ""));  // cut, since every primitive keeps a copy
+    const std::string name = printable(mesh.text_or("name", ""));  // truncated, because every primitive keeps a copy
     const auto& placement = placements_[index];
     if (!placement) {
       builder_.warn("mesh " + std::to_string(index) + " " + shown(name) +
@@ -229,7 +229,7 @@ class GltfReader {
     return true;
   }
 
-  /// UVs and normals run beside the positions; primitives without get zeros that no corner names.
+  /// UVs and normals are parallel to the positions; primitives without them get zeros that no corner uses.
   template <class V>
   void pad_before(std::vector<V>& values, std::size_t count) {
     values.resize(builder_.model.positions.size() - count, V(0.0F));
@@ -239,7 +239,7 @@ class GltfReader {
     if (!values.empty()) values.resize(builder_.model.positions.size(), V(0.0F));
   }
 
-  /// The run of file vertices a primitive added, and what its corners have.
+  /// The range of file vertices of a primitive, and the attributes of its corners.
   struct Range {
     std::uint32_t first, count;
     bool has_uvs, has_normals, mirrored;

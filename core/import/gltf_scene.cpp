@@ -11,7 +11,7 @@
 namespace semblante::import {
 namespace {
 
-/// `size` numbers of an array that must have just that many.
+/// The numbers of an array that must have exactly `size` elements.
 template <std::size_t size>
 std::array<double, size> numbers(const JsonCursor& array) {
   std::array<double, size> values{};
@@ -50,7 +50,7 @@ glm::dmat4 local_transform(const JsonCursor& node) {
   return transform;
 }
 
-/// Nodes nobody names as a child, for a file that has no scene.
+/// Nodes that are no child of another node, for a file without a scene.
 std::vector<std::size_t> root_nodes(GltfDocument& document, std::size_t node_count) {
   std::vector<bool> is_child(node_count, false);
   for (std::size_t i = 0; i < node_count; ++i) {
@@ -78,15 +78,15 @@ std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_co
   return nodes;
 }
 
-/// What a skin does with the meshes that wear it.
+/// The effect of a skin on its meshes.
 struct SkinPose {
   std::optional<glm::dmat4> common;                       ///< one matrix for all vertices
-  std::shared_ptr<const std::vector<glm::dmat4>> joints;  ///< else one by joint
+  std::shared_ptr<const std::vector<glm::dmat4>> joints;  ///< otherwise one per joint
 };
 
 SkinPose pose_of(GltfDocument& document, std::size_t skin, std::span<const std::optional<glm::dmat4>> world) {
   std::vector<glm::dmat4> joints = joint_matrices(document, skin, world);
-  if (joints.empty()) return {};  // a skin that hangs on nothing: the node's own transform is the best there is
+  if (joints.empty()) return {};  // a skin without joints in the scene: uses the node's own transform
   if (const auto common = common_matrix(joints)) return {common, nullptr};
   return {std::nullopt, std::make_shared<const std::vector<glm::dmat4>>(std::move(joints))};
 }
@@ -139,7 +139,7 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
       pending.push_back({node.member("children").element(c).integer(0, node_count - 1), to_world});
     }
   }
-  std::map<std::size_t, SkinPose> poses;  // each once, however many meshes wear it
+  std::map<std::size_t, SkinPose> poses;  // each computed once, for all meshes with the skin
   for (auto& placement : placements) {
     if (!placement || !placement->skin || document.failed()) continue;
     const auto [pose, is_new] = poses.try_emplace(*placement->skin);

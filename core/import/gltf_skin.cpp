@@ -6,7 +6,7 @@
 namespace semblante::import {
 namespace {
 
-/// Inverse bind matrices are float32 and so is their product with the joints.
+/// Inverse bind matrices have the precision of float32, and so have their products.
 constexpr double tolerance = 1e-5;
 
 bool nearly_equal(const glm::dmat4& a, const glm::dmat4& b) {

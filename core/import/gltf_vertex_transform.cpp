@@ -7,7 +7,7 @@
 namespace semblante::import {
 namespace {
 
-/// The cofactor matrix turns normals as the transform turns surfaces, even where it has no inverse.
+/// The cofactor matrix transforms normals correctly, even if the transform has no inverse.
 glm::dmat3 normal_matrix(const glm::dmat4& transform) {
   const glm::dmat3 m(transform);
   const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
@@ -65,7 +65,7 @@ glm::vec3 VertexTransform::normal(std::size_t vertex, const glm::vec3& value) co
   if (!moves()) return value;
   const glm::dvec3 turned = normal_matrix(matrix(vertex)) * glm::dvec3(value);
   const double length = glm::length(turned);
-  // Divided before it becomes a float: the cofactors of a model in millimetres would underflow.
+  // Normalized before the conversion to float: the cofactors of a model in millimetres would underflow.
   return length > 0.0 ? glm::vec3(turned / length) : glm::vec3(0.0F);
 }
 

@@ -18,7 +18,7 @@ std::string lower_case(std::string text) {
 
 bool has_ending(std::string name, std::string_view ending) { return lower_case(std::move(name)).ends_with(ending); }
 
-/// The one entry with this ending; nullopt when there is none. Resource forks that macOS adds do not count.
+/// The only entry with this ending; nullopt when there is none. Resource forks added by macOS are ignored.
 Result<std::optional<std::string>> only_entry(const std::vector<std::string>& names, std::string_view ending) {
   std::optional<std::string> found;
   for (const std::string& name : names) {
@@ -31,8 +31,8 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
   return found;
 }
 
-/// The entry a path means, as the file that names it stands in `folder`. Material files keep paths of the machine they
-/// were written on: where those lead nowhere, the one entry of that file name is meant.
+/// The entry for a path in a file that is in `folder`. Material files may have paths of another machine: if the path
+/// does not exist, the only entry with its file name is used.
 std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
                                       std::string_view path) {
   const auto resolved = resolve_in_zip(folder, path);

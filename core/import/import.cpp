@@ -16,7 +16,7 @@ namespace {
 
 using import::as_text;
 
-/// A binary STL has no magic: 80 bytes of anything, a count, and 50 bytes a triangle.
+/// A binary STL has no magic number: 80 arbitrary bytes, a count, and 50 bytes per triangle.
 bool has_size_of_binary_stl(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 84) return false;
   const std::uint64_t count = static_cast<std::uint64_t>(bytes[80]) | static_cast<std::uint64_t>(bytes[81]) << 8 |
@@ -24,7 +24,7 @@ bool has_size_of_binary_stl(std::span<const std::uint8_t> bytes) {
   return bytes.size() == 84 + 50 * count;
 }
 
-/// Whether one of the first lines is a `v`, `f` or another line of OBJ alone.
+/// Whether one of the first lines is a `v`, `f` or another line specific to OBJ.
 bool looks_like_obj(std::string_view text) {
   constexpr int lines_to_try = 200;
   import::LineReader lines(text.substr(0, 65536));
@@ -87,7 +87,7 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
     }
     return Error{ErrorCode::invalid_argument, "", "no such format"};
   } catch (const std::bad_alloc&) {
-    // Within the limits, and still more than this machine has: the file's problem, not the end of the server.
+    // Within the limits, but more memory than this machine has: an error of the file must not end the server.
     return Error{ErrorCode::too_large, "", "the model wants more memory than there is"};
   }
 }

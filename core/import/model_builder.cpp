@@ -11,9 +11,9 @@
 namespace semblante::import {
 namespace {
 
-/// Squares of coordinates stay finite in float32 below this, whatever the unit of the file.
+/// Squares of coordinates are finite in float32 below this, for any unit of the file.
 constexpr float max_coordinate = 1e15F;
-/// A hostile file must not turn its repairs into an essay.
+/// Bounds the text that a hostile file can cause.
 constexpr std::size_t max_warnings = 32;
 
 bool no_corner_has_one(const std::vector<Triangle>& triangles) {
@@ -25,7 +25,7 @@ bool no_corner_has_one(const std::vector<Triangle>& triangles) {
   return true;
 }
 
-/// Normals become unit length; corners whose normal has no direction lose it.
+/// Normalizes normals; removes those of length zero from their corners.
 void normalize_normals(Model& model) {
   std::vector<bool> usable(model.normals.size());
   for (std::size_t i = 0; i < model.normals.size(); ++i) {
@@ -56,7 +56,7 @@ Status check_positions(const Model& model) {
   return Unit{};
 }
 
-/// A displacement is bounded as a position is: it came through the same matrices.
+/// A displacement has the same bound as a position, because it has the same transforms.
 Status check_examples(const Model& model) {
   for (const Example& example : model.examples) {
     for (const glm::vec3& d : example.displacements) {

@@ -11,16 +11,16 @@ enum class ModelFormat { glb, gltf, gltf_zip, obj, ply, stl };
 
 inline constexpr std::string_view glb_media_type = "model/gltf-binary";
 
-/// A kind of file that holds a head.
+/// A kind of model file.
 struct ModelFile {
   std::string_view ending;  ///< of its name, in small letters
   ModelFormat format;
   std::string_view media_type;
-  std::string_view title;  ///< for people
+  std::string_view title;  ///< for display
 };
 
-/// The one table of them. The studio's (web/src/net/model_formats.ts), openapi.json and the texts for people are held
-/// against it by tests.
+/// The only table of model files. Tests compare the studio's (web/src/net/model_formats.ts), openapi.json and user
+/// texts with it.
 inline constexpr auto model_files = std::to_array<ModelFile>({
     {".glb", ModelFormat::glb, glb_media_type, "GLB"},
     {".vrm", ModelFormat::glb, glb_media_type, "VRM"},
@@ -31,7 +31,7 @@ inline constexpr auto model_files = std::to_array<ModelFile>({
     {".zip", ModelFormat::gltf_zip, "application/zip", "ZIP"},
 });
 
-/// What the same files are also sent as; the bytes decide.
+/// Other accepted media types of these files; the format is detected from the bytes.
 inline constexpr auto other_model_media_types =
     std::to_array<std::string_view>({"application/octet-stream", "application/ply", "application/sla",
                                      "application/x-zip-compressed", "model/vnd.ply", "text/plain"});
@@ -42,7 +42,7 @@ inline constexpr std::array all_model_formats = {ModelFormat::glb, ModelFormat::
 /// "glb", "gltf", "gltf_zip", "obj", "ply", "stl".
 std::string_view to_string(ModelFormat format);
 
-/// The way back; nullopt for any other text.
+/// The reverse; nullopt for any other text.
 std::optional<ModelFormat> parse_model_format(std::string_view name);
 
 /// By the ending of a file's name, in any case; nullopt for endings that are not in the table.

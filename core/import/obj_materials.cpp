@@ -9,7 +9,7 @@
 namespace semblante::import {
 namespace {
 
-/// Paths of images that are looked for: each is compared with every entry of the zip.
+/// Maximum number of image paths looked up: each is compared with every entry of the zip.
 constexpr std::size_t max_image_paths = 1024;
 constexpr std::size_t max_library_bytes = std::size_t{4} << 20;
 
@@ -26,8 +26,8 @@ float unit(std::string_view& rest, float otherwise) {
   return std::clamp(value, 0.0F, 1.0F);
 }
 
-/// The file name behind the options of a map ("-s 1 1 1 -bm 0.5 skin colour.png"): options take numbers, on or off, or
-/// a channel; the name is the rest of the line.
+/// The file name after the options of a map ("-s 1 1 1 -bm 0.5 skin colour.png"): option values are numbers, on or off,
+/// or a channel; the name is the rest of the line.
 std::string_view map_path(std::string_view rest) {
   rest = trimmed(rest);
   while (rest.starts_with('-')) {
@@ -123,7 +123,7 @@ void ObjMaterials::fill(Material& material) const {
   const std::string name = material.name;
   material = found->second;
   material.name = name;
-  // A texture that came along shows the colour; exporters write a Kd beside it that old viewers did not multiply by.
+  // With a texture, Kd is ignored: exporters write a value that old viewers did not multiply with the texture.
   if (material.base_color_image >= 0) material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
   if (material.base_color.a < 1.0F) material.alpha_mode = Material::AlphaMode::blend;
 }

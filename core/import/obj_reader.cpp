@@ -15,7 +15,7 @@
 namespace semblante::import {
 namespace {
 
-/// Reads line by line into flat arrays, then splits the polygons: `f` may come before the `v` it names, and splitting
+/// Reads line by line into flat arrays, then splits the polygons: `f` may precede the `v` it refers to, and splitting
 /// needs positions.
 class ObjReader {
  public:
@@ -50,14 +50,14 @@ class ObjReader {
   }
 
  private:
-  /// Where a run of polygons begins that share a name and a material.
+  /// The beginning of a run of polygons with the same name and material.
   struct Section {
     std::size_t first_polygon;
     std::string name;
     int material;
   };
-  /// An index that lies beyond what had been read so far, and the line that used it. Only rising ones are kept, so the
-  /// first that stays out of range is the first in the file.
+  /// An index larger than the number of elements read so far, and its line. Only rising ones are kept, so the first one
+  /// out of range at the end is the first in the file.
   struct ForwardReference {
     std::uint32_t index;
     std::size_t line;
@@ -79,7 +79,7 @@ class ObjReader {
     if (keyword == "vn") return read_normal(rest);
     if (keyword == "f" || keyword == "fo") return read_face(rest);
     if (keyword == "o" || keyword == "g") {
-      name_ = printable(trimmed(rest));  // cut, since every section keeps a copy
+      name_ = printable(trimmed(rest));  // truncated, because every section keeps a copy
       start_section();
     } else if (keyword == "usemtl") {
       return use_material(trimmed(rest));
@@ -91,7 +91,7 @@ class ObjReader {
     return Unit{};
   }
 
-  /// Smoothing, points, lines, free-form curves and display hints: valid, and without a part in a face.
+  /// Smoothing, points, lines, free-form curves and display hints: valid, but not used.
   static bool is_ignored(std::string_view keyword) {
     static constexpr std::array<std::string_view, 33> ignored = {
         "s",     "p",     "l",    "mg",       "vp",       "cstype", "deg",    "bmat",       "step",
@@ -110,7 +110,7 @@ class ObjReader {
     return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
   }
 
-  /// `minimum` to `out.size()` numbers; what the line does not say stays as it is, what follows is not looked at.
+  /// Reads `minimum` to `out.size()` numbers; missing ones keep their values, the rest of the line is ignored.
   Status read_numbers(std::string_view rest, std::string_view what, std::size_t minimum, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::string_view token = next_token(rest);
@@ -132,7 +132,7 @@ class ObjReader {
     return Unit{};
   }
 
-  /// x y z, then perhaps w (of rational curves) or a colour: neither is part of a mesh.
+  /// x y z, then optionally w (of rational curves) or a colour, which are ignored.
   Status read_position(std::string_view rest) {
     std::array<float, 3> p{};
     if (Status status = read_numbers(rest, "v", 3, p); !status) return status;
@@ -148,7 +148,7 @@ class ObjReader {
     std::array<float, 2> uv{};
     if (Status status = read_numbers(rest, "vt", 1, uv); !status) return status;
     if (builder_.model.uvs.size() >= limits_.max_vertices) return too_many("texture coordinates", limits_.max_vertices);
-    builder_.model.uvs.emplace_back(uv[0], 1.0F - uv[1]);  // OBJ counts v from the bottom
+    builder_.model.uvs.emplace_back(uv[0], 1.0F - uv[1]);  // v of OBJ has its origin at the bottom
     return Unit{};
   }
 
@@ -205,7 +205,7 @@ class ObjReader {
     return Unit{};
   }
 
-  /// From 1, or negative: back from the last one read.
+  /// Counted from 1, or negative: backwards from the last one read.
   Status read_index(std::string_view text, std::string_view corner, std::string_view what, std::size_t count,
                     std::vector<ForwardReference>& forward, std::uint32_t& out) {
     std::int64_t number = 0;
@@ -243,7 +243,7 @@ class ObjReader {
     return Unit{};
   }
 
-  /// A material file, where there is something to read it from.
+  /// Reads a material file, if resources are available.
   void use_library(std::string_view name) {
     constexpr int max_libraries = 16;
     if (libraries_++ >= max_libraries) return;

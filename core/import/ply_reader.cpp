@@ -14,7 +14,7 @@
 namespace semblante::import {
 namespace {
 
-/// Values one after another, of a text or of binary data. The first fault is kept; what follows is zero.
+/// Sequential values of a text or of binary data. The first error is kept; later values are zero.
 class ValueSource {
  public:
   ValueSource(std::span<const std::uint8_t> bytes, const PlyHeader& header)
@@ -29,7 +29,7 @@ class ValueSource {
     return is_text_ ? next_of_text() : next_of_bytes(type);
   }
 
-  /// Bytes not read yet, at least: what bounds every announced count.
+  /// A lower bound of the unread bytes; limits every declared count.
   [[nodiscard]] std::size_t left() const { return is_text_ ? line_.size() + 1 + lines_.rest().size() : data_.left(); }
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
   [[nodiscard]] std::string where() const {
@@ -86,7 +86,7 @@ class ValueSource {
     if (token.size() > 1 && token.front() == '+' && token[1] != '-') token.remove_prefix(1);
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     if (error == std::errc::result_out_of_range) {
-      // Too small for a double is zero; too large is left to be refused by whoever needs the value.
+      // Underflow of a double gives zero; overflow is refused where the value is used.
       float small = 0.0F;
       value = parse_number(token, small) == NumberFault::none ? 0.0 : std::numeric_limits<double>::infinity();
     } else if (error != std::errc{} || end != token.data() + token.size()) {
@@ -112,7 +112,7 @@ class PlyReader {
   Result<Model> read() {
     for (const PlyElement& element : header_.elements) {
       const std::size_t least = element.least_bytes(header_.is_text);
-      // One blank may be missing at the end of a text.
+      // The last value of a text may have no blank after it.
       if (element.count > 0 && (least == 0 || element.count > (source_.left() + 1) / least)) {
         return Error{ErrorCode::truncated, source_.where(),
                      "the header announces " + std::to_string(element.count) + " of element " + shown(element.name) +
@@ -160,7 +160,7 @@ class PlyReader {
                        std::to_string(limits_.max_vertices) + " are allowed"};
     }
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    // x y z, nx ny nz, u v: where each is among the properties.
+    // x y z, nx ny nz, u v: their indices among the properties.
     std::array<std::size_t, 8> places{};
     places.fill(none);
     static constexpr std::array<std::string_view, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
@@ -194,7 +194,7 @@ class PlyReader {
     return Unit{};
   }
 
-  /// Number of items in front of a list, checked against what is left.
+  /// Number of items of a list, checked against the unread bytes.
   Result<std::size_t> list_size(const PlyProperty& property) {
     const double announced = source_.next(*property.list_size);
     if (source_.fault()) return *source_.fault();
@@ -278,7 +278,7 @@ class PlyReader {
     return Unit{};
   }
 
-  /// After everything has been read: a file may list its faces before its vertices.
+  /// Called after everything has been read: a file may have its faces before its vertices.
   Status add_triangles() {
     if (!has_vertices_) return Error{ErrorCode::missing, "", "the header has no element 'vertex'"};
     if (short_faces_ > 0)

@@ -37,12 +37,12 @@ std::span<const std::array<std::uint32_t, 3>> Triangulator::split(std::span<cons
     triangles_.push_back({0, i, i + 1});
     fan_turns_over |= glm::dot(area_vector(corners[0], corners[i], corners[i + 1]), normal) < 0.0;
   }
-  // A quad is (a b c) (a c d) whatever its shape: the diagonal is an edge that surface distances run along, and every
-  // other reader of the file must find the same one. Heads have a few slightly concave quads, where it does no harm.
+  // A quad of any shape is (a b c) (a c d): the diagonal is an edge for surface distances, and every other reader of
+  // the file must choose the same one. Heads have a few slightly concave quads, where it does no harm.
   if (!fan_turns_over || corners.size() == 4) return triangles_;
   std::vector<std::array<std::uint32_t, 3>> fan;
   fan.swap(triangles_);
-  // A polygon that crosses itself has no ears to the end; its fan is as good as anything.
+  // A self-intersecting polygon may run out of ears; then the fan is used.
   if (!clip_ears(corners, normal)) triangles_.swap(fan);
   return triangles_;
 }

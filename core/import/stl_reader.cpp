@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t stl_header_bytes = 80;
 constexpr std::size_t facet_bytes = 50;
 
-/// Numbers positions as they appear.
+/// Numbers positions in order of appearance.
 class Welder {
  public:
   explicit Welder(std::vector<glm::vec3>& positions) : positions_(positions) {}
@@ -69,7 +69,7 @@ Result<Model> read_binary(std::span<const std::uint8_t> bytes, const ImportLimit
   return std::move(builder).finish("stl");
 }
 
-/// Text: only "vertex" lines carry anything; "endfacet" says that three of them made a facet.
+/// Text: only "vertex" lines have data; "endfacet" ends a facet of three vertices.
 Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
   ModelBuilder builder(limits);
   Welder welder(builder.model.positions);
@@ -120,7 +120,8 @@ Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
 }  // namespace
 
 Result<Model> read_stl(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
-  // Binary headers may begin with "solid" too; only text goes on with "facet" and has no zero byte at once.
+  // Binary headers may begin with "solid" too; only a text continues with "facet" and has no zero byte near the
+  // beginning.
   const std::string_view text = as_text(bytes);
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   const std::string_view head = text.substr(begin, 4096);

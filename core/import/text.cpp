@@ -9,7 +9,8 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-/// from_chars reports underflow and overflow alike; the exponent, or where the digits are, tells them apart.
+/// from_chars reports underflow and overflow with the same code; the exponent, or the position of the digits,
+/// distinguishes them.
 bool is_tiny(std::string_view token) {
   const std::size_t e = token.find_first_of("eE");
   if (e != std::string_view::npos) return token.substr(e + 1, 1) == "-";
@@ -31,7 +32,7 @@ NumberFault parse_number(std::string_view token, float& value) {
     if (!is_tiny(token)) return NumberFault::not_finite;
     parsed = 0.0;
   }
-  // "nan" and "inf" are numbers to from_chars; comparing this way refuses both.
+  // from_chars accepts "nan" and "inf"; this comparison refuses both.
   if (!(std::abs(parsed) <= static_cast<double>(std::numeric_limits<float>::max()))) return NumberFault::not_finite;
   value = static_cast<float>(parsed);
   return NumberFault::none;

@@ -49,7 +49,7 @@ struct CloseFile {
 void ZipArchive::Close::operator()(zip* archive) const { zip_discard(archive); }
 
 Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes) {
-  // Each entry has one of these in the directory; libzip would make a record of about 200 bytes for each.
+  // Each entry has one of these in the directory; libzip would allocate about 200 bytes for each.
   if (count_of(as_text(bytes), "PK\x01\x02") > max_entries) {
     return Error{ErrorCode::too_large, "", "the zip has more than " + std::to_string(max_entries) + " entries"};
   }
@@ -88,7 +88,7 @@ Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std:
     return Error{ErrorCode::unsupported, "",
                  "the zip's entry " + shown(name) + " cannot be opened: " + printable(zip_strerror(archive_.get()))};
   }
-  // What the entry announces as its size is not believed; the buffer grows with what really comes.
+  // The declared size of the entry is not trusted; the buffer grows with the inflated data.
   std::vector<std::uint8_t> bytes;
   constexpr std::size_t step = std::size_t{1} << 16;
   while (true) {

@@ -1,4 +1,4 @@
-/* Pose -> vertices of a prepared face, by the best registers that the machine has. */
+/* Pose -> vertices of a prepared face, with the widest registers of the machine. */
 #include "core/kernel/export.h"
 #include "core/kernel/prepared_layout.h"
 

@@ -1,4 +1,4 @@
-/* Between poses, without corners. */
+/* Smooth interpolation between poses. */
 #include "core/kernel/export.h"
 #include "core/kernel/semblante_ease.h"
 
@@ -46,7 +46,7 @@ static void ease_rotation(const curve* c, const float before[4], const float fro
   for (int i = 0; i < 4; ++i) {
     q[i] = at(c, before_side * before[i], from[i], to_side * to[i], after_side * after[i]);
   }
-  /* Each component lies between those of two quaternions less than a quarter turn of the sphere apart: never 0. */
+  /* Each component is between those of two quaternions with an angle below 90 degrees: never 0. */
   const float length = __builtin_sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   for (int i = 0; i < 4; ++i) {
     out[i] = length > 0.0F ? q[i] / length : from[i];

@@ -7,7 +7,7 @@
 #include "core/tables/generated/mpeg4_tables.h"
 
 #if defined(__wasm__)
-/* JavaScript lays these structs out by hand (offsets in README.md): they may not move. */
+/* JavaScript uses fixed offsets of these structs (README.md): they must not change. */
 _Static_assert(sizeof(semblante_frame) == 284 && offsetof(semblante_frame, fap) == 8, "frame");
 _Static_assert(sizeof(semblante_iris) == 24 && sizeof(semblante_tongue) == 44, "iris, tongue");
 _Static_assert(sizeof(semblante_rig) == 160 && offsetof(semblante_rig, iris) == 68, "rig");
@@ -59,7 +59,7 @@ static void evaluate_high_level(const semblante_rig* rig, const semblante_frame*
 
 static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
 
-/* FAPs 29 and 30. A ring of iris and a dot of pupil remain, so that no triangle turns over. */
+/* FAPs 29 and 30. A minimal ring of iris and a minimal pupil remain, so that no triangle flips. */
 static float pupil_growth(const semblante_iris* iris, float diameter_growth) {
   const float kept = 0.9F;
   return clamped(0.5F * diameter_growth, -kept * iris->pupil_radius, kept * (iris->iris_radius - iris->pupil_radius));

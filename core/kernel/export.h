@@ -1,4 +1,4 @@
-/* Internal: what the WebAssembly module shows to its host. */
+/* Internal: marks the exports of the WebAssembly module. */
 #ifndef SEMBLANTE_KERNEL_EXPORT_H
 #define SEMBLANTE_KERNEL_EXPORT_H
 

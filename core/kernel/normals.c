@@ -3,7 +3,7 @@
 #include "core/kernel/semblante_normals.h"
 
 #if defined(__wasm__)
-/* JavaScript lays this struct out by hand (offsets in README.md): it may not move. */
+/* JavaScript uses fixed offsets of this struct (README.md): they must not change. */
 _Static_assert(sizeof(semblante_triangles) == 16, "triangles");
 #endif
 

@@ -2,11 +2,11 @@
 #include "core/kernel/export.h"
 #include "core/kernel/prepared_layout.h"
 
-/* Groups are ordered within windows of so many, so that what is written stays near. */
+/* Groups are sorted within windows of this size, so that writes stay local. */
 #define WINDOW 256U
 #define KEYS (SEMBLANTE_GROUP_PARTS * (SEMBLANTE_FP_COUNT + 1))
 
-/* What is known of one group before it is written. */
+/* The properties of one group, before it is written. */
 typedef struct group_facts {
   uint32_t point_count;
   uint32_t part;

@@ -20,7 +20,7 @@ typedef enum semblante_group_part {
   SEMBLANTE_GROUP_PARTS
 } semblante_group_part;
 
-/* Groups one after the other with equally many points and one part: a loop without surprises for the processor. */
+/* Consecutive groups with the same number of points and the same part: a loop with predictable branches. */
 typedef struct semblante_run {
   uint32_t group_count;
   uint16_t point_count; /* of each group */

@@ -2,8 +2,8 @@
 #ifndef SEMBLANTE_KERNEL_RIGID_MOTION_H
 #define SEMBLANTE_KERNEL_RIGID_MOTION_H
 
-/* x += (R - 1)(x - pivot) + translation. Written as a change of x, so that no rotation means no change at all, not
- * even of the last bit. */
+/* x += (R - 1)(x - pivot) + translation. Written as a change of x, so that without a rotation the result is
+ * bit-identical. */
 typedef struct semblante_rigid_motion {
   float change[3][3]; /* R - 1 */
   float pivot[3];

@@ -8,9 +8,9 @@ void semblante_sincos(float angle, float* sine, float* cosine) {
   *sine = 0.0F;
   *cosine = 1.0F;
   if (!(angle > -1e6F && angle < 1e6F)) {
-    return; /* not an angle a face can have; also NaN */
+    return; /* not a plausible angle of a face; also NaN */
   }
-  /* Quarter turns off, then Taylor about 0 on [-pi/4, pi/4]: the first terms left out are below 4e-10. */
+  /* Removes quarter turns, then Taylor about 0 on [-pi/4, pi/4]: the first omitted terms are below 4e-10. */
   const double quarter = 1.57079632679489661923;
   const double turns = angle / quarter;
   const int32_t n = (int32_t)(turns + (turns < 0.0 ? -0.5 : 0.5));

@@ -1,10 +1,10 @@
-/* What a module without a C library must bring along: memory for its caller, and the two routines compilers call. */
+/* Replaces the C library in the module: memory for the caller, and the two functions that compilers call. */
 #include <stddef.h>
 #include <stdint.h>
 
 #include "core/kernel/semblante_kernel.h"
 
-/* Set by the linker, which chose the name: the first byte after data and stack. */
+/* Defined by the linker: the first byte after data and stack. */
 extern unsigned char __heap_base; /* NOLINT(bugprone-reserved-identifier) */
 
 #define PAGE_BYTES 65536U

@@ -20,7 +20,7 @@ constexpr int x = 0;
 constexpr int y = 1;
 
 struct Definition {
-  std::array<Span, 2> spans;  ///< the unit is their mean; the second is empty where one is all there is
+  std::array<Span, 2> spans;  ///< the unit is their mean; the second is empty for units with one span
   std::string_view needed_for;
 };
 

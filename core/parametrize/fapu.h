@@ -20,7 +20,7 @@ namespace semblante {
 Fapu compute_fapu(const FeaturePointSet& points);
 
 /// One sentence for each unit that `compute_fapu` leaves empty: its name, why, and what does not work without it.
-/// `fapu` may have been completed by hand; only what is still empty is spoken of.
+/// `fapu` may have been completed by hand; only units still empty are explained.
 std::vector<std::string> explain_missing_fapu(const Fapu& fapu, const FeaturePointSet& points);
 
 }  // namespace semblante

@@ -10,7 +10,7 @@
 namespace semblante {
 namespace {
 
-/// One row being put together: ids rise, equal ids add up.
+/// Builder of one row: ids are rising, weights of equal ids are added.
 class InfluenceRow {
  public:
   explicit InfluenceRow(WeightMethod method) : method_(method) {}
@@ -29,8 +29,9 @@ class InfluenceRow {
     const auto values = weights.weights_of(vertex.value());
     double sum = 0.0;
     for (const double w : values) sum += w;
-    if (method_ == WeightMethod::smooth) sum = sum > 0.0 ? 1.0 : 0.0;  // they are shares already, the root has the rest
-    if (!(sum > 0.0)) return;                                          // no influencer: it stays where it is
+    if (method_ == WeightMethod::smooth)
+      sum = sum > 0.0 ? 1.0 : 0.0;  // the weights are shares already, the rest belongs to the root
+    if (!(sum > 0.0)) return;       // no influencing point: the vertex does not move
     for (std::size_t k = 0; k < ids.size(); ++k) add(ids[k], share * (values[k] / sum));
   }
   void write_to(WeightTable<float>& table) {
@@ -50,9 +51,9 @@ class InfluenceRow {
 
 /// For every vertex of attached parts the skin vertex it follows.
 ///
-/// A lash hangs on the lid by its root: its tip must not follow the brow that happens to be nearer to it. So a vertex
-/// takes the skin vertex with the shortest way to it, where a way through the air counts several times a way along the
-/// part itself.
+/// A lash is attached to the lid by its root: its tip must not follow the brow, which may be nearer. So a vertex
+/// follows the skin vertex with the shortest path to it, where lengths through the air count several times those along
+/// the part.
 class AttachedVertices {
  public:
   AttachedVertices(const Surface& surface, std::span<const Part> parts)

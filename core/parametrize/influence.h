@@ -21,8 +21,8 @@ namespace semblante {
 ///
 /// Weights of `smooth` are shares as they are: their rows are not divided by the sum.
 ///
-/// A part that holds both rows of teeth (gums with the tongue on them, joined at the throat) follows the jaw in full
-/// where it holds the lower teeth, not at all where it holds the upper ones, and in between by the distance to either.
+/// A part with both rows of teeth (gums with the tongue, joined at the throat) follows the jaw fully at the lower
+/// teeth, not at all at the upper ones, and in between by the distances to both.
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
                                         std::span<const SurfacePoint> points, const WeightTable<double>& weights,
                                         WeightMethod method = WeightMethod::paper);

@@ -33,14 +33,14 @@ class RegionOfVertex {
       : points_(points), offsets_(offsets_between(points)), left_(points.size()) {}
 
   SlotSet operator()(const glm::dvec3& p, std::span<const double> distances) {
-    // 1. A = all points that P can reach; B = empty.
+    // 1. A = all points reachable from P; B = empty.
     std::size_t count = 0;
     for (std::size_t slot = 0; slot < points_.size(); ++slot) {
       if (distances[slot] != std::numeric_limits<double>::infinity()) left_[count++] = slot;
     }
     SlotSet chosen;
     while (count > 0) {  // 4. until A is empty
-      // 2. Move the nearest from A to B; slots rise with the ids, so the first within a tie is the one.
+      // 2. Move the nearest point from A to B; slots rise with the ids, so the first of a tie has the lowest id.
       double least = distances[left_[0]];
       for (std::size_t k = 1; k < count; ++k) least = std::min(least, distances[left_[k]]);
       std::size_t pick = 0;

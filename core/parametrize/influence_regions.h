@@ -35,13 +35,13 @@ class SlotSet {
   std::array<std::uint64_t, 2> words_{};
 };
 
-/// Distances within this relative difference of the least are a tie, which the lower id wins.
+/// Distances within this relative difference of the smallest are a tie; the lowest id wins.
 inline constexpr double distance_tie = 1e-6;
-/// A cosine counts as positive above this: symmetric heads are full of right angles that rounding must not decide.
+/// A cosine counts as positive above this: symmetric heads have many right angles, which rounding must not decide.
 inline constexpr double least_cosine = 1e-6;
 
-/// Region of influence: for each member P of the part the set of points whose region P belongs
-/// to. A feature point's own vertex is not an ordinary vertex: its set is empty.
+/// Region of influence: for each member P of the part the set of points whose regions contain P. A feature point's own
+/// vertex is not an ordinary vertex: its set is empty.
 std::vector<SlotSet> influence_regions(const Surface& surface, const PointDistances& distances);
 
 /// Points i and j are neighbours if some ordinary vertex is in both regions. #F sets; none holds its own slot.

@@ -6,7 +6,7 @@
 
 namespace semblante {
 namespace {
-/// A gradient below this is rounding, not a site that wants in. The covariance of a site with itself is 1.
+/// A gradient below this is a rounding error and does not add a site. The covariance of a site with itself is 1.
 constexpr double least_gain = 1e-10;
 }  // namespace
 
@@ -46,8 +46,7 @@ void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
 }
 
 // The active-set method of Lawson and Hanson, on the normal equations (K is well conditioned). `passive_` keeps the
-// order in which sites came in, so that Cholesky's factor only grows; it is built again from the first site that
-// leaves.
+// order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on.
 std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> sites,
                                                   std::span<const double> to_target) {
   assert(sites.size() == to_target.size());
@@ -55,7 +54,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
   weights_.assign(sites.size(), 0.0);
   is_passive_.assign(sites.size(), false);
   passive_.clear();
-  // Every turn lowers the objective and no passive set comes twice; the bound is for rounding alone.
+  // Every iteration lowers the objective and no passive set repeats; the limit is only for rounding errors.
   for (std::size_t turn = 0; turn < 3 * sites.size(); ++turn) {
     std::size_t best = sites.size();
     double best_gain = least_gain;
@@ -74,7 +73,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
     extend_factor(passive_.size() - 1);
     solve_passive(to_target);
     while (std::any_of(trial_.begin(), trial_.end(), [](double w) { return !(w > 0.0); })) {
-      double step = 1.0;  // how far towards the trial all weights stay positive
+      double step = 1.0;  // step towards the trial up to which all weights stay positive
       for (std::size_t p = 0; p < passive_.size(); ++p) {
         const double from = weights_[passive_[p]];
         if (!(trial_[p] > 0.0)) step = std::min(step, from > 0.0 ? from / (from - trial_[p]) : 0.0);

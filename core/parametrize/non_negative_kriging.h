@@ -6,9 +6,9 @@
 
 namespace semblante {
 
-/// Solves min 1/2 w'Kw - k'w, w >= 0, many times over for rows and columns picked from one K: kriging whose weights
-/// cannot be negative. K is positive definite, so there is one solution, and it is continuous in k: sites enter and
-/// leave it with weight zero. Far sites behind nearer ones get nothing, so that few weights are positive.
+/// Solves min 1/2 w'Kw - k'w, w >= 0, repeatedly for rows and columns selected from one K: kriging with non-negative
+/// weights. K is positive definite, so the solution is unique, and continuous in k: sites enter and leave it with
+/// weight zero. Far sites behind nearer ones get weight zero, so that few weights are positive.
 class NonNegativeKriging {
  public:
   /// `covariance`: #F x #F, row by row, symmetric, positive definite.
@@ -18,17 +18,17 @@ class NonNegativeKriging {
   std::span<const double> solve(std::span<const std::size_t> sites, std::span<const double> to_target);
 
  private:
-  /// Cholesky's factor of K over the passive sites grown by its last row.
+  /// Appends a row to Cholesky's factor of K over the passive sites.
   void extend_factor(std::size_t row);
   void solve_passive(std::span<const double> to_target);
   [[nodiscard]] double covariance(std::size_t a, std::size_t b) const { return covariance_[a * site_count_ + b]; }
 
   std::vector<double> covariance_;
   std::size_t site_count_;
-  std::vector<double> weights_;       ///< of all sites asked for
+  std::vector<double> weights_;       ///< of all sites of the call
   std::vector<std::size_t> passive_;  ///< places in `sites` whose weight may be positive
   std::vector<bool> is_passive_;
-  std::vector<double> trial_;   ///< weights of passive_ if they were free
+  std::vector<double> trial_;   ///< unconstrained weights of passive_
   std::vector<double> factor_;  ///< lower triangle, row by row, #F wide
   std::span<const std::size_t> sites_;
 };

@@ -58,7 +58,7 @@ RigidMotion rigid_motion_of(PartRole role) {
   return RigidMotion::none;
 }
 
-/// What FAPs 29, 30 and 47 need: where irises and tongue are, and which vertices are theirs.
+/// Data for FAPs 29, 30 and 47: the places and vertices of irises and tongue.
 void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig) {
   std::vector<RigidMotion> motion(surface.vertex_count(), RigidMotion::none);
   for (std::size_t s = 0; s < motion.size(); ++s)
@@ -124,8 +124,8 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   for (const SurfaceVertexId vertex : surface.surface_of) {
     rig.part_of_vertex.push_back(surface.part_of[vertex.value()]);
   }
-  // With the weights of Eq. 4 the skin between facing points follows those of the other lip and of the outer lips as
-  // much: what they alone close says little.
+  // Only for smooth weights: with those of Eq. 4 the skin between facing points follows the points of the other lip and
+  // of the outer lips as much, so the gaps would mean little.
   if (options.weights == WeightMethod::smooth) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
   rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
   rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);

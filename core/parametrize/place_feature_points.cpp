@@ -17,7 +17,7 @@ namespace semblante {
 namespace {
 
 // All relative to the diagonal of the model's box.
-constexpr double disagrees = 1e-3;  ///< a vertex this far from the position given with it is another one
+constexpr double disagrees = 1e-3;  ///< a vertex this far from the position given with it contradicts it
 constexpr double at_place = 1e-4;   ///< room for positions printed with few digits
 constexpr double may_snap = 0.05;
 
@@ -29,7 +29,7 @@ std::string join(const std::vector<FeaturePointId>& ids) {
   return text;
 }
 
-/// The side of an opening that a point of a lip or lid belongs to. Speaks only where the side is beyond doubt.
+/// The side of an opening that a point of a lip or lid belongs to; only for vertices whose side is certain.
 struct OwnSide {
   const RimSides& sides;
   bool is_upper;
@@ -66,7 +66,7 @@ class Placement {
     const auto is_there = [&](std::uint32_t v) { return is_used(v) && distance(v, position) <= at_place * diagonal_; };
     const auto part_of = [&](std::uint32_t v) { return surface_.part_of[surface_.surface_of[v].value()]; };
     const auto part_size = [&](std::uint32_t v) { return surface_.members_of(part_of(v)).size(); };
-    // Where rims touch there is a vertex of either at the same place.
+    // Where rims touch, each has a vertex at the same place.
     bool on_own_side = false;
     for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
       if (!is_there(v)) continue;
@@ -76,7 +76,7 @@ class Placement {
       on_own_side = own;
     }
     if (!best) return best;
-    // Among those of the chosen part the nearest: `at_place` may span more than one vertex of a fine mesh.
+    // The nearest vertex of the chosen part: `at_place` may include several vertices of a fine mesh.
     const PartId part = part_of(*best);
     for (std::uint32_t v = *best + 1; v < model_.positions.size(); ++v) {
       if (!is_there(v) || part_of(v) != part || distance(v, position) >= distance(*best, position)) continue;
@@ -85,7 +85,7 @@ class Placement {
     return best;
   }
 
-  /// With a side, a vertex that is beyond doubt on the other one gives way to the nearest that is on its own.
+  /// With a side, a vertex certainly on the other side is replaced by the nearest one on its own.
   [[nodiscard]] std::optional<std::uint32_t> nearest_vertex(const glm::dvec3& position,
                                                             const OwnSide* own_side = nullptr) const {
     const auto nearest = nearest_of(position, [](std::uint32_t) { return true; });
@@ -99,7 +99,7 @@ class Placement {
   }
 
  private:
-  /// A vertex without triangles is no place for a point found by position.
+  /// A point found by position must not get a vertex without triangles.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const {
     return !surface_.steps_from(surface_.surface_of[vertex]).empty();
   }
@@ -153,7 +153,7 @@ std::optional<Error> find_fault(const Model& model, std::span<const MarkedPoint>
   return std::nullopt;
 }
 
-/// True when vertices and positions contradict each other in a way that only a renumbered file explains.
+/// True when vertices and positions contradict each other in a way that only renumbered vertices explain.
 bool was_renumbered(const Placement& placement, std::span<const MarkedPoint> marked,
                     std::vector<FeaturePointId>& disagreeing) {
   bool every_one_found = true;
@@ -217,7 +217,7 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
     if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position, own_side)) {
       points.push_back(placement.at_vertex(point.id, *vertex));
     } else if (point.vertex) {
-      points.push_back(placement.at_vertex(point.id, *point.vertex));  // it agreed with its position well enough
+      points.push_back(placement.at_vertex(point.id, *point.vertex));  // its vertex agrees with its position
     } else if (may_be_bare(point.id)) {
       points.push_back({point.id, std::nullopt, glm::vec3(position)});
     } else {
@@ -232,7 +232,7 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
     return std::nullopt;
   };
 
-  // Points of lips and lids that are found by position come last: the others tell their sides.
+  // Points of lips and lids given by position are placed last: the other points determine their sides.
   const auto needs_side = [&](const MarkedPoint& point) {
     return (!point.vertex || (positions_win && point.position)) && rim_of_point(point.id).opening != nullptr;
   };

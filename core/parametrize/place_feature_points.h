@@ -18,7 +18,7 @@ namespace semblante {
 ///
 /// - A vertex: that file vertex. If positions are given too and some disagree (more than 1e-3 of the box diagonal away)
 ///   while every disagreeing point has a vertex at its position (within 1e-4), the file's vertices were renumbered and
-///   the positions win. Otherwise the vertices win. Either way `warnings` says so.
+/// the positions win. Otherwise the vertices win. Both cases give a warning in `warnings`.
 /// - A position alone: a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
 ///   then the lowest file vertex). Failing that 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
 ///   nearest vertex within 5 % of the diagonal, with a warning.

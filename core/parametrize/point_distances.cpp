@@ -21,7 +21,7 @@ PointDistances measure_distances(const Surface& graph, PartId part, std::span<co
   for (std::size_t m = 0; m < result.members.size(); ++m) {
     all.read_row(m, std::span(result.to_members).subspan(m * count, count));
   }
-  // Lengths added up from either end may differ in the last bit; d_ij must be one number: that from the lower id on.
+  // Sums of lengths from either end may differ in the last bit; d_ij is the one from the lower id.
   result.between.resize(count * count);
   for (std::size_t j = 0; j < count; ++j) {
     const auto member = std::lower_bound(result.members.begin(), result.members.end(), sources[j]);

@@ -9,8 +9,8 @@
 
 namespace semblante {
 
-/// Surface distances d(f, P) between the feature points of one part and its vertices. A vertex reaches exactly the
-/// points of its own part, so parts are worked on one after the other: memory is #members x #points of the largest.
+/// Surface distances d(f, P) between the feature points of one part and its vertices. A vertex reaches only the points
+/// of its own part, so parts are processed one after another: memory is #members x #points of the largest.
 struct PointDistances {
   std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
   std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
@@ -23,8 +23,8 @@ struct PointDistances {
   [[nodiscard]] double between_points(std::size_t i, std::size_t j) const { return between[i * points.size() + j]; }
 };
 
-/// `points` of other parts are left out. `graph` says which ways there are: the surface itself, or the same vertices
-/// and parts with other steps.
+/// `points` of other parts are omitted. `graph` defines the paths: the surface itself, or the same vertices and parts
+/// with other edges.
 PointDistances measure_distances(const Surface& graph, PartId part, std::span<const SurfacePoint> points);
 
 }  // namespace semblante

@@ -9,12 +9,12 @@
 namespace semblante {
 namespace {
 
-/// Detour = way along the surface / straight distance. Lips and lids nearly touch, so the straight distance alone says
-/// that one moves the other; the way round by the corner says it does not. Full trust below, none above. Ways along
-/// edges are up to half again too long on a flat quad mesh, hence the lower bound.
+/// Detour = distance along the surface / straight distance. Lips and lids nearly touch, so that by the straight
+/// distance alone one would move the other; the path around the corner is long. Full weight below the first value, none
+/// above the second. Paths along edges are up to 50 % too long on a flat quad mesh, hence the lower bound.
 constexpr double trusted_detour = 1.6;
 constexpr double greatest_detour = 3.5;
-/// Points by which the way to a place on an edge is estimated.
+/// Number of points used to estimate the distance to a place on an edge.
 constexpr std::size_t landmark_count = 12;
 
 double trust(double detour) {
@@ -22,8 +22,8 @@ double trust(double detour) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// The way along the surface to a site; where no search began at it, what it is at least: by the triangle inequality no
-/// less than the ways from both to a third place differ.
+/// The distance along the surface to a site; without a search from the site a lower bound by the triangle inequality:
+/// the difference of the distances from both to a third place.
 double way_to(const KrigingSite& site, std::span<const double> from) {
   if (site.slot) return from[*site.slot];
   double least = 0.0;

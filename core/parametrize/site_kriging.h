@@ -14,20 +14,21 @@
 
 namespace semblante {
 
-/// A vertex that moves as the points on it do, or on an edge as a mix of points.
+/// A vertex that moves like the points on it, or on an edge like a mix of points.
 struct KrigingSite {
   SurfaceVertexId vertex;
   glm::dvec3 position{0.0};
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
   std::optional<std::size_t> slot;                        ///< in PointDistances, of a point here
-  /// Where no search began here: its row of PointDistances, and the slots in it that tell most about what is near.
+  /// Without a search from here: its row of PointDistances, and the slots in it that give the best bounds for near
+  /// places.
   std::span<const double> distances;
   std::vector<std::size_t> landmarks;
 };
 
 /// One site for each vertex with points on it, in the order of the points.
 std::vector<KrigingSite> point_sites(const PointDistances& distances);
-/// Those margins that lie on this part and have no point on them.
+/// The margins on this part that have no point on them.
 std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances& distances,
                                     std::span<const MarginSite> margins);
 
@@ -35,11 +36,11 @@ std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances
 struct KrigingKernel {
   double length;
   double power;
-  /// Taken off every covariance to a target, so that what a far site adds is zero and not merely little.
+  /// Subtracted from every covariance to a target, so that far sites get exactly zero weight.
   double least;
 
   [[nodiscard]] double at(double distance) const;
-  /// The distance from which on there is nothing.
+  /// The distance from which on the covariance is zero.
   [[nodiscard]] double reach() const;
 };
 
@@ -54,8 +55,8 @@ class SiteKriging {
     const KrigingSite* site;
     double weight;
   };
-  /// What each site adds at a member of the part: positive weights, which vary continuously over the surface. Exactly
-  /// (site, 1) at a site's own vertex. Valid until the next call.
+  /// The weights of sites at a member of the part: positive, and continuous over the surface. Exactly (site, 1) at a
+  /// site's own vertex. Valid until the next call.
   std::span<const Term> at(std::size_t member);
 
   [[nodiscard]] std::span<const KrigingSite> sites() const { return sites_; }

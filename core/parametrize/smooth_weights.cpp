@@ -13,21 +13,20 @@ namespace semblante {
 namespace {
 
 // Chosen by tests/bench/bench_weights on 14 expressions of a real head; all lengths in ES0.
-/// Powers: 1 follows the expressions as well but has a sharper peak at each point; 2 rings. What is taken off makes
-/// weights end 1.0 ES0 away, and fewer points share a vertex.
+/// Powers: 1 matches the expressions equally well but has a sharper peak at each point; 2 oscillates. The subtracted
+/// value makes weights end at 1.0 ES0, so that fewer points share a vertex.
 constexpr KrigingKernel between_points = {0.40, 1.2, 0.05};
-/// Near the edges of lips and lids, where it is known better how they move.
+/// Near the edges of lips and lids, whose motion is known better.
 constexpr KrigingKernel at_edges = {0.07, 1.2, 0.05};
-/// Weights whose sum is at least this are raised to a sum of one: nearly all of the face between its points. Below, the
-/// root takes a share of (1 - sum / full_sum)^root_power, which begins and ends smoothly.
+/// Weights with at least this sum are scaled to a sum of one: nearly all of the face between its points. Below, the
+/// root gets a share of (1 - sum / full_sum)^root_power, which begins and ends smoothly.
 constexpr double full_sum = 0.8;
 constexpr double root_power = 1.5;
-/// A weight below this moves nothing one can see; it would only cost a place in the table.
+/// A weight below this has no visible effect and would only take space in the table.
 constexpr double least_weight = 1e-4;
-/// Where ES0 is not known: it is about this many times the root mean square distance of a face's points to their
-/// centre.
+/// For heads without ES0: it is about this many times the root mean square distance of a face's points to their centre.
 constexpr double eye_separation_per_spread = 0.85;
-/// Parts with points close together (a tongue) are worked on in their own measure.
+/// Parts with points close together (a tongue) get their own unit.
 constexpr double greatest_unit_per_spread = 2.0;
 
 /// Weights of all feature points at one vertex.
@@ -46,9 +45,9 @@ double unit_length(std::span<const KrigingSite> sites, double eye_separation) {
   return spread > 0.0 ? std::min(eye_separation, greatest_unit_per_spread * spread) : eye_separation;
 }
 
-/// Leaves the greatest weights and their sum. What the greatest weight without a place is worth is taken off all of
-/// them, so that a weight is zero when it loses its place. Where that would leave almost nothing (many points equally
-/// far) no choice is continuous: there the greatest are kept as they are, at equal weight those of lower ids.
+/// Keeps the greatest weights and their sum. The greatest dropped weight is subtracted from all of them, so that a
+/// weight is zero when it is dropped. If that would leave almost nothing (many points equally far) no choice is
+/// continuous: then the greatest are kept unchanged, among equal ones those of lower ids.
 void keep_greatest(Row& weights, std::vector<std::size_t>& order) {
   order.resize(weights.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -87,7 +86,7 @@ void add(Row& row, const KrigingSite& site, double weight) {
   for (const auto& [id, share] : site.shares) row[id.value()] += weight * share;
 }
 
-/// Takes away what is negative and leaves the sum, or one if it is more.
+/// Sets negative weights to zero and keeps the sum, at most one.
 void cut(Row& row) {
   const double sum = std::clamp(sum_of(row), 0.0, 1.0);
   for (double& w : row) w = std::max(0.0, w);
@@ -97,7 +96,7 @@ void cut(Row& row) {
   }
 }
 
-/// What the points alone make of a member.
+/// The row of a member from the points alone.
 Row row_of_points(SiteKriging& points, std::size_t member) {
   Row row{};
   for (const SiteKriging::Term& term : points.at(member)) add(row, *term.site, term.weight);
@@ -114,7 +113,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   std::vector<KrigingSite> of_edges = edge_sites(surface, distances, margins);
   SiteKriging points(surface, distances, of_points, unit, between_points);
 
-  // How the edges move otherwise than the points alone make them; the points themselves move as they should.
+  // The corrections at the edges: their rows minus those from the points alone; zero at the points themselves.
   std::vector<Row> corrections;
   for (const KrigingSite& site : of_edges) {
     const auto member = std::lower_bound(distances.members.begin(), distances.members.end(), site.vertex);

@@ -12,13 +12,13 @@ namespace semblante {
 inline constexpr std::size_t max_smooth_influences = 8;
 
 /// The weights of `WeightMethod::smooth` for the members of one part: #M rows of at most `max_smooth_influences`
-/// positive weights. Unlike W of Eq. 4 they are the shares themselves: D_P = sum(w D), and what a row lacks to one
-/// hangs on a root that does not move. They vary continuously over the surface, reach exactly zero about one
+/// positive weights. Unlike W of Eq. 4 they are the shares themselves: D_P = sum(w D), and the remainder of a row to
+/// one belongs to a root that does not move. They are continuous over the surface, reach exactly zero about one
 /// `eye_separation` away from the last point, and are exactly (id, 1) at a point's own vertex (points that share a
 /// vertex share the one equally).
 ///
-/// `eye_separation`: ES0 in model units, the length that makes the weights independent of scale; not positive where it
-/// is not known, then the spread of the points stands in for it.
+/// `eye_separation`: ES0 in model units, the length that makes the weights independent of scale; not positive if
+/// unknown, then the spread of the points replaces it.
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins = {});
 

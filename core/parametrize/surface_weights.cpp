@@ -47,7 +47,7 @@ Result<WeightTable<double>> surface_weights(const Surface& surface, std::span<co
     done += share - share / 2 - share / 4;
   }
 
-  // Parts list their members in rising order, so walking the vertices takes each part's rows one after the other.
+  // Parts list their members in rising order, so iterating over the vertices uses each part's rows in order.
   WeightTable<double> table;
   table.offsets.reserve(surface.vertex_count() + 1);
   std::vector<std::size_t> next(surface.part_count(), 0);

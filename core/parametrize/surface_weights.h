@@ -13,9 +13,9 @@ namespace semblante {
 
 struct WeightOptions {
   WeightMethod method = WeightMethod::paper;
-  /// ES0 in model units, for `smooth`; 0 where it is not known.
+  /// ES0 in model units, for `smooth`; 0: unknown.
   double eye_separation = 0.0;
-  /// Where distances are searched, if not in `surface` itself: the same vertices and parts with other steps.
+  /// The graph for distances, if not `surface` itself: the same vertices and parts with other edges.
   const Surface* distance_graph = nullptr;
 };
 

@@ -7,17 +7,17 @@
 
 namespace semblante {
 
-/// How the weights of the feature points come about.
+/// How the weights of the feature points are computed.
 enum class WeightMethod : std::uint8_t {
   paper,   ///< W of Eq. 1 to 4, exactly; Eq. 7 divides them by their sum
-  smooth,  ///< kriging without negative weights: continuous over the surface, at most 8 points a vertex
+  smooth,  ///< kriging without negative weights: continuous over the surface, at most 8 points per vertex
 };
 inline constexpr std::array<std::string_view, 2> weight_method_names = {"paper", "smooth"};
 
-/// What the surface distance is measured along.
+/// The paths along which surface distances are measured.
 enum class DistanceMetric : std::uint8_t {
   edge,      ///< mesh edges, as in the paper
-  unfolded,  ///< and the diagonals of neighbouring triangles laid flat: nearer to the geodesic
+  unfolded,  ///< also the diagonals of unfolded neighbouring triangles: closer to the geodesic
 };
 inline constexpr std::array<std::string_view, 2> distance_metric_names = {"edge", "unfolded"};
 

@@ -9,7 +9,7 @@
 namespace semblante {
 namespace {
 
-/// What a neighbour j contributes at point i, the same for every P.
+/// The data of a neighbour j of point i, the same for every P.
 struct Neighbor {
   glm::dvec3 direction;  ///< (j - i) / |j - i|
   double distance;       ///< d_ij along the surface
@@ -23,14 +23,14 @@ std::vector<std::vector<Neighbor>> neighbors_of_points(const PointDistances& dis
     sets[i].for_each([&](std::size_t j) {
       const glm::dvec3 offset = distances.points[j].position - distances.points[i].position;
       const double length = glm::length(offset);
-      // Two points at one place have no direction from one to the other: no angle, so never valid.
+      // Two points at one place have no direction between them: no angle, so never valid.
       if (length > 0.0) neighbors[i].push_back({offset / length, distances.between_points(i, j)});
     });
   }
   return neighbors;
 }
 
-/// d of Eq. 1 to 3: how far the influence of point i reaches towards P. Empty without a valid neighbour.
+/// d of Eq. 1 to 3: the reach of point i's influence towards P. nullopt without a valid neighbour.
 std::optional<double> reach_towards(const glm::dvec3& p, const glm::dvec3& i, std::span<const Neighbor> neighbors) {
   const glm::dvec3 offset = p - i;
   const double length = glm::length(offset);
@@ -65,8 +65,8 @@ WeightTable<double> part_weights(const Surface& surface, const PointDistances& d
     regions[m].for_each([&](std::size_t i) {
       const SurfacePoint& point = distances.points[i];
       const std::optional<double> reach = reach_towards(p, point.position, neighbors[i]);
-      // A vertex at the very place of the point, joined to it by an edge without length, has no angle to any neighbour;
-      // Eq. 4 gives it 1 whatever d is.
+      // A vertex at the same place as the point (an edge of length zero) has no angle to any neighbour; Eq. 4 gives it
+      // 1 for every d.
       if (to_points[i] == 0.0) {
         table.push(point.id, 1.0);
       } else if (reach && to_points[i] < *reach) {

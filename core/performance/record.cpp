@@ -37,9 +37,9 @@ std::vector<CueKey> thinned(const std::vector<CueKey>& points, double tolerance)
   return keys;
 }
 
-class Recorder {
+class CueBuilder {
  public:
-  Recorder(std::vector<RecordedFrame> frames, double tolerance) : frames_(std::move(frames)), tolerance_(tolerance) {
+  CueBuilder(std::vector<RecordedFrame> frames, double tolerance) : frames_(std::move(frames)), tolerance_(tolerance) {
     const double begin = frames_.front().time;
     for (RecordedFrame& frame : frames_) frame.time -= begin;
     const double last = frames_.back().time;
@@ -158,7 +158,7 @@ Result<PerformanceScript> record_performance(std::span<const RecordedFrame> fram
     else
       apart.push_back(frame);
   }
-  return Recorder(std::move(apart), options.tolerance).script();
+  return CueBuilder(std::move(apart), options.tolerance).script();
 }
 
 }  // namespace semblante

@@ -7,7 +7,7 @@
 
 namespace semblante::sample_head_detail {
 
-/// A half mesh made whole, and where its vertices went.
+/// The whole mesh of a half mesh, and the map of its vertices.
 struct EmittedMesh {
   SampleHeadMesh mesh;
   std::vector<std::uint32_t> left;   ///< #V of the half: one of its vertices in the mesh

@@ -35,7 +35,7 @@ constexpr std::array<BorderPoint, 14> border_points = {{{0, 34},
                                                         {140, -38},
                                                         {180, -43}}};
 
-/// Locks run from front to back: lines of equal angle about the long axis of the head.
+/// Strands run from front to back: lines of equal angle about the long axis of the head.
 double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
 
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.

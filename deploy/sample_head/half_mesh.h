@@ -17,7 +17,7 @@ using Vec2 = glm::dvec2;
 /// projection from outside would lay on top of the face.
 enum class Chart : std::uint8_t { outer, inner };
 
-/// What the texture painter wants to know about a vertex, each 0..1.
+/// Properties of a vertex for painting the texture, each 0..1.
 struct Paint {
   double lip = 0.0;    ///< red of the lips
   double lid = 0.0;    ///< edge of the lids

@@ -24,7 +24,7 @@ struct LipPlace {
 };
 
 /// Steps are wide beside the feature points, at 0, 1/2 and 1, and close between them: a point that moves alone then
-/// draws a slope and not a thorn.
+/// makes a slope and not a spike.
 double spread(double along) {
   const double half = along < 0.5 ? 0.0 : 0.5;
   const double t = 4.0 * (along - half) - 1.0;  // -1 .. 1 from one point to the next

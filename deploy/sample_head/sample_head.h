@@ -44,7 +44,7 @@ struct SampleHeadPoint {
   glm::vec3 position{0.0F};
 };
 
-/// Our own head: a neutral face in the MPEG-4 frame with all 84 feature points.
+/// The project's own head: a neutral face in the MPEG-4 frame with all 84 feature points.
 struct SampleHead {
   std::vector<SampleHeadMesh> meshes;
   std::vector<SampleHeadMaterial> materials;

@@ -11,13 +11,13 @@
 #include "protocol/clips/face_skin.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/rig_kernel.h"
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 #include "protocol/package/quantization.h"
 
 namespace semblante {
 namespace {
 
-// How much is spent on measuring what a clip is off by: vertices times frames, but so many frames in any case.
+// Effort limit of measuring a clip's error: vertices times frames, but at least this many frames.
 constexpr std::size_t measured_vertices = 10'000'000;
 constexpr std::size_t least_measured = 64;
 
@@ -58,7 +58,7 @@ double quantum_of(const PackedFace& face) {
   return static_cast<double>(std::max({size.x, size.y, size.z})) / ((1 << position_bits) - 1);
 }
 
-/// How far from `pivot` the farthest vertex is that `takes_part`.
+/// Distance of the farthest vertex from `pivot` among those for which `takes_part` is true.
 template <class TakesPart>
 double reach(const PackedFace& face, glm::vec3 pivot, TakesPart takes_part) {
   float farthest = 0.0F;
@@ -81,7 +81,7 @@ struct JointTracks {
   VectorTrack scale;
 };
 
-/// The greatest shift, turn (radians) and growth that half a quantum of `face` allows each joint.
+/// Makes tracks with the greatest shift, turn (radians) and growth of each joint within half a quantum of `face`.
 std::vector<JointTracks> make_tracks(const PackedFace& face, const FaceSkin& skin, double tolerance) {
   std::vector<JointTracks> tracks;
   for (const FaceJoint& joint : skin.joints) {
@@ -99,7 +99,7 @@ std::vector<JointTracks> make_tracks(const PackedFace& face, const FaceSkin& ski
   return tracks;
 }
 
-/// What the frames are made into, joint by joint.
+/// Builds the tracks of all joints from frames.
 class ClipMaker {
  public:
   ClipMaker(const PackedFace& face, const FaceSkin& skin, const ClipOptions& options)
@@ -134,7 +134,8 @@ class ClipMaker {
     return Unit{};
   }
 
-  /// The channels of what moves. The head's rotation is always among them, so that the clip is as long as the frames.
+  /// The channels of the joints that move. The head's rotation is always included, so that the clip is as long as the
+  /// frames.
   std::vector<GltfChannel> channels() {
     std::vector<GltfChannel> out;
     const semblante_pose neutral = kernel_.pose({});
@@ -163,7 +164,7 @@ class ClipMaker {
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
       const JointTransform transform = joint_transform(skin_, j, pose);
       const FaceJoint::Kind kind = skin_.joints[j].kind;
-      // What a kind of joint never does has no track.
+      // A motion that this kind of joint never has, has no track.
       if (kind != FaceJoint::Kind::head) tracks_[j].translation.push(seconds, transform.translation);
       if (kind == FaceJoint::Kind::head || kind == FaceJoint::Kind::eye)
         tracks_[j].rotation.push(seconds, transform.rotation);
@@ -178,14 +179,14 @@ class ClipMaker {
     return count;
   }
 
-  /// A number that is greater the more of the face moves.
+  /// A measure of the face's motion.
   [[nodiscard]] static float movement(const semblante_pose& pose) {
     float sum = pose.pupil_growth[0] * pose.pupil_growth[0] + pose.pupil_growth[1] * pose.pupil_growth[1];
     for (const float d : pose.fp) sum += d * d;
     return sum;
   }
 
-  /// Of each run of frames the one that moves most: where a skin is farthest off.
+  /// Measures the frame with the most motion of each run of frames, where the error of a skin is greatest.
   void measure_farthest() {
     measure(farthest_);
     farthest_moved_ = -1.0F;
@@ -235,11 +236,11 @@ class ClipMaker {
   std::size_t frames_ = 0;
   bool tongue_rolled_ = false;
   float farthest_moved_ = -1.0F;
-  semblante_pose farthest_{};  ///< of the frames since the last that was measured
+  semblante_pose farthest_{};  ///< of the frames since the last measured one
   std::vector<glm::vec3> exact_, skinned_;
 };
 
-void add_mesh(const PackedFace& face, const FaceSkin& skin, GltfDocument& document) {
+void add_mesh(const PackedFace& face, const FaceSkin& skin, GltfBuilder& document) {
   using Kind = DracoAttribute::Kind;
   using Type = DracoAttribute::Type;
   for (const Slice& slice : slice_by_material(face.mesh, face.materials.size())) {
@@ -317,7 +318,7 @@ Result<Clip> make(const FaceParts& parts, std::span<const TimedValues> frames, c
   ClipMaker maker(*face, *skin, options);
   if (const Status taken = maker.take(frames); !taken) return taken.error();
 
-  GltfDocument document(face->materials, face->images);
+  GltfBuilder document(face->materials, face->images);
   add_mesh(*face, *skin, document);
   if (!frames.empty()) document.add_animation(options.name, maker.channels());
   Clip clip;

@@ -62,7 +62,7 @@ bool TurnTrack::leads_to(const Sample& end) const {
 
 void TurnTrack::keep(const Sample& sample) {
   times_.push_back(sample.time);
-  // q and -q are one rotation: the nearer one, so that a reader without a test of its own goes the short way too.
+  // q and -q are the same rotation: uses the nearer one, so that readers without a test also take the shorter arc.
   const bool far = !values_.empty() && glm::dot(values_.back(), sample.value) < 0.0F;
   values_.push_back(far ? -sample.value : sample.value);
   since_.clear();

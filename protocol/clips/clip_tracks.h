@@ -6,21 +6,21 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 
 namespace semblante {
 
-/// Values over time that come one by one, of which those are kept that a straight line between the kept ones does not
-/// give within `tolerance` (length of the difference). Memory is that of what is kept.
+/// Thins values over time, given one by one: keeps those that linear interpolation between the kept ones does not
+/// reproduce within `tolerance` (length of the difference). Only kept values take memory.
 ///
-/// A swinging door: from the last key on, each value narrows the slopes that a line through it may have; a value
-/// outside them ends the line at the one before. Every kept key is a value that came, and the last one is kept.
+/// The swinging-door algorithm: from the last key on, each value narrows the range of slopes; a value outside it ends
+/// the line at the value before. Every key is a given value, and the last value is a key.
 class VectorTrack {
  public:
   explicit VectorTrack(double tolerance);
   /// Times rise.
   void push(float time, const glm::vec3& value);
-  /// Once, after the last value. One key where all are alike.
+  /// To be called once, after the last value. Gives one key if all values are equal.
   void finish();
   [[nodiscard]] const std::vector<float>& times() const { return times_; }
   [[nodiscard]] const std::vector<glm::vec3>& values() const { return values_; }
@@ -33,11 +33,11 @@ class VectorTrack {
   std::vector<glm::vec3> values_;
   float last_time_ = 0.0F;
   glm::vec3 last_{0.0F};
-  glm::dvec3 low_{0.0}, high_{0.0};  ///< slopes that are left
+  glm::dvec3 low_{0.0}, high_{0.0};  ///< remaining range of slopes
 };
 
-/// The same of turns, which glTF interpolates along the shorter arc: `tolerance` in radians. A line is at most
-/// `max_span` values long, for each is checked against all it leaves out.
+/// The same for rotations, which glTF interpolates along the shorter arc: `tolerance` in radians. A line has at most
+/// `max_span` values, because each is checked against all omitted ones.
 class TurnTrack {
  public:
   explicit TurnTrack(double tolerance) : tolerance_(tolerance) {}

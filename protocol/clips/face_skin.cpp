@@ -18,7 +18,7 @@ constexpr std::size_t head_joint = 0;
 constexpr std::uint32_t whole = 65535;
 constexpr std::size_t max_joints = 256;  // their numbers are bytes
 
-/// By how much a quantized row that means one may sum to more.
+/// Tolerance of the sum of a quantized row, above one.
 constexpr double sum_slack = 1.0 / 256.0;
 
 struct Influence {
@@ -26,7 +26,7 @@ struct Influence {
   double share = 0.0;
 };
 
-/// Of an iris: how far a vertex goes with its pupil, from 1 within to 0 at the rim (SPEC 1.4, step 4).
+/// The share of the pupil's motion at a vertex of an iris, from 1 inside to 0 at the rim (SPEC 1.4, step 4).
 double pupil_share(const Iris& iris, glm::vec3 from_pivot) {
   const float along = glm::dot(from_pivot, iris.axis);
   const double r = glm::length(from_pivot - along * iris.axis);
@@ -36,7 +36,7 @@ double pupil_share(const Iris& iris, glm::vec3 from_pivot) {
   return r < rim ? pupil * (rim - r) / ((rim - pupil) * r) : 0.0;
 }
 
-/// The turn that takes z to `axis`.
+/// The rotation from z to `axis`.
 glm::quat turn_to(glm::vec3 axis) {
   const glm::vec3 z(0.0F, 0.0F, 1.0F);
   const float cosine = glm::dot(z, axis);
@@ -45,14 +45,14 @@ glm::quat turn_to(glm::vec3 axis) {
   return glm::normalize(glm::quat(1.0F + cosine, across.x, across.y, across.z));
 }
 
-/// One vertex of an iris: how far along the axis it lies, its share of the pupil, bend * r * r.
+/// One vertex of an iris: its coordinate along the axis, its share of the pupil's motion, bend * r * r.
 struct IrisVertex {
   double along = 0.0, share = 0.0, curve = 0.0;
 };
 
-/// The kernel lets a vertex sink by curve * (2 s share + s s share^2), a joint gives share * (scale * along + shift):
-/// the scale and shift that come nearest, of the term with s and of that with s s. On the surface that the rig
-/// describes the former is exact; eyes that are built of several layers keep what is left over.
+/// The kernel moves a vertex inwards by curve * (2 s share + s s share^2), a joint by share * (scale * along + shift):
+/// returns the best scale and shift for the term with s and for that with s s. On the surface described by the rig the
+/// former is exact; eyes with several layers have a remaining error.
 std::array<glm::vec2, 2> nearest_sink(std::span<const IrisVertex> vertices) {
   double zz = 0.0;
   double z = 0.0;
@@ -83,7 +83,7 @@ std::array<glm::vec2, 2> nearest_sink(std::span<const IrisVertex> vertices) {
   return out;
 }
 
-/// Puts the joints together as rows ask for them.
+/// Creates the joints as the rows need them.
 class SkinMaker {
  public:
   SkinMaker(const PackedFace& face, int influences) : face_(face), wanted_(static_cast<std::size_t>(influences)) {
@@ -190,8 +190,8 @@ class SkinMaker {
     return row;
   }
 
-  /// Falling shares, at most as many as wanted, that sum to one. What is cut goes to the others in proportion; but the
-  /// head keeps its own, lest the vertex go farther than its points.
+  /// Sorts the shares in decreasing order and truncates them to the maximum number. Dropped shares are distributed to
+  /// the others in proportion, but the head keeps its share, so that the vertex does not move farther than its points.
   void cut(std::vector<Influence>& row) {
     const auto greater = [](const Influence& a, const Influence& b) {
       return a.share != b.share ? a.share > b.share : a.joint < b.joint;
@@ -214,7 +214,7 @@ class SkinMaker {
     std::sort(row.begin(), row.end(), greater);
   }
 
-  /// Whole numbers that sum to `whole`: each rounded down, what is left goes to those that lost most.
+  /// Integers with the sum `whole`: each is rounded down, the rest goes to those with the largest remainders.
   void write(const std::vector<Influence>& row, std::size_t at) {
     std::array<std::uint32_t, 16> levels{};
     std::array<std::size_t, 16> order{};

@@ -1,4 +1,5 @@
-// semblante-codegen-protocol SOURCE_FOLDER: writes what is generated from protocol/schema and, in SPEC.md, core/tables.
+// semblante-codegen-protocol SOURCE_FOLDER: writes the files that are generated from protocol/schema and, in SPEC.md,
+// core/tables.
 #include "core/codegen/generator.h"
 #include "protocol/codegen/render.h"
 

@@ -129,7 +129,7 @@ std::string feature_point_table() {
 std::string fapu_table() {
   std::string out = header({"FAPU", "1024 times its value, on the neutral face", "meaning"});
   for (const mpeg4::FapuInfo& fapu : mpeg4::fapus) {
-    if (fapu.measure_count == 0) continue;  // AU, which is no length of a face
+    if (fapu.measure_count == 0) continue;  // AU, which is not a length of a face
     out += row({code(fapu.name), measures_of(fapu), std::string(fapu.meaning)});
   }
   return out;

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// Small questions to the schema that every renderer asks.
+/// Queries on the schema that all renderers use.
 namespace semblante::codegen {
 
 using Json = nlohmann::ordered_json;

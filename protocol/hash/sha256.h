@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// SHA-256 (FIPS 180-4) piece by piece, for what does not fit in memory.
+/// Incremental SHA-256 (FIPS 180-4), for data that does not fit in memory.
 class Sha256Stream {
  public:
   Sha256Stream();
@@ -18,7 +18,7 @@ class Sha256Stream {
   Sha256Stream(const Sha256Stream&) = delete;
   Sha256Stream& operator=(const Sha256Stream&) = delete;
   void update(std::span<const std::uint8_t> bytes);
-  /// Once, at the end.
+  /// To be called once, at the end.
   Sha256 finish();
 
  private:

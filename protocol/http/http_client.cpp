@@ -25,7 +25,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
 
-/// Bytes of an answer that wait to be parsed.
+/// Limit of the unparsed bytes of an answer.
 constexpr std::size_t most_unparsed = std::size_t{60} << 10U;
 
 Error failed(const Url& url, const char* step, const error_code& problem) {
@@ -89,9 +89,10 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
   }
   auto message = to_beast(url, request);
   co_await http::async_write(stream, message, token);
-  // A server may answer and close before it has read all of a body it refuses: the answer is what counts.
+  // A server may answer and close before it has read a refused body completely: the answer takes precedence over the
+  // write error.
   const error_code write_problem = problem;
-  // Also bounds trailers and chunk extensions: Beast keeps them whole, and throws on a field of more than 64 KiB.
+  // Also bounds trailers and chunk extensions: Beast stores them completely, and throws on a field of more than 64 KiB.
   beast::flat_buffer buffer(most_unparsed);
   http::response_parser<http::string_body> parser;
   parser.body_limit(limits.max_body);
@@ -106,7 +107,7 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
   outcome = from_beast(parser.release());
 }
 
-/// What a problem document (RFC 9457) says, for people.
+/// The text of a problem document (RFC 9457), for display.
 std::string words_of(const HttpResponse& response) {
   std::string words = "the server answered " + std::to_string(response.status);
   const auto document =

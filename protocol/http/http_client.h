@@ -16,7 +16,7 @@ namespace semblante::client {
 
 struct HttpRequest {
   std::string method = "GET";
-  std::string target;  ///< "/v1/models?limit=2"; the address' own path goes before it
+  std::string target;  ///< "/v1/models?limit=2"; appended to the path of the server's URL
   std::string body;
   std::string content_type;  ///< sent when not empty
   std::vector<std::pair<std::string, std::string>> headers;
@@ -34,24 +34,24 @@ struct HttpResponse {
 struct HttpLimits {
   std::size_t max_body = std::size_t{256} << 20U;   ///< of a response
   std::size_t max_header = std::size_t{60} << 10U;  ///< at most that; also of trailers and chunk extensions
-  std::chrono::milliseconds timeout{30'000};        ///< of one whole exchange
+  std::chrono::milliseconds timeout{30'000};        ///< of one complete exchange
 };
 
-/// Plain HTTP/1.1, one connection a request, blocking. Trusts nothing a server sends: sizes and times are bounded.
-/// Copies freely; a copy may be used on another thread.
+/// Plain HTTP/1.1, one connection per request, blocking. Does not trust the server: sizes and times are bounded.
+/// Copyable; a copy may be used on another thread.
 class HttpClient {
  public:
   explicit HttpClient(Url url, HttpLimits limits = {}) : url_(std::move(url)), limits_(limits) {}
 
   [[nodiscard]] const Url& url() const { return url_; }
 
-  /// Any complete response, whatever its status. Errors: io (no connection, cut off, late), too_large, malformed.
+  /// Returns any complete response with any status. Errors: io (no connection, cut off, late), too_large, malformed.
   [[nodiscard]] Result<HttpResponse> send(const HttpRequest& request) const;
   [[nodiscard]] Result<HttpResponse> get(std::string_view target) const;
   [[nodiscard]] Result<HttpResponse> post(std::string_view target, std::string body, std::string content_type) const;
 
-  /// The body of a 200; anything else is an error made of the problem document in it: missing for 404, else io.
-  /// `max_body`: of this response alone, when it is known.
+  /// The body of a 200; any other response is an error with the text of its problem document: missing for 404, else io.
+  /// `max_body`: of this response, if it is known.
   [[nodiscard]] Result<std::string> fetch(std::string_view target, std::optional<std::size_t> max_body = {}) const;
 
  private:

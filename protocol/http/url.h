@@ -17,7 +17,7 @@ struct Url {
   [[nodiscard]] std::string authority() const;
 };
 
-/// Errors: invalid_argument (no host, a port that is none), unsupported (https: a TLS proxy's work).
+/// Errors: invalid_argument (no host, an invalid port), unsupported (https, which needs a TLS proxy).
 Result<Url> parse_url(std::string_view text);
 
 /// A path segment with everything but letters, digits and -._~ percent-encoded.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 #include "protocol/package/mesh_slices.h"
 
 namespace semblante {
@@ -39,7 +39,7 @@ std::vector<SliceAttribute> influence_attributes(const Slice& slice, const GlbFa
 
 Result<std::vector<std::uint8_t>> write_face_glb(const RenderMesh& mesh, const std::vector<Material>& materials,
                                                  const std::vector<Image>& images, const GlbFace& face) {
-  GltfDocument document(materials, images);
+  GltfBuilder document(materials, images);
   for (const Slice& slice : slice_by_material(mesh, materials.size())) {
     std::vector<SliceAttribute> attributes = geometry_attributes(mesh, slice);
     for (SliceAttribute& attribute : influence_attributes(slice, face)) attributes.push_back(std::move(attribute));
@@ -53,7 +53,7 @@ Result<std::vector<std::uint8_t>> write_face_glb(const RenderMesh& mesh, const s
 Result<std::vector<std::uint8_t>> write_preview_glb(const RenderMesh& mesh, const std::vector<Material>& materials,
                                                     const std::vector<Image>& images,
                                                     std::span<const std::uint32_t> part_of) {
-  GltfDocument document(materials, images);
+  GltfBuilder document(materials, images);
   for (const Slice& slice : slice_by_material(mesh, materials.size())) {
     std::vector<SliceAttribute> attributes = geometry_attributes(mesh, slice);
     attributes.push_back(

@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// Smallest, and still 0.1 s for 27k vertices; the speed of decoding hardly depends on it.
+/// The smallest result, still 0.1 s for 27k vertices; the speed of decoding hardly depends on it.
 constexpr int encoding_speed = 0;
 
 /// Triangles as file vertices, each rotated so that its least number is first: comparable across renumberings.
@@ -22,7 +22,7 @@ std::vector<Triangle> canonical(std::span<const Triangle> triangles, std::span<c
   for (const Triangle& t : triangles) {
     Triangle named = {file_vertex[t[0]], file_vertex[t[1]], file_vertex[t[2]]};
     if (named[0] == named[1] || named[1] == named[2] || named[2] == named[0])
-      continue;  // has no place in an edge graph
+      continue;  // not possible in an edge graph
     std::rotate(named.begin(), std::min_element(named.begin(), named.end()), named.end());
     out.push_back(named);
   }
@@ -30,11 +30,11 @@ std::vector<Triangle> canonical(std::span<const Triangle> triangles, std::span<c
   return out;
 }
 
-/// A mesh as a client will see it.
+/// A mesh as a client decodes it.
 struct Decoded {
   std::vector<Triangle> triangles;
   std::vector<glm::vec3> positions;
-  std::vector<std::uint32_t> file_vertex;  ///< empty where the bytes carry no vertex numbers
+  std::vector<std::uint32_t> file_vertex;  ///< empty if the bytes have no vertex numbers
 };
 
 /// `positions` and `file_vertex` are Draco unique ids.

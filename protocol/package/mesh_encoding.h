@@ -9,7 +9,7 @@
 
 namespace semblante {
 
-/// Where a client finds each attribute inside mesh.drc, by Draco unique id. Stated in rig.json.
+/// The Draco unique ids of the attributes of mesh.drc. Stated in rig.json.
 struct MeshAttributeIds {
   std::uint32_t position = 0;
   std::uint32_t normal = 1;
@@ -17,7 +17,7 @@ struct MeshAttributeIds {
   std::uint32_t material = 0;
 };
 
-/// mesh.drc and the order its decoder gives: what weights and rig.json must follow.
+/// mesh.drc and the order of its decoded vertices, which weights and rig.json use.
 struct EncodedMesh {
   std::vector<std::uint8_t> bytes;
   MeshAttributeIds attributes;
@@ -29,8 +29,9 @@ struct EncodedMesh {
 /// triangle with three different corners survived and no position moved by more than a quantum.
 ///
 /// The map from decoded to file vertices comes from a trial encoding that carries vertex numbers as an attribute. They
-/// are not shipped: on a head whose file order is far from Draco's they cost a fifth of mesh.drc (26 of 146 kB on 26.7k
-/// vertices), and no client needs them. That both encodings decode to the same order is checked, not assumed.
+/// are not in the final file: on a head whose file order differs much from Draco's they take a fifth of mesh.drc (26 of
+/// 146 kB on 26.7k vertices), and no client needs them. The function checks that both encodings decode to the same
+/// order.
 Result<EncodedMesh> encode_mesh(const RenderMesh& mesh);
 
 }  // namespace semblante

@@ -35,7 +35,7 @@ std::vector<std::byte> gather(const Slice& slice, std::size_t components, Get ge
   return bytes;
 }
 
-/// A named attribute of a slice, ready for either writer.
+/// A named attribute of a slice, for both kinds of primitives.
 struct SliceAttribute {
   std::string name;
   DracoAttribute::Kind kind;
@@ -43,10 +43,10 @@ struct SliceAttribute {
   int components;
   int quantization_bits;
   std::vector<std::byte> bytes;
-  bool normalized = false;  ///< whole numbers that stand for 0..1
+  bool normalized = false;  ///< integers that represent 0..1
 };
 
-/// POSITION, NORMAL and TEXCOORD_0, as far as the mesh has them.
+/// POSITION, NORMAL and TEXCOORD_0, if the mesh has them.
 std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Slice& slice);
 
 }  // namespace semblante

@@ -44,7 +44,7 @@ std::vector<std::uint8_t> lay_out(const std::vector<RigidMotion>& by_file_vertex
   return rigid;
 }
 
-/// A level may have another of the file vertices that are one surface vertex with the point's: then that is the one.
+/// A level may have another file vertex of the same surface vertex as the point: then uses that one.
 std::vector<RigDocument::Point> name_points(const Surface& surface, const FeaturePointSet& points,
                                             std::span<const std::uint32_t> file_vertex) {
   std::vector<RigDocument::Point> named;
@@ -81,7 +81,7 @@ RigDocument::MaterialInfo describe(const Material& material, std::span<const Ima
   return out;
 }
 
-/// A set on this face: FAPUs become model units, and points that are not marked fall away.
+/// A set on this face: converted from FAPUs to model units, without points that are not marked.
 RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
   RigDocument::DisplacementSet out;
   out.name = set.name;
@@ -93,7 +93,7 @@ RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig&
   return out;
 }
 
-/// What the face wears by that name: a set of its own, or the library's.
+/// The face's set of that name: its own, or the library's.
 DisplacementSet worn_as(const DisplacementSet& of_library, std::span<const NamedSet> worn) {
   const auto own = std::find_if(worn.begin(), worn.end(), [&](const NamedSet& s) { return s.name == of_library.name; });
   return own == worn.end() ? of_library : own->view();
@@ -115,7 +115,7 @@ void describe_influence(const InfluenceTable& table, const Artefact& weights, in
       influenced == 0 ? 0.0 : static_cast<double>(table.rows.weights.size()) / static_cast<double>(influenced);
 }
 
-/// What a level takes from its model: all but the images, which can be large.
+/// The model of a level: a copy without the images, which can be large.
 Model model_of_level(const Model& model, const LevelOfDetail& level) {
   Model out;
   out.positions = model.positions;
@@ -127,7 +127,7 @@ Model model_of_level(const Model& model, const LevelOfDetail& level) {
   return out;
 }
 
-/// A package in the making: rig.json of each level needs the sizes of all.
+/// An unfinished package: rig.json of each level needs the sizes of all levels.
 struct Draft {
   RenderMesh mesh;
   EncodedMesh encoded;
@@ -158,7 +158,7 @@ Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, i
   return draft;
 }
 
-/// What all levels say alike.
+/// The members that all levels have in common.
 RigDocument common_document(const Rig& rig, const MaterialAssignment& materials, std::span<const ImageArtefact> images,
                             const PackageOptions& options) {
   RigDocument document;
@@ -179,7 +179,7 @@ RigDocument common_document(const Rig& rig, const MaterialAssignment& materials,
   return document;
 }
 
-/// What is of this level alone.
+/// Sets the members specific to this level.
 void describe_level(const Draft& draft, const Surface& surface, const Rig& rig, int weight_bits,
                     RigDocument& document) {
   document.mesh.sha256 = draft.package.mesh_drc.sha256;
@@ -207,7 +207,7 @@ Status finish(Draft& draft, const Model& model, const Rig& rig, const MaterialAs
   const std::string rig_json = write_rig(document);
   draft.package.rig_json = make_artefact({rig_json.begin(), rig_json.end()});
 
-  // face.glb numbers its vertices for itself, so its copy of the rig must not point into mesh.drc.
+  // face.glb has its own vertex numbers, so its copy of the rig must not refer to mesh.drc.
   for (RigDocument::Point& point : document.feature_points) point.vertex.reset();
   GlbFace face;
   const WeightTable<float> render_rows = lay_out(rig.influence, draft.mesh.file_vertex);

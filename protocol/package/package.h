@@ -17,10 +17,10 @@
 namespace semblante {
 
 struct PackageOptions {
-  std::string name;                        ///< of the model, for people
+  std::string name;                        ///< of the model, for display
   int weight_bits = 12;                    ///< 8..16, of each normalized weight in `weights`
-  std::vector<NamedSet> worn = {};         ///< worn in place of the library's set of the same name
-  std::vector<std::string> warnings = {};  ///< for rig.json; what lies in the model and the rig is not read again
+  std::vector<NamedSet> worn = {};         ///< replace the library's sets of the same names
+  std::vector<std::string> warnings = {};  ///< for rig.json; those in the model and the rig are not used
 };
 
 /// One artefact and its content address.
@@ -29,13 +29,13 @@ struct Artefact {
   Sha256 sha256{};
 };
 
-/// An image of the model as the file had it, with its type ("image/png").
+/// An image of the model as in the file, with its type ("image/png").
 struct ImageArtefact : Artefact {
   std::string mime_type;
 };
 
-/// What a client fetches to animate one face (protocol/SPEC.md). `weights` names the mesh it belongs to by hash;
-/// `rig_json` names both.
+/// The files that a client fetches to animate one face (protocol/SPEC.md). `weights` names the mesh it belongs to by
+/// hash; `rig_json` names both.
 struct FacePackage {
   std::uint32_t vertices = 0;   ///< as mesh.drc decodes
   std::uint32_t triangles = 0;  ///< likewise
@@ -47,7 +47,7 @@ struct FacePackage {
 };
 
 /// Encodes the mesh once, decodes it back, checks that every triangle survived and every position is within a quantum,
-/// and lays the weight table out in the decoded order. `rig` is over the file vertices of `model`.
+/// and writes the weight table in the decoded order. `rig` is over the file vertices of `model`.
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options);
 
@@ -57,8 +57,8 @@ Result<std::vector<FacePackage>> build_packages(const Model& model, const Surfac
                                                 const MaterialAssignment& materials,
                                                 std::span<const LevelOfDetail> levels, const PackageOptions& options);
 
-/// preview.glb: the model as imported, to look at and to mark feature points on; every vertex knows its number in the
-/// file and its part. `parts` (by PartId) may be empty.
+/// preview.glb: the imported model for display and for marking feature points; every vertex has its number in the file
+/// and its part. `parts` (by PartId) may be empty.
 Result<std::vector<std::uint8_t>> build_preview(const Model& model, const Surface& surface,
                                                 std::span<const Part> parts);
 

@@ -20,7 +20,7 @@ Result<Image> take_image(const RigDocument::ImageInfo& info, const FaceParts& pa
   return Image{info.mime_type, std::move(*bytes)};
 }
 
-/// An attribute of mesh.drc that rig.json names; empty when it names none.
+/// An attribute of mesh.drc named by rig.json; empty when it names none.
 template <class T>
 Status take(const std::optional<std::uint32_t>& id, const DracoMesh& mesh,
             Result<std::vector<T>> (DracoMesh::*read)(std::uint32_t) const, std::vector<T>& out) {
@@ -46,7 +46,7 @@ Result<RenderMesh> take_mesh(const FaceParts& parts, const RigDocument& rig) {
                               take(ids.material, *decoded, &DracoMesh::bytes, mesh.materials)}) {
     if (!taken) return taken.error();
   }
-  for (glm::vec3& normal : mesh.normals) {  // the octahedral coordinates are whole numbers, glTF wants unit length
+  for (glm::vec3& normal : mesh.normals) {  // octahedral coordinates are quantized, glTF requires unit length
     const float length = std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
     normal = length > 0.0F ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F);
   }

@@ -14,16 +14,16 @@
 
 namespace semblante {
 
-/// A face package as it is stored: bytes by name, images by hash.
+/// A stored face package: bytes by name, images by hash.
 struct FaceParts {
   std::span<const std::uint8_t> mesh_drc;
   std::span<const std::uint8_t> weights;
   std::string_view rig_json;
-  /// The bytes of an image that rig.json names. Not called, and may be empty, where it names none.
+  /// The bytes of an image named by rig.json. Not called, and may be empty, if it names none.
   std::function<Result<std::vector<std::uint8_t>>(const Sha256&)> image;
 };
 
-/// A face package opened: what a client has before the first frame. Vertices are those of mesh.drc.
+/// A decoded face package: the data of a client before the first frame. Vertices are those of mesh.drc.
 struct PackedFace {
   RenderMesh mesh;  ///< file_vertex is empty: a package does not know
   InfluenceTable table;

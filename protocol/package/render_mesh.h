@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-/// What a GPU draws: one vertex for every distinct (file vertex, uv, normal, material) corner of a Model.
+/// A mesh for a GPU: one vertex for every distinct (file vertex, uv, normal, material) corner of a Model.
 struct RenderMesh {
   std::vector<std::uint32_t> file_vertex;        ///< #R, the model file's number of each vertex
   std::vector<glm::vec3> positions;              ///< #R
@@ -23,8 +23,8 @@ struct RenderMesh {
   std::vector<std::uint8_t> triangle_materials;  ///< #T
 };
 
-/// Joins corners. `smooth` (#S) are the normals where the file has none: of the full model also for a level of detail,
-/// which then shades as if it were as fine. `triangle_materials` has one entry a triangle.
+/// Merges equal corners. `smooth` (#S) are the normals used if the file has none: for a level of detail also those of
+/// the full model, so that its shading is as fine. `triangle_materials` has one entry per triangle.
 RenderMesh make_render_mesh(const Model& model, const Surface& surface,
                             std::span<const std::uint8_t> triangle_materials, std::span<const glm::vec3> smooth);
 

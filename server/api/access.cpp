@@ -7,7 +7,8 @@
 namespace semblante::api {
 namespace {
 
-/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1". What is no authority comes out as something no list has.
+/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1". A text that is not an authority gives a result that no list
+/// contains.
 std::string host_of(std::string_view authority) {
   if (!authority.empty() && authority.front() == '[') {
     const auto end = authority.find(']');
@@ -24,7 +25,7 @@ bool is_loopback(const std::string& host) {
   return http::equal_ignoring_case(host, "localhost");
 }
 
-/// "http://localhost:5173" and the like: pages this machine serves itself.
+/// True for "http://localhost:5173" and the like: pages that this machine serves.
 bool is_loopback_origin(std::string_view origin) {
   const auto scheme = origin.find("://");
   return scheme != std::string_view::npos && is_loopback(host_of(origin.substr(scheme + 3)));
@@ -34,14 +35,14 @@ bool is_loopback_origin(std::string_view origin) {
 
 std::optional<http::Problem> Access::refuse_reading(const http::Request& head) const {
   const auto authority = head.header("Host");
-  if (!authority) return std::nullopt;  // HTTP/1.0; every browser names its host
+  if (!authority) return std::nullopt;  // HTTP/1.0; every browser sends a Host
   const auto host = host_of(*authority);
   const bool known = is_loopback(host) || std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
                        return item == "*" || http::equal_ignoring_case(item, host);
                      });
   if (known) return std::nullopt;
-  return http::make_problem("foreign-host",
-                            "this server does not go by the name " + std::string(*authority) + " (see --allow-host)");
+  return http::make_problem(
+      "foreign-host", "this server does not accept the host name " + std::string(*authority) + " (see --allow-host)");
 }
 
 std::optional<http::Problem> Access::refuse_changing(const http::Request& head) const {

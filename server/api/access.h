@@ -9,21 +9,20 @@
 
 namespace semblante::api {
 
-/// Who may use the server, by what a browser says of itself. The server listens on loopback and asks nobody who they
-/// are, so what remains to be kept out is the page of somebody else that a browser of this machine shows.
+/// Access control by the Host and Origin headers of a request. The server listens on loopback and has no
+/// authentication, so the remaining danger is a foreign page in a browser on this machine.
 struct Access {
-  /// Names the server goes by beside localhost and the loopback addresses, without port; "*": any. A page whose own
-  /// name was made to point to this machine (DNS rebinding) counts as the same origin to its browser; its Host is
-  /// still the foreign name.
+  /// Host names accepted besides localhost and the loopback addresses, without port; "*": any. With DNS rebinding a
+  /// foreign page has the same origin as this server for its browser, but its Host is still the foreign name.
   std::vector<std::string> hosts;
-  /// Origins whose pages may change things and read answers, beside pages from this machine; "*": all.
+  /// Origins whose pages may make changes and read answers, besides pages of this machine; "*": all.
   std::vector<std::string> origins;
 
-  /// Why a request for reading only is refused; nullopt when it is not.
+  /// The problem with which a read-only request is refused; nullopt when it is allowed.
   [[nodiscard]] std::optional<http::Problem> refuse_reading(const http::Request& head) const;
-  /// The same for a request that may change something or opens a stream.
+  /// The same for a request that may make changes or opens a stream.
   [[nodiscard]] std::optional<http::Problem> refuse_changing(const http::Request& head) const;
-  /// True without an Origin: programs that are no browsers send none.
+  /// True without an Origin: only browsers send one.
   [[nodiscard]] bool origin_allowed(const http::Request& head) const;
 };
 

@@ -13,20 +13,20 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-/// What the structs of answers that are generated from openapi.json consist of.
+/// The types of members in the answer structs that are generated from openapi.json.
 namespace semblante::api {
 
-/// What is answered: members in the order they are put in. Finding one takes time linear in their number.
+/// The JSON of answers: members keep the order of insertion. Lookup takes time linear in their number.
 using Json = nlohmann::ordered_json;
 
 namespace answer {
 
-/// A JSON value that another part of the source wrote as text (`x-written-by` in openapi.json).
+/// A JSON value that other code has written as text (`x-written-by` in openapi.json).
 struct JsonText {
   std::string text;
 };
 
-/// An object whose member names are data, in their order.
+/// An object whose member names are data, in order of insertion.
 template <class T>
 using Members = std::vector<std::pair<std::string, T>>;
 
@@ -36,7 +36,7 @@ class Word {
  public:
   template <class Text>
   requires std::convertible_to<const Text&, std::string_view> Word(const Text& text)
-      : text_(std::string_view(text)) {  // NOLINT: meant to convert
+      : text_(std::string_view(text)) {  // NOLINT: implicit by intention
     assert(std::find(Words::all.begin(), Words::all.end(), text_) != Words::all.end());
   }
   [[nodiscard]] const std::string& text() const { return text_; }

@@ -19,13 +19,13 @@ namespace {
 using http::make_problem;
 using http::to_response;
 
-/// Seconds after which a place may have become free.
+/// Seconds until a retry, when another connection may have closed.
 constexpr unsigned connections_retry_after = 10;
 
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
 bool takes(const RouteBody& body, std::string_view media_type) {
-  // A body without a Content-Type is taken for what it should be.
+  // A body without a Content-Type is taken to have the right one.
   if (media_type.empty() || body.kind == BodyKind::none) return true;
   return std::find(body.types.begin(), body.types.end(), media_type) != body.types.end();
 }
@@ -65,7 +65,7 @@ http::Response to_response(const Refused& refused) {
   return response;
 }
 
-/// What requests are counted by: the routes in their order, then the rest.
+/// The kinds by which requests are counted: the routes in their order, then the rest.
 std::vector<metrics::RequestKind> request_kinds() {
   std::vector<metrics::RequestKind> kinds;
   for (const auto& route : routes()) kinds.push_back({std::string(route.method), std::string(route.pattern)});
@@ -74,11 +74,11 @@ std::vector<metrics::RequestKind> request_kinds() {
   return kinds;
 }
 
-/// Index into request_kinds() of what is no route.
+/// Index into request_kinds() of requests without a route.
 std::size_t page_kind() { return routes().size(); }
 std::size_t other_kind() { return routes().size() + 1; }
 
-/// The route that find_route() has found, if there is one.
+/// The route that find_route() has found, or null.
 const Route* route_of(const http::Request& request) {
   return request.route < routes().size() ? &routes()[request.route] : nullptr;
 }
@@ -130,9 +130,9 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
   const auto content_type = http::essence(head.header("Content-Type").value_or(""));
   if (!takes(route->body, content_type))
-    return to_response(
-        make_problem("unsupported-media-type",
-                     content_type + " is not read here; send it with Content-Type: " + in_words(route->body.types)));
+    return to_response(make_problem(
+        "unsupported-media-type",
+        content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
   return plan_body(*route, content_type, context_.config.limits);
 }
 
@@ -164,7 +164,7 @@ http::Problem Api::unwritten_body(int error_number) {
 
 std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_websocket(const http::Request& head) {
   if (auto problem = context_.config.access.refuse_changing(head)) return to_response(*problem);
-  // A stream's WebSocket is at the stream's own address.
+  // The URL of a stream's WebSocket is that of the stream.
   const auto* route = route_of(head);
   if (route == nullptr || route->handler != get_stream)
     return to_response(make_problem("not-found", head.path + " is no stream"));
@@ -173,14 +173,14 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
 
-    return to_response(Refused{make_problem("too-many-requests", "the stream has as many connections as it takes"),
+    return to_response(Refused{make_problem("too-many-requests", "the stream has reached its limit of connections"),
                                connections_retry_after});
   return to_response(make_problem("not-found", "there is no stream " + id));
 }
 
 void Api::decorate(const http::Request& head, http::Response& response) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - head.received;
-  // Of a request that could not be read, no route was looked for.
+  // A request that could not be parsed has no route.
   const auto kind = head.route == http::no_route ? other_kind() : head.route;
   context_.requests->count(kind, response.status, took.count());
   response.headers.try_emplace("X-Content-Type-Options", "nosniff");

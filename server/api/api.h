@@ -37,10 +37,10 @@ struct ApiConfig {
   Access access;
 };
 
-/// Writes what the network layer counts into /metrics.
+/// Writes the counts of the network layer into /metrics.
 using NetMetrics = std::function<void(metrics::TextWriter&)>;
 
-/// What the handlers work on. Everything in it may be used from any worker thread.
+/// The objects that handlers use. All of them may be used from any worker thread.
 struct Context {
   store::Store& store;
   store::BlobStore& blobs;

@@ -9,7 +9,7 @@ namespace {
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control) {
   const auto path = context.blobs.find(artefact.sha256);
-  if (!path) refuse("internal", "the bytes of this artefact are not in the data folder any more");
+  if (!path) refuse("internal", "the bytes of this artefact are missing in the data folder");
   http::Response response;
   response.headers["Content-Type"] = artefact.content_type;
   response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";
@@ -26,7 +26,7 @@ http::Response model_artefact(Context& context, const http::Request& request, co
     const bool of_import = name == "preview.glb" || name == "report.json";
     refuse("not-found", "the model has no " + name + (of_import ? ": it is not imported" : ": it is not parametrized"));
   }
-  // The name stays, what it names changes with each parametrization: to be asked for again, cheaply, by the tag.
+  // The content under this name changes with each parametrization, so clients must revalidate by the ETag.
   return file_response(context, request, *artefact, "no-cache");
 }
 

@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t default_page = 50;
 constexpr std::size_t max_page = 200;
-/// A body is to take no more than some 20 MB of memory; a marked head has a few thousand values.
+/// Limits the memory of a parsed body to about 20 MB; a marked head has a few thousand values.
 constexpr std::size_t max_body_values = 200'000;
 constexpr std::size_t max_file_name_bytes = 200;
-/// A request waits for the one that has its key on a worker thread. The body of either is there already, so the wait is
-/// for one creation, which waits for the disk and for no client: milliseconds, seconds for the largest model. The bound
-/// is for a disk that hangs.
+/// A request waits on a worker thread for the request that holds its key. Both bodies have arrived already, so the wait
+/// is for one creation, which depends on the disk but on no client: milliseconds, or seconds for the largest model. The
+/// timeout is for a disk that hangs.
 constexpr std::chrono::seconds longest_key_wait{10};
 
 }  // namespace
@@ -65,14 +65,14 @@ std::string checked_text(std::string_view value, std::size_t max, const std::str
 }
 
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer) {
-  if (!value.is_string()) refuse("invalid-field", "it must be a text", pointer);
+  if (!value.is_string()) refuse("invalid-field", "it must be a string", pointer);
   return checked_text(std::string_view(value.get_ref<const std::string&>()), max, pointer);
 }
 
 void check_if_match(const http::Request& request, const std::string& etag) {
   const auto match = request.header("If-Match");
   if (match && !http::etag_matches(*match, etag, false))
-    refuse("precondition-failed", "the resource has the tag " + etag + " now");
+    refuse("precondition-failed", "the ETag of the resource is " + etag + " now");
 }
 
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash) {
@@ -88,7 +88,7 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   const auto earlier = context.store.idempotency(*key);
   if (!earlier) return {std::move(record), std::nullopt, std::move(held)};
   if (earlier->fingerprint != record.fingerprint)
-    refuse("idempotency-key-reused", "this key came with another request before");
+    refuse("idempotency-key-reused", "this Idempotency-Key was used for another request before");
   return {std::nullopt, earlier->resource, std::move(held)};
 }
 

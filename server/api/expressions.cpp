@@ -36,14 +36,14 @@ store::SetRecord own_set_of(Context& context, const http::Request& request) {
   refuse("not-found", "there is no expression " + id);
 }
 
-/// What a model's rig says that its sets depend on.
+/// The data of a model's rig that displacement sets depend on.
 Rig rig_of(Context& context, const std::string& id) {
   const auto model = context.store.model(id);
   if (!model) refuse("invalid-argument", "there is no model " + id, "?model");
   const auto artefact = context.store.artefact(model->id, "rig.json");
   if (!artefact) refuse("conflict", "the model is not parametrized: its units are not known", "?model");
   const auto path = context.blobs.find(artefact->sha256);
-  if (!path) refuse("internal", "the bytes of rig.json are not in the data folder any more");
+  if (!path) refuse("internal", "the bytes of rig.json are missing in the data folder");
   const MappedFile file(*path);
   const auto document = read_rig(file.text());
   if (!document) refuse("internal", "rig.json cannot be read: " + document.error().message);
@@ -53,7 +53,7 @@ Rig rig_of(Context& context, const std::string& id) {
   return rig;
 }
 
-/// The set on one face: model units, stopped where lips meet.
+/// The set applied to one face: in model units, stopped where lips meet.
 answer::Expression::OnModel on_model(const NamedSet& set, const std::string& model, const Rig& rig) {
   const auto worn = on_face(set.view(), rig.fapu, rig.points);
   answer::Members<std::string> skipped;
@@ -124,7 +124,7 @@ http::Response get_expressions(Context& context, http::Request& request) {
   const auto limit = page_size(request);
   const auto after = request.query_value("after").value_or("");
   auto sets = context.store.sets(after, limit + 1);
-  if (!sets) refuse("invalid-argument", "there is no expression to go on after", "?after");
+  if (!sets) refuse("invalid-argument", "there is no expression with this id", "?after");
   answer::Expressions page{.visemes = {}, .expressions = {}, .sets = {}, .next = cut_to_page(*sets, limit)};
   for (const auto& set : viseme_library()) page.visemes.emplace_back(set.name);
   for (const auto& set : expression_library()) page.expressions.emplace_back(set.name);
@@ -149,7 +149,7 @@ http::Response put_expression(Context& context, http::Request& request) {
   record.kind = std::string(to_string(set.kind));
   record.displacements = displacements_to_json(set.displacements).dump();
   if (!context.store.put_set(record))
-    refuse("conflict", "the expression was changed by somebody else in the same moment: read it and try again");
+    refuse("conflict", "another request changed the expression at the same time: read it and try again");
   const auto now = own_set_of(context, request);
   return full_set(context, request, read_set(now), represent(now), set_etag(now));
 }

@@ -12,7 +12,7 @@
 namespace semblante::api {
 namespace {
 
-/// One of two words of the query; false is the first, which is also meant when nothing is said.
+/// A query parameter with two possible values: false for the first, which is the default.
 bool second_word(const http::Request& request, const std::string& name, const std::string& first,
                  const std::string& second) {
   const auto word = request.query_value(name);
@@ -41,7 +41,7 @@ http::Response play_fap_file(Context& context, http::Request& request) {
   }
   const auto frames = frames_of(reading->file, meaning);
   if (!frames) refuse("invalid-fap-file", frames.error().message, frames.error().where);
-  // The file's own rate, so that its frames are sent as they are, unless another is asked for.
+  // The default is the file's own rate, with which its frames are sent unchanged.
   if (!request.query_value("fps"))
     options.rate = std::clamp(reading->file.rate, streams::least_play_rate, streams::most_play_rate);
   std::vector<std::string> warnings;

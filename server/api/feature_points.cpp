@@ -26,7 +26,7 @@ bool is_one_of(const JsonBody& value, const std::array<std::string_view, N>& nam
   return value.is_string() && std::find(names.begin(), names.end(), value.get<std::string>()) != names.end();
 }
 
-/// Reads one entry of "points"; what is wrong with it goes to `faults`.
+/// Reads one entry of "points"; adds its errors to `faults`.
 std::optional<store::FeaturePointRecord> read_point(const std::string& id, const JsonBody& value,
                                                     std::uint32_t vertices, std::vector<http::Fault>& faults) {
   const auto at = std::string("/points/").append(pointer_segment(id));
@@ -62,10 +62,10 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
   if (says && !value["proposed"].is_boolean()) return fault("/proposed", "it must be true or false");
   if (says && value["proposed"].get<bool>()) {
     auto& proposal = point.proposal.emplace();
-    // Those of a placed point are remarks of its file and mean nothing here.
+    // For a placed point these members are ignored.
     if (value.contains("method")) {
       if (!is_one_of(value["method"], proposal_method_names))
-        return fault("/method", "it is no way to propose a point");
+        return fault("/method", "it is not a method of proposing a point");
       proposal.method = value["method"].get<std::string>();
     }
     if (value.contains("confidence")) {
@@ -81,7 +81,7 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
     }
     if (value.contains("remark")) {
       if (!value["remark"].is_string() || value["remark"].get_ref<const std::string&>().size() > max_remark)
-        return fault("/remark", "it must be a text of at most " + std::to_string(max_remark) + " bytes");
+        return fault("/remark", "it must be a string of at most " + std::to_string(max_remark) + " bytes");
       proposal.remark = value["remark"].get<std::string>();
     }
   }
@@ -107,23 +107,22 @@ std::vector<store::FeaturePointRecord> read_points(const JsonBody& body, std::ui
   return points;
 }
 
-/// A file of feature points may say how its model stands and how it counts. The server reads models as they stand: what
-/// it would have to turn it refuses, instead of making a face that is wrong without a sign.
+/// A file of feature points may state its axes and the base of its vertex indices. The server does not convert them: it
+/// refuses other axes and bases, instead of making a wrong face without notice.
 void refuse_other_frames(const JsonBody& body) {
   static const JsonBody identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   if (body.contains("to_mpeg4_axes") && !body["to_mpeg4_axes"].is_null() && body["to_mpeg4_axes"] != identity)
-    refuse("invalid-field",
-           "only models that stand in MPEG-4's axes are taken: +X to the face's left, +Y up, +Z out of it",
+    refuse("invalid-field", "only models in MPEG-4's axes are accepted: +X to the face's left, +Y up, +Z out of it",
            "/to_mpeg4_axes");
   if (body.contains("vertex_index_base") && body["vertex_index_base"] != 0)
     refuse("invalid-field", "it must be 0: vertices count from 0", "/vertex_index_base");
 }
 
-/// A point as it is marked, with the position of its vertex, or the vertex at its position where one is meant.
+/// A marked point with the position of its vertex, or with the vertex at its position if that is unambiguous.
 answer::FeaturePoints::PointsValue represent_point(const store::FeaturePointRecord& point,
                                                    const VertexPositions& positions) {
   auto vertex = point.vertex;
-  // Of touching lips either could be meant: who sends the answer back must not settle it by chance.
+  // On touching lips either vertex could be meant: a client that sends the answer back must not choose one by chance.
   const bool on_rim = rim_of_point(*parse_feature_point(point.id)).opening != nullptr;
   if (!vertex && point.position)
     vertex = on_rim ? positions.only_one_at(*point.position) : positions.at(*point.position);
@@ -169,7 +168,7 @@ http::Response put_feature_points(Context& context, http::Request& request) {
     fill_by_mirror(points, VertexPositions(context, model));
   }
   if (!context.store.put_feature_points(model.id, points, model.feature_points_revision))
-    refuse("conflict", "the points were changed by somebody else in the same moment: read them and try again");
+    refuse("conflict", "another request changed the points at the same time: read them and try again");
   return represent_points(context, model_of(context, request));
 }
 

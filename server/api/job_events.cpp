@@ -8,7 +8,7 @@ namespace semblante::api {
 
 std::shared_ptr<JobEvents> JobEvents::open(jobs::JobQueue& queue, const std::string& id) {
   std::shared_ptr<JobEvents> events(new JobEvents(queue));
-  // Watch first, look second: a change between the two is seen twice rather than never.
+  // Subscribes before it reads the state: a change between the two is reported twice rather than never.
   events->watch_ = queue.watch(id, [shared = events->shared_](const store::JobRecord& job) { put(*shared, job); });
   const auto job = queue.find(id);
   if (!job) return nullptr;

@@ -10,8 +10,8 @@
 
 namespace semblante::api {
 
-/// The changes of one job as Server-Sent Events: `progress` with the newest state (states nobody took in time are
-/// skipped), then one `done`, `failed` or `cancelled`, then the end. Shared by the connection and nobody else.
+/// The changes of one job as Server-Sent Events: `progress` with the newest state (states that were not sent in time
+/// are skipped), then one `done`, `failed` or `cancelled`, then the end. Owned by its connection.
 class JobEvents : public http::Feed {
  public:
   /// nullptr when there is no such job.
@@ -25,7 +25,7 @@ class JobEvents : public http::Feed {
   [[nodiscard]] bool finished() const override;
 
  private:
-  /// What the queue's threads write and the connection reads; outlives neither.
+  /// Written by the queue's threads, read by the connection.
   struct Shared {
     std::mutex mutex;
     std::function<void()> wake;

@@ -14,7 +14,7 @@
 namespace semblante::api {
 namespace {
 
-/// Budgets of levels of detail: a list, or "auto" for those worth having for a model of that many vertices.
+/// Vertex budgets of the levels of detail: a list, or "auto" for a choice by the model's number of vertices.
 std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vertices) {
   if (lods == "auto") return default_budgets(vertices);
   if (!lods.is_array() || lods.size() > max_levels)
@@ -60,7 +60,7 @@ jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) 
 
 http::Response earlier_job(Context& context, const std::string& id) {
   if (const auto job = context.jobs.find(id)) return accepted(*job);
-  refuse("conflict", "what this key made has been removed");
+  refuse("conflict", "what this Idempotency-Key created has been removed");
 }
 
 store::JobRecord job_of(Context& context, const http::Request& request) {

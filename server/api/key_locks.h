@@ -10,12 +10,12 @@
 
 namespace semblante::api {
 
-/// A lock for each key, held by one request at a time. A key that nobody holds or waits for takes no memory. Any
-/// thread but the I/O threads; outlives what it gave out.
+/// A lock for each key, held by one request at a time. A key without holder and waiters takes no memory. Any thread
+/// except I/O threads; must outlive the locks it has returned.
 class KeyLocks {
   struct Lock {
     std::condition_variable released;
-    std::size_t users = 0;  ///< the holder and those who wait
+    std::size_t users = 0;  ///< the holder and the waiters
     bool held = false;
   };
   using Locks = std::map<std::string, Lock, std::less<>>;
@@ -37,13 +37,13 @@ class KeyLocks {
     Locks::iterator lock_;
   };
 
-  /// Waits until nobody else holds the key; nullopt when that takes longer than `limit`.
+  /// Waits until the key is free; nullopt when that takes longer than `limit`.
   std::optional<Held> acquire(std::string_view key, std::chrono::milliseconds limit);
   /// Keys that are held or waited for.
   [[nodiscard]] std::size_t size() const;
 
  private:
-  mutable std::mutex mutex_;  ///< guards locks_ and what is in it
+  mutable std::mutex mutex_;  ///< guards locks_ and its elements
   Locks locks_;
 };
 

@@ -24,7 +24,7 @@ std::size_t level_of(const http::Request& request, const store::PackageRecord& p
   const auto lod = request.query_value("lod");
   const auto most = request.query_value("max_vertices");
   if (lod && most) refuse("invalid-argument", "lod and max_vertices both choose a level: give one", "?max_vertices");
-  // A package of before there were levels is one.
+  // A package from before levels existed has one level.
   const std::size_t count = std::max<std::size_t>(package.levels.size(), 1);
   if (lod) {
     const auto level = number_in(std::string(*lod), "?lod");

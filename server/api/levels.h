@@ -7,9 +7,9 @@
 
 namespace semblante::api {
 
-/// Which level of the package a request for one of its artefacts means: `?lod=1`, or `?max_vertices=8000` for the
-/// largest level that has no more; the smallest, when all have more. Without either the full mesh, 0. Refuses both
-/// together, what is no number, and a level that is not there.
+/// The level of detail that a request for an artefact of the package selects: `?lod=1`, or `?max_vertices=8000` for the
+/// largest level with no more vertices; the smallest level, when all have more. Without either 0, the full mesh.
+/// Refuses both together, a value that is not a number, and a level that does not exist.
 std::size_t level_of(const http::Request& request, const store::PackageRecord& package);
 
 }  // namespace semblante::api

@@ -13,13 +13,13 @@ using metrics::MetricType;
 using metrics::TextWriter;
 
 void write_build(TextWriter& writer, const ApiConfig& config) {
-  writer.family("semblante_build_info", MetricType::gauge, "1; the version is in the label.");
+  writer.family("semblante_build_info", MetricType::gauge, "Always 1; the version is in the label.");
   writer.sample(std::uint64_t{1}, {{"version", config.version}});
 }
 
 void write_store(TextWriter& writer, store::Store& store) {
-  writer.single("semblante_models", MetricType::gauge, "Models kept.", std::uint64_t{store.model_count()});
-  writer.single("semblante_expressions", MetricType::gauge, "Displacement sets kept, beside the library's.",
+  writer.single("semblante_models", MetricType::gauge, "Models stored.", std::uint64_t{store.model_count()});
+  writer.single("semblante_expressions", MetricType::gauge, "Displacement sets stored, without the library's.",
                 std::uint64_t{store.set_count()});
   writer.single("semblante_artefact_bytes", MetricType::gauge,
                 "Size of all artefacts of the models, each counted once.", store.artefact_bytes());
@@ -31,7 +31,7 @@ void write_pending(TextWriter& writer, const store::PendingStatus& status) {
   writer.single("semblante_store_disk_full", MetricType::gauge, "1 while that is because the disk is full.",
                 std::uint64_t{status.disk_full});
   writer.single("semblante_store_pending_writes", MetricType::gauge,
-                "Changes that wait until the data folder can be written.", std::uint64_t{status.count});
+                "Pending changes, to be made when the data folder can be written.", std::uint64_t{status.count});
 }
 
 void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
@@ -45,7 +45,7 @@ void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
       writer.sample(jobs.ended(kind.name, state), {{"kind", kind.name}, {"state", to_string(state)}});
 }
 
-/// Streams are summed up: their ids are chosen by clients.
+/// The values are sums over all streams, because clients choose stream ids and a label for each would be unbounded.
 void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
   using streams::source_names;
   std::array<std::uint64_t, streams::source_count + 1> fed{};
@@ -55,10 +55,10 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
     for (std::size_t i = 0; i < subscribers.size(); ++i) subscribers[i] += stream.subscribers_by_coding[i];
   }
   const auto counts = hub.counts();
-  writer.family("semblante_streams", MetricType::gauge, "Streams open, by what feeds them now.");
+  writer.family("semblante_streams", MetricType::gauge, "Open streams, by their current source.");
   for (std::size_t i = 0; i < fed.size(); ++i)
     writer.sample(fed[i], {{"source", i < streams::source_count ? source_names[i] : "none"}});
-  writer.family("semblante_stream_subscribers", MetricType::gauge, "Connections that follow a stream.");
+  writer.family("semblante_stream_subscribers", MetricType::gauge, "Connections that subscribe to a stream.");
   for (std::size_t i = 0; i < subscribers.size(); ++i)
     writer.sample(subscribers[i], {{"coding", streams::coding_names[i]}});
   writer.family("semblante_stream_frames_total", MetricType::counter, "Frames that entered a stream.");
@@ -75,13 +75,13 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
   writer.single("semblante_stream_messages_coalesced_total", MetricType::counter,
                 "Batches to subscribers that fell behind, replaced by the newest state.", counts.messages_replaced);
   writer.single("semblante_stream_messages_dropped_total", MetricType::counter,
-                "Messages that waited for a connection closed as slow, and answers there was no room for.",
+                "Messages pending for connections closed as slow, and answers dropped at the limit.",
                 counts.messages_dropped);
   writer.family("semblante_stream_lateness_seconds", MetricType::histogram,
-                "From when a batch was due until the kernel had it, for each subscriber.");
+                "Time from a batch's deadline until the kernel accepted it, for each subscriber.");
   writer.histogram(metrics::lateness_bounds, counts.lateness);
   writer.single("semblante_stream_throttled_frames_total", MetricType::counter,
-                "Frames left out because their source sent too many.", counts.throttled);
+                "Frames dropped because their source exceeded its limit.", counts.throttled);
   writer.family("semblante_stream_connections_closed_total", MetricType::counter,
                 "Connections of streams that the server closed.");
   writer.sample(counts.closed_slow, {{"reason", "slow"}});
@@ -91,24 +91,24 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
   writer.sample(counts.closed_flooding, {{"reason", "throttled"}});
   writer.sample(counts.closed_ended, {{"reason", "ended"}});
   writer.single("semblante_stream_connections_refused_total", MetricType::counter,
-                "Connections turned away because the stream had as many as it takes.", counts.refused);
+                "Connections refused because of the stream's limit of connections.", counts.refused);
   writer.single("semblante_stream_clamped_values_total", MetricType::counter,
-                "Values beyond the range of their FAP, made its end.", counts.clamped_values);
+                "Values clamped to the range of their FAP.", counts.clamped_values);
 }
 
 void write_recordings(TextWriter& writer, const recordings::RecorderCounts& counts) {
-  writer.single("semblante_recordings_running", MetricType::gauge, "Recordings being made.", counts.running);
+  writer.single("semblante_recordings_running", MetricType::gauge, "Running recordings.", counts.running);
   writer.single("semblante_recordings_bytes", MetricType::gauge, "Size of all recordings.", counts.bytes);
   writer.single("semblante_recordings_frames_total", MetricType::counter, "Frames made durable.", counts.frames);
   writer.single("semblante_recordings_dropped_frames_total", MetricType::counter,
-                "Frames that came faster than the disk took them.", counts.dropped);
+                "Frames dropped because the disk was too slow.", counts.dropped);
   writer.single("semblante_recordings_failed_total", MetricType::counter,
                 "Recordings that ended because they could not be written.", counts.failed);
 }
 
 void write_trash(TextWriter& writer, const store::Trash::Counts& counts) {
   writer.single("semblante_trash_files", MetricType::gauge,
-                "Files the database did not know at a start, kept until their time of grace is over.", counts.files);
+                "Files the database did not know at a start, kept for a grace period.", counts.files);
   writer.single("semblante_trash_bytes", MetricType::gauge, "Size of these.", counts.bytes);
 }
 

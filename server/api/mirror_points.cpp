@@ -45,7 +45,7 @@ void fill_by_mirror(std::vector<store::FeaturePointRecord>& points, const Vertex
     if (points[i].vertex) {
       mirrored.vertex = positions.nearest(*position, reach);
       if (!mirrored.vertex) continue;
-      // Where lips or lids touch, the nearest vertex may be of the other one, which positions alone do not tell.
+      // Where lips or lids touch, the nearest vertex may belong to the other one, which positions alone do not show.
       if (rim_of_point(FeaturePointId(partner)).opening != nullptr) {
         mirrored.vertex = positions.only_one_at(*position);
         if (!mirrored.vertex) mirrored.position = position;

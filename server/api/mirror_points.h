@@ -8,10 +8,10 @@
 namespace semblante::api {
 
 /// Adds the missing partner of every marked point that has one on the other side: the vertex nearest to its mirror
-/// image, within 5 % of the box diagonal, else nothing. A point of a lip or lid gets a vertex only where exactly one
-/// lies at the image, else the image as its position: rims may touch, and whoever reads the model
-/// (place_feature_points) tells them apart along the surface. The plane is x = the mean of the marked points in the
-/// middle (0 without any). Keeps `points` in rising order.
+/// image, within 5 % of the box diagonal, else none. A point of a lip or lid gets a vertex only if exactly one lies at
+/// the image, else the image as its position: rims may touch, and place_feature_points distinguishes them along the
+/// surface. The plane is x = the mean of the marked points in the middle (0 without any). Keeps `points` in rising
+/// order.
 void fill_by_mirror(std::vector<store::FeaturePointRecord>& points, const VertexPositions& positions);
 
 }  // namespace semblante::api

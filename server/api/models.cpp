@@ -37,7 +37,7 @@ std::vector<store::RoleChange> role_changes(const JsonBody& roles, std::size_t p
   return changes;
 }
 
-/// A member that may be said, taken back (null), or left as it is.
+/// A member that may be set, reset (null), or left unchanged.
 template <class T, class Parse>
 void read_wish(const JsonBody& frame, const char* key, const std::string& what, Parse parse, std::optional<T>& wish) {
   if (!frame.contains(key)) return;
@@ -63,11 +63,11 @@ FrameWish frame_wish(const JsonBody& frame, const FrameWish& before) {
   return wish;
 }
 
-/// What the user says of the frame. The unit alone is a word; axes turn everything, which is the work of an import.
-/// Gives that import, if one is needed.
+/// Stores the user's settings of the frame. A new unit changes only a record; new axes turn the model, which needs an
+/// import. Returns that import job, if one is needed.
 std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const JsonBody& body) {
   const FrameWish wish = frame_wish(body, model.frame_wish);
-  // An import that failed or was cancelled has left what was said undone: saying it again tries again.
+  // After a failed or cancelled import the wish is not applied yet: the same request again retries it.
   const auto last_import = context.store.latest_job(model.id, jobs::ImportJob::kind_name);
   const bool is_done = last_import && last_import->state == store::JobState::done;
   const bool is_running = model.state == store::ModelState::importing;
@@ -79,7 +79,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
     if (last && !store::is_final(last->state))
       refuse("conflict", "a job works on the model as it stands: wait for job " + last->id + " or cancel it", "/frame");
   }
-  // Taking back what was said needs a new look at the file; so does a model of before there were frames.
+  // Resetting the wish needs a new import, and so does a model from before frames existed.
   const bool says_unit_only =
       is_done && model.frame && wish.unit && wish.up == model.frame_wish.up && wish.front == model.frame_wish.front;
   std::optional<store::JobRecord> job;
@@ -91,18 +91,19 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
     job = jobs::new_record(jobs::ImportJob{}, model.id);
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
-    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+    refuse("conflict", "another request changed the model at the same time: read it and try again");
   if (job) context.jobs.enqueue(*job);
   return job;
 }
 
-/// From the next package on the face wears these sets. A package that is there is made again, unless it goes anyway.
+/// Stores the model's own sets, which take effect with the next package. An existing package is made again, unless an
+/// import will remove it.
 std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord& model,
                                      const std::vector<store::WornSet>& worn, bool package_goes) {
   const auto job = package_goes ? std::nullopt : make_package_again(context, model);
   if (job) refuse_unless_room(context.jobs);
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
-    refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+    refuse("conflict", "another request changed the model at the same time: read it and try again");
   if (job) context.jobs.enqueue(*job);
   return job;
 }
@@ -119,7 +120,7 @@ http::Response list_models(Context& context, http::Request& request) {
   const auto limit = page_size(request);
   const auto after = request.query_value("after").value_or("");
   auto models = context.store.models(after, limit + 1);
-  if (!models) refuse("invalid-argument", "there is no model to go on after", "?after");
+  if (!models) refuse("invalid-argument", "there is no model with this id", "?after");
   answer::Models page{.models = {}, .next = cut_to_page(*models, limit)};
   for (const auto& model : *models) page.models.push_back(represent(model, context.store.artefacts(model.id)));
   return json_response(200, page);
@@ -147,12 +148,12 @@ http::Response patch_model(Context& context, http::Request& request) {
     import = edit_frame(context, model, body["frame"]);
     now = model_of(context, request);
   }
-  // A job that ends between reading and writing changes the model too: only who asked for a revision hears of it.
+  // A job that ends between reading and writing changes the model too: retries, unless the client asked for a revision.
   constexpr int attempts = 8;
   for (int left = has_more ? attempts : 0; left > 0; --left) {
     if (context.store.edit_model(model.id, name, roles, now.revision)) break;
     if (left == 1 || request.header("If-Match"))
-      refuse("conflict", "the model was changed by somebody else in the same moment: read it and try again");
+      refuse("conflict", "another request changed the model at the same time: read it and try again");
     now = model_of(context, request);
     if (body.contains("roles")) roles = role_changes(body["roles"], now.parts.size());
   }
@@ -170,7 +171,7 @@ http::Response patch_model(Context& context, http::Request& request) {
 http::Response delete_model(Context& context, http::Request& request) {
   const auto model = model_of(context, request);
   check_if_match(request, model_etag(model));
-  // Before its jobs are ended for nothing.
+  // Checks the disk before the model's jobs are cancelled.
   context.pending.with_reserve([&] { context.store.check_writable(); });
   context.jobs.cancel_all_of(model.id);
   const std::unique_lock alone(context.blobs.references());

@@ -22,7 +22,7 @@
 namespace semblante::api {
 namespace {
 
-/// What a request for an extraction says, however it was sent.
+/// The content of a request for an extraction, independent of its media type.
 struct ExampleRequest {
   jobs::ExtractJob wish;
   std::string model;
@@ -44,7 +44,7 @@ std::string text_or_empty(const JsonBody& options, const char* key) {
   return checked_text(options[key], max_name_bytes, std::string("/") + key);
 }
 
-/// The members that all sources have.
+/// Reads the members that all sources have.
 ExampleRequest read_options(const JsonBody& options) {
   refuse_unknown_members(options, body_members::extraction_options);
   ExampleRequest example;
@@ -81,7 +81,7 @@ std::vector<store::FeaturePointRecord> read_points(std::string_view text) {
   return points;
 }
 
-/// Bytes that could be a mesh; what is in them only a worker finds out.
+/// Checks that bytes can be a mesh; only a worker parses them.
 void check_file(std::string_view bytes, const std::string& file_name, const std::string& pointer) {
   if (bytes.empty()) refuse("empty-model", "the file is empty", pointer);
   const auto format = format_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file_name);
@@ -118,14 +118,14 @@ ExampleRequest read_form(std::string_view body, std::string_view boundary) {
   return example;
 }
 
-/// What can be known about the stored model without looking into it.
+/// Checks a stored model without parsing it.
 void check_model(Context& context, const ExampleRequest& example) {
   const auto model = context.store.model(example.model);
   if (!model) refuse("invalid-field", "there is no model of this id", "/model");
   refuse_unless_imported(*model);
   if (model->feature_point_count == 0)
     refuse("missing-feature-points", "no feature point is marked on this model", "/model");
-  constexpr std::size_t most_listed = 512;  // an import writes down no more
+  constexpr std::size_t most_listed = 512;  // an import stores no more
   if (model->morph_targets.size() >= most_listed) return;
   std::string names;
   for (const auto& target : model->morph_targets) names.append(names.empty() ? "" : ", ").append(target.name);
@@ -154,13 +154,13 @@ std::string keep(Context& context, std::string_view bytes) {
 http::Response earlier(Context& context, const std::string& id) {
   if (const auto job = context.jobs.find(id)) return accepted(*job);
   if (const auto set = context.store.set(id)) return new_set_response(*set, 201);
-  refuse("conflict", "what this key made has been removed");
+  refuse("conflict", "what this Idempotency-Key created has been removed");
 }
 
 void refuse_too_many(Context& context) {
   const auto most = context.config.limits.max_expressions;
   if (context.store.set_count() >= most)
-    refuse("limit-exceeded", "the server holds its " + std::to_string(most) + " expressions");
+    refuse("limit-exceeded", "the server has reached its limit of " + std::to_string(most) + " expressions");
 }
 
 http::Response create_by_hand(Context& context, const http::Request& request) {
@@ -190,7 +190,7 @@ http::Response create_by_example(Context& context, const http::Request& request,
   if (wish.name.empty()) wish.name = default_name(wish);
   store::JobRecord job;
   {
-    // Until the job that refers to them is there, nobody may take the files for forgotten.
+    // Protects the files from removal until the job that refers to them is stored.
     const std::shared_lock shared(context.blobs.references());
     wish.expression_sha256 = keep(context, example.expression);
     wish.neutral_sha256 = keep(context, example.neutral);
@@ -209,7 +209,7 @@ http::Response create_expression(Context& context, http::Request& request) {
     const MappedFile mapped(request.body_file->path());
     const auto boundary = http::parameter(request.header("Content-Type").value_or(""), "boundary");
     const ExampleRequest example = read_form(mapped.text(), boundary);
-    // Not of the body as it is: a retry has another boundary.
+    // The fingerprint is not that of the raw body, because a retry has another boundary.
     const auto& wish = example.wish;
     std::string whole = sha256_hex(example.expression) + sha256_hex(example.neutral) + wish.expression_file + "\n" +
                         wish.neutral_file + "\n" + example.model + "\n" + wish.name + "\n" + wish.kind;
@@ -225,7 +225,7 @@ http::Response create_expression(Context& context, http::Request& request) {
   if (body.contains("displacements")) return create_by_hand(context, request);
   ExampleRequest example = read_options(body);
   if (example.model.empty())
-    refuse("invalid-field", "say \"displacements\", or a \"model\" and its morph \"target\"", "/model");
+    refuse("invalid-field", "give \"displacements\", or a \"model\" and its morph \"target\"", "/model");
   if (example.wish.target.empty())
     refuse("invalid-field", "name a morph target of the model, or send the file of the expression in a form",
            "/target");

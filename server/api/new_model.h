@@ -15,8 +15,8 @@ struct NewModel {
   store::JobRecord job;
 };
 
-/// Takes over the file of a new model and stores model and import job, durably. `id` empty: a random one. The job is
-/// not queued yet. Errors: io.
+/// Stores a new model, its file and its import job, durably. `id` empty: a random one. The job is not queued yet.
+/// Errors: io.
 Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
                            std::optional<store::IdempotencyRecord> key);

@@ -4,7 +4,7 @@
 
 namespace semblante::api {
 
-/// openapi.json of this folder, compiled in.
+/// openapi.json of this folder, embedded at compile time.
 std::string_view openapi_document();
 
 }  // namespace semblante::api

@@ -39,7 +39,7 @@ http::Response get_performance(Context& context, http::Request& request) {
   const auto info = context.hub.info(request.params.at("stream"));
   if (!info) refuse("not-found", "there is no stream " + request.params.at("stream"));
   const auto& id = request.params.at("performance");
-  if (!info->playing || info->playing->id != id) refuse("not-found", "no performance " + id + " plays there");
+  if (!info->playing || info->playing->id != id) refuse("not-found", "the stream does not play the performance " + id);
   return json_response(200, represent(*info->playing));
 }
 
@@ -47,7 +47,7 @@ http::Response stop_performance(Context& context, http::Request& request) {
   const auto& stream = request.params.at("stream");
   if (!context.hub.info(stream)) refuse("not-found", "there is no stream " + stream);
   const auto& id = request.params.at("performance");
-  if (!context.hub.stop(stream, id)) refuse("not-found", "no performance " + id + " plays there");
+  if (!context.hub.stop(stream, id)) refuse("not-found", "the stream does not play the performance " + id);
   http::Response response;
   response.status = 204;
   return response;

@@ -10,18 +10,18 @@
 
 namespace semblante::api {
 
-/// Of a .fap file; others have limits of their own.
+/// Limit of a .fap file; other bodies have their own limits.
 inline constexpr std::size_t max_fap_body_bytes = std::size_t{16} << 20U;
 
-/// From the disk if it lies there, so that requests that are still on their way take no memory.
+/// Reads the body, from the disk if it is there: bodies that are still arriving take no memory.
 std::string text_of_body(const http::Request& request);
 
-/// How something is to be played, from the query: fps, loop, from (ms), take_over. Refuses what is none.
+/// The playback options in the query: fps, loop, from (ms), take_over. Refuses invalid values.
 streams::PlayOptions play_options(const http::Request& request);
 
-/// Plays a source into a stream: 202 with where it can be seen and stopped. Refuses with 409 when somebody else
-/// publishes or plays, with 400 when it is to begin after its end, with 507 when it does not fit beside what plays.
-/// `warnings`: of what was posted, if it can have any.
+/// Plays a source into a stream: 202 with the URL at which its status can be read and it can be stopped. Refuses with
+/// 409 when another source holds the stream, with 400 when `from` is after the end, with 507 when it does not fit into
+/// memory beside the other sources. `warnings`: of the posted file, if its format has warnings.
 http::Response play_into(Context& context, const std::string& stream,
                          std::shared_ptr<const streams::FrameSource> source, const streams::PlayOptions& options,
                          const std::optional<std::vector<std::string>>& warnings = std::nullopt);

@@ -55,8 +55,8 @@ const Format& format_of(const http::Request& request) {
   refuse_damaged(error);
 }
 
-/// What is written chunk by chunk goes through a file, so that a long recording takes no memory and a fault in its
-/// middle is an answer and not half a file.
+/// Exports that are written chunk by chunk go through a temporary file, so that a long recording takes no memory, and a
+/// fault in its middle gives an error answer instead of a truncated file.
 template <class Write>
 http::Body through_a_file(Context& context, Write write) {
   auto file = std::make_shared<http::TemporaryFile>(context.blobs.temporary() / ("export-" + store::random_id()));
@@ -75,12 +75,12 @@ http::Body through_a_file(Context& context, Write write) {
 http::Body clip_of(Context& context, const http::Request& request, const RecordingStatus& recording,
                    const SharedReader& reader, const Cut& cut) {
   const std::string id(request.query_value("model").value_or(recording.record.model));
-  if (id.empty()) refuse("conflict", "the stream had no model: say ?model", "?model");
+  if (id.empty()) refuse("conflict", "the stream had no model: give ?model", "?model");
   const auto model = context.store.model(id);
   if (!model) refuse("not-found", "there is no model " + id, "?model");
   const auto file_of = [&](std::string_view sha256) {
     const auto path = context.blobs.find(sha256);
-    if (!path) refuse("internal", "the bytes of an artefact are not in the data folder any more");
+    if (!path) refuse("internal", "the bytes of an artefact are missing in the data folder");
     return MappedFile(*path);
   };
   const auto artefact = [&](const char* name) {

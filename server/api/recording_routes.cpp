@@ -56,7 +56,7 @@ void refuse_damaged(const Error& error) {
 
 std::shared_ptr<const recordings::ByteSource> bytes_of(Context& context, const RecordingStatus& recording) {
   const auto& record = recording.record;
-  // Of one that runs, what is known to be whole.
+  // While it runs: only the durable part.
   const bool runs = record.state == store::RecordingState::recording;
   auto bytes = recordings::open_bytes(context.recorder->path_of(record.id), runs ? record.bytes : UINT64_MAX);
   if (!bytes) refuse_damaged(bytes.error());
@@ -120,7 +120,7 @@ http::Response create_recording(Context& context, http::Request& request) {
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) {
     if (const auto earlier = context.recorder->find(*check.earlier)) return created(*earlier);
-    refuse("conflict", "what this key made has been removed");
+    refuse("conflict", "what this Idempotency-Key created has been removed");
   }
   const auto record = context.recorder->start(std::move(start), std::move(check.record));
   if (!record) {
@@ -171,7 +171,8 @@ http::Response play_recording(Context& context, http::Request& request) {
     if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);
     return body[name].get<bool>();
   };
-  if (!body.contains("recording")) refuse("invalid-field", "say which recording is to be played", "/recording");
+  if (!body.contains("recording"))
+    refuse("invalid-field", "the id of the recording to be played is missing", "/recording");
   const auto id = checked_text(body["recording"], max_name_bytes, "/recording");
   const auto recording = context.recorder->find(id);
   if (!recording) refuse("invalid-field", "there is no recording " + id, "/recording");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto package_names = std::to_array<std::string_view>({"mesh.drc", "weights", "rig.json", "face.glb"});
 
-/// The artefacts of one level, by the name a client asks for.
+/// The artefacts of one level, by the names in URLs.
 answer::Members<answer::Artefact> artefacts_of_level(const store::ModelRecord& model,
                                                      const std::vector<store::ArtefactRecord>& artefacts,
                                                      std::size_t lod) {
@@ -143,8 +143,7 @@ answer::Stream::SubscribersByCoding by_coding(const streams::StreamInfo& stream)
       .packed = of(streams::Coding::packed), .plain = of(streams::Coding::plain), .json = of(streams::Coding::json)};
 }
 
-/// ms: the bound of the bucket that the hundredth part of all is above; null before anything was sent, and beyond the
-/// last bound.
+/// The p99 of the lateness, ms: the upper bound of its bucket; null before anything was sent, and above the last bound.
 std::optional<double> lateness_p99(const metrics::LatenessValues& lateness) {
   const auto count = lateness.count();
   if (count == 0) return std::nullopt;

@@ -3,7 +3,7 @@
 namespace semblante::api {
 namespace {
 
-/// Takes one segment off the front: "/a/b" -> "a", leaving "/b".
+/// Removes one segment from the front: "/a/b" -> "a", leaving "/b".
 std::string_view next_segment(std::string_view& path) {
   path.remove_prefix(1);
   const auto end = path.find('/');

@@ -10,24 +10,24 @@
 
 namespace semblante::api {
 
-/// Whose limit holds for a body, and where it is kept while it arrives.
+/// The limit of a body, and where it is buffered while it arrives.
 enum class BodyKind {
-  none,         ///< a body is read and ignored
-  json,         ///< in memory; a form (multipart/form-data) as an upload
+  none,         ///< a body is read and discarded
+  json,         ///< in memory; a form (multipart/form-data) like an upload
   upload,       ///< a model: to disk
-  performance,  ///< of a performance's size, to disk
+  performance,  ///< a performance: to disk
   fap,          ///< a .fap file, to disk
 };
 
-/// What the body of a route may be.
+/// The body that a route accepts.
 struct RouteBody {
   BodyKind kind = BodyKind::none;
-  std::span<const std::string_view> types = {};  ///< media types that are read
-  bool announced = false;                        ///< without its length, or chunks, it is refused with 411
+  std::span<const std::string_view> types = {};  ///< accepted media types
+  bool announced = false;                        ///< refused with 411 without Content-Length or chunked encoding
 };
 
-/// Where a route is handled. `at_once`: on the connection's strand, so that it answers when every worker is busy; its
-/// handler must not wait for a lock, the disk or the store.
+/// Where a handler runs. `at_once`: on the connection's strand, so that it answers even when every worker is busy; such
+/// a handler must not wait for a lock, the disk or the store.
 enum class Runs { on_worker, at_once };
 
 using Handler = http::Response (*)(Context& context, http::Request& request);
@@ -35,20 +35,20 @@ using Handler = http::Response (*)(Context& context, http::Request& request);
 /// One operation. The table is generated from openapi.json (codegen/README.md); handlers.h declares the handlers.
 struct Route {
   std::string_view method;
-  std::string_view pattern;  ///< "/v1/models/{model}": a {name} takes one segment
+  std::string_view pattern;  ///< "/v1/models/{model}": a {name} matches one segment
   RouteBody body;
-  std::string_view produces;  ///< media type of the good answer; "" for none, "*/*" for what the artefact is
+  std::string_view produces;  ///< media type of the successful answer; "" for none, "*/*" for that of the artefact
   Handler handler;
   Runs runs;
 };
 
 std::span<const Route> routes();
 
-/// What a request is for.
+/// The route of a request.
 struct Match {
-  const Route* route = nullptr;               ///< none: the path is of no route, or of none with this method
-  std::string allow;                          ///< the methods of the path, as in Allow; empty: there is no such path
-  std::map<std::string, std::string> params;  ///< what the names of the pattern stand for
+  const Route* route = nullptr;               ///< null: no route has this path, or none has it with this method
+  std::string allow;                          ///< the methods of the path, as in Allow; empty: unknown path
+  std::map<std::string, std::string> params;  ///< values of the pattern's {names}
 };
 /// HEAD finds the route of GET.
 Match match_route(std::string_view method, std::string_view path);

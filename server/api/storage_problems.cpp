@@ -25,8 +25,9 @@ void refuse_unkept(const Error& error) {
 
 void refuse_pending(const Context& context, const std::string& effect) {
   const auto status = context.pending.status();
-  refuse(slug_of(status.disk_full || status.writable),
-         effect + ", but this could not be recorded: it is as soon as the disk takes it, or after a restart as it was");
+  refuse(slug_of(status.disk_full || status.writable), effect +
+                                                           ", but the change is not stored yet: it will be when the "
+                                                           "disk can be written; a restart before that undoes it");
 }
 
 std::string pending_in_words(const store::PendingStatus& status) {

@@ -9,14 +9,14 @@
 
 namespace semblante::api {
 
-/// What a store that cannot be read or written is to a client: 507 `insufficient-storage` or 503 `storage-unavailable`.
+/// The problem document for a store that cannot be read or written: 507 `insufficient-storage` or 503
+/// `storage-unavailable`.
 http::Problem problem_of(const store::StoreError& error);
 
-/// Throws StoreError for a file that cannot be kept, which Api::handle turns into the answer.
+/// Throws StoreError for a file that cannot be stored; Api::handle turns it into the answer.
 [[noreturn]] void refuse_unkept(const Error& error);
 
-/// Refuses a request whose effect is there but not durable yet; `effect` is a sentence: "the job does not run any
-/// more".
+/// Refuses a request that has taken effect but is not durable yet; `effect` is a sentence: "the job is cancelled".
 [[noreturn]] void refuse_pending(const Context& context, const std::string& effect);
 
 /// "2 changes wait to be recorded: the end of job a, the end of recording b"; empty for none.

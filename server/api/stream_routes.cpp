@@ -14,7 +14,7 @@ namespace semblante::api {
 namespace {
 
 constexpr std::size_t max_slug_bytes = 64;
-/// Seconds: in three there is room for the 1024 frames of the longest message.
+/// Seconds after which the flood guard accepts the longest message (1024 frames).
 constexpr unsigned throttled_retry_after = 3;
 
 std::string checked_slug(const JsonBody& value) {
@@ -25,7 +25,7 @@ std::string checked_slug(const JsonBody& value) {
   return slug;
 }
 
-/// The settings in the body of a request that creates the stream `id`.
+/// Reads the settings in the body of a request that creates the stream `id`.
 settings::StreamSettings checked_settings(Context& context, const JsonBody& body, const std::string& id) {
   refuse_unknown_members(body, body_members::create_stream);
   auto read = settings::read_stream_settings(body, id);
@@ -67,12 +67,13 @@ http::Response create_stream(Context& context, http::Request& request) {
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) {
     if (const auto earlier = context.hub.info(*check.earlier)) return created(*earlier);
-    refuse("conflict", "what this key made has been removed");
+    refuse("conflict", "what this Idempotency-Key created has been removed");
   }
   if (context.hub.list().size() >= context.config.limits.max_streams)
-    refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_streams) + " streams");
+    refuse("limit-exceeded",
+           "the server has reached its limit of " + std::to_string(context.config.limits.max_streams) + " streams");
   if (check.record) check.record->resource = info.id;
-  // Durable before it is there for others, so that a stream somebody saw is never forgotten.
+  // Stored before it is opened, so that a stream that a client has seen survives a crash.
   if (context.hub.info(info.id) || !context.store.create_stream({info.id, info.created, info.settings}, check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
@@ -107,7 +108,7 @@ http::Response post_frames(Context& context, http::Request& request) {
   if (!receipt) {
     const auto& error = receipt.error();
     if (error.code == ErrorCode::missing) refuse("not-found", error.message);
-    // So long until there is room for as many, whether it was the rate or the frames that are ahead.
+    // The same delay for both causes: the rate, or frames too far ahead of the clock.
     if (error.code == ErrorCode::too_large) refuse_for_now(error.message, throttled_retry_after);
     refuse(error.code == ErrorCode::mismatch ? "conflict" : "invalid-frame", error.message, error.where);
   }

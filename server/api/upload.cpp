@@ -16,11 +16,11 @@
 namespace semblante::api {
 namespace {
 
-/// What arrived, whichever way it was sent.
+/// An uploaded file, sent as a body or in a form.
 struct Upload {
   std::filesystem::path path;
   std::string file_name, name;
-  std::shared_ptr<http::TemporaryFile> extracted;  ///< holds the file of a form's part
+  std::shared_ptr<http::TemporaryFile> extracted;  ///< owns the file of a form's part
 };
 
 Upload take_form(const http::Request& request) {
@@ -85,10 +85,11 @@ http::Response create_model(Context& context, http::Request& request) {
     const auto job = context.jobs.find(*check.earlier);
     const auto model = job ? context.store.model(job->model) : std::nullopt;
     if (model) return accepted(context, *model, *job);
-    refuse("conflict", "what this key made has been removed");
+    refuse("conflict", "what this Idempotency-Key created has been removed");
   }
   if (context.store.model_count() >= context.config.limits.max_models)
-    refuse("limit-exceeded", "the server holds its " + std::to_string(context.config.limits.max_models) + " models");
+    refuse("limit-exceeded",
+           "the server has reached its limit of " + std::to_string(context.config.limits.max_models) + " models");
   refuse_unless_room(context.jobs);
   auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record);
   if (!made) refuse_unkept(made.error());

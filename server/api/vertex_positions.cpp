@@ -10,7 +10,7 @@ VertexPositions::VertexPositions(Context& context, const store::ModelRecord& mod
   const auto path = artefact ? context.blobs.find(artefact->sha256) : std::nullopt;
   if (!path) return;
   file_ = std::make_unique<MappedFile>(*path);
-  // The file is an array of float32 from a mapping, which begins at a page.
+  // The mapping is page-aligned, so the array of float32 is aligned.
   xyz_ = {reinterpret_cast<const float*>(file_->bytes().data()), file_->bytes().size() / sizeof(float)};
 }
 

@@ -9,7 +9,7 @@
 namespace semblante::api {
 namespace {
 
-/// The kind of set that a slot takes; "sil" and "none" stay at rest.
+/// The kind of set for a slot; none for "sil" and "none", which are always at rest.
 std::optional<SetKind> kind_of_slot(std::string_view slot) {
   const auto built_in = find_built_in(slot);
   if (!built_in || slot == viseme_library().front().name || slot == expression_library().front().name)
@@ -49,7 +49,7 @@ std::vector<store::WornSet> worn_from_json(Context& context, const JsonBody& cha
 }
 
 std::optional<store::JobRecord> make_package_again(Context& context, const store::ModelRecord& model) {
-  // A package that is being made may have been begun without what is worn from now on: the same is asked for again.
+  // A running parametrization may have started with the earlier sets: requests it again with the same options.
   const auto latest = context.store.latest_job(model.id, jobs::ParametrizeJob::kind_name);
   if (latest && !store::is_final(latest->state)) {
     if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*latest)) return jobs::new_record(*asked, model.id);

@@ -6,7 +6,7 @@
 
 #include "server/api/answer_types.h"
 
-/// How the members of an answer become JSON: included by the generated writers only.
+/// Conversion of answer members to JSON; included by the generated writers only.
 namespace semblante::api::answer {
 
 template <class T>

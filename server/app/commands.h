@@ -6,7 +6,7 @@ class App;
 
 namespace semblante {
 
-// The subcommands of the service, as server/cli/commands.h has those for heads and files.
+// The subcommands of the service; server/cli/commands.h has those for heads and files.
 
 void add_serve_command(CLI::App& app);
 void add_version_command(CLI::App& app);

@@ -26,12 +26,12 @@ std::string grace_text(std::chrono::seconds grace) {
                                       : count_of(static_cast<std::uint64_t>(seconds), "second"));
 }
 
-/// What there is to say about the database; empty when it is the one that worked here last.
+/// What is unusual about the database; empty when it is the one last used in this folder.
 std::string strangeness(const store::DatabaseIdentity& now, const std::optional<store::DatabaseIdentity>& last) {
   if (now.starts == 0) return "is new";
-  if (!last) return {};  // written by a version that did not note it
-  if (now.id != last->id) return "is not the one that worked in this folder last";
-  if (now.starts < last->starts) return "is an older copy of the one that worked in this folder last";
+  if (!last) return {};  // written by a version without this file
+  if (now.id != last->id) return "is not the one last used in this folder";
+  if (now.starts < last->starts) return "is an older copy of the one last used in this folder";
   return {};
 }
 
@@ -62,7 +62,7 @@ void report_missing(store::ArtefactStore& store, const Reconciled& blobs, const 
 
 void report_failures(const Reconciled& result, const std::string& what) {
   if (result.fault.empty()) return;
-  log::warning(what + " could not be brought in line with the database (" + count_of(result.failed, "file") +
+  log::warning(what + " could not be reconciled with the database (" + count_of(result.failed, "file") +
                " left where it was): " + result.fault);
 }
 
@@ -87,13 +87,13 @@ void report_moved(const std::filesystem::path& data, const store::Trash& trash, 
       "trash by itself");
 }
 
-/// Notes that this database works here now.
+/// Stores that this database is used in this folder now.
 void count_start(const std::filesystem::path& data, store::DatabaseFacts& store) {
   try {
     if (const auto noted = write_last_database(data, store.count_start()); !noted)
-      log::warning("the start cannot be noted: " + noted.error().message);
+      log::warning("the start cannot be recorded: " + noted.error().message);
   } catch (const std::exception& fault) {
-    log::warning(std::string("the start cannot be noted: ") + fault.what());
+    log::warning(std::string("the start cannot be recorded: ") + fault.what());
   }
 }
 
@@ -107,11 +107,11 @@ void keep_log_of_lost_database(const std::filesystem::path& data, store::Trash& 
   };
   if (size_of(store::database_file_name) > 0 || size_of(store::database_log_name) == 0) return;
   if (const auto kept = trash.put(DataFileKind::database_log, store::database_log_name); !kept) {
-    log::warning("the commit log of a database that is gone cannot be kept: " + kept.error().message);
+    log::warning("the write-ahead log of a missing database cannot be kept: " + kept.error().message);
     return;
   }
   log::warning("there is no " + std::string(store::database_file_name) +
-               " to its commit log, which may hold the newest " + "changes; moved to " +
+               " to its write-ahead log, which may have the newest " + "changes; moved to " +
                (trash.batch() / store::database_log_name).string() + ": put both back together, while no server runs");
 }
 
@@ -124,7 +124,7 @@ void bring_files_in_line(const std::filesystem::path& data, store::Store& store,
   report_moved(data, trash, strange, blobs, recordings);
   if (blobs.put_back + recordings.put_back > 0)
     log::info(count_of(blobs.put_back, "blob") + " and " + count_of(recordings.put_back, "recording") +
-              " that the database knows came back from the trash");
+              " that the database knows returned from the trash");
   report_missing(store, blobs, recordings);
   report_failures(blobs, "blobs");
   report_failures(recordings, "recordings");

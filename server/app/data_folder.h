@@ -7,13 +7,13 @@
 
 namespace semblante {
 
-/// Before the database is opened: SQLite deletes the commit log (-wal) of a database file that is gone or empty, so it
-/// goes into the trash. It is what makes that file whole if somebody brings it back.
+/// To be called before the database is opened. SQLite deletes the write-ahead log (-wal) of a missing or empty database
+/// file, so the log is moved into the trash: it completes that file if it is restored.
 void keep_log_of_lost_database(const std::filesystem::path& data, store::Trash& trash);
 
-/// After it is opened and before anybody works with it: brings the files of the data folder in line with it. What it
-/// does not know goes into the trash, what it knows comes back from there; the log says so, as a warning where the
-/// database is new, another or older than the one that worked here last, and names what is missing.
+/// To be called after the database is opened and before other threads use it: reconciles the files of the data folder
+/// with it. Unknown files are moved into the trash, known files back from there. Logs this, as a warning if the
+/// database is new, different from or older than the one last used here, and names missing files.
 void bring_files_in_line(const std::filesystem::path& data, store::Store& store, store::Trash& trash);
 
 }  // namespace semblante

@@ -10,9 +10,9 @@
 namespace semblante {
 namespace {
 
-/// For the store, blobs that are sent or come, pipes of workers.
+/// Descriptors for the store, blobs in transfer, and pipes of workers.
 constexpr std::uint64_t reserve = 512;
-/// Where no limit is set it is memory that counts: about 8 KiB a connection.
+/// Bounds the memory when the system has no limit: about 8 KiB per connection.
 constexpr std::uint64_t most = 65'536;
 
 }  // namespace

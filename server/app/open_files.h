@@ -4,8 +4,8 @@
 
 namespace semblante {
 
-/// Lets the process have as many files open as it may, and says how many of them may be connections. `wanted`: 0 for as
-/// many as there can be; a number that cannot be reached is taken back, with a warning.
+/// Raises the limit of open files to its hard limit, and returns how many of them can be connections. `wanted`: 0 for
+/// the maximum; a number that cannot be reached is reduced, with a warning.
 std::uint32_t connections_to_serve(std::uint64_t wanted);
 
 }  // namespace semblante

@@ -63,7 +63,7 @@ void SampleInstaller::take_next_step() {
 }
 
 void SampleInstaller::import() {
-  if (store_.model(sample_model_id)) {  // another version of the program brought another head
+  if (store_.model(sample_model_id)) {  // another version of the program has another head
     queue_.cancel_all_of(sample_model_id);
     const std::unique_lock alone(blobs_.references());
     if (const auto orphans = store_.remove_model(sample_model_id))
@@ -94,7 +94,7 @@ void SampleInstaller::parametrize() {
     store_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
   }
   jobs::ParametrizeJob options;
-  options.weights = "smooth";  // the first face people see wears the better skin
+  options.weights = "smooth";  // better weights for the first face that users see
   options.lods = default_budgets(model->vertices);
   queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), options, std::nullopt));
 }

@@ -11,9 +11,9 @@ namespace semblante {
 
 inline constexpr std::string_view sample_model_id = "sample";
 
-/// Sees to it that the model `sample` is there, marked and parametrized, by the same jobs as anybody's model. Each step
-/// begins when the one before is done; a restart goes on where it stopped, and a step that the store cannot take is a
-/// pending write. begin() from the main thread, then job_finished() from any.
+/// Installs the model `sample`, marked and parametrized, by the same jobs as other models. Each step begins when the
+/// one before is done; a restart continues with the next step, and a step that cannot be stored is a pending write.
+/// begin() from the main thread, then job_finished() from any thread.
 class SampleInstaller {
  public:
   /// `file`: the model, with its feature points beside it in <stem>.fps.json; empty: no sample. Throws CommandFailure
@@ -24,12 +24,12 @@ class SampleInstaller {
   SampleInstaller(const SampleInstaller&) = delete;
   SampleInstaller& operator=(const SampleInstaller&) = delete;
 
-  /// The first step that is left to do, after the queue's start.
+  /// Starts the first remaining step; to be called after the queue's start.
   void begin();
   void job_finished(const store::JobRecord& job);
 
  private:
-  /// The next step, by what is in the store; nothing when there is none. Throws StoreError.
+  /// Starts the next step, determined by the store; does nothing when all are done. Throws StoreError.
   void take_next_step();
   void import();
   void parametrize();

@@ -31,7 +31,8 @@ constexpr std::chrono::seconds lock_patience{5};
   throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
 }
 
-/// Tokens do not exist yet: whoever reaches the port may do everything, so only this machine may reach it.
+/// There is no authentication: a client that reaches the port may do everything, so only loopback addresses are
+/// allowed.
 std::string checked_address(std::string address) {
   if (address == "localhost") address = "127.0.0.1";
   in_addr four{};
@@ -41,15 +42,15 @@ std::string checked_address(std::string address) {
   if (!is_four && !is_six) fail_input("--address: " + address + " is not an IP address");
   const bool loopback = is_four ? (ntohl(four.s_addr) >> 24U) == 127U : IN6_IS_ADDR_LOOPBACK(&six);
   if (!loopback)
-    fail_input(
-        "--address: " + address +
-        " can be reached from other machines, and this server asks nobody who they are; use 127.0.0.1 or ::1 and "
-        "put a proxy that does in front of it");
+    fail_input("--address: " + address +
+               " can be reached from other machines, and this server has no authentication; use 127.0.0.1 or ::1 and "
+               "put a proxy with authentication in front of it");
   return address;
 }
 
-/// Two servers on one data folder would undo each other's work: the second is refused. Held until the process ends.
-/// Waits a moment first: a worker that a killed server had just begun holds the lock until the kernel has ended it.
+/// Refuses a second server on one data folder, because they would undo each other's changes. The lock is held until the
+/// process ends. Retries for a short time: a worker just started by a killed server holds the lock until the kernel has
+/// killed it.
 void lock_data(const std::filesystem::path& data) {
   const auto file = data / "lock";
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
@@ -62,7 +63,7 @@ void lock_data(const std::filesystem::path& data) {
   }
 }
 
-/// On a full disk with the reserve freed. A data folder that is not there yet cannot be made on one.
+/// On a full disk with the reserve released. A new data folder cannot be made on a full disk.
 Result<std::unique_ptr<store::Store>> open_store(const std::filesystem::path& file, store::DiskReserve& reserve) {
   const auto open = [&] {
     auto store = store::open_sqlite_store(file);
@@ -81,7 +82,7 @@ Result<std::unique_ptr<store::Store>> open_store(const std::filesystem::path& fi
   }
 }
 
-/// Throws StoreError unless a change can be made durable and something more has room: the store alone may have some
+/// Throws StoreError unless a change can be made durable and some disk space is free: the store alone may have space
 /// left in its own files.
 void check_writable(store::DatabaseFacts& store, const std::filesystem::path& data) {
   constexpr std::uint64_t least_free = std::uint64_t{1} << 20U;
@@ -89,7 +90,7 @@ void check_writable(store::DatabaseFacts& store, const std::filesystem::path& da
   if (store::free_bytes(data) < least_free) throw store::DiskFull("less than 1 MiB is free in " + data.string());
 }
 
-/// What a full disk may have no room for now is made when it has.
+/// On a full disk the folders are made later, when there is space.
 void make_folders(store::PendingWrites& pending, store::BlobStore& blobs, store::DiskReserve& reserve) {
   try {
     reserve.fill();
@@ -126,10 +127,10 @@ void write_net_metrics(metrics::TextWriter& writer, const net::ServerCounts& cou
   using metrics::MetricType;
   writer.single("semblante_connections", MetricType::gauge, "Connections open, WebSockets among them.",
                 counts.connections_open);
-  writer.single("semblante_connections_accepted_total", MetricType::counter, "Connections that came.",
+  writer.single("semblante_connections_accepted_total", MetricType::counter, "Connections accepted.",
                 counts.connections_total);
   writer.single("semblante_connections_refused_total", MetricType::counter,
-                "Connections turned away because as many were open as are served.", counts.connections_refused);
+                "Connections refused because of the limit of open connections.", counts.connections_refused);
   writer.single("semblante_websockets", MetricType::gauge, "WebSockets open.", counts.websockets_open);
 }
 
@@ -142,9 +143,10 @@ std::string url_of(const std::string& address, std::uint16_t port) {
 
 void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
-  if (!level) fail_input("--log-level: " + options.log_level + " is none of debug, info, warning, error");
+  if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
   log::set_level(*level);
-  std::signal(SIGPIPE, SIG_IGN);  // a worker or a client that is gone is an error of its write, not of the server
+  std::signal(SIGPIPE,
+              SIG_IGN);  // a write to a dead worker or closed connection must return an error, not end the server
   const auto address = checked_address(options.address);
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
@@ -162,7 +164,7 @@ void run_serve(const ServeOptions& options) {
   bring_files_in_line(options.data, **store, *trash);
   const store::TrashPurger purger(*trash, purge_interval, [](const store::Trash::Counts& removed) {
     log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
-              " bytes) removed from the trash: their time of grace is over");
+              " bytes) removed from the trash after the grace period");
   });
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});

@@ -12,7 +12,7 @@
 
 namespace semblante {
 
-/// What `semblante serve` is told; its limits are by default those of the room that keeps them.
+/// The options of `semblante serve`; the defaults of limits are those of the folder that applies them.
 struct ServeOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;
@@ -31,7 +31,7 @@ struct ServeOptions {
   std::uint64_t max_recordings_bytes = recordings::RecorderLimits{}.max_total_bytes;
   std::uint64_t disk_reserve = recordings::RecorderLimits{}.disk_reserve;
   std::uint64_t trash_grace = std::uint64_t{7} * 24 * 60 * 60;  ///< seconds
-  std::uint64_t max_connections = 0;                            ///< 0: what the process may open, but for a reserve
+  std::uint64_t max_connections = 0;  ///< 0: the files that the process may open, less a reserve
   std::uint64_t max_stream_connections = streams::StreamLimits{}.max_connections;
   std::uint64_t worker_memory = jobs::WorkerLimits{}.memory_bytes;
   std::uint64_t worker_cpu_seconds = jobs::WorkerLimits{}.cpu_seconds;

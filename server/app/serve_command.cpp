@@ -16,7 +16,7 @@ void add_serve_command(CLI::App& app) {
                              const std::string& variable) {
     return command->add_option(name, value, help)->envname("SEMBLANTE_" + variable)->capture_default_str();
   };
-  // Without a range a negative number would wrap into a huge one.
+  // Without a range a negative number would wrap to a huge one.
   const CLI::Range count(1, 1'000'000);
   constexpr std::uint64_t max_size = std::uint64_t{1} << 50U;
   add("--address", options->address, "Address to listen on; loopback only", "ADDRESS");

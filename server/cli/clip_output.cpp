@@ -38,7 +38,7 @@ Clip clip_of_folder(const ClipOutput& options, const FaceSequence& sequence, con
   parts.weights = weights;
   parts.rig_json = {reinterpret_cast<const char*>(rig_json.data()), rig_json.size()};
   parts.image = [&folder](const Sha256& hash) -> Result<std::vector<std::uint8_t>> {
-    // A level of detail lies in a folder of the full package, which has the images of all.
+    // A level of detail is in a subfolder of the full package, which has the images of all levels.
     const auto beside = folder / "artefacts" / to_hex(hash);
     const auto above = folder / ".." / "artefacts" / to_hex(hash);
     return read_file((std::filesystem::exists(beside) ? beside : above).string(), max_artefact_bytes);

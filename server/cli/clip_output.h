@@ -12,7 +12,7 @@ class App;
 
 namespace semblante {
 
-/// Faces in time on a head as an animated GLB: what `convert --out FILE.glb` writes.
+/// A face animation on a head as an animated GLB, written by `convert --out FILE.glb`.
 struct ClipOutput {
   HeadOptions head;     ///< a head to parametrize first, or
   std::string package;  ///< a folder that `parametrize --out` wrote
@@ -22,7 +22,7 @@ struct ClipOutput {
 /// Declares --package, --influences and the head's options, as --model and so on.
 void add_clip_options(CLI::App& command, ClipOutput& options);
 
-/// Whether `format` or, if that is empty, the name of `path` means such a file.
+/// Whether `format` or, if that is empty, the extension of `path` selects such a file.
 bool is_clip(const std::string& path, const std::string& format);
 
 /// Writes `out`, animated as `name`; returns warnings. Throws CommandFailure.

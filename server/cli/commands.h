@@ -6,9 +6,9 @@ class App;
 
 namespace semblante {
 
-// One function a subcommand, each in a file of its own: declares the options (every option is also an environment
-// variable SEMBLANTE_...) and the callback that runs it. A callback that fails throws CommandFailure
-// (command_failure.h); one that returns has succeeded.
+// One function per subcommand, each in its own file: declares the options (every option is also an environment variable
+// SEMBLANTE_...) and the callback that runs it. A callback that fails throws CommandFailure (command_failure.h); one
+// that returns has succeeded.
 
 void add_parametrize_command(CLI::App& app);
 void add_convert_command(CLI::App& app);

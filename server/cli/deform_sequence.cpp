@@ -32,7 +32,7 @@ std::vector<std::uint32_t> numbers_of(const FaceSequence& sequence) {
   return numbers;
 }
 
-/// Poses at any place between the frames; keeps the two it needs.
+/// Poses at any position between the frames; keeps the two it needs.
 class PoseTrack {
  public:
   PoseTrack(const FaceSequence& sequence, const semblante_rig& rig)
@@ -40,7 +40,7 @@ class PoseTrack {
 
   [[nodiscard]] std::uint32_t last() const { return numbers_.back(); }
 
-  /// `place`: a frame number, or a place between two; rising from call to call.
+  /// `place`: a frame number, or a position between two; rising from call to call.
   semblante_pose at(double place) {
     while (at_ + 1 < numbers_.size() && numbers_[at_ + 1] <= place) ++at_;
     const std::size_t next = std::min(at_ + 1, numbers_.size() - 1);

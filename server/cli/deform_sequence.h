@@ -9,9 +9,9 @@
 
 namespace semblante {
 
-/// A head in the faces of a file, one mesh each: what `deform --frames` writes.
+/// The options of `deform --frames`: a head in each face of a file, one mesh each.
 struct DeformSequence {
-  std::string frames;         ///< path of a .fap file or another of faces in time
+  std::string frames;         ///< path of a .fap file or another face animation
   std::string frames_format;  ///< a name; empty: by the path
   FaceReading reading;
   std::optional<std::uint32_t> from, to;  ///< frame numbers; empty: the first, the last
@@ -19,10 +19,10 @@ struct DeformSequence {
   std::string format = "obj";             ///< "obj" or "ply"
 };
 
-/// Writes frame-00000.obj, ... into the folder `out`, numbered by meshes. A file with a rate has frames by their
-/// numbers, so that those it leaves out are filled in; others have one frame an entry. Between two frames the
-/// displacements of the feature points go linearly and rotations along the shorter arc: every vertex goes as the paper
-/// interpolates it. Throws CommandFailure.
+/// Writes frame-00000.obj, ... into the folder `out`, numbered by meshes. In a file with a rate, frames have numbers,
+/// and missing frames are filled in; other files have one frame per entry. Between two frames the displacements of the
+/// feature points are interpolated linearly and rotations along the shorter arc: every vertex moves as in the paper.
+/// Throws CommandFailure.
 void write_deformed_sequence(const DeformSequence& options, Head& head, const std::string& out);
 
 }  // namespace semblante

@@ -22,14 +22,14 @@ struct ExamineCommand {
   bool json = false;
 };
 
-/// The report of a head, and how it stands.
+/// The report of a head, and its frame.
 struct Examination {
   Report report;
   ModelFrame frame;
   FrameWish wish;
 };
 
-/// Without feature points: what the mesh alone shows.
+/// Without feature points: findings from the mesh alone.
 Examination examine_shape(HeadFiles files, const HeadOptions& options) {
   const auto head = stand_head(std::move(files.head), {files.wish, {}, {}});
   if (!head) fail(options.model_path, head.error());
@@ -41,7 +41,7 @@ Examination examine_shape(HeadFiles files, const HeadOptions& options) {
 /// Points that cannot be placed are findings too.
 Examination examine_with_points(HeadFiles files, const HeadOptions& options) {
   MarkedHead marked = place_points(std::move(files), options, true);
-  // Not those of the rig: the report says the same, with place and remedy.
+  // Without the warnings of the rig: the report has the same findings, with place and remedy.
   print_warnings(marked.warnings.all(), options.quiet);
   const RiggedHead head = rig(std::move(marked), options);
   Report report = examine(head.model, head.surface, head.rig, rig_request(options).weights);

@@ -29,7 +29,7 @@ struct ExtractCommand {
   std::string out = "-";
 };
 
-/// The file is named already; a line or a vertex in it is worth saying.
+/// The file is already named, so only a line or a vertex in it is added.
 Error without_field(Error error) {
   if (error.where == "/expression") error.where.clear();
   return error;
@@ -47,7 +47,7 @@ std::vector<glm::vec3> shape_of(const std::string& option, const std::string& pa
   return std::move(*shape);
 }
 
-/// The positions of the expression file as they lie in it; `neutral` is the head as it lies in its own.
+/// The positions of the expression file, unturned; `neutral` is the head, unturned too.
 std::vector<glm::vec3> read_expression(const std::string& path, const Model& neutral) {
   const auto bytes = read_file(path, ImportLimits{}.max_file_bytes);
   auto expression = shape_of_file(neutral, bytes, std::filesystem::path(path).filename().string());
@@ -73,7 +73,7 @@ void run(const ExtractCommand& options) {
   std::vector<glm::vec3> expression;
   if (options.target.empty()) expression = read_expression(options.expression, files.head.model);
   const MarkedHead head = place_points(std::move(files), options.head);
-  // Turned as the head was.
+  // Turned like the head.
   for (glm::vec3& p : expression) p = glm::vec3(head.to_mpeg4 * glm::dvec3(p));
   const Shapes shapes =
       options.target.empty() ? Shapes{head.model.positions, std::move(expression)} : shapes_of_targets(options, head);
@@ -86,7 +86,7 @@ void run(const ExtractCommand& options) {
   const NamedSet set{options.name.empty() ? default_name(options) : options.name, *parse_set_kind(options.kind),
                      extraction->displacements};
   const std::string json = write_displacement_set(set);
-  // What was written must be readable: a name from the command line may be none.
+  // Checks that the result can be read: a name from the command line may be invalid.
   if (const auto back = parse_displacement_set(json); !back) fail("--name", back.error());
   write_file(options.out, [&json](std::ostream& out) { out << json; });
   for (std::string& sentence : explain(*extraction)) warnings.push_back(std::move(sentence));

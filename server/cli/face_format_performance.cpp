@@ -47,7 +47,7 @@ Result<std::string> write_performance_faces(const FaceSequence& sequence, const 
   auto script = record_performance(frames, {writing.tolerance});
   if (!script) return script.error();
   script->name = writing.name;
-  // What cannot be played should not be written: values may be beyond what a FAP can be.
+  // A performance that cannot be played must not be written: values may be outside the range of their FAP.
   if (const auto performance = Performance::compile(*script); !performance) return performance.error();
   return write_performance(*script);
 }

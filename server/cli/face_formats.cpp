@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t max_file_bytes = std::size_t{64} << 20U;
 
-/// Of two formats with one extension the first that recognizes a text has it; the one that recognizes all comes last.
+/// Among formats with the same extension, the first that recognizes a text is used; one that recognizes all texts is
+/// last.
 constexpr std::array formats = {
     FaceFormat{"fap", ".fap", "the FAP file of MPEG-4's reference encoder", nullptr, read_fap_faces, write_fap_faces},
     FaceFormat{"arkit-csv", ".csv", "a take of Live Link Face: ARKit's 52 coefficients and the angles of the head",
@@ -40,7 +41,7 @@ const FaceFormat* by_name(const std::string& name) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-/// The format of a path, among those that `filter` lets through.
+/// The format of a path, among those accepted by `filter`.
 template <class Filter>
 const FaceFormat* by_path(const std::string& path, const Filter& filter) {
   std::string extension = std::filesystem::path(path).extension().string();

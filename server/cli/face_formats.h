@@ -11,34 +11,34 @@
 
 namespace semblante {
 
-/// Faces in time, in whatever format they came: what `convert` and `deform --frames` work on.
+/// A face animation, independent of its file format; the data of `convert` and `deform --frames`.
 struct FaceSequence {
   std::vector<TimedValues> frames;    ///< at least one
-  double rate = 0;                    ///< frames a second that the format states; 0: it states none
-  std::vector<std::string> warnings;  ///< in words
+  double rate = 0;                    ///< frames per second stated by the format; 0: none
+  std::vector<std::string> warnings;  ///< as text
 };
 
-/// What a reader is told beyond the file.
+/// Options of a reader.
 struct FaceReading {
   FapFileMeaning fap_meaning;
-  double rate = 0;  ///< frames a second of what has no frames of its own; 0: 25
+  double rate = 0;  ///< frames per second for formats without frames; 0: 25
 };
 
-/// What a writer is told beyond the frames.
+/// Options of a writer.
 struct FaceWriting {
-  double rate = 0;  ///< frames a second; 0: the sequence's own, or told from its times
+  double rate = 0;  ///< frames per second; 0: that of the sequence, or estimated from its times
   std::string name = "semblante";
-  double tolerance = 0.5;  ///< of what is thinned out: in quantizer steps
+  double tolerance = 0.5;  ///< of thinning keys: in quantizer steps
 };
 
-/// A file format of faces in time. To add one: a file face_format_NAME.cpp with its two functions and a line in
+/// A file format of face animations. To add one: a file face_format_NAME.cpp with its two functions and a line in
 /// face_formats.cpp; commands and their help follow.
 struct FaceFormat {
   std::string_view name;       ///< "fap": for --in-format and --out-format
-  std::string_view extension;  ///< ".fap": what a path without a stated format is taken for
+  std::string_view extension;  ///< ".fap": selects the format when none is stated
   std::string_view meaning;    ///< for --help
-  /// Whether a text looks like it: told apart among formats of one extension. Null: the only one of its extension, or
-  /// the one that a path to be written means.
+  /// Whether a text has this format; distinguishes formats with the same extension. Null: the only format with its
+  /// extension, or the one used for writing.
   bool (*recognizes)(std::string_view text) = nullptr;
   /// Null: cannot be read. Errors name line or JSON pointer in `where`.
   Result<FaceSequence> (*read)(std::string_view text, const FaceReading& reading) = nullptr;
@@ -48,7 +48,7 @@ struct FaceFormat {
 
 std::span<const FaceFormat> face_formats();
 
-/// The names of those that can be read (or written), as "fap, frames".
+/// The names of the readable (or writable) formats, as "fap, frames".
 std::string readable_face_formats();
 std::string writable_face_formats();
 

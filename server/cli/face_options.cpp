@@ -27,7 +27,7 @@ constexpr std::size_t max_displacements_bytes = std::size_t{1} << 20;
   throw CommandFailure(CommandFailure::bad_input, option + ": " + reason);
 }
 
-/// A number that fills the whole text; nullopt otherwise, and for what is not finite.
+/// Parses a whole text as a number; nullopt otherwise, and for values that are not finite.
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
   Number value{};
@@ -45,7 +45,7 @@ const FeaturePoint* find_point(const Rig& rig, FeaturePointId id) {
   return found == rig.points.end() ? nullptr : &*found;
 }
 
-/// Why a FAPU is missing, in the words of the parametrization.
+/// Why a FAPU is missing, as reported by the parametrization.
 std::string why_missing(const Rig& rig, mpeg4::Unit unit) {
   const auto name = mpeg4::unit_names[static_cast<std::size_t>(unit)];
   for (const std::string& sentence : explain_missing_fapu(rig.fapu, rig.points)) {
@@ -54,7 +54,7 @@ std::string why_missing(const Rig& rig, mpeg4::Unit unit) {
   return std::string(name) + " is not known";
 }
 
-/// Refuses what would silently do nothing.
+/// Refuses a FAP that would have no effect.
 void check_fap(const mpeg4::Fap& fap, const std::string& option, const Rig& rig, std::vector<std::string>& warnings) {
   const std::string name = "FAP " + std::to_string(fap.number) + " (" + std::string(fap.name) + ")";
   if (fap.kind == mpeg4::FapKind::scale && !rig.irises[fap.number == 29 ? 0 : 1]) {
@@ -68,7 +68,7 @@ void check_fap(const mpeg4::Fap& fap, const std::string& option, const Rig& rig,
   if (fap.kind != mpeg4::FapKind::translation) return;
   if (!rig.fapu.value[static_cast<std::size_t>(fap.unit)])
     refuse_option(option, name + " needs a unit: " + why_missing(rig, fap.unit));
-  // The eyeballs are moved whole, by their part, not by weights.
+  // Eyeballs are rotated as parts, not moved by weights.
   const FeaturePointId id(fap.feature_points[0]);
   const bool moves_eyeball = group_of(id) == 3 && (number_of(id) == 5 || number_of(id) == 6);
   const FeaturePoint* const point = find_point(rig, id);
@@ -107,7 +107,7 @@ void parse_faps(const std::string& text, const Rig& rig, semblante_frame& frame,
   }
 }
 
-/// Entry of a library by its number or name. `first` is the lowest number that may be asked for.
+/// Entry of a library by its number or name. `first` is the lowest valid number.
 std::uint8_t find_entry(const std::string& option, const std::string& text, std::span<const DisplacementSet> library,
                         std::size_t first) {
   for (std::size_t i = first; i < library.size(); ++i) {
@@ -119,7 +119,7 @@ std::uint8_t find_entry(const std::string& option, const std::string& text, std:
                             std::to_string(library.size() - 1) + " or one of " + names);
 }
 
-/// Says which points of a set stay behind on this head; refuses the set if all of them do.
+/// Warns of points of a set that cannot move on this head; refuses the set if none can.
 void check_set(const std::string& option, const DisplacementSet& set, const Rig& rig,
                std::vector<std::string>& warnings) {
   const ModelDisplacements on_head = to_model_units(set, rig.fapu);
@@ -144,14 +144,14 @@ void check_set(const std::string& option, const DisplacementSet& set, const Rig&
   }
 }
 
-/// Scales one set of a library in place: an intensity of any value, where the frame has but 64 steps.
+/// Scales one set of a library in place: allows any intensity, while the frame has only 64 steps.
 void scale_set(std::vector<float>& table, std::size_t entry, double intensity) {
   constexpr std::size_t row = feature_point_count * 3;
   for (std::size_t i = entry * row; i < (entry + 1) * row; ++i) table[i] *= static_cast<float>(intensity);
 }
 
-/// Puts a set into the first slot of its kind's library, at full strength in the frame: the place no other option may
-/// want in the same frame.
+/// Puts a set into the first slot of its kind's library, at full strength in the frame; no other option may use that
+/// slot in the same frame.
 void wear_set(const FaceOptions& options, const Rig& rig, KernelRig& kernel, semblante_frame& frame,
               std::vector<std::string>& warnings) {
   const auto json = read_file(options.set, max_displacements_bytes);

@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// What a face is told to do on the command line, as text.
+/// The command line options of a face, as text.
 struct FaceOptions {
   std::string faps;           ///< "3=200,19=512"
   std::string viseme;         ///< number 0..14 or name; empty: none
@@ -20,9 +20,9 @@ struct FaceOptions {
   std::string set;            ///< path of a displacement set; empty: none
 };
 
-/// The pose these ask of a head. Throws CommandFailure naming the option, or the place in the file, and the reason: an
-/// unknown name or number, a point that is not marked, a FAPU that cannot be measured. What a viseme or expression
-/// cannot move for want of a unit, or at points that are not marked, becomes a warning.
+/// The pose of a head for these options. Throws CommandFailure naming the option, or the place in the file, and the
+/// reason: an unknown name or number, a point that is not marked, a FAPU that cannot be measured. Points of a viseme or
+/// expression that cannot move, because a unit is unknown or the point is not marked, give a warning.
 semblante_pose make_pose(const FaceOptions& options, const Head& head, std::vector<std::string>& warnings);
 
 }  // namespace semblante

@@ -25,7 +25,7 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::size_t max_byt
   std::ifstream file(path, std::ios::binary);
   if (!file) throw CommandFailure(CommandFailure::bad_input, path + ": " + reason());
   std::vector<std::uint8_t> bytes;
-  // Read, not asked for its size: it may be a pipe, and it may grow.
+  // Reads to the end without querying the size: the file may be a pipe, or grow.
   std::array<char, 1U << 16U> block{};
   while (file) {
     file.read(block.data(), block.size());
@@ -48,7 +48,7 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
     return;
   }
   std::error_code fault;
-  // A device or a pipe cannot be renamed over, and has no half.
+  // A device or a pipe is written directly, because it cannot be replaced by a rename.
   const bool in_place = std::filesystem::exists(path, fault) && !std::filesystem::is_regular_file(path, fault);
   const std::string target = in_place ? path : path + ".part";
   errno = 0;

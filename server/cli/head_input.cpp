@@ -35,7 +35,7 @@ FrameWish wish_of(const HeadOptions& options) {
   return wish;
 }
 
-/// What `semblante propose` could do for these points.
+/// Advice to use `semblante propose` for these points.
 std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
   std::vector<std::string> advice;
   const auto proposed = std::count_if(marked.begin(), marked.end(), [](const MarkedPoint& p) { return p.proposed; });

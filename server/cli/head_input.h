@@ -12,14 +12,14 @@ class App;
 
 namespace semblante {
 
-/// What both `parametrize` and `deform` begin with.
+/// The options that `parametrize` and `deform` have in common.
 struct HeadOptions {
   std::string model_path;
   std::string feature_points_path;
-  std::string format;             ///< empty: by content and name
+  std::string format;             ///< empty: detected from content and name
   std::string weights = "paper";  ///< a name of weight_method_names
   std::string metric = "edge";    ///< a name of distance_metric_names
-  std::string unit, up, front;    ///< of the model file, as length_unit_names and direction_names; empty: guessed
+  std::string unit, up, front;  ///< of the model file, values of length_unit_names and direction_names; empty: guessed
   bool quiet = false;
 };
 
@@ -31,14 +31,14 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
 /// The same, and --weights and --metric.
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
-/// The same for a command whose own argument is another file: --model, --model-format and the rest but --quiet, none of
-/// them required.
+/// The same for a command whose argument is another file: --model, --model-format and the other options except --quiet,
+/// none required.
 void add_named_head_options(CLI::App& command, HeadOptions& options);
 
-/// What the files and the options say, before the first stage that needs a decision.
+/// The contents of the files and options, before the first stage.
 struct HeadFiles {
   ImportedHead head;
-  FeaturePointsFile points;  ///< no points without a file of them
+  FeaturePointsFile points;  ///< empty without such a file
   FrameWish wish;
 };
 
@@ -50,10 +50,10 @@ MarkedHead place_points(HeadFiles files, const HeadOptions& options, bool leaves
 
 RigRequest rig_request(const HeadOptions& options);
 
-/// rig_head with progress on stderr, if that is a terminal and quiet is not asked for. Throws CommandFailure.
+/// rig_head with progress on stderr, if that is a terminal and quiet is not set. Throws CommandFailure.
 RiggedHead rig(MarkedHead head, const HeadOptions& options);
 
-/// A rigged head, and what a command has to say beside the warnings of the pipeline.
+/// A rigged head, and the remarks of a command in addition to the warnings of the pipeline.
 struct Head : RiggedHead {
   std::vector<std::string> remarks;  ///< advice on missing points, then what the command adds
 
@@ -64,7 +64,7 @@ struct Head : RiggedHead {
 /// read_head, place_points and rig.
 Head load_head(const HeadOptions& options);
 
-/// "semblante: warning: ..." on stderr. At the end, so that a failure is one line alone.
+/// Prints "semblante: warning: ..." on stderr. To be called at the end, so that a failure prints only one line.
 void print_warnings(const std::vector<std::string>& warnings, bool quiet);
 
 }  // namespace semblante

@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// Collects lines and hands them on in blocks.
+/// Collects lines and writes them in blocks.
 class ObjText {
  public:
   explicit ObjText(std::ostream& out) : out_(out) {}
@@ -66,7 +66,7 @@ void write_obj(const Model& model, std::span<const glm::vec3> positions, std::os
   }
   for (const glm::vec2& uv : model.uvs) {
     text << "vt";
-    text.number(uv.x).number(1.0F - uv.y).end_line();  // OBJ counts v from the bottom
+    text.number(uv.x).number(1.0F - uv.y).end_line();  // v of OBJ has its origin at the bottom
   }
   for (const Primitive& primitive : model.primitives) {
     if (!primitive.name.empty()) (text << "g " << primitive.name).end_line();

@@ -11,7 +11,7 @@ namespace semblante {
 
 /// Writes the triangles, uvs, groups and material names of `model` with other positions (#V, MPEG-4 frame): `v` lines
 /// in file vertex order, back in the file's axes and unit, each the shortest that reads back as the same float32.
-/// Normals are left out: they are the neutral face's.
+/// Normals are omitted: they are those of the neutral face.
 void write_obj(const Model& model, std::span<const glm::vec3> positions, std::ostream& out);
 
 }  // namespace semblante

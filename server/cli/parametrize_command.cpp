@@ -26,7 +26,7 @@ struct ParametrizeCommand {
   std::vector<std::string> lods;
 };
 
-/// One level's package as files: what a client fetches by URL, under the same names.
+/// Writes one level's package as files, with the same names as in the URLs for clients.
 void write_package(const FacePackage& package, const std::filesystem::path& folder) {
   std::error_code fault;
   std::filesystem::create_directories(folder, fault);
@@ -42,7 +42,7 @@ void write_package(const FacePackage& package, const std::filesystem::path& fold
   }
 }
 
-/// "10000,5000", "auto" or nothing.
+/// Parses "10000,5000", "auto" or an empty text.
 std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const Model& model) {
   if (options.lods == std::vector<std::string>{"auto"}) {
     return default_budgets(static_cast<std::uint32_t>(model.positions.size()));

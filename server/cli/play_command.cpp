@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds look_interval{250};
 constexpr client::HttpLimits limits = {.max_body = most_bytes};
 constexpr JsonLimits answer_limits = {.max_bytes = std::size_t{1} << 20U, .max_depth = 16, .max_values = 100'000};
 constexpr std::size_t most_warnings = 1000;
-/// Between the last look and the end: what ended earlier than so many ms before its end was ended by somebody.
+/// ms: a play that stopped earlier than this before its end was stopped by someone; allows for the polling interval.
 constexpr double end_slack = 3000.0;
 
 struct PlayCommand {
@@ -44,7 +44,7 @@ std::atomic<bool> interrupted{false};
   throw CommandFailure(CommandFailure::bad_input, "play: " + what);
 }
 
-/// What the server says is wrong, in its own words.
+/// The server's error message.
 std::string reason_of(const client::HttpResponse& reply) {
   const auto problem = read_json_object(reply.body, answer_limits);
   std::string text = std::to_string(reply.status);
@@ -73,8 +73,8 @@ class Playing {
     if (reply.status != 201 && reply.status != 409) refuse_to_play("--create: " + reason_of(reply));
   }
 
-  /// A performance and a .fap file go as they are: the server plays both. All else becomes a performance, exact to half
-  /// a quantizer's step at the times of its frames.
+  /// A performance or a .fap file is sent unchanged: the server plays both. Other formats are converted to a
+  /// performance, exact to half a quantizer step at the times of their frames.
   void begin() {
     const auto bytes = read_file(options_.file, most_bytes);
     std::string text(bytes.begin(), bytes.end());
@@ -102,7 +102,7 @@ class Playing {
     for (const auto& warning : note(reply)) say(warning);
   }
 
-  /// Until it has ended, or Ctrl-C stops it.
+  /// Waits until the play has ended, or Ctrl-C stops it.
   void follow() {
     const bool shows = !options_.quiet && ::isatty(STDERR_FILENO) != 0;
     while (!interrupted) {
@@ -135,7 +135,7 @@ class Playing {
     if (!reply) fail("play: --server", reply.error());
     return *std::move(reply);
   }
-  /// Keeps where the playing is; the warnings of the answer.
+  /// Stores the position of the play; returns the warnings of the answer.
   std::vector<std::string> note(const client::HttpResponse& reply) {
     const auto status = read_json_object(reply.body, answer_limits);
     if (!status) refuse_to_play("the server's answer cannot be read: " + status.error().message);
@@ -153,7 +153,7 @@ class Playing {
   const PlayCommand& options_;
   client::HttpClient server_;
   std::string location_;
-  double position_ = 0.0, duration_ = 0.0;  ///< ms; duration 0: without end
+  double position_ = 0.0, duration_ = 0.0;  ///< ms; duration 0: endless
 };
 
 void run(const PlayCommand& options) {

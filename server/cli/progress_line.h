@@ -12,7 +12,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
 
-  /// Shows what it is told; never cancels. Empty where nothing is shown.
+  /// The callback that updates the line; never cancels. Empty when nothing is shown.
   [[nodiscard]] Progress progress() const;
 
  private:

@@ -23,7 +23,7 @@ struct ProposeCommand {
   std::string out = "-";
 };
 
-/// In the axes of the model's file, as feature point files have it.
+/// In the axes of the model's file, like feature point files.
 Json to_json(const FeaturePoint& point, const glm::dmat3& from_mpeg4) {
   const glm::dvec3 p = from_mpeg4 * glm::dvec3(point.position);
   Json json = {{"vertex", nullptr}, {"position", {p.x, p.y, p.z}}};
@@ -57,7 +57,7 @@ Json document(const FeaturePointSet& placed, const Proposals& proposals, const g
 
 void run(const ProposeCommand& options) {
   HeadFiles files = read_head(options.head);
-  // Proposals of an earlier run are made anew from what a person placed.
+  // Proposals of an earlier run are replaced by new ones from the points that a user placed.
   std::erase_if(files.points.points, [](const MarkedPoint& point) { return point.proposed; });
   const MarkedHead head = place_points(std::move(files), options.head);
   const auto parts = describe_parts(head.model, head.surface, head.points);

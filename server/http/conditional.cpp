@@ -23,7 +23,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
 
 enum class RangeKind { none, satisfiable, outside };
 
-/// A Range that is not of the form `bytes=a-b` is ignored, as the RFC asks.
+/// A Range that is not of the form `bytes=a-b` is ignored, as the RFC requires.
 RangeKind parse_range(std::string_view value, std::uint64_t size, ByteRange& out) {
   constexpr std::string_view unit = "bytes=";
   if (value.substr(0, unit.size()) != unit) return RangeKind::none;
@@ -76,7 +76,7 @@ Response apply_conditions(const Request& request, Response response) {
   const std::string etag = etag_field->second;
 
   if (const auto match = request.header("If-Match"); match && !etag_matches(*match, etag, false))
-    return to_response(make_problem("precondition-failed", "the resource has the tag " + etag));
+    return to_response(make_problem("precondition-failed", "the ETag of the resource is " + etag));
   if (const auto none = request.header("If-None-Match"); none && etag_matches(*none, etag, true))
     return not_modified(response);
 

@@ -6,12 +6,12 @@
 
 namespace semblante::http {
 
-/// Whether a list of entity tags (`If-Match`, `If-None-Match`) names this one. `weak`: W/"x" matches "x" too.
+/// Whether a list of entity tags (`If-Match`, `If-None-Match`) contains this one. `weak`: W/"x" matches "x" too.
 bool etag_matches(std::string_view list, std::string_view etag, bool weak);
 
-/// Turns a full 200 answer that carries an ETag into 304, 412, 206 or 416 as the request's If-Match, If-None-Match,
-/// If-Range and Range ask (RFC 9110 section 13.2). Answers other than 200 pass unchanged. One range is served; of
-/// several, as the RFC allows, the whole.
+/// Converts a full 200 answer with an ETag to 304, 412, 206 or 416 by the request's If-Match, If-None-Match, If-Range
+/// and Range (RFC 9110 section 13.2). Other answers are not changed. One range is served; for several ranges the full
+/// content, as the RFC allows.
 Response apply_conditions(const Request& request, Response response);
 
 }  // namespace semblante::http

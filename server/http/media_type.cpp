@@ -36,7 +36,7 @@ std::string essence(std::string_view media_type) {
 }
 
 std::string parameter(std::string_view value, std::string_view name) {
-  // A walk instead of a split: a quoted value may hold semicolons.
+  // Scans instead of splitting: a quoted value may contain semicolons.
   std::size_t at = value.find(';');
   while (at != std::string_view::npos) {
     ++at;

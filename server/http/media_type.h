@@ -10,14 +10,14 @@ namespace semblante::http {
 std::string essence(std::string_view media_type);
 
 /// The value of a parameter of a media type or disposition: ("multipart/form-data; boundary=x", "boundary") -> "x";
-/// quotes are removed. Empty when it is not there.
+/// quotes are removed. Empty when it is missing.
 std::string parameter(std::string_view value, std::string_view name);
 
 /// Whether an `Accept` value (may be empty: everything) takes this media type. Weights above zero are not ranked: each
-/// of our resources has one representation.
+/// resource has one representation.
 bool accepts(std::string_view accept, std::string_view media_type);
 
-/// By the file's extension; "application/octet-stream" for one that is unknown.
+/// By the file's extension; "application/octet-stream" for an unknown one.
 std::string_view media_type_of_file(std::string_view file_name);
 
 /// "a, b ,c" -> {"a", "b", "c"}.

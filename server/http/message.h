@@ -26,7 +26,7 @@ bool equal_ignoring_case(std::string_view a, std::string_view b);
 /// Field name -> value. A repeated field is joined by ", " as RFC 9110 section 5.3 allows.
 using Headers = std::map<std::string, std::string, CaseInsensitiveLess>;
 
-/// A body that was written to disk while it arrived. The file goes when the last holder does.
+/// A body that was written to disk while it arrived. The last owner removes the file.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -39,39 +39,39 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// `Request::route` of one whose route was not looked for.
+/// `Request::route` before find_route().
 constexpr std::size_t no_route = SIZE_MAX;
 
-/// One request as plain values: what a handler sees, whoever read it from whatever socket.
+/// One request as plain values, independent of sockets.
 struct Request {
-  std::string method;                        ///< "GET", as sent
-  std::string path;                          ///< percent-decoded, without the query
-  std::map<std::string, std::string> query;  ///< percent-decoded; of a repeated key the first counts
-  Headers headers;                           ///< without hop-by-hop meaning
-  std::string body;                          ///< when it was small enough to keep in memory
-  std::shared_ptr<TemporaryFile> body_file;  ///< when the route wanted it on disk
-  std::uint64_t body_size = 0;               ///< bytes, in memory or on disk
-  std::size_t route = no_route;              ///< index of the application's: what it is for (Application::find_route)
-  std::string allow;  ///< the methods that the path has, as in Allow; empty: there is no such path
+  std::string method;                         ///< "GET", as sent
+  std::string path;                           ///< percent-decoded, without the query
+  std::map<std::string, std::string> query;   ///< percent-decoded; of a repeated key the first counts
+  Headers headers;                            ///< without hop-by-hop meaning
+  std::string body;                           ///< if it is kept in memory
+  std::shared_ptr<TemporaryFile> body_file;   ///< if the route keeps it on disk
+  std::uint64_t body_size = 0;                ///< bytes, in memory or on disk
+  std::size_t route = no_route;               ///< index of the application's route (Application::find_route)
+  std::string allow;                          ///< the methods of the path, as in Allow; empty: unknown path
   std::map<std::string, std::string> params;  ///< of the route pattern: {"model", "k3f..."}
-  std::chrono::steady_clock::time_point received = std::chrono::steady_clock::now();  ///< its header
+  std::chrono::steady_clock::time_point received = std::chrono::steady_clock::now();  ///< when its header arrived
 
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;
   [[nodiscard]] std::optional<std::string_view> query_value(const std::string& name) const;
 };
 
-/// A run of bytes of a file that never changes once it has this name.
+/// A range of bytes of a file that never changes.
 struct FileBody {
   std::filesystem::path path;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
-  std::shared_ptr<TemporaryFile> owner = nullptr;  ///< of a file that goes when it has been sent
+  std::shared_ptr<TemporaryFile> owner = nullptr;  ///< of a file to be removed after sending
 };
 
-/// Nothing, bytes, a file, or a feed of events that goes on until it ends itself.
+/// Empty, bytes, a file, or a feed of events.
 using Body = std::variant<std::monostate, std::string, FileBody, std::shared_ptr<Feed>>;
 
-/// One answer as plain values. `Content-Length`, `Connection` and `Date` are net's to write.
+/// One answer as plain values. `Content-Length`, `Connection` and `Date` are added by net.
 struct Response {
   int status = 200;
   Headers headers;
@@ -80,7 +80,7 @@ struct Response {
   [[nodiscard]] std::uint64_t body_size() const;
 };
 
-/// The reason phrase of a status code; "Unknown" for one that we never send.
+/// The reason phrase of a status code; "Unknown" for one that the server never sends.
 std::string_view reason_phrase(int status);
 
 }  // namespace semblante::http

@@ -37,7 +37,7 @@ Result<std::vector<FormPart>> parse_multipart(std::string_view body, std::string
   const std::string opening = "--" + std::string(boundary);
   const std::string delimiter = "\r\n" + opening;
 
-  // The first delimiter may stand at the very start, without a line break before it.
+  // The first delimiter may be at the beginning, without a line break before it.
   std::size_t at = 0;
   if (body.substr(0, opening.size()) == opening) {
     at = opening.size();

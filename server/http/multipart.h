@@ -16,7 +16,7 @@ struct FormPart {
   std::string_view content;
 };
 
-/// RFC 7578 over bytes that may lie. At most `max_parts` parts; errors name what is missing.
+/// Parses RFC 7578 from untrusted bytes. At most `max_parts` parts; errors name the missing element.
 Result<std::vector<FormPart>> parse_multipart(std::string_view body, std::string_view boundary,
                                               std::size_t max_parts = 16);
 

@@ -14,41 +14,41 @@ namespace {
 
 constexpr auto kinds = std::to_array<ProblemKind>({
     {"malformed-request", 400, "The request cannot be read"},
-    {"invalid-argument", 400, "A value of the request means nothing here"},
+    {"invalid-argument", 400, "A value of the request is invalid"},
     {"forbidden-origin", 403, "Pages from this origin may not use the server"},
-    {"not-found", 404, "There is nothing at this address"},
-    {"method-not-allowed", 405, "The resource does not know this method"},
-    {"not-acceptable", 406, "None of the accepted media types can be given"},
+    {"not-found", 404, "There is no resource at this address"},
+    {"method-not-allowed", 405, "The resource does not have this method"},
+    {"not-acceptable", 406, "None of the accepted media types is available"},
     {"request-timeout", 408, "The request did not arrive in time"},
     {"conflict", 409, "The state of the resource does not allow this"},
     {"length-required", 411, "The request must carry a body"},
     {"precondition-failed", 412, "The resource is not in the state that was expected"},
     {"content-too-large", 413, "The body is over the limit"},
-    {"unsupported-media-type", 415, "The body's media type cannot be read here"},
+    {"unsupported-media-type", 415, "The body's media type is not supported"},
     {"range-not-satisfiable", 416, "The range lies outside the content"},
-    {"foreign-host", 421, "The server does not go by this name"},
+    {"foreign-host", 421, "The server does not accept this host name"},
     {"malformed-model", 422, "The model file cannot be read"},
     {"unsupported-model", 422, "The model file needs something that is not supported"},
     {"empty-model", 422, "The model has nothing to work on"},
     {"model-too-large", 422, "The model is over a documented limit"},
-    {"invalid-feature-point", 422, "A feature point cannot be where it is said to be"},
+    {"invalid-feature-point", 422, "A feature point has an impossible place"},
     {"missing-feature-points", 422, "Feature points are missing"},
     {"invalid-frame", 422, "A frame of the stream cannot be read"},
     {"invalid-performance", 422, "The performance cannot be played"},
     {"invalid-fap-file", 422, "The .fap file cannot be read"},
     {"invalid-field", 422, "A field of the body is wrong"},
     {"idempotency-key-reused", 422, "The idempotency key was used for another request"},
-    {"upgrade-required", 426, "The resource speaks WebSocket"},
-    {"precondition-required", 428, "The request must say which state it expects"},
-    {"too-many-requests", 429, "Too much is waiting already"},
+    {"upgrade-required", 426, "The resource is a WebSocket"},
+    {"precondition-required", 428, "The request must have a precondition"},
+    {"too-many-requests", 429, "Too many requests or jobs are waiting"},
     {"header-too-large", 431, "The header of the request is over the limit"},
     {"worker-crashed", 500, "The worker of this job ended by a fault"},
-    {"worker-limit", 422, "The job used up what it was given"},
+    {"worker-limit", 422, "The job exceeded a limit"},
     {"cancelled", 409, "It was stopped on request"},
     {"internal", 500, "A fault of the server"},
-    {"overloaded", 503, "The server has as many connections as it takes"},
+    {"overloaded", 503, "The server has reached its limit of connections"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
-    {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are spoken here"},
+    {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
     {"insufficient-storage", 507, "The disk is full"},
 });
@@ -110,7 +110,7 @@ Problem make_problem(std::string_view slug, std::string detail, std::string poin
 }
 
 Problem problem_from(const Error& error) {
-  // What points at a feature point is about that point, whatever went wrong with it.
+  // Every error at a feature point gets the problem of feature points.
   const bool about_point = error.where.rfind("/points", 0) == 0 && error.code != ErrorCode::missing;
   return make_problem(about_point ? "invalid-feature-point" : slug_of(error.code), error.message, error.where);
 }

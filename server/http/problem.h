@@ -9,7 +9,7 @@
 
 namespace semblante::http {
 
-/// One of several faults of the same request.
+/// One of several errors of the same request.
 struct Fault {
   std::string pointer;  ///< JSON pointer into the body, or "?name" for a query parameter
   std::string detail;
@@ -21,8 +21,8 @@ struct Problem {
   std::string slug = "internal";
   std::string title;
   std::string detail;
-  std::string pointer;        ///< the field that is wrong; may be empty
-  std::vector<Fault> faults;  ///< all of them, when there is more than one
+  std::string pointer;        ///< the invalid field; may be empty
+  std::vector<Fault> faults;  ///< all errors, when there is more than one
 
   bool operator==(const Problem&) const = default;
 };
@@ -32,18 +32,18 @@ inline bool operator==(const Fault& a, const Fault& b) { return a.pointer == b.p
 /// known.
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer = {});
 
-/// What the core said about other people's bytes, as a problem: the code picks the slug.
+/// The problem document for an error of the core; the code selects the slug.
 Problem problem_from(const Error& error);
 
-/// The document alone, as JSON text: stored with a failed job or model and shown inside them.
+/// The document as JSON text: stored with a failed job or model and shown inside them.
 std::string to_json(const Problem& problem);
-/// Reads back what to_json wrote; a problem "internal" when the text is not one.
+/// The reverse of to_json; a problem "internal" when the text is not a problem document.
 Problem problem_from_json(std::string_view text);
 
 /// The whole answer, with its media type.
 Response to_response(const Problem& problem);
 
-/// Every slug with its status and title: what the documentation and the tests walk.
+/// Every slug with its status and title; iterated by the documentation and the tests.
 struct ProblemKind {
   std::string_view slug;
   int status;

@@ -13,7 +13,7 @@
 namespace semblante::http {
 namespace {
 
-/// "assets/index-BTK3ftMc.js": a bundler's mark that the name changes with the content.
+/// "assets/index-BTK3ftMc.js": a bundler's name that contains a hash of the content.
 bool has_hashed_name(const std::string& path) {
   if (path.find("/assets/") == std::string::npos) return false;
   const auto name = path.substr(path.rfind('/') + 1);

@@ -7,9 +7,9 @@
 
 namespace semblante::http {
 
-/// A file below `root` for a decoded request path; "/" is index.html. Anything that would leave the root (dot segments,
-/// links out of it) or is no regular file is 404. Files whose name carries a content hash (assets/name-<8+
-/// characters>.ext, as Vite writes them) may be cached for a year, all others are revalidated by their ETag.
+/// A file below `root` for a decoded request path; "/" is index.html. Paths outside the root (dot segments, links) and
+/// paths that are not regular files get 404. Files whose name has a content hash (assets/name-<8+ characters>.ext, as
+/// Vite writes them) may be cached for a year, all others are revalidated by their ETag.
 Response static_file(const std::filesystem::path& root, const Request& request);
 
 }  // namespace semblante::http

@@ -7,7 +7,7 @@
 
 namespace semblante::http {
 
-/// A request target in origin form, taken apart.
+/// The parts of a request target in origin form.
 struct Target {
   std::string path;  ///< percent-decoded; starts with '/'
   std::map<std::string, std::string> query;

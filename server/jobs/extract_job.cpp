@@ -27,7 +27,7 @@ Json names(const std::vector<FeaturePointId>& points) {
   return list;
 }
 
-/// What is in the set and what is not, and why.
+/// The points of the set, and those skipped with the reason.
 Json describe(const Extraction& extraction) {
   Json json = {{"points", extraction.displacements.size()}, {"skipped", Json::object()}};
   for (const MissingUnit& missing : extraction.skipped)
@@ -60,12 +60,12 @@ std::vector<MissingUnit> read_skipped(const nlohmann::json& json) {
     if (found == fapu_unit_names.end()) throw std::invalid_argument("/skipped/" + point + ": there is no such unit");
     skipped.push_back({read_point(point), static_cast<FapuUnit>(found - fapu_unit_names.begin())});
   }
-  // As JSON sorts the names, 10.1 comes before 2.1.
+  // JSON sorts names as text, so 10.1 would precede 2.1.
   std::sort(skipped.begin(), skipped.end(), [](const auto& a, const auto& b) { return a.point < b.point; });
   return skipped;
 }
 
-/// What the set says of where it is from.
+/// The source of the set, as stored with it.
 Json source_of_set(const store::JobRecord& job, const ExtractJob& wish) {
   const auto or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
   return {{"model", or_null(job.model)},
@@ -78,7 +78,7 @@ Json source_of_set(const store::JobRecord& job, const ExtractJob& wish) {
           {"strength", wish.strength}};
 }
 
-/// The shape of a morph target; a name that is not there is a field of the request.
+/// The shape of a morph target; an unknown name is an error of a field of the request.
 Result<std::vector<glm::vec3>> shape_of_field(const Model& model, const std::string& field, const std::string& target) {
   auto shape = shape_of_target(model, target);
   if (!shape) return Error{ErrorCode::invalid_argument, field, shape.error().message};
@@ -140,13 +140,13 @@ Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, ResultFiles&
     if (!shape) return shape.error();
     expression = std::move(*shape);
   } else {
-    // Turned as the head was.
+    // Turned like the head.
     for (glm::vec3& p : expression) p = glm::vec3(head->to_mpeg4 * glm::dvec3(p));
   }
   const ExtractOptions options{wish.align, wish.least, wish.strength};
   auto extraction = extract_displacements(head->points, compute_fapu(head->points), *neutral, expression, options);
   if (!extraction) {
-    // The set is what the request asks for: a set of nothing is a fault of what it names.
+    // An empty set is an error of the field that names the expression.
     Error error = extraction.error();
     if (error.code == ErrorCode::empty || error.code == ErrorCode::out_of_range) error.code = ErrorCode::mismatch;
     return error;
@@ -215,7 +215,7 @@ void from_json(const nlohmann::json& json, ExtractJob::Request& request) {
 
 void to_json(nlohmann::json& json, const ExtractJob::Outcome& outcome) {
   json = describe(outcome.extraction);
-  json.erase("points");  // how many there are
+  json.erase("points");  // the set has their number
   json["displacements"] = displacements_to_json(outcome.extraction.displacements);
 }
 

@@ -16,16 +16,16 @@ namespace semblante::jobs {
 
 class ResultFiles;
 
-/// Takes a displacement set from two shapes of a head: of a model and one of its morph targets, or of a model and a
-/// file of the same mesh. Without a model the neutral head is a file too.
+/// Extracts a displacement set from two shapes of a head: a model and one of its morph targets, or a model and a file
+/// of the same mesh. Without a model the neutral head is a file too.
 struct ExtractJob {
   static constexpr std::string_view kind_name = "extract";
   static constexpr bool needs_frame_to_stay = false;
 
-  std::string name;                 ///< of the set to be
-  std::string kind = "expression";  ///< as set_kind_names
+  std::string name;                 ///< of the new set
+  std::string kind = "expression";  ///< one of set_kind_names
   bool align = false;
-  double least = 1.0, strength = 1.0;  ///< as ExtractOptions
+  double least = 1.0, strength = 1.0;  ///< see ExtractOptions
   std::string target, from;
   std::string expression_file, expression_sha256;
   std::string neutral_file, neutral_sha256;
@@ -34,7 +34,7 @@ struct ExtractJob {
   struct Request;
   struct Outcome;
 
-  /// The blobs of its own that the job keeps until it ends.
+  /// The blobs that belong to the job until it ends.
   [[nodiscard]] std::vector<std::string> files() const;
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
@@ -62,7 +62,7 @@ void from_json(const nlohmann::json& json, ExtractJob& job);
 void to_json(nlohmann::json& json, const ExtractJob::Request& request);
 void from_json(const nlohmann::json& json, ExtractJob::Request& request);
 void to_json(nlohmann::json& json, const ExtractJob::Outcome& outcome);
-/// Throws std::invalid_argument too, for what is no feature point, unit or displacement.
+/// Throws std::invalid_argument too, for an invalid feature point, unit or displacement.
 void from_json(const nlohmann::json& json, ExtractJob::Outcome& outcome);
 
 }  // namespace semblante::jobs

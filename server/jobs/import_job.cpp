@@ -35,7 +35,7 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, ResultFiles& f
   std::tie(outcome.box_min, outcome.box_max) = box_of(head->model);
   outcome.warnings = head->warnings.all();
   outcome.frame = head->frame;
-  // The store turns what was marked on the head as it stood before.
+  // The store turns the positions that were marked in the earlier orientation.
   if (request.model.frame && request.model.frame->axes != head->frame.axes)
     outcome.turn = rows_of(turn_between(request.model.frame->axes, head->frame.axes));
   const auto parts = describe_parts(head->model, head->surface, {}, {});

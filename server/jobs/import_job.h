@@ -18,7 +18,7 @@ namespace semblante::jobs {
 
 class ResultFiles;
 
-/// Reads the file of a model and says what is in it. There is nothing to ask for beside the model.
+/// Reads the file of a model and stores its facts. Has no options.
 struct ImportJob {
   static constexpr std::string_view kind_name = "import";
   static constexpr bool needs_frame_to_stay = false;
@@ -28,11 +28,11 @@ struct ImportJob {
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
   /// Files: `preview.glb`, `positions` (float32 x, y, z of each file vertex, little-endian, MPEG-4 frame) and
-  /// `report.json` (what the mesh alone shows).
+  /// `report.json` (findings from the mesh alone).
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
-  /// A model whose first import ends so has failed too.
+  /// A failed or cancelled first import makes its model failed.
   static std::vector<std::string> finish_without_outcome(const store::JobRecord& job, store::JobStore& store);
 
   bool operator==(const ImportJob&) const = default;
@@ -52,7 +52,7 @@ struct ImportJob::Outcome {
   std::vector<std::string> warnings;
   store::FindingCounts findings;  ///< of the report
   ModelFrame frame;
-  std::optional<store::Turn> turn;  ///< from how it stood in the request to how it stands now; none: as it was
+  std::optional<store::Turn> turn;  ///< from the orientation in the request to the new one; empty: unchanged
   std::vector<store::MorphTargetRecord> morph_targets;
 
   bool operator==(const Outcome&) const = default;

@@ -111,7 +111,8 @@ Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome out
       [&](const auto& asked) -> Result<std::vector<std::string>> {
         using Outcome = typename std::remove_cvref_t<decltype(asked)>::Outcome;
         auto* const found = std::get_if<Outcome>(&outcome);
-        if (found == nullptr) return Error{ErrorCode::internal, "", "the worker did another kind of job"};
+        if (found == nullptr)
+          return Error{ErrorCode::internal, "", "the worker returned the outcome of another kind of job"};
         return asked.finish(record, std::move(*found), artefacts, store);
       },
       *job);

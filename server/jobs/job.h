@@ -14,30 +14,30 @@
 
 #include "server/jobs/job_types.h"
 
-// Whatever is done with a job of any type, by the list of types in job_types.h.
+// The operations on a job of any type, dispatched by the list of types in job_types.h.
 namespace semblante::jobs {
 
-/// What a type of job must have. Its members are what is asked for, as the store keeps it. It, its Request (what a
-/// worker is told) and its Outcome (what a worker found) have to_json() and from_json(), found beside the type.
+/// The requirements for a type of job. Its members are the stored options of the job. The type, its Request (the input
+/// of a worker) and its Outcome (the output of a worker) have to_json() and from_json() in their namespace.
 template <class T>
 concept JobType = requires(const T& job, store::JobRecord& record, const JobSources& sources, store::JobStore& store,
                            const typename T::Request& request, typename T::Outcome outcome, ResultFiles& files,
                            const std::vector<store::ArtefactRecord>& artefacts, const Progress& progress) {
-  /// In the store, in answers and in metrics.
+  /// Used in the store, in answers and in metrics.
   { T::kind_name } -> std::convertible_to<std::string_view>;
-  /// Whether the frame of the model may not be changed while such a job has not ended.
+  /// Whether the frame of the model must not change until such a job has ended.
   { T::needs_frame_to_stay } -> std::convertible_to<bool>;
-  /// In the server, when the job begins.
+  /// Called in the server, when the job starts.
   { job.request(record, sources) } -> std::same_as<Result<typename T::Request>>;
-  /// In the worker process.
+  /// Called in the worker process.
   { T::run(request, files, progress) } -> std::same_as<Result<typename T::Outcome>>;
-  /// In the server: stores the job, which is done, with what it brought, in one step; `record.result` is what its
-  /// answers show beside that. Gives the hashes of blobs that nothing refers to any more.
+  /// Called in the server: stores the finished job with its outcome in one transaction, and sets `record.result`, which
+  /// is shown in answers. Returns the hashes of blobs that are no longer referred to.
   { job.finish(record, std::move(outcome), artefacts, store) } -> std::same_as<std::vector<std::string>>;
 };
 
-/// A type may also have finish_without_outcome(record, store), where a job that failed or was cancelled changes more
-/// than itself. It gives hashes as finish().
+/// A type may also have finish_without_outcome(record, store), if a failed or cancelled job changes more than its own
+/// record. It returns hashes like finish().
 template <class T>
 concept HasFinishWithoutOutcome = requires(const store::JobRecord& record, store::JobStore& store) {
   { T::finish_without_outcome(record, store) } -> std::same_as<std::vector<std::string>>;
@@ -58,7 +58,7 @@ struct JobList<std::variant<Types...>> {
       JobKind{Types::kind_name, Types::needs_frame_to_stay}...};
 };
 
-/// Of one type of job each, with the index that the type has in Job.
+/// Variants over the types of jobs, with the same indices as Job.
 using JobRequest = JobList<Job>::Request;
 using JobOutcome = JobList<Job>::Outcome;
 
@@ -66,11 +66,11 @@ using JobOutcome = JobList<Job>::Outcome;
 inline constexpr auto& job_kinds = JobList<Job>::kinds;
 std::optional<std::size_t> find_job_kind(std::string_view name);
 
-/// A job of this type as it is before it is stored; `model` is empty where it is of none.
+/// A new record for this job, not stored yet; `model` is empty for a job without a model.
 store::JobRecord new_record(const Job& job, std::string model);
-/// What was asked for. Error `internal`: a kind or a form that this program does not write.
+/// Reads the job of a record. Error `internal`: a kind or a form that this program does not write.
 Result<Job> read_job(const store::JobRecord& record);
-/// The same where it is of this type.
+/// The same if it has this type.
 template <JobType T>
 std::optional<T> read_job_as(const store::JobRecord& record) {
   auto job = read_job(record);
@@ -88,10 +88,10 @@ Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome out
 /// Stores the end of a job that failed or was cancelled. Hashes as T::finish().
 std::vector<std::string> finish_without_outcome(const store::JobRecord& record, store::JobStore& store);
 
-/// The members of the request or the outcome; which type it is of is not among them.
+/// The members of the request or the outcome, without its type.
 nlohmann::json to_value(const JobRequest& request);
 nlohmann::json to_value(const JobOutcome& outcome);
-/// The reverse, of the type with this index. Throw nlohmann::json::exception and std::invalid_argument.
+/// The reverse, for the type with this index. Throws nlohmann::json::exception and std::invalid_argument.
 JobRequest request_from(std::size_t kind, const nlohmann::json& value);
 JobOutcome outcome_from(std::size_t kind, const nlohmann::json& value);
 

@@ -96,13 +96,13 @@ Cancelled JobQueue::cancel(std::string_view id) {
     }
   }
   if (!runs) {
-    const auto problem = http::make_problem("cancelled", "it was cancelled before it began");
+    const auto problem = http::make_problem("cancelled", "it was cancelled before it started");
     return record(ending(job, JobState::cancelled, problem)) ? Cancelled::recorded : Cancelled::pending;
   }
   try {
     return pending_.with_reserve([&] { return store_.request_cancel(id); }) ? Cancelled::recorded : Cancelled::none;
   } catch (const store::StoreError& fault) {
-    pending_.note(fault);  // its end is recorded as soon as its worker is gone and the store can be written
+    pending_.note(fault);  // its end is stored when its worker has ended and the store can be written
     return Cancelled::pending;
   }
 }
@@ -117,7 +117,7 @@ void JobQueue::cancel_all_of(std::string_view model) {
     for (auto& [id, unrecorded] : unrecorded_)
       if (unrecorded.next.model == model) unrecorded.cancel = true;
   }
-  const auto problem = http::make_problem("cancelled", "its model was to be removed before it began");
+  const auto problem = http::make_problem("cancelled", "its model was removed before it started");
   for (const auto& job : waiting) record(ending(job, JobState::cancelled, problem));
   std::unique_lock lock(mutex_);
   const auto runs = [&] {
@@ -220,7 +220,7 @@ std::optional<JobQueue::Unrecorded> JobQueue::attempt(Running& running) {
     return after_store_error(running, attempt, fault);
   } catch (...) {
     log::caught("job " + running.job.id);
-    return ending(running.job, JobState::failed, http::make_problem("internal", "a fault of the program"));
+    return ending(running.job, JobState::failed, http::make_problem("internal", "an internal error"));
   }
 }
 

@@ -20,17 +20,17 @@
 
 namespace semblante::jobs {
 
-/// What became of a request to cancel.
+/// The result of a request to cancel.
 enum class Cancelled {
   none,      ///< there is no such job, or it has ended
   recorded,  ///< durable: it will not run again
-  pending,   ///< it does not run any more, and this is recorded when the store can be written again
+  pending,   ///< it has been stopped; this will be stored when the store can be written again
 };
 
-/// Takes jobs in order, each in a worker process, and writes what became of them into the store. Jobs of one model
-/// never run at the same time. A job that the disk has no room for waits until there is some; an end that cannot be
-/// recorded is a pending write, and until it is durable the job is shown as it was, in the stage "saving". Owns its
-/// threads; store, blobs and pending writes outlive it. All calls from any thread but the I/O threads.
+/// Runs jobs in order, each in a worker process, and stores their results. Jobs of one model never run at the same
+/// time. On a full disk a job waits until there is space; an end that cannot be stored is a pending write, and until it
+/// is durable the job keeps its state, with the stage "saving". Owns its threads; store, blobs and pending writes must
+/// outlive it. All calls from any thread except I/O threads.
 class JobQueue {
  public:
   using Watcher = std::function<void(const store::JobRecord&)>;
@@ -40,25 +40,25 @@ class JobQueue {
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
 
-  /// Takes up again what an earlier process left unfinished, then begins to work.
+  /// Queues the unfinished jobs of an earlier process, then starts the threads.
   void start();
   /// Kills the workers; their jobs stay unfinished in the store, for the next start.
   void stop();
 
-  /// False when as many wait as may.
+  /// False when the queue is full.
   [[nodiscard]] bool has_room() const;
-  /// A job that is in the store already.
+  /// Queues a job that is already stored.
   void enqueue(const store::JobRecord& job);
-  /// A queued one ends at once, a running one within seconds.
+  /// A queued job ends immediately, a running one within seconds.
   Cancelled cancel(std::string_view id);
-  /// Ends the jobs of a model that is about to be removed; returns when none runs any more.
+  /// Cancels the jobs of a model that is about to be removed; returns when none is running.
   void cancel_all_of(std::string_view model);
 
-  /// The job as it is now; progress is newer here than in the store.
+  /// The current job; its progress is newer than in the store.
   [[nodiscard]] std::optional<store::JobRecord> find(std::string_view id) const;
   /// Calls `watcher` at every change of the job from now on, from the queue's threads. Pair with unwatch().
   std::uint64_t watch(std::string_view id, Watcher watcher);
-  /// After this the watcher is not called any more.
+  /// The watcher is not called after this returns.
   void unwatch(std::uint64_t watch);
   /// Called after the end of every job is durable, from the queue's threads or that of the pending writes. Before
   /// start().
@@ -66,7 +66,8 @@ class JobQueue {
 
   [[nodiscard]] std::size_t waiting() const;
   [[nodiscard]] std::size_t running() const;
-  /// How many jobs of a kind (a name in job_kinds) have ended so (done, failed, cancelled) since the queue was made.
+  /// Number of jobs of a kind (a name in job_kinds) that ended with this state (done, failed, cancelled) since the
+  /// queue was made.
   [[nodiscard]] std::uint64_t ended(std::string_view kind, store::JobState state) const;
 
  private:
@@ -74,24 +75,25 @@ class JobQueue {
     store::JobRecord job;
     std::atomic<bool> cancel{false};
   };
-  /// A job whose next state is on its way into the store.
+  /// A job whose next state is not stored yet.
   struct Unrecorded {
     store::JobRecord shown, next;
     std::uint64_t room_needed = 0;  ///< free bytes before it is queued again
     bool first_in_line = false;     ///< when it is queued again
-    bool cancel = false;            ///< came after `next`
+    bool cancel = false;            ///< requested after `next` was set
   };
 
   void work();
-  /// The first job that may begin: those of one model run one after the other, each on what the one before it left.
+  /// The first job that may start: jobs of one model run one after another, each on the results of the one before.
   std::deque<store::JobRecord>::iterator next();
   [[nodiscard]] bool is_busy(const std::string& model) const;
-  /// What follows on an attempt: the job as it ended, or queued again. Nothing when the server stops.
+  /// Runs an attempt and returns the job's next state: ended, or queued again. nullopt when the server is shutting
+  /// down.
   std::optional<Unrecorded> attempt(Running& running);
   std::optional<store::JobRecord> run_once(Running& running, JobRun& attempt);
   Unrecorded after_store_error(const Running& running, const JobRun& attempt, const store::StoreError& fault);
   static Unrecorded ending(const store::JobRecord& job, store::JobState state, const http::Problem& problem);
-  /// Writes the next state down, now or later; true when it is durable.
+  /// Stores the next state, now or later; true when it is durable.
   bool record(Unrecorded unrecorded);
   /// The write behind record(); throws.
   void settle(const std::string& id);
@@ -107,12 +109,12 @@ class JobQueue {
   Watcher on_finished_;
   std::array<std::array<std::atomic<std::uint64_t>, store::job_state_count>, job_kinds.size()> ended_{};
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::condition_variable changed_;
   std::deque<store::JobRecord> queue_;
   std::map<std::string, std::shared_ptr<Running>, std::less<>> running_;
   std::map<std::string, Unrecorded, std::less<>> unrecorded_;
-  std::map<std::string, std::uint32_t, std::less<>> shortages_;  ///< attempts of a job that the disk ended
+  std::map<std::string, std::uint32_t, std::less<>> shortages_;  ///< attempts of a job that failed because of the disk
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 

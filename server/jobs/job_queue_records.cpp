@@ -1,4 +1,4 @@
-// JobQueue's other half: what follows on an attempt at a job, and how that gets into the store.
+// JobQueue's other half: the next state of a job after an attempt, and how it is stored.
 #include <mutex>
 #include <shared_mutex>
 #include <utility>
@@ -22,7 +22,7 @@ JobQueue::Unrecorded JobQueue::after_store_error(const Running& running, const J
     const std::lock_guard lock(mutex_);
     shortages = shortages_[job.id] += attempt.has_begun() ? 1 : 0;
   }
-  log::warning("job " + job.id + " has to wait for the disk: " + fault.what());
+  log::warning("job " + job.id + " waits for the disk: " + fault.what());
   if (shortages >= config_.max_attempts)
     return ending(job, JobState::failed,
                   disk_full ? http::make_problem("insufficient-storage", "the disk had no room for what it makes, " +
@@ -34,7 +34,7 @@ JobQueue::Unrecorded JobQueue::after_store_error(const Running& running, const J
   again.next.progress = 0.0;
   again.next.stage = disk_full ? "waiting for disk space" : "waiting for the disk";
   again.next.updated = store::timestamp_now();
-  --again.next.attempts;  // it is not the job that made the attempt fail
+  --again.next.attempts;  // not counted: the job is not the cause of the failure
   again.shown = again.next;
   return again;
 }
@@ -91,7 +91,7 @@ void JobQueue::settle(const std::string& id) {
     write_next(next, room_needed);
     const std::lock_guard lock(mutex_);
     const auto found = unrecorded_.find(id);
-    if (found->second.cancel && !store::is_final(next.state)) continue;  // came meanwhile
+    if (found->second.cancel && !store::is_final(next.state)) continue;  // cancelled meanwhile
     if (!store::is_final(next.state)) {
       if (found->second.first_in_line)
         queue_.push_front(next);

@@ -16,7 +16,7 @@ namespace {
 using store::JobRecord;
 using store::JobState;
 
-/// Where a worker puts its files; goes with the object.
+/// The folder for a worker's files; removed by the destructor.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::filesystem::path& path) : path_(path) {
@@ -47,7 +47,7 @@ class OutputFolder {
   const std::filesystem::path path_;
 };
 
-/// The end of a job that did what it was asked.
+/// Sets the state of a successful job.
 void set_done(JobRecord& job) {
   job.state = JobState::done;
   job.progress = 1.0;
@@ -74,7 +74,7 @@ std::optional<JobRecord> JobRun::run(const JobRecord& job, const OnProgress& on_
   try {
     return work(job, request, on_progress, wish);
   } catch (const store::DiskFull&) {
-    // It may have been cut short anywhere: what it wrote is the least it needs.
+    // It may have stopped anywhere: the bytes it wrote are a lower bound of what it needs.
     room_needed_ = 2 * (folder.bytes() + adopted_bytes_) + least_room;
     throw;
   }
@@ -108,7 +108,7 @@ std::optional<JobRecord> JobRun::work(const JobRecord& job, const WorkerRequest&
   }
   const bool cancelled = exit->kind == WorkerExit::Kind::cancelled;
   if (!cancelled && !exit->last_words.empty())
-    log::warning("the worker of job " + job.id + " said: " + exit->last_words);
+    log::warning("the worker of job " + job.id + " wrote: " + exit->last_words);
   return ended_job(job, cancelled ? JobState::cancelled : JobState::failed, problem_of(*exit));
 }
 
@@ -123,7 +123,7 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
     case WorkerExit::Kind::signalled:
       if (exit.code == SIGXCPU)
         return http::make_problem(
-            "worker-limit", "it used up its " + std::to_string(limits.cpu_seconds) + " s of processor time (SIGXCPU)");
+            "worker-limit", "it exceeded its " + std::to_string(limits.cpu_seconds) + " s of processor time (SIGXCPU)");
       if (exit.code == SIGXFSZ)
         return http::make_problem(
             "worker-limit", "it wrote a file of more than " + std::to_string(limits.file_bytes) + " bytes (SIGXFSZ)");
@@ -141,7 +141,7 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
 
 JobRecord JobRun::keep_result(JobRecord job, const WorkerRequest& request, WorkerResult result) {
   try {
-    // What the result before it used, and no one else does, goes with the same commit.
+    // Blobs that only the earlier result refers to are removed after this commit.
     const std::unique_lock alone(blobs_.references());
     if (const auto problem = adopt_artefacts(request, result)) return ended_job(job, JobState::failed, *problem);
     JobRecord done = job;
@@ -158,11 +158,11 @@ JobRecord JobRun::keep_result(JobRecord job, const WorkerRequest& request, Worke
 
 std::optional<http::Problem> JobRun::adopt_artefacts(const WorkerRequest& request, WorkerResult& result) {
   for (auto& artefact : result.artefacts) {
-    // A name is a file of the output folder, never a path out of it.
+    // A name must be a file in the output folder, not a path to elsewhere.
     const std::filesystem::path name(artefact.name);
     auto blob = name.filename() == name ? blobs_.adopt(request.output_directory / name)
                                         : Result<store::Blob>(Error{ErrorCode::internal, "", "a path for a name"});
-    if (!blob) return http::make_problem("internal", "a result could not be kept: " + blob.error().message);
+    if (!blob) return http::make_problem("internal", "a result could not be stored: " + blob.error().message);
     artefact.sha256 = blob->sha256;
     artefact.bytes = blob->bytes;
     adopted_bytes_ += blob->bytes;
@@ -178,7 +178,7 @@ void JobRun::discard(const WorkerResult& result) const {
     const std::unordered_set<std::string> used(list.begin(), list.end());
     for (const auto& artefact : result.artefacts)
       if (!artefact.sha256.empty() && !used.contains(artefact.sha256)) blobs_.remove(artefact.sha256);
-  } catch (const store::StoreError&) {  // the sweep of the next start removes them
+  } catch (const store::StoreError&) {  // the next start moves them into the trash
   }
 }
 

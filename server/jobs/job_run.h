@@ -18,15 +18,15 @@ struct JobConfig {
   std::vector<std::string> worker_command;  ///< program and arguments; the limits are added
   WorkerLimits limits;
   std::chrono::seconds wall_limit{900};
-  unsigned concurrency = 1;     ///< workers at a time
-  std::size_t max_queued = 64;  ///< waiting jobs; more are answered 429
+  unsigned concurrency = 1;     ///< workers at the same time
+  std::size_t max_queued = 64;  ///< waiting jobs; further requests get 429
   std::uint32_t max_attempts = 3;
 };
 
-/// A job as it ends so. Not recorded yet.
+/// A job with this end; not stored yet.
 store::JobRecord ended_job(store::JobRecord job, store::JobState state, const http::Problem& problem);
 
-/// One attempt at a job: its worker process, and the commit of what that made. Used by one thread.
+/// One attempt at a job: its worker process, and the commit of its result. Used by one thread.
 class JobRun {
  public:
   using OnProgress = std::function<void(const WorkerProgress&)>;
@@ -34,13 +34,13 @@ class JobRun {
   JobRun(store::Store& store, store::BlobStore& blobs, const JobConfig& config)
       : store_(store), blobs_(blobs), config_(config) {}
 
-  /// The job as it ended: `done` is durable with its result, another end is not recorded yet. Nothing when it was
-  /// stopped with the server. Throws StoreError when its files or its result could not be written: then nothing of
-  /// the attempt is left, and it may be made again.
+  /// The ended job: `done` is durable with its result, another end is not stored yet. nullopt when it was stopped with
+  /// the server. Throws StoreError when its files or its result could not be written: then nothing of the attempt
+  /// remains, and it can be repeated.
   std::optional<store::JobRecord> run(const store::JobRecord& job, const OnProgress& on_progress,
                                       const std::function<Wish()>& wish);
 
-  /// After StoreError: whether run() was called, and the free bytes with which another attempt makes sense.
+  /// After StoreError: whether the job's run() was called, and the free bytes needed for another attempt.
   [[nodiscard]] bool has_begun() const { return has_begun_; }
   [[nodiscard]] std::uint64_t room_needed() const { return room_needed_; }
 
@@ -49,9 +49,9 @@ class JobRun {
                                        const OnProgress& on_progress, const std::function<Wish()>& wish);
   http::Problem problem_of(const WorkerExit& exit) const;
   store::JobRecord keep_result(store::JobRecord job, const WorkerRequest& request, WorkerResult result);
-  /// A problem when one cannot be kept for another reason than a full disk.
+  /// Returns a problem when an artefact cannot be stored for another reason than a full disk.
   std::optional<http::Problem> adopt_artefacts(const WorkerRequest& request, WorkerResult& result);
-  /// Removes those of the artefacts' blobs that no fact refers to.
+  /// Removes the artefacts' blobs that no record refers to.
   void discard(const WorkerResult& result) const;
 
   store::Store& store_;

@@ -9,8 +9,8 @@
 
 namespace semblante::jobs {
 
-/// Every type of job. A new one is its header and source, a line here, and a line in CMakeLists.txt; what it must have
-/// is the concept JobType in job.h. A job of a type holds what is asked for.
+/// Every type of job. To add one: its header and source, a line here, and a line in CMakeLists.txt; the concept JobType
+/// in job.h has its requirements. The members of a type are the options of its jobs.
 using Job = std::variant<ImportJob, ParametrizeJob, ProposeJob, ExtractJob>;
 
 }  // namespace semblante::jobs

@@ -11,7 +11,7 @@ namespace semblante::jobs {
 
 Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what) {
   const auto path = blobs.find(sha256);
-  if (!path) return Error{ErrorCode::io, "", "the bytes of " + what + " are not in the data folder any more"};
+  if (!path) return Error{ErrorCode::io, "", "the bytes of " + what + " are missing in the data folder"};
   return path->string();
 }
 

@@ -28,7 +28,7 @@ Result<RigRequest> rig_request(const ParametrizeJob& options) {
   return RigRequest{*weights, *metric};
 }
 
-/// The sets were checked when the store got them: one that cannot be read is a fault of ours.
+/// The sets were checked before they were stored: one that cannot be read is an internal error.
 Result<std::vector<NamedSet>> sets_of(const std::vector<store::WornSet>& worn) {
   std::vector<NamedSet> sets;
   for (const auto& record : worn) {

@@ -25,13 +25,13 @@ struct ParametrizeJob {
   std::string metric = "edge";
   std::string weights = "paper";
   int weight_bits = 12;
-  std::vector<std::uint32_t> lods;  ///< budgets of levels of detail, falling
+  std::vector<std::uint32_t> lods;  ///< vertex budgets of the levels of detail, decreasing
 
   struct Request;
   struct Outcome;
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
-  /// Files: those of the package and `report.json`, and of a model that the feature points turn those of an import.
+  /// Files: those of the package and `report.json`; if the feature points turn the model, also those of an import.
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
@@ -43,14 +43,14 @@ struct ParametrizeJob::Request {
   std::string model_name;
   MarkedSource head;
   ParametrizeJob options;
-  std::vector<NamedSet> worn;  ///< what the face wears in place of the library's sets, under their names
+  std::vector<NamedSet> worn;  ///< the sets that replace those of the library, with the same names
 };
 
 struct ParametrizeJob::Outcome {
   std::vector<store::PartRecord> parts;
   std::vector<std::string> warnings;
   store::FindingCounts findings;           ///< of the report
-  store::FrameUpdate frame;                ///< `frame` is always there
+  store::FrameUpdate frame;                ///< `frame` is always set
   std::vector<store::LevelRecord> levels;  ///< the full mesh first
 
   bool operator==(const Outcome&) const = default;

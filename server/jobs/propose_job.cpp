@@ -15,7 +15,7 @@
 namespace semblante::jobs {
 namespace {
 
-/// A proposal does not turn the stored model: its positions are told of the model as it was in the request.
+/// A proposal does not turn the stored model: its positions are in the model's frame of the request.
 store::FeaturePointRecord record_of(const Proposal& proposal, const glm::dmat3& back) {
   store::FeaturePointRecord record;
   record.id = to_string(proposal.point.id);
@@ -44,7 +44,7 @@ Result<ProposeJob::Request> ProposeJob::request(const store::JobRecord& job, con
 Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, ResultFiles& /*files*/, const Progress& progress) {
   auto imported = import_source(request.head.model, part_of(progress, 0.05, 0.5));
   if (!imported) return imported.error();
-  // The relations between points hold for an upright head.
+  // The relations between points are defined for an upright head.
   const auto head = mark_source(std::move(*imported), request.head, part_of(progress, 0.5, 0.8));
   if (!head) return head.error();
   if (auto told = report_progress(progress, 0.8, "proposals"); !told) return told.error();
@@ -60,7 +60,7 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, ResultFiles&
   return outcome;
 }
 
-/// The points of the model are merged, not put: see JobStore::finish_proposal.
+/// The points of the model are merged, not replaced: see JobStore::finish_proposal.
 std::vector<std::string> ProposeJob::finish(store::JobRecord& job, Outcome outcome,
                                             const std::vector<store::ArtefactRecord>& /*artefacts*/,
                                             store::JobStore& store) const {

@@ -16,7 +16,7 @@ namespace semblante::jobs {
 
 class ResultFiles;
 
-/// Proposes feature points where none is placed, by those that are. There is nothing to ask for beside the model.
+/// Proposes the missing feature points from the placed ones. Has no options.
 struct ProposeJob {
   static constexpr std::string_view kind_name = "propose";
   static constexpr bool needs_frame_to_stay = true;
@@ -39,7 +39,7 @@ struct ProposeJob::Request {
 };
 
 struct ProposeJob::Outcome {
-  std::vector<store::FeaturePointRecord> proposals;               ///< for points nobody placed
+  std::vector<store::FeaturePointRecord> proposals;               ///< for points that are not placed
   std::vector<std::pair<std::string, std::string>> not_proposed;  ///< point, reason
 
   bool operator==(const Outcome&) const = default;

@@ -58,7 +58,7 @@ Result<ImportedHead> import_source(const ModelSource& source, const Progress& pr
 Result<MarkedHead> mark_source(ImportedHead head, const MarkedSource& source, const Progress& progress) {
   auto points = marked_points(source.points);
   if (!points) return points.error();
-  // The positions of the points are those of the model as its import left it: without a frame, as it lies in the file.
+  // The positions of the points are in the frame of the model's import; without a frame, in that of the file.
   auto standing =
       stand_head(std::move(head), {source.model.frame_wish, source.model.frame.value_or(ModelFrame{}), {}}, progress);
   if (!standing) return standing.error();

@@ -14,12 +14,12 @@
 
 namespace semblante::jobs {
 
-/// The least and the greatest corner of the model's positions; both the origin for a model without any.
+/// The minimum and maximum corner of the model's positions; both the origin for a model without positions.
 std::pair<std::array<double, 3>, std::array<double, 3>> box_of(const Model& model);
 
 std::vector<store::PartRecord> records_of(std::span<const Part> parts);
 
-/// Row by row, as the store keeps a turn.
+/// Row by row, the stored form of a turn.
 store::Turn rows_of(const glm::dmat3& turn);
 
 store::FindingCounts counts_of(const Report& report);

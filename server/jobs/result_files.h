@@ -14,7 +14,7 @@
 namespace semblante::jobs {
 
 /// The artefacts of one job: files in its output directory, which exists and is empty, and the list of them. All
-/// functions fail with `io`, and throw store::DiskFull when there is no room.
+/// functions fail with `io`, and throw store::DiskFull on a full disk.
 class ResultFiles {
  public:
   explicit ResultFiles(std::string directory) : directory_(std::move(directory)) {}
@@ -25,13 +25,13 @@ class ResultFiles {
   Status write_report(const Report& report, const ModelFrame& frame, const FrameWish& wish,
                       std::vector<ReportSection> more = {});
 
-  /// What is shown and picked from before there is a package: preview.glb and `positions`.
+  /// The files for display and picking before there is a package: preview.glb and `positions`.
   Status write_preview(const StandingHead& head, std::span<const Part> parts);
 
-  /// The files of the packages, one a level, and the images of the first.
+  /// The files of the packages, one for each level, and the images of the first.
   Status write_packages(std::span<const FacePackage> packages);
 
-  /// What was written so far, by name; `sha256` is empty.
+  /// The files written so far, by name; `sha256` is empty.
   [[nodiscard]] const std::vector<store::ArtefactRecord>& written() const { return written_; }
 
  private:

@@ -22,7 +22,7 @@ void limit(int what, std::uint64_t value) {
   setrlimit(static_cast<__rlimit_resource>(what), &limits);
 }
 
-/// The whole line at once: a line that is cut by a crash must not look like another.
+/// Writes the whole line with one call: a line cut off by a crash must not look like another one.
 void say(const WorkerLine& line) {
   const auto text = to_json_line(line);
   std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
@@ -36,7 +36,7 @@ int report(http::Problem problem) {
 }  // namespace
 
 void limit_this_process(const WorkerLimits& limits) {
-  // A server that is killed cannot stop its workers: the kernel does it.
+  // The kernel kills the worker when its server is killed.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_CPU, limits.cpu_seconds);
@@ -48,7 +48,7 @@ void limit_this_process(const WorkerLimits& limits) {
 int run_worker() {
   const std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
   const auto request = worker_request_from_json(text);
-  if (!request) return report(http::make_problem("internal", "the worker was asked nothing it knows"));
+  if (!request) return report(http::make_problem("internal", "the worker cannot read its request"));
   const Progress progress = [](double share, std::string_view stage) {
     say(WorkerProgress{share, std::string(stage)});
     return true;
@@ -64,7 +64,7 @@ int run_worker() {
   } catch (const store::DiskFull& fault) {
     return report(http::make_problem("insufficient-storage", fault.what()));
   } catch (const std::exception& fault) {
-    return report(http::make_problem("worker-crashed", std::string("a fault of the program: ") + fault.what()));
+    return report(http::make_problem("worker-crashed", std::string("an internal error: ") + fault.what()));
   }
 }
 

@@ -72,7 +72,7 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   posix_spawn_file_actions_adddup2(&options.files, out.write_end(), STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&options.files, STDERR_FILENO, error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
-  // The server's sockets and files are no business of a worker.
+  // A worker must not inherit the server's sockets and files.
   posix_spawn_file_actions_addclosefrom_np(&options.files, STDERR_FILENO + 1);
   posix_spawnattr_setflags(&options.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   sigset_t none;
@@ -94,7 +94,7 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   return pid;
 }
 
-/// The request is small but may exceed a pipe's buffer, and the worker may die before it reads: no SIGPIPE, no hang.
+/// The request may exceed a pipe's buffer, and the worker may die before it reads: must neither hang nor raise SIGPIPE.
 void feed_input(Pipe& in, std::string_view& input) {
   while (!input.empty() && in.write_end() >= 0) {
     const auto written = ::write(in.write_end(), input.data(), input.size());
@@ -174,7 +174,7 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
       kill_at = Clock::time_point::max();
     }
   }
-  // Its output is closed: it is ending, or it closed it on purpose and must not linger.
+  // Its output is closed: the worker is ending, or has closed it on purpose and must be killed.
   int status = 0;
   for (int round = 0; ::waitpid(pid, &status, WNOHANG) == 0; ++round) {
     if (round == 100 || ended_by_us) ::kill(pid, SIGKILL);

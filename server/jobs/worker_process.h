@@ -16,22 +16,22 @@ namespace semblante::jobs {
 /// How a worker process ended.
 struct WorkerExit {
   enum class Kind {
-    exited,     ///< by itself, with `code`
+    exited,     ///< exited with `code`
     signalled,  ///< by signal number `code`
-    cancelled,  ///< by us, because the poll said cancel
-    timed_out,  ///< by us, because the wall clock limit was over
-    stopped     ///< by us, because the poll said stop
+    cancelled,  ///< killed, because the poll returned cancel
+    timed_out,  ///< killed at the limit of elapsed time
+    stopped     ///< killed, because the poll returned stop
   } kind = Kind::exited;
   int code = 0;
   std::string last_words;  ///< the end of its standard error
 };
 
-/// What the caller wants of the running worker, asked a few times a second.
+/// The caller's decision about the running worker, polled a few times per second.
 enum class Wish { go_on, cancel, stop };
 
-/// Runs `arguments[0]` with these arguments, `input` on its standard input, and hands over each line of its standard
-/// output as it comes. Blocks until the process is gone. Cancel is SIGTERM, and SIGKILL two seconds later; stop is
-/// SIGKILL at once. The process has its own group, so that a Ctrl-C at the terminal reaches the server alone. Error
+/// Runs `arguments[0]` with these arguments, `input` on its standard input, and passes on each line of its standard
+/// output as it arrives. Blocks until the process has ended. Cancel is SIGTERM, and SIGKILL two seconds later; stop is
+/// SIGKILL immediately. The process has its own group, so that a Ctrl-C at the terminal reaches only the server. Error
 /// `io` when it cannot be started.
 Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,
                                       const std::filesystem::path& error_file, std::chrono::seconds wall_limit,

@@ -41,7 +41,7 @@ WorkerResult result_from(const json& done) {
   return result;
 }
 
-/// A value of what a text says.
+/// Reads a value from a JSON text.
 template <class T, class Read>
 Result<T> read_as(std::string_view text, Read read) {
   const auto document = read_json_object(text);

@@ -12,20 +12,20 @@
 
 namespace semblante::jobs {
 
-/// What a worker process is told on its standard input, as one JSON text.
+/// The request to a worker process on its standard input, as one JSON text.
 struct WorkerRequest {
-  std::string output_directory;  ///< exists, empty: artefacts go here by their name
+  std::string output_directory;  ///< exists and is empty; for artefacts, by their names
   JobRequest job;
 };
 
-/// The limits a worker puts on itself before it reads a byte of the model. 0: none.
+/// The limits that a worker sets for itself before it reads a byte of the model. 0: none.
 struct WorkerLimits {
   std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
   std::uint64_t cpu_seconds = 300;
   std::uint64_t file_bytes = std::uint64_t{1} << 30U;
 };
 
-/// What it found out.
+/// The outcome of a worker.
 struct WorkerResult {
   JobOutcome outcome;
   std::vector<store::ArtefactRecord> artefacts;  ///< files in the output directory; sha256 still empty
@@ -36,13 +36,13 @@ struct WorkerProgress {
   std::string stage;
 };
 
-/// One line of a worker's standard output: progress, or one of the two ends.
+/// One line of a worker's standard output: progress, result or problem.
 using WorkerLine = std::variant<WorkerProgress, WorkerResult, http::Problem>;
 
 std::string to_json(const WorkerRequest& request);
 Result<WorkerRequest> worker_request_from_json(std::string_view text);
 std::string to_json_line(const WorkerLine& line);
-/// Errors: the line is not one of ours (a crashing worker may write anything).
+/// Errors: the line is not valid (a crashing worker may write anything).
 Result<WorkerLine> worker_line_from_json(std::string_view text);
 
 }  // namespace semblante::jobs

@@ -23,7 +23,7 @@ std::string words_of_current_exception() {
 void caught(std::string_view where) noexcept {
   try {
     error(std::string(where) + ": " + words_of_current_exception());
-  } catch (...) {  // NOLINT(bugprone-empty-catch): without memory for the line there is none
+  } catch (...) {  // NOLINT(bugprone-empty-catch): without memory the line is dropped
   }
 }
 

@@ -7,11 +7,11 @@
 
 namespace semblante::log {
 
-/// One error line for the exception that is being handled: "<where>: <what it says>". Call it inside a catch block.
+/// Logs one error line for the current exception: "<where>: <what()>". To be called in a catch block.
 void caught(std::string_view where) noexcept;
 
-/// Runs `work`. An exception of any type is logged and ends `work` alone, not the thread that runs it. False when there
-/// was one. Every thread of the server runs its work under this: an exception that leaves a thread ends the process.
+/// Runs `work`. An exception of any type is logged and ends only `work`, not the thread. False when there was one.
+/// Every thread of the server runs its work under this, because an uncaught exception would end the process.
 template <class Work>
 bool guarded(std::string_view where, Work&& work) noexcept {
   try {
@@ -23,7 +23,7 @@ bool guarded(std::string_view where, Work&& work) noexcept {
   }
 }
 
-/// Runs the loop of a thread until it returns. One that throws is logged and, after a moment, begun again.
+/// Runs the loop of a thread until it returns. An exception is logged and, after a delay, the loop is started again.
 template <class Loop>
 void keep_running(std::string_view where, Loop loop) noexcept {
   while (!guarded(where, loop)) std::this_thread::sleep_for(std::chrono::milliseconds(100));

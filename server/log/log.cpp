@@ -35,7 +35,7 @@ void write(Level level, std::string_view message) {
   line.append(" ").append(names[static_cast<std::size_t>(level)]).append(" ");
   for (const char c : message) line.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c);
   line.push_back('\n');
-  // One write call a line keeps lines of several threads whole; a full disk must not stop the server.
+  // One write call per line keeps lines of several threads intact; a full disk must not stop the server.
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 

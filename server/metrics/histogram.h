@@ -7,22 +7,22 @@
 
 namespace semblante::metrics {
 
-/// How many of what was seen lay within each of a row of fixed bounds, as Prometheus counts them. Any thread. Whoever
-/// sees much counts into a HistogramPart of his own and adds that in one go.
+/// A histogram with fixed bounds, as in Prometheus. Any thread. Code with many values counts in its own HistogramPart
+/// and adds that at once.
 template <std::size_t Bounds>
 struct HistogramBounds {
-  std::array<double, Bounds> upper;  ///< of each bucket, inclusive, rising; a last one without bound follows
+  std::array<double, Bounds> upper;  ///< of each bucket, inclusive, rising; a last bucket without bound follows
 };
 
 /// Seconds from the moment a batch was due until the kernel had it, per subscriber.
 inline constexpr HistogramBounds<14> lateness_bounds{
     {0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.2, 0.5, 1.0, 5.0}};
 
-/// What is read of a histogram at one moment. Buckets are not cumulative here.
+/// A snapshot of a histogram. Its buckets are not cumulative.
 template <std::size_t Bounds>
 struct HistogramValues {
   std::array<std::uint64_t, Bounds + 1> buckets{};
-  double sum = 0.0;  ///< of all values, to a microsecond each
+  double sum = 0.0;  ///< of all values, each rounded to a microsecond
 
   [[nodiscard]] std::uint64_t count() const {
     std::uint64_t all = 0;

@@ -14,7 +14,7 @@
 namespace semblante::metrics {
 namespace {
 
-/// Fields of /proc/self/stat after the command's name, which may hold blanks: field 3 (the state) is the first.
+/// Fields of /proc/self/stat after the command's name, which may contain blanks: field 3 (the state) is the first.
 std::vector<std::string> stat_fields() {
   std::ifstream file("/proc/self/stat");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -36,7 +36,7 @@ std::optional<double> number(const std::vector<std::string>& fields, std::size_t
   return value;
 }
 
-/// Seconds since 1970 when the machine started.
+/// When the machine started, seconds since 1970.
 std::optional<double> boot_time() {
   std::ifstream file("/proc/stat");
   for (std::string line; std::getline(file, line);) {
@@ -55,7 +55,7 @@ std::optional<double> open_descriptors() {
        entry.increment(error))
     ++count;
   if (error || count == 0.0) return std::nullopt;
-  return count - 1.0;  // the one that reads the folder
+  return count - 1.0;  // without the descriptor that reads the folder
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ void write_process_metrics(TextWriter& writer) {
         sum(boot_time(), product(number(fields, 22), 1.0 / ticks)));
   write("process_threads", MetricType::gauge, "Threads of the process.", number(fields, 20));
   write("process_virtual_memory_bytes", MetricType::gauge, "Address space of the process.", number(fields, 23));
-  write("process_resident_memory_bytes", MetricType::gauge, "Memory of the process that lies in RAM.",
+  write("process_resident_memory_bytes", MetricType::gauge, "Resident memory of the process.",
         product(number(fields, 24), page));
   write("process_open_fds", MetricType::gauge, "Open file descriptors of the process.", open_descriptors());
   rlimit limit{};

@@ -4,8 +4,8 @@
 
 namespace semblante::metrics {
 
-/// What Prometheus' own client libraries tell of a process, under the same names: processor time, memory, descriptors,
-/// threads, start. Read from /proc at the moment; what cannot be read is left without a sample.
+/// The process metrics of Prometheus' own client libraries, with the same names: processor time, memory, descriptors,
+/// threads, start. Read from /proc by each call; values that cannot be read have no sample.
 void write_process_metrics(TextWriter& writer);
 
 }  // namespace semblante::metrics

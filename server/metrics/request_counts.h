@@ -17,21 +17,21 @@ namespace semblante::metrics {
 inline constexpr HistogramBounds<12> request_bounds{
     {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 10.0}};
 
-/// What is counted together: a method and the pattern of a route, never a path that somebody chose.
+/// The unit of counting: a method and the pattern of a route, never a path chosen by a client.
 struct RequestKind {
   std::string method, route;
 };
 
-/// Requests by kind and class of status, and how long they took. The kinds are fixed from the beginning: neither memory
-/// nor the number of series grows with what clients send. Any thread.
+/// Requests by kind and class of status, and their durations. The kinds are fixed at construction: neither memory nor
+/// the number of series depends on clients. Any thread.
 class RequestCounts {
  public:
   explicit RequestCounts(std::vector<RequestKind> kinds);
 
   /// `kind`: index into the kinds. `status`: 100 to 599.
   void count(std::size_t kind, int status, double seconds);
-  /// Two families: semblante_http_requests_total and semblante_http_request_duration_seconds. What never happened is
-  /// left out.
+  /// Two families: semblante_http_requests_total and semblante_http_request_duration_seconds. Series without events are
+  /// omitted.
   void write(TextWriter& writer) const;
 
  private:

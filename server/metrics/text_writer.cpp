@@ -22,7 +22,7 @@ std::string_view type_name(MetricType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
-/// Of HELP text and of label values; quotes are special in the latter only.
+/// Escapes HELP text and label values; quotes are special in the latter only.
 void append_escaped(std::string& out, std::string_view text, bool quoted) {
   for (const char c : text) {
     if (c == '\\')
@@ -36,7 +36,7 @@ void append_escaped(std::string& out, std::string_view text, bool quoted) {
   }
 }
 
-/// Shortest text that reads back as the same number. `plain`: without an exponent, for people who look at bounds.
+/// Shortest text that reads back as the same number. `plain`: without an exponent, for readable bounds.
 std::string to_text(double value, bool plain = false) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "+Inf" : "-Inf";

@@ -18,11 +18,11 @@ struct Label {
   std::string_view value;  ///< any UTF-8; escaped when written
 };
 
-/// Writes Prometheus' text form 0.0.4, family by family. Names are ours, so a wrong one is a mistake of ours: asserted.
+/// Writes Prometheus' text form 0.0.4, family by family. Names come from this program, so invalid ones are asserted.
 class TextWriter {
  public:
-  /// HELP and TYPE of what the samples that follow belong to. A counter's name ends in _total, nobody else's does; each
-  /// family comes once. One without samples is fine: its name is known though nothing has happened.
+  /// Begins a family with its HELP and TYPE; its samples follow. Only a counter's name ends in _total; each family is
+  /// written once. A family may have no samples, so that its name is listed before the first event.
   void family(std::string_view name, MetricType type, std::string_view help);
   void sample(std::uint64_t value, std::span<const Label> labels = {});
   void sample(double value, std::span<const Label> labels = {});

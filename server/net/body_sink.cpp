@@ -38,7 +38,8 @@ std::optional<http::Problem> BodySink::append(std::string_view piece) {
 }
 
 http::Problem BodySink::too_large(const http::BodyPlan& plan) {
-  return http::make_problem("content-too-large", "at most " + std::to_string(plan.max_bytes) + " bytes are taken here");
+  return http::make_problem("content-too-large",
+                            "at most " + std::to_string(plan.max_bytes) + " bytes are accepted here");
 }
 
 }  // namespace semblante::net

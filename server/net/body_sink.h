@@ -11,8 +11,8 @@
 
 namespace semblante::net {
 
-/// Where the body of a request goes while it arrives: into the request's memory, or into a file of its own. Both are
-/// referred to, and outlive this.
+/// Stores the body of a request while it arrives: in the request's memory, or in a temporary file. Both must outlive
+/// this object.
 class BodySink {
  public:
   BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request);
@@ -20,8 +20,7 @@ class BodySink {
   BodySink(const BodySink&) = delete;
   BodySink& operator=(const BodySink&) = delete;
 
-  /// The problem, if this piece cannot be taken: `content-too-large`, or what the application says of a
-  /// file that cannot be written.
+  /// The problem, if this piece cannot be stored: `content-too-large`, or that of Application::unwritten_body.
   [[nodiscard]] std::optional<http::Problem> append(std::string_view piece);
 
   static http::Problem too_large(const http::BodyPlan& plan);

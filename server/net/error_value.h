@@ -6,8 +6,8 @@
 
 namespace semblante::net {
 
-/// Completion token of `co_await`: the operation's error goes into `error` instead of being thrown. Every Boost from
-/// 1.74 on has it; asio::as_tuple came with 1.79.
+/// Completion token of `co_await`: stores the operation's error in `error` instead of throwing it. Available since
+/// Boost 1.74; asio::as_tuple needs 1.79.
 inline auto error_into(boost::system::error_code& error) {
   return boost::asio::redirect_error(boost::asio::use_awaitable, error);
 }

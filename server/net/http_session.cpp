@@ -31,10 +31,10 @@ namespace {
 
 using boost::system::error_code;
 
-/// Read at once, at most.
+/// Maximum bytes of one read.
 constexpr std::size_t piece_bytes = 16 * 1024;
 
-/// What `ask` returns, or the answer 500 when it throws: a fault of ours in one request ends that request alone.
+/// The result of `ask`, or a 500 when it throws: an internal error ends only its own request.
 template <class Ask>
 auto answered(const http::Request& request, Ask ask) -> decltype(ask()) {
   try {
@@ -45,7 +45,7 @@ auto answered(const http::Request& request, Ask ask) -> decltype(ask()) {
   }
 }
 
-/// Whether this asks for a WebSocket (RFC 6455 section 4.2.1); other protocols of an Upgrade are ignored.
+/// Whether this is a request for a WebSocket (RFC 6455 section 4.2.1); other protocols of an Upgrade are ignored.
 bool is_websocket_upgrade(const RequestParser& parser, const http::Request& request) {
   if (parser.version() != 11 || request.method != "GET" || !parser.upgrade()) return false;
   const auto protocols = http::split_list(request.header("Upgrade").value_or(""));
@@ -53,7 +53,7 @@ bool is_websocket_upgrade(const RequestParser& parser, const http::Request& requ
                      [](const auto& name) { return http::equal_ignoring_case(name, "websocket"); });
 }
 
-/// One connection's state between its coroutine's steps; lives in that coroutine.
+/// The state of one connection; a local object of its coroutine.
 class Session {
  public:
   Session(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state, ConnectionCount count)
@@ -74,7 +74,7 @@ class Session {
  private:
   enum class Next { again, close, gone };
 
-  /// Counts a connection that is owed an answer: a stopping server waits for those, and for WebSockets, alone.
+  /// Counts a connection with a pending answer: a shutdown waits only for those, and for WebSockets.
   class Busy {
    public:
     explicit Busy(SharedState& state) : state_(state) { ++state_.busy; }
@@ -98,7 +98,7 @@ class Session {
 
   asio::awaitable<Next> serve_one() {
     const auto& limits = state_->config.limits;
-    // Waiting for a request may be long; once it has begun, its header must come at once.
+    // The wait for a request may be long; once it has begun, its header has a short deadline.
     if (buffer_.size() == 0) {
       stream_.expires_after(limits.idle_timeout);
       if (co_await fill()) co_return Next::gone;
@@ -116,7 +116,7 @@ class Session {
 
     auto plan = answered(request, [&] { return state_->application.plan(request); });
     if (auto* refusal = std::get_if<http::Response>(&plan)) {
-      // The body is still to come: only a request without one leaves the connection usable.
+      // The body has not arrived: the connection is reusable only if the request has none.
       const bool keep = parser.is_done() && parser.keep_alive();
       co_return co_await answer(request, std::move(*refusal), parser.version(), keep);
     }
@@ -138,8 +138,7 @@ class Session {
     co_return co_await answer(request, std::move(response), parser.version(), parser.keep_alive());
   }
 
-  /// Reads what has come, at least a byte, behind what the buffer holds. The buffer's size bounds what a client can
-  /// make us keep before it is parsed.
+  /// Reads at least one byte and appends it to the buffer. The buffer's size bounds the unparsed bytes of a connection.
   asio::awaitable<error_code> fill() {
     const auto room = buffer_.max_size() - buffer_.size();
     if (room == 0) co_return beast::http::error::buffer_overflow;
@@ -150,8 +149,8 @@ class Session {
     co_return error;
   }
 
-  /// Parses as far as the next piece of the message, or reads more. Beast's own reading does the same, but parses
-  /// inside the I/O loop, where an exception ends the loop and not this coroutine.
+  /// Parses up to the next piece of the message, or reads more. Beast's own read functions parse inside the I/O loop,
+  /// where an exception would end the loop and not this coroutine.
   asio::awaitable<error_code> step(RequestParser& parser) {
     error_code error = beast::http::error::need_more;
     if (buffer_.size() >= parser.least_bytes()) buffer_.consume(parser.put(buffer_.data(), error));
@@ -172,13 +171,13 @@ class Session {
     co_return co_await answer(unknown, http::to_response(*problem), 11, false);
   }
 
-  /// Why a body was not read to its end.
+  /// The reason why a body was not read completely.
   struct Unread {
-    std::optional<http::Problem> problem;  ///< nullopt: the client is gone
+    std::optional<http::Problem> problem;  ///< nullopt: the client has disconnected
     [[nodiscard]] bool gone() const { return !problem; }
   };
 
-  /// nullopt when the body is in the request.
+  /// nullopt when the body is complete.
   asio::awaitable<std::optional<Unread>> read_body(RequestParser& parser, const http::BodyPlan& plan) {
     auto& request = parser.request();
     const auto length = parser.content_length();
@@ -187,7 +186,7 @@ class Session {
       co_return Unread{http::make_problem("length-required", "the request has neither Content-Length nor chunks")};
     if (const auto expect = request.header("Expect")) {
       if (!http::equal_ignoring_case(*expect, "100-continue"))
-        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is known")};
+        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
       stream_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
       error_code error;
@@ -203,12 +202,12 @@ class Session {
     co_return std::nullopt;
   }
 
-  /// Beast would answer these in plain text.
+  /// Checks for faults that Beast would answer in plain text.
   static std::optional<http::Response> handshake_fault(const http::Request& request) {
     constexpr std::size_t key_characters = 24;  // 16 bytes in base64
     if (request.header("Sec-WebSocket-Version").value_or("") != "13") {
       auto response = http::to_response(
-          http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the one that is spoken here"));
+          http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the only supported one"));
       response.headers["Sec-WebSocket-Version"] = "13";
       return response;
     }
@@ -223,7 +222,7 @@ class Session {
       co_return co_await answer(
           request, http::to_response(http::make_problem("malformed-request", "bytes follow the upgrade request")), 11,
           false);
-    // Last of all: a peer has a place in its stream until it is told that its connection is gone.
+    // Opened last: a peer counts in its stream until it is told that its connection is closed.
     auto opened = answered(request, [&] { return state_->application.open_websocket(request); });
     if (auto* refusal = std::get_if<http::Response>(&opened))
       co_return co_await answer(request, std::move(*refusal), 11, false);
@@ -242,7 +241,7 @@ class Session {
 
 asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state,
                                        ConnectionCount count) {
-  // Small answers and stream frames go out at once.
+  // Sends small answers and stream frames without delay.
   boost::system::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   Session session(std::move(socket), std::move(state), std::move(count));

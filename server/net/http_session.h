@@ -9,8 +9,8 @@
 
 namespace semblante::net {
 
-/// Serves one accepted connection to its end, or until it becomes a WebSocket. Everything it holds lives in this
-/// coroutine, on the strand of the socket; the handler alone runs elsewhere (worker pool), and the coroutine waits for
+/// Serves one accepted connection to its end, or until it becomes a WebSocket. All its state is local to this
+/// coroutine, on the strand of the socket; only the handler runs elsewhere (worker pool), and the coroutine waits for
 /// it.
 boost::asio::awaitable<void> serve_connection(boost::asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state,
                                               ConnectionCount count);

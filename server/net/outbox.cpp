@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 std::optional<std::size_t> Outbox::hand(std::string_view bytes) {
   const auto count = ::send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (count >= 0) return static_cast<std::size_t>(count);
-  // A signal or a kernel without memory are no reason to give up a client: both pass.
+  // A signal or a kernel without memory does not end a connection: both are temporary.
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ENOBUFS || errno == ENOMEM) return 0;
   return std::nullopt;
 }
@@ -22,7 +22,7 @@ void Outbox::fail() {
   closing_ = true;
   close_framed_ = true;
   waiting_.reset();
-  ::shutdown(descriptor_, SHUT_RDWR);  // whoever reads from it finds the end, and closes it
+  ::shutdown(descriptor_, SHUT_RDWR);  // the reader gets the end of the stream and closes the connection
 }
 
 bool Outbox::has_room(Kind kind, std::size_t bytes) const {
@@ -127,7 +127,7 @@ std::size_t Outbox::drop_state() {
   const std::lock_guard lock(mutex_);
   if (!waiting_) return 0;
   auto& items = waiting_->items;
-  // The rest of what has gone in part must follow: a frame cannot be taken back.
+  // Keeps a message that is partly sent: its frame must be completed.
   const std::size_t kept = waiting_->sent_of_first > 0 ? 1 : 0;
   const auto before = items.size();
   std::deque<Item> rest;
@@ -139,7 +139,7 @@ std::size_t Outbox::drop_state() {
   }
   items = std::move(rest);
   const auto dropped = before - items.size();
-  // Left empty it stays until flush(): the kernel did not take anything a moment ago.
+  // An empty waiting_ is kept until flush(), because the socket is still blocked.
   return dropped;
 }
 

@@ -11,26 +11,26 @@
 
 namespace semblante::net {
 
-/// Who is told what an Outbox needs done on the connection's strand. Called from any thread, without the outbox's
-/// mutex.
+/// Interface through which an Outbox requests work on the connection's strand. Called from any thread, without the
+/// outbox's mutex.
 class OutboxOwner {
  public:
   virtual ~OutboxOwner() = default;
-  /// The kernel takes no more: wait until the socket is writable, then flush().
+  /// The socket's send buffer is full: wait until it is writable, then flush().
   virtual void on_blocked() = 0;
-  /// The peer wants it closed: send a close frame with this reason, by send_control().
+  /// The peer closes the connection: send a close frame with this reason, by send_control().
   virtual void on_close(const http::CloseReason& reason) = 0;
-  /// Strand only. Both sides have said that it is over; only the socket is still to be closed.
+  /// Strand only. Both sides have sent their close frames; only the socket is still open.
   virtual void on_over() = 0;
 };
 
-/// The one writer of a WebSocket: messages of the peer, from any thread, and control frames, from the strand, go to the
-/// socket in the order they come here. A message goes to the kernel at once, by the thread that brings it; only what
-/// the kernel does not take is kept, and sent when the socket is writable again. So a client that reads costs no queue,
-/// no wake-up and no copy.
+/// The only writer of a WebSocket: messages of the peer, from any thread, and control frames, from the strand, are sent
+/// in the order of their calls. The calling thread writes a message directly to the socket; only bytes that the kernel
+/// does not accept are kept, and sent when the socket is writable again. So a client that reads costs no queue, no
+/// wake-up and no copy.
 ///
-/// The descriptor is not owned. It must be a stream socket, and detach() must be called before it is closed: a send
-/// after that touches no descriptor, so never one that was given to somebody else meanwhile.
+/// The descriptor is not owned. It must be a stream socket, and detach() must be called before it is closed: a later
+/// send does not use the descriptor, which may belong to another connection by then.
 class Outbox : public http::WebSocketSink {
  public:
   Outbox(int descriptor, http::OutboxLimits limits, std::weak_ptr<OutboxOwner> owner)
@@ -44,15 +44,15 @@ class Outbox : public http::WebSocketSink {
   void close(http::CloseReason reason, const http::SharedWire& last) override;
 
   // ---- the connection's side: its strand
-  /// What the WebSocket protocol itself sends (handshake, ping, pong, close). Never refused. After a close frame
-  /// nothing of the peer's goes out.
+  /// What the WebSocket protocol itself sends (handshake, ping, pong, close). Never refused. After a close frame no
+  /// message of the peer is sent.
   http::Sent send_control(std::string bytes);
   enum class Flushed { all, some, closed };
-  /// Sends what waits. `some`: wait for the socket again, then call again.
+  /// Sends the waiting bytes. `some`: wait for the socket again, then call again.
   Flushed flush();
-  /// No send reaches the descriptor from here on; what waits is forgotten.
+  /// No later send uses the descriptor; waiting messages are dropped.
   void detach();
-  /// The closing handshake is done: detach(), and the owner hears of it.
+  /// The closing handshake is done: calls detach() and notifies the owner.
   void finish();
   [[nodiscard]] bool detached() const;
 
@@ -62,26 +62,26 @@ class Outbox : public http::WebSocketSink {
     http::SharedWire message;
     Kind kind;
   };
-  /// There only while something waits: most connections never need it.
+  /// Allocated only while messages wait: most connections never need it.
   struct Waiting {
     std::deque<Item> items;
     std::size_t sent_of_first = 0;  ///< bytes
     std::size_t state_messages = 0, state_bytes = 0, bytes = 0;
-    std::chrono::steady_clock::time_point progress;  ///< when the kernel last took anything
+    std::chrono::steady_clock::time_point progress;  ///< when the kernel last accepted bytes
   };
 
   http::Sent send(const http::SharedWire& message, Kind kind, std::unique_lock<std::mutex>& lock);
   [[nodiscard]] bool has_room(Kind kind, std::size_t bytes) const;
   void count(const Item& item, bool comes);
-  /// What the kernel took of these bytes; nullopt: the connection is gone.
+  /// Number of these bytes that the kernel accepted; nullopt: the connection is closed.
   std::optional<std::size_t> hand(std::string_view bytes);
   void fail();
 
-  // What every send touches comes first, side by side: there are thousands of these, and none is in the cache.
-  mutable std::mutex mutex_;  ///< guards what follows
+  // The members used by every send come first, in few cache lines: there are thousands of outboxes.
+  mutable std::mutex mutex_;  ///< guards the members below
   int descriptor_;
-  bool closing_ = false;       ///< the peer's messages are not taken any more
-  bool close_framed_ = false;  ///< nothing may follow
+  bool closing_ = false;       ///< messages of the peer are refused
+  bool close_framed_ = false;  ///< a close frame was sent; nothing may follow
   bool armed_ = false;         ///< flush() will be called
   std::unique_ptr<Waiting> waiting_;
   // Never changed.

@@ -33,8 +33,8 @@ class OutboxStream {
     return socket_.async_read_some(buffers, std::forward<Handler>(handler));
   }
 
-  /// Completes when the bytes have gone to the kernel, behind all that waited: so whoever makes us answer (pings)
-  /// without reading is not read from either.
+  /// Completes when the kernel has accepted the bytes, after all waiting ones. So a client that causes answers (pings)
+  /// without reading them is not read from.
   template <class Buffers, class Handler>
   auto async_write_some(const Buffers& buffers, Handler&& handler) {
     std::string bytes(boost::asio::buffer_size(buffers), '\0');
@@ -43,10 +43,10 @@ class OutboxStream {
         Write{*this, std::move(bytes)}, handler, socket_);
   }
 
-  /// Strand only. Nothing is written after this; reading goes on, until the client closes its socket.
+  /// Strand only. Nothing is written after this; reading continues until the client closes its socket.
   void finish() { outbox_->finish(); }
 
-  /// Strand only. Nothing reaches the descriptor after this.
+  /// Strand only. The descriptor is not used after this.
   void close() {
     outbox_->detach();
     boost::system::error_code ignored;
@@ -67,7 +67,7 @@ class OutboxStream {
         const auto sent = stream.outbox_->send_control(std::move(bytes));
         step = sent == http::Sent::waits ? Step::wait : Step::done;
         closed = sent == http::Sent::closed;
-        // Never before the function that started it has returned.
+        // Posted, so that it never runs before the initiating function has returned.
         if (step == Step::done) {
           asio::post(stream.get_executor(), std::move(self));
           return;
@@ -91,10 +91,10 @@ class OutboxStream {
   std::shared_ptr<Outbox> outbox_;
 };
 
-/// Beast closes by this when its clocks run out.
+/// Called by Beast at a timeout.
 inline void beast_close_socket(OutboxStream& stream) { stream.close(); }
 
-/// Beast ends a closing handshake by this: all of ours has gone by then, see async_write_some.
+/// Called by Beast at the end of a closing handshake: all bytes have been sent by then, see async_write_some.
 template <class Handler>
 void async_teardown(boost::beast::role_type role, OutboxStream& stream, Handler&& handler) {
   stream.finish();

@@ -21,12 +21,12 @@ std::string_view view(boost::beast::string_view text) { return {text.data(), tex
 RequestParser::RequestParser(std::uint32_t max_bytes, std::uint32_t max_fields)
     : max_bytes_(max_bytes), max_fields_(max_fields) {
   header_limit(max_bytes);
-  body_limit(boost::none);  // counted by the sink
+  body_limit(boost::none);  // the sink checks the size
 }
 
 std::size_t RequestParser::least_bytes() const {
-  // "0\r\n\r\n" is the shortest end of a chunked body, so at least as many bytes are always to come. Beast asserts that
-  // it is not asked about fewer once it has seen the last chunk's size.
+  // "0\r\n\r\n" is the shortest end of a chunked body, so at least as many bytes always follow. Beast asserts that it
+  // does not get fewer after the last chunk's size.
   constexpr std::size_t shortest_end = 5;
   return is_header_done() && chunked() ? shortest_end : 1;
 }
@@ -50,7 +50,7 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
 }
 
 void RequestParser::on_field_impl(boost::beast::http::field, View name, View value, ErrorCode& error) {
-  if (is_header_done()) return;  // a trailer: nothing here has a use for one
+  if (is_header_done()) return;  // a trailer: ignored
   if (++fields_ > max_fields_) {
     problem_ = header_too_large();
     error = E::header_limit;
@@ -93,9 +93,10 @@ std::optional<http::Problem> RequestParser::problem_of(const ErrorCode& error, s
   if (error.category() != boost::beast::http::make_error_code(E::bad_value).category() || error == E::end_of_stream)
     return std::nullopt;
   if (error == E::header_limit) return header_too_large();
-  if (error == E::bad_version) return http::make_problem("http-version", "the request speaks another version");
+  if (error == E::bad_version) return http::make_problem("http-version", "the request has an unsupported version");
   if (error == E::buffer_overflow) {
-    // The line before a chunk has ended when trailers follow; it may come behind the line end of the chunk before it.
+    // If the line before a chunk is complete, the trailers are too long; that line may follow the line break of the
+    // chunk before.
     const std::size_t line = unread.starts_with("\r\n") ? 2 : 0;
     if (unread.find("\r\n", line) == std::string_view::npos)
       return http::make_problem("malformed-request",

@@ -14,29 +14,30 @@
 
 namespace semblante::net {
 
-/// Beast's HTTP/1 grammar with plain values behind it: the header becomes an http::Request, the body goes piece by
-/// piece into a sink, trailers and chunk extensions are checked and dropped. Beast's own containers are not used, since
-/// they throw on a field of more than 64 KiB, and keep trailers without a limit.
+/// Beast's HTTP/1 grammar with plain values as its output: the header becomes an http::Request, the body is passed
+/// piece by piece to a sink, trailers and chunk extensions are checked and dropped. Beast's own containers are not
+/// used, because they throw on a field of more than 64 KiB and keep trailers without a limit.
 class RequestParser : public boost::beast::http::basic_parser<true> {
  public:
   using ErrorCode = boost::system::error_code;
 
-  /// `max_bytes`: of the header, and of all chunk extensions of a body together. The caller's buffer has this size,
-  /// which bounds the line before a chunk and the trailers, since the grammar wants each of them whole. `max_fields`:
-  /// of the header, and as many query parameters; each takes some hundred bytes of memory however short it is.
+  /// `max_bytes`: limit of the header, and of all chunk extensions of a body together. The caller's buffer has this
+  /// size, which also limits the line before a chunk and the trailers, because the grammar needs each of them complete.
+  /// `max_fields`: limit of the fields of the header, and of the query parameters; each takes some hundred bytes of
+  /// memory even if it is short.
   RequestParser(std::uint32_t max_bytes, std::uint32_t max_fields);
 
-  /// The request; all but its body is there when is_header_done().
+  /// The request; complete except for its body when is_header_done().
   [[nodiscard]] http::Request& request() { return request_; }
   /// 10 or 11.
   [[nodiscard]] unsigned version() const { return version_; }
-  /// Takes the body; before the first put() after the header.
+  /// Sets the receiver of the body; to be called before the first put() after the header.
   void set_sink(BodySink& sink) { sink_ = &sink; }
-  /// Fewer bytes than these cannot be parsed yet.
+  /// Minimum number of bytes that can be parsed.
   [[nodiscard]] std::size_t least_bytes() const;
 
-  /// What the client is told about bytes on which put() failed with `error`; nullopt when it is the connection that
-  /// failed. `unread`: what the buffer still holds.
+  /// The problem for bytes on which put() failed with `error`; nullopt when the connection failed. `unread`: the rest
+  /// of the buffer.
   [[nodiscard]] std::optional<http::Problem> problem_of(const ErrorCode& error, std::string_view unread) const;
 
  private:

@@ -47,7 +47,7 @@ std::string http_date() {
   return text.data();
 }
 
-/// A header value may quote what a client sent: what could end the line is left out.
+/// A header value may quote a client: characters that could end the line are dropped.
 void append_field(std::string& out, std::string_view name, std::string_view value) {
   out.append(name).append(": ");
   for (const char c : value)
@@ -100,7 +100,7 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
     } else if (feed->finished() || state.stopping) {
       break;
     } else if (std::chrono::steady_clock::now() - last_sent >= heartbeat) {
-      // A comment line keeps proxies patient, and tells us when nobody listens any more.
+      // A comment line prevents timeouts of proxies and detects a closed connection.
       alive = co_await send(": still here\n\n");
       last_sent = std::chrono::steady_clock::now();
     } else {

@@ -34,10 +34,9 @@ struct Server::State : SharedState {
 
 namespace {
 
-/// More connections than are served: a short answer, then the door.
+/// Answers a connection over the limit with 503 and closes it.
 asio::awaitable<void> turn_away(tcp::socket socket) {
-  const auto body =
-      std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again in a moment")).body);
+  const auto body = std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again later")).body);
   const std::string text =
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/problem+json\r\nRetry-After: 1\r\nConnection: "
       "close\r\nContent-Length: " +
@@ -46,13 +45,13 @@ asio::awaitable<void> turn_away(tcp::socket socket) {
   co_await asio::async_write(socket, asio::buffer(text), error_into(ignored));
 }
 
-/// For co_spawn: an exception that ends a coroutine ends its connection alone.
+/// For co_spawn: an exception that ends a coroutine ends only its connection.
 void log_fault(const std::exception_ptr& fault) {
   if (!fault) return;
   log::guarded("a connection ended by a fault", [&] { std::rethrow_exception(fault); });
 }
 
-/// One connection, accepted and begun. False when that failed.
+/// Accepts and starts one connection. False when that failed.
 asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const std::shared_ptr<SharedState>& state) {
   boost::system::error_code error;
   auto socket = co_await acceptor.async_accept(asio::make_strand(state->io), error_into(error));
@@ -77,11 +76,11 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, std::shared_pt
     try {
       accepted = co_await accept_one(acceptor, state);
     } catch (...) {
-      log::caught("cannot accept");  // without memory, most likely
+      log::caught("cannot accept");  // most likely out of memory
     }
     if (accepted) continue;
     if (!acceptor.is_open()) co_return;
-    // Out of descriptors, most likely: wait for some to come back rather than spin.
+    // Most likely out of descriptors: waits until some are closed instead of spinning.
     asio::steady_timer pause(co_await asio::this_coro::executor, std::chrono::milliseconds(100));
     boost::system::error_code ignored;
     co_await pause.async_wait(error_into(ignored));
@@ -131,8 +130,8 @@ void Server::stop() {
     state->acceptor.close(ignored);
     state->signals.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
-    // Answers under way get the grace, idle connections nothing. Looked at in small steps, so that an idle server
-    // stops at once.
+    // Pending answers get the grace period, idle connections are closed. Polled in short steps, so that an idle server
+    // stops immediately.
     struct Step {
       static void take(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end) {
         if (state->busy == 0 || std::chrono::steady_clock::now() >= end) {

@@ -1,6 +1,7 @@
 #pragma once
 
-// Private to net/: what the listener and its sessions share. Beast itself stays in the two session sources.
+// Private to net/: the state shared by the listener and its sessions. Beast itself is used only in the two session
+// sources.
 
 #include <atomic>
 #include <memory>

@@ -23,19 +23,19 @@ namespace {
 
 using boost::system::error_code;
 
-/// After we decided to close: for the last write and the client's own close frame.
+/// Deadline of closing: for the last write and the client's own close frame.
 constexpr std::chrono::seconds closing_time{5};
-/// A short send queue: what waits in the kernel is stale for a face, and costs memory for each slow client. The kernel
-/// takes it twice, for its own bookkeeping.
+/// A small send buffer: bytes that wait in the kernel are stale for a face and cost memory for each slow client. The
+/// kernel doubles the value for its own bookkeeping.
 constexpr int send_buffer_bytes = 16 * 1024;
-/// What a close frame has room for (RFC 6455 section 5.5); Beast throws on more.
+/// Maximum length of a close frame's reason (RFC 6455 section 5.5); Beast throws on more.
 constexpr std::size_t longest_reason = 123;
-/// Room for one piece of a message: most of what clients say (hello, ping) fits into the first. An idle connection
-/// keeps no more than that.
+/// Size of the first piece of a message: most messages of clients (hello, ping) fit into it. An idle connection keeps
+/// no larger buffer.
 constexpr std::size_t first_piece_bytes = 128;
 constexpr std::size_t largest_piece_bytes = 64 * 1024;
 
-/// One WebSocket. Lives as long as one of its operations is under way; the strand of its socket guards it.
+/// One WebSocket. Owned by its pending operations; guarded by the strand of its socket.
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
  public:
   static void start(asio::ip::tcp::socket socket, std::string_view key, std::shared_ptr<http::WebSocketPeer> peer,
@@ -51,7 +51,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   }
   ~WebSocketConnection() override {
     leave();
-    if (outbox_) outbox_->detach();  // the socket is closed now, if a fault brought us here
+    if (outbox_) outbox_->detach();  // after a fault the socket is closed now
   }
   WebSocketConnection(const WebSocketConnection&) = delete;
   WebSocketConnection& operator=(const WebSocketConnection&) = delete;
@@ -64,14 +64,14 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     asio::post(executor_, [self = shared_from_this(), reason] { self->close(reason); });
   }
 
-  /// A client may leave its socket open for long after the closing handshake: its place in the stream and a server that
-  /// stops do not wait for that.
+  /// A client may keep its socket open long after the closing handshake: neither its stream nor a shutdown waits for
+  /// that.
   void on_over() override { leave(); }
 
  private:
   using Stream = websocket::stream<OutboxStream, false>;
 
-  /// The upgrade as Beast wants to see it: checked already, so that none of the client's other fields is needed.
+  /// The upgrade request for Beast: already checked, so the client's other fields are not needed.
   static beast::http::request<beast::http::empty_body> upgrade_with(std::string_view key) {
     using Field = beast::http::field;
     beast::http::request<beast::http::empty_body> request(beast::http::verb::get, "/", 11);
@@ -132,7 +132,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     read();
   }
 
-  /// False when the peer is gone, or threw: a fault of ours in one connection ends that connection alone.
+  /// False when the peer is gone, or threw: an internal error ends only its own connection.
   template <class Tell>
   bool told(Tell tell) {
     return peer_ && log::guarded("a WebSocket", tell);
@@ -158,7 +158,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
   void close(const http::CloseReason& reason) {
     if (ended_ || deadline_) return;
-    // A client that reads nothing cannot be told to go: its socket is closed when the time is over.
+    // A client that reads nothing does not get the close frame: its socket is closed at the deadline.
     deadline_.emplace(executor_, closing_time);
     deadline_->async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
@@ -170,7 +170,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     ws_->async_close(words, [self = shared_from_this()](error_code) {});
   }
 
-  /// The reader is always there until it ends, so it alone decides when all is over.
+  /// The read operation is always pending until the end, so only its completion ends the connection.
   void end() {
     if (ended_) return;
     ended_ = true;
@@ -195,9 +195,9 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   std::shared_ptr<Outbox> outbox_;
   std::optional<Stream> ws_;
   std::optional<asio::steady_timer> deadline_;
-  std::string message_;   ///< what has come of it
+  std::string message_;   ///< the part received so far
   std::size_t read_ = 0;  ///< bytes of it
-  bool open_ = false;     ///< the handshake is done
+  bool open_ = false;     ///< the handshake is complete
   bool ended_ = false;
 };
 

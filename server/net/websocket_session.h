@@ -10,8 +10,8 @@
 namespace semblante::net {
 
 /// Answers the upgrade that came with this Sec-WebSocket-Key (24 characters) and runs the WebSocket to its end, by
-/// callbacks on the strand of the socket. Returns at once: the HTTP session that led here ends, so that its buffers do
-/// not stay behind a connection that is idle for hours.
+/// callbacks on the strand of the socket. Returns immediately: the HTTP session ends, so that its buffers are not kept
+/// for a connection that is idle for hours.
 void serve_websocket(boost::asio::ip::tcp::socket socket, std::string_view key,
                      std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
                      ConnectionCount connection);

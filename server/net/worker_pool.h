@@ -13,15 +13,15 @@
 
 namespace semblante::net {
 
-/// Runs the context until it is stopped or has no more work. A handler that throws is logged, and the others go on:
-/// its operation is over, so whatever the handler held (its connection) is released.
+/// Runs the context until it is stopped or has no more work. An exception of a handler is logged, and the others
+/// continue: its operation is finished, so the objects it owned (its connection) are released.
 inline void run_guarded(boost::asio::io_context& io, std::string_view who) {
   while (!log::guarded(who, [&io] { io.run(); })) {
   }
 }
 
-/// The threads that run the handlers of the application. Like asio::thread_pool, which however ends the process when a
-/// handler throws.
+/// The threads that run the handlers of the application. Like asio::thread_pool, but an exception of a handler does not
+/// end the process.
 class WorkerPool {
  public:
   explicit WorkerPool(unsigned threads) : io_(static_cast<int>(threads)), work_(io_.get_executor()) {
@@ -35,9 +35,9 @@ class WorkerPool {
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   [[nodiscard]] boost::asio::io_context::executor_type executor() { return io_.get_executor(); }
-  /// What has not begun is dropped.
+  /// Drops handlers that have not started.
   void stop() { io_.stop(); }
-  /// Waits for what was given to the pool. One thread at a time.
+  /// Waits for all handlers of the pool. One thread at a time.
   void join() {
     work_.reset();
     for (auto& thread : threads_) thread.join();

@@ -10,16 +10,16 @@
 
 namespace semblante::recordings {
 
-/// Bytes that can be read anywhere: a file, or memory. Any thread.
+/// Random access to the bytes of a file, or of memory. Any thread.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
-  /// Fills `to` from `offset` on; false when the disk fails or the bytes are not there.
+  /// Fills `to` from `offset` on; false when the disk fails or there are too few bytes.
   [[nodiscard]] virtual bool read(std::uint64_t offset, std::span<std::uint8_t> to) const = 0;
 };
 
-/// The first `size` bytes of a file as it is now (all, if it has fewer): of one that grows, what is known to be whole.
+/// The first `size` bytes of a file with its current size (all, if it has fewer): the durable part of a growing file.
 Result<std::shared_ptr<const ByteSource>> open_bytes(const std::filesystem::path& path,
                                                      std::uint64_t size = UINT64_MAX);
 std::shared_ptr<const ByteSource> bytes_in_memory(std::vector<std::uint8_t> bytes);

@@ -63,7 +63,7 @@ void Recorder::repair(const std::string& id) {
   {
     const std::lock_guard lock(mutex_);
     const auto found = unrecorded_.find(id);
-    if (found == unrecorded_.end()) return;  // it was removed
+    if (found == unrecorded_.end()) return;  // removed meanwhile
     record = found->second;
   }
   const auto progress = repair_recording(path_of(id));
@@ -91,11 +91,13 @@ std::filesystem::path Recorder::path_of(std::string_view id) const { return fold
 std::optional<Error> Recorder::refusal() const {
   const auto full = [](std::string message) { return Error{ErrorCode::too_large, "", std::move(message)}; };
   if (store_.recording_count() >= limits_.max_recordings)
-    return full("the server keeps its " + std::to_string(limits_.max_recordings) + " recordings: delete some");
+    return full("the server has reached its limit of " + std::to_string(limits_.max_recordings) +
+                " recordings: delete some");
   if (running_count_ >= limits_.max_running)
-    return full("the server makes its " + std::to_string(limits_.max_running) + " recordings at a time");
+    return full("the server has reached its limit of " + std::to_string(limits_.max_running) +
+                " recordings at the same time");
   if (total_bytes_ >= limits_.max_total_bytes)
-    return full("the recordings take the " + std::to_string(limits_.max_total_bytes) + " bytes they may");
+    return full("the recordings have reached their limit of " + std::to_string(limits_.max_total_bytes) + " bytes");
   if (store::free_bytes(folder_) < limits_.disk_reserve)
     throw store::NotEnoughRoom("the disk has less free than the " + std::to_string(limits_.disk_reserve) +
                                " bytes that recordings leave");
@@ -120,8 +122,8 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   running->writer = std::move(*writer);
   take_over(record, running->writer->durable());
   if (key) key->resource = record.id;
-  // The file comes first: a fact never speaks of one that is not there. The next start moves one without a fact
-  // into the trash.
+  // The file is made first, so that a record never refers to a missing file. The next start moves a file without a
+  // record into the trash.
   const auto path = path_of(record.id);
   std::error_code ignored;
   try {
@@ -132,10 +134,10 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   }
   const std::lock_guard lock(mutex_);
   if (closing_) {
-    // Should the disk not take it: a recording without a file is said to be damaged by the next start.
+    // If this fails too, the next start reports a recording without a file as damaged.
     std::filesystem::remove(path, ignored);
     store_.remove_recording(record.id);
-    return Error{ErrorCode::io, "", "the server stops"};
+    return Error{ErrorCode::io, "", "the server is shutting down"};
   }
   total_bytes_ += record.bytes;
   running_.emplace(record.id, running);
@@ -203,7 +205,7 @@ std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
 
 bool Recorder::remove(std::string_view id) {
   if (!find(id)) return false;
-  pending_.with_reserve([&] { store_.check_writable(); });  // before it is ended for nothing
+  pending_.with_reserve([&] { store_.check_writable(); });  // checks the disk before the recording is ended
   const auto record = stop(id);
   if (!record || !pending_.with_reserve([&] { return store_.remove_recording(id); })) return false;
   forget_shown(std::string(id));
@@ -270,7 +272,7 @@ void Recorder::run() {
       if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
       const bool flush =
           !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
-      std::string_view must_end = ended::disk_full;  // unless it could be written
+      std::string_view must_end = ended::disk_full;  // replaced if the write succeeds
       log::guarded("recording " + running->record.id, [&] { must_end = write(*running, batches, flush); });
       if (!must_end.empty() && (reason.empty() || must_end == ended::disk_full)) reason = must_end;
       if (!reason.empty()) log::guarded("recording " + running->record.id, [&] { finish(*running, reason); });
@@ -323,7 +325,7 @@ std::string_view Recorder::write(Running& running, const std::deque<std::shared_
 }
 
 std::string_view Recorder::beyond_a_limit(const Running& running) const {
-  // A chunk more must fit, so that no limit is ever passed.
+  // One more chunk must fit, so that no limit is ever exceeded.
   constexpr std::uint64_t chunk = chunk_head_bytes + max_chunk_bytes;
   if (running.writer->durable().bytes + chunk > limits_.max_bytes) return ended::max_bytes;
   if (total_bytes_ + chunk > limits_.max_total_bytes) return ended::max_total_bytes;
@@ -345,7 +347,7 @@ void Recorder::finish(Running& running, std::string reason) {
   if (record.ended == ended::disk_full) ++failed_;
   {
     const std::lock_guard lock(mutex_);
-    record.lost = std::max(record.lost, running.dropped);  // those at its end are no gap in the file
+    record.lost = std::max(record.lost, running.dropped);  // frames dropped at the end are not counted in the file
   }
   auto shown = record;
   shown.state = store::RecordingState::recording;

@@ -21,37 +21,37 @@
 namespace semblante::recordings {
 
 struct RecorderLimits {
-  std::size_t max_recordings = 1000;                         ///< kept
-  std::size_t max_running = 64;                              ///< at a time
+  std::size_t max_recordings = 1000;                         ///< stored
+  std::size_t max_running = 64;                              ///< at the same time
   std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< of one
   std::uint64_t max_total_bytes = std::uint64_t{16} << 30U;  ///< of all together
-  std::uint64_t disk_reserve = std::uint64_t{256} << 20U;    ///< free bytes that recordings leave on the disk
-  std::size_t queued_frames = 8192;                          ///< of one, on their way to the disk
-  std::chrono::milliseconds flush_interval{500};             ///< after which frames that came are on the disk
+  std::uint64_t disk_reserve = std::uint64_t{256} << 20U;    ///< bytes that recordings leave free on the disk
+  std::size_t queued_frames = 8192;                          ///< of one recording, waiting to be written
+  std::chrono::milliseconds flush_interval{500};             ///< time until received frames are durable
 };
 
-/// Why a recording has ended, as RecordingRecord::ended.
+/// Reasons for the end of a recording, as in RecordingRecord::ended.
 namespace ended {
-inline constexpr std::string_view stopped = "stopped";  ///< somebody asked
+inline constexpr std::string_view stopped = "stopped";  ///< by a request
 inline constexpr std::string_view stream_ended = "stream-ended";
-inline constexpr std::string_view max_duration = "max-duration";  ///< that was asked for, or a day
+inline constexpr std::string_view max_duration = "max-duration";  ///< the requested one, or a day
 inline constexpr std::string_view max_bytes = "max-bytes";
 inline constexpr std::string_view max_total_bytes = "max-total-bytes";
-inline constexpr std::string_view disk_full = "disk-full";  ///< or nearly, or it failed
+inline constexpr std::string_view disk_full = "disk-full";  ///< or nearly full, or it failed
 inline constexpr std::string_view server_stopped = "server-stopped";
-inline constexpr std::string_view server_killed = "server-killed";  ///< what was durable is there
-inline constexpr std::string_view damaged = "damaged";              ///< found at a start
+inline constexpr std::string_view server_killed = "server-killed";  ///< the durable part is kept
+inline constexpr std::string_view damaged = "damaged";              ///< found damaged at a start
 }  // namespace ended
 
-/// A recording as it is now.
+/// The current state of a recording.
 struct RecordingStatus {
-  store::RecordingRecord record;  ///< of one that runs: with what is durable by now
-  std::uint64_t dropped = 0;      ///< frames that came faster than the disk took them
+  store::RecordingRecord record;  ///< while it runs: with the counts of its durable part
+  std::uint64_t dropped = 0;      ///< frames that came faster than the disk could store them
 };
 
-/// What a recording begins with.
+/// The parameters of a new recording.
 struct RecordingStart {
-  Header header;  ///< the stream now
+  Header header;  ///< the stream's current header
   std::string name;
   std::optional<std::uint64_t> max_duration;  ///< ms
 };
@@ -60,34 +60,34 @@ struct RecorderCounts {
   std::uint64_t running = 0, frames = 0, dropped = 0, bytes = 0, failed = 0;
 };
 
-/// Records streams: hears their batches, and a thread of its own writes them. Whoever brings frames waits for nothing:
-/// batches are queued, and when the disk does not keep up they are dropped, counted, and a gap in the recording. Any
-/// thread; all but the listener's calls may wait for the disk.
+/// Records streams: listens to their batches and writes them on its own thread. Sources never wait: batches are queued,
+/// and when the disk is too slow they are dropped, counted, and leave a gap in the recording. Any thread; all calls
+/// except the listener's may wait for the disk.
 class Recorder : public streams::BatchListener {
  public:
-  /// Files are `folder`/<id>.srec. Recordings that a process left running are cut off after their last whole chunk and
-  /// finished, on a full disk when it has room. Errors: io. `store` and `pending` outlive it.
+  /// Files are `folder`/<id>.srec. Recordings that an earlier process left running are truncated after their last
+  /// complete chunk and finished; on a full disk, later. Errors: io. `store` and `pending` outlive it.
   static Result<std::shared_ptr<Recorder>> open(store::Store& store, store::PendingWrites& pending,
                                                 std::filesystem::path folder, RecorderLimits limits = {});
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Begins a recording; when this returns, it is on the disk, and every batch from now on is in it. Errors: too_large
-  /// (a limit; the message says which), io. Throws DiskFull, also while the disk is nearly full, and StoreError.
+  /// Starts a recording; durable when this returns, and every later batch is in it. Errors: too_large (a limit; the
+  /// message says which), io. Throws DiskFull, also while the disk is nearly full, and StoreError.
   Result<store::RecordingRecord> start(RecordingStart start, std::optional<store::IdempotencyRecord> key);
-  /// Ends it, and returns when all of it is on the disk. One that has ended stays as it is; nothing when there is none.
-  /// Still `recording` when the end cannot be recorded now: it is a pending write.
+  /// Ends a recording, and returns when all of it is durable. Does nothing when it has ended; nullopt when it does not
+  /// exist. The state is still `recording` when its end cannot be stored yet and is a pending write.
   std::optional<store::RecordingRecord> stop(std::string_view id);
-  /// Ends all and lets no more begin; does not wait.
+  /// Ends all recordings and refuses new ones; does not wait.
   void stop_all(std::string_view reason);
-  /// The same, and waits; streams may go on calling.
+  /// The same, and waits; streams may still call the listener.
   void close();
 
   [[nodiscard]] std::optional<RecordingStatus> find(std::string_view id) const;
-  /// Of a record from the store: with what is known of it if it runs.
+  /// Adds the current counts to a record from the store, if it runs.
   [[nodiscard]] RecordingStatus with_progress(store::RecordingRecord record) const;
-  /// Ends and removes it. False when there is none. Throws StoreError.
+  /// Ends and removes a recording. False when it does not exist. Throws StoreError.
   bool remove(std::string_view id);
   [[nodiscard]] std::filesystem::path path_of(std::string_view id) const;
   [[nodiscard]] RecorderCounts counts() const;
@@ -100,14 +100,15 @@ class Recorder : public streams::BatchListener {
   using Clock = std::chrono::steady_clock;
   struct Running {
     store::RecordingRecord record;
-    std::unique_ptr<RecordingWriter> writer;         ///< the thread's own
-    std::optional<Clock::time_point> waiting_since;  ///< the thread's own: frames that are not durable
+    std::unique_ptr<RecordingWriter> writer;  ///< the thread's own
+    std::optional<Clock::time_point>
+        waiting_since;  ///< used by the thread only: since when frames wait to become durable
     std::optional<Clock::time_point> ends;
-    // With the mutex held:
+    // Guarded by the mutex:
     std::deque<std::shared_ptr<const Frames>> queue;
     std::size_t queued_frames = 0;
     std::uint64_t dropped = 0;
-    std::string stop_reason;  ///< empty: it goes on
+    std::string stop_reason;  ///< empty: running
     bool done = false;
   };
 
@@ -115,11 +116,11 @@ class Recorder : public streams::BatchListener {
   Status repair();
   void repair(const std::string& id);
   void run();
-  /// Writes what came; why the recording has to end, or nothing.
+  /// Writes the queued batches; returns the reason why the recording must end, or "".
   std::string_view write(Running& running, const std::deque<std::shared_ptr<const Frames>>& batches, bool flush);
   std::string_view beyond_a_limit(const Running& running) const;
   void finish(Running& running, std::string reason);
-  /// How a recording is shown that has ended, until this is durable: as one that runs.
+  /// Keeps the record of a recording that has ended, which is shown as running until its end is durable.
   void keep_shown(store::RecordingRecord record);
   void forget_shown(const std::string& id);
   [[nodiscard]] std::optional<Error> refusal() const;
@@ -129,17 +130,17 @@ class Recorder : public streams::BatchListener {
   store::PendingWrites& pending_;
   const std::filesystem::path folder_;
   const RecorderLimits limits_;
-  std::atomic<std::size_t> running_count_ = 0;  ///< so that streams nobody records pay nothing
+  std::atomic<std::size_t> running_count_ = 0;  ///< lets streams without a recording skip the mutex
   std::atomic<std::uint64_t> total_bytes_ = 0;  ///< of all files
   std::atomic<std::uint64_t> frames_ = 0, dropped_ = 0, failed_ = 0;
-  std::mutex starting_;  ///< one begins at a time; taken before mutex_
+  std::mutex starting_;  ///< serializes start(); locked before mutex_
   mutable std::mutex mutex_;
   std::condition_variable work_, done_;
   std::map<std::string, std::shared_ptr<Running>, std::less<>> running_;
-  std::map<std::string, store::RecordingRecord, std::less<>> unrecorded_;  ///< ended, which is not durable yet
+  std::map<std::string, store::RecordingRecord, std::less<>> unrecorded_;  ///< ended, but not durable yet
   bool has_work_ = false;
-  bool closing_ = false;   ///< no more begin
-  bool stopping_ = false;  ///< the thread ends when none runs
+  bool closing_ = false;   ///< refuses new recordings
+  bool stopping_ = false;  ///< the thread ends when no recording runs
   std::thread thread_;
 };
 

@@ -20,7 +20,7 @@ using SharedReader = std::shared_ptr<const RecordingReader>;
 
 Error nothing() { return {ErrorCode::empty, "", "there is no frame in this part of the recording"}; }
 
-/// The finest of a stream's steps, as a share of the standard's.
+/// The smallest ratio of a stream's quantizer step to the standard one.
 double fineness(const QuantizerSteps& steps) {
   double least = 1.0;
   for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap)
@@ -28,7 +28,7 @@ double fineness(const QuantizerSteps& steps) {
   return least;
 }
 
-/// Hands every face of a cut to `write`, which says how many bytes it made of it.
+/// Passes every face of a cut to `write`, which returns the number of bytes written.
 template <class Write>
 Status write_each(SharedReader reader, const Cut& cut, Write write) {
   CutFrames frames(std::move(reader), cut);
@@ -129,7 +129,7 @@ Result<std::string> export_performance(SharedReader reader, const Cut& cut, cons
 }
 
 Result<std::string> export_fap(SharedReader reader, const Cut& cut, const std::string& name) {
-  // Frames at a rate are made by the file's own rules, so that the two ways to ask for one give the same.
+  // The .fap format resamples the frames itself, so that both ways to request a rate give the same file.
   auto frames = gather(std::move(reader), {cut.from, cut.to, 0.0});
   if (!frames) return frames.error();
   FapFileStyle style;

@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t at_length = 4, at_crc = 8, at_kind = 12, at_frames = 16, at_lost = 20, at_sequence = 24,
                       at_begin = 32, at_end = 40;
-constexpr std::uint64_t max_number = 9'007'199'254'740'991U;  ///< as sequences and times of messages
+constexpr std::uint64_t max_number = 9'007'199'254'740'991U;  ///< the same limit as in messages
 
 void put_u64(std::uint8_t* to, std::uint64_t value) {
   put_u32(to, static_cast<std::uint32_t>(value));
@@ -37,7 +37,7 @@ std::uint32_t checksum(Bytes chunk) {
   return static_cast<std::uint32_t>(crc32_z(0, chunk.data() + at_kind, chunk.size() - at_kind));
 }
 
-/// Fills in the head before messages that are there already.
+/// Writes the head of a chunk whose messages are complete.
 void finish(std::vector<std::uint8_t>& chunk, const ChunkHead& head) {
   std::copy(chunk_magic.begin(), chunk_magic.end(), chunk.begin());
   put_u32(&chunk[at_length], static_cast<std::uint32_t>(chunk.size() - chunk_head_bytes));
@@ -53,18 +53,18 @@ void finish(std::vector<std::uint8_t>& chunk, const ChunkHead& head) {
 
 Error malformed(std::string message) { return {ErrorCode::malformed, "", std::move(message)}; }
 
-/// The head of a whole chunk, its length and checksum being right.
+/// The head of a complete chunk, after checking its length and checksum.
 Result<ChunkHead> checked_head(Bytes bytes, ChunkKind kind) {
   auto head = read_chunk_head(bytes);
   if (!head) return head;
   if (bytes.size() - chunk_head_bytes < head->bytes) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
   if (!has_right_checksum(bytes.first(chunk_head_bytes + head->bytes)))
-    return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
-  if (head->kind != kind) return malformed("a chunk of another kind is expected");
+    return Error{ErrorCode::mismatch, "", "the checksum of the chunk is wrong"};
+  if (head->kind != kind) return malformed("unexpected kind of chunk");
   return head;
 }
 
-/// Reads messages that have their length before them.
+/// Reads messages with a length prefix.
 class Messages {
  public:
   explicit Messages(Bytes bytes) : reader_(bytes) {}
@@ -132,11 +132,11 @@ Result<ChunkHead> read_chunk_head(Bytes bytes) {
   head.sequence = get_u64(&bytes[at_sequence]);
   head.begin = get_u64(&bytes[at_begin]);
   head.end = get_u64(&bytes[at_end]);
-  if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk says it is too long"};
+  if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk's length is over the limit"};
   if (head.kind != ChunkKind::frames) return head;
   const bool in_range = head.frames >= 1 && head.frames <= max_chunk_frames && head.sequence <= max_number &&
                         head.end <= max_number && head.begin <= head.end;
-  if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk says what cannot be"};
+  if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk has impossible values"};
   return head;
 }
 
@@ -152,7 +152,7 @@ Result<Header> read_header_chunk(Bytes bytes) {
   auto message = messages.next();
   if (!message) return message.error();
   if (auto* header = std::get_if<Header>(&*message)) return std::move(*header);
-  return malformed("the first chunk holds no header");
+  return malformed("the first chunk has no header");
 }
 
 Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
@@ -177,7 +177,7 @@ Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
   const bool in_order =
       std::is_sorted(frames.begin(), frames.end(),
                      [](const RecordingFrame& a, const RecordingFrame& b) { return a.media_time < b.media_time; });
-  if (!as_said || !in_order) return malformed("the frames of a chunk are not what its head says");
+  if (!as_said || !in_order) return malformed("the frames of a chunk do not match its head");
   return frames;
 }
 

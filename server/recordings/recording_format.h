@@ -9,28 +9,29 @@
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
 
-/// The bytes of a recording file: README.md.
+/// The byte format of a recording file; described in README.md.
 namespace semblante::recordings {
 
 /// "SEMBREC" and the version.
 inline constexpr std::array<std::uint8_t, 8> file_magic = {'S', 'E', 'M', 'B', 'R', 'E', 'C', 1};
 inline constexpr std::array<std::uint8_t, 4> chunk_magic = {'C', 'H', 'N', 'K'};
 inline constexpr std::size_t chunk_head_bytes = 48;
-/// Of the messages of a chunk: a keyframe and as many frames as a message holds, every FAP of each changed, fit in.
+/// Limit of the messages in a chunk: enough for a keyframe and the most frames of a message, with every FAP changed in
+/// each.
 inline constexpr std::uint32_t max_chunk_bytes = 512U << 10U;
 inline constexpr std::size_t max_chunk_frames = max_frames_per_message;
-/// ms after the first frame, a day; as for the frames of a message.
+/// ms after the first frame: one day, like the frames of a message.
 inline constexpr std::uint64_t max_recording_ms = max_frame_time;
 
 enum class ChunkKind : std::uint8_t { header = 1, frames = 2 };
 
-/// What stands before the messages of a chunk. Media times in ms of the stream's clock.
+/// The head of a chunk, before its messages. Media times in ms of the stream's clock.
 struct ChunkHead {
   std::uint32_t bytes = 0;  ///< of the messages
   std::uint32_t crc = 0;
   ChunkKind kind = ChunkKind::frames;
   std::uint32_t frames = 0;
-  std::uint32_t lost = 0;  ///< frames of the stream, right before these, that were not recorded
+  std::uint32_t lost = 0;  ///< number of frames directly before these that were not recorded
   std::uint64_t sequence = 0;
   std::uint64_t begin = 0, end = 0;  ///< media times of the first frame and the last
 
@@ -48,16 +49,16 @@ struct RecordingFrame {
 /// The beginning of a file: magic, and the chunk with the stream's header.
 std::vector<std::uint8_t> encode_beginning(const Header& header);
 
-/// A chunk of 1 to max_chunk_frames frames with sequence numbers without a gap and media times that do not fall.
+/// A chunk of 1 to max_chunk_frames frames with consecutive sequence numbers and media times that never decrease.
 std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, std::uint32_t lost);
 
 /// The first chunk_head_bytes of a chunk. Errors: truncated, malformed (no chunk begins here), out_of_range.
 Result<ChunkHead> read_chunk_head(std::span<const std::uint8_t> bytes);
 
-/// Of a whole chunk (head and messages).
+/// Checks a complete chunk (head and messages).
 bool has_right_checksum(std::span<const std::uint8_t> chunk);
 
-/// What a whole chunk (head and messages) holds. Errors: truncated, mismatch (the checksum is another), malformed.
+/// The content of a complete chunk (head and messages). Errors: truncated, mismatch (wrong checksum), malformed.
 Result<Header> read_header_chunk(std::span<const std::uint8_t> bytes);
 Result<std::vector<RecordingFrame>> read_frames_chunk(std::span<const std::uint8_t> bytes);
 

@@ -23,7 +23,7 @@ Result<std::vector<std::uint8_t>> read_chunk(const ByteSource& from, std::uint64
 Status check_chunk(const ByteSource& from, std::uint64_t offset, const ChunkHead& head) {
   const auto bytes = read_chunk(from, offset, head);
   if (!bytes) return bytes.error();
-  if (!has_right_checksum(*bytes)) return Error{ErrorCode::mismatch, "", "the checksum of the chunk is another"};
+  if (!has_right_checksum(*bytes)) return Error{ErrorCode::mismatch, "", "the checksum of the chunk is wrong"};
   return Unit{};
 }
 
@@ -70,7 +70,7 @@ std::optional<Error> RecordingReader::walk(Check check) {
       }
       add(chunk);
     } else if (const auto intact = check_chunk(*bytes_, chunk.offset, *head); !intact) {
-      return intact.error();  // frames whose kind was damaged must not be skipped
+      return intact.error();  // a frames chunk with a damaged kind must not be skipped
     }
     whole_bytes_ = end;
   }

@@ -11,21 +11,21 @@
 
 namespace semblante::recordings {
 
-/// Whether opening reads every byte or the heads of the chunks alone (what a checksum would say is then said on
-/// reading).
+/// Whether opening reads every byte, or only the heads of the chunks (then checksums are verified when frames are
+/// read).
 enum class Check { heads, everything };
 
-/// A recording, to be read from any moment on. Holds an index of at most `max_index` chunks, whatever the length: of
-/// longer ones every second, fourth, ... chunk, and the others are found from their heads. Immutable: any thread.
+/// A recording, readable from any time on. Keeps an index of at most `max_index` chunks for any length: of a longer
+/// recording every second, fourth, ... chunk; the others are found by reading heads. Immutable: any thread.
 class RecordingReader {
  public:
   static constexpr std::size_t max_index = 4096;
 
-  /// Takes any bytes: what follows the last whole chunk is left out, see whole_bytes(). Errors: truncated, malformed,
-  /// mismatch, unsupported (another version) where the very beginning cannot be read; io.
+  /// Accepts any bytes and ignores those after the last complete chunk, see whole_bytes(). Errors: truncated,
+  /// malformed, mismatch, unsupported (another version) when the beginning cannot be read; io.
   static Result<RecordingReader> open(std::shared_ptr<const ByteSource> bytes, Check check);
 
-  /// Of the stream, when the recording began.
+  /// The stream's header at the beginning of the recording.
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
@@ -33,16 +33,16 @@ class RecordingReader {
   [[nodiscard]] std::uint64_t begin() const { return begin_; }
   /// Time of the last frame.
   [[nodiscard]] std::uint32_t duration() const { return static_cast<std::uint32_t>(end_ - begin_); }
-  /// Up to the end of the last whole chunk.
+  /// Offset of the end of the last complete chunk.
   [[nodiscard]] std::uint64_t whole_bytes() const { return whole_bytes_; }
   [[nodiscard]] std::uint64_t torn_bytes() const { return bytes_->size() - whole_bytes_; }
-  /// Why the bytes after that are none of a chunk; empty when there are none.
+  /// Why the bytes after that are not a chunk; empty when there are none.
   [[nodiscard]] const std::string& torn_reason() const { return torn_reason_; }
 
-  /// Mean distance of two frames, ms; 40 for one alone.
+  /// Mean interval between frames, ms; 40 for a single frame.
   [[nodiscard]] double mean_interval() const;
 
-  /// The newest frame at or before `ms`; nothing in an empty recording. Errors: a chunk that is damaged, by byte.
+  /// The newest frame at or before `ms`; nullopt in an empty recording. Errors: a damaged chunk, with its byte.
   [[nodiscard]] Result<std::optional<RecordingFrame>> at(std::uint32_t ms) const;
 
  private:
@@ -67,22 +67,22 @@ class RecordingReader {
   std::shared_ptr<const ByteSource> bytes_;
   Header header_;
   std::vector<Entry> index_;
-  std::size_t stride_ = 1;  ///< chunks from one entry of the index to the next
+  std::size_t stride_ = 1;  ///< chunks per entry of the index
   std::size_t chunks_ = 0;
-  std::uint64_t first_chunk_ = 0;  ///< offset of what follows the header's chunk
+  std::uint64_t first_chunk_ = 0;  ///< offset after the header's chunk
   std::uint64_t frames_ = 0, lost_ = 0, begin_ = 0, end_ = 0, whole_bytes_ = 0, last_sequence_ = 0;
   std::string torn_reason_;
 };
 
-/// Walks through the frames of a recording in order; holds one chunk of them.
+/// Iterates over the frames of a recording in order; keeps one chunk in memory.
 class RecordingCursor {
  public:
-  /// To the first frame at or after `ms`.
+  /// Begins at the first frame at or after `ms`.
   RecordingCursor(std::shared_ptr<const RecordingReader> reader, std::uint32_t ms);
 
-  /// The frame at hand; null after the last, and where a chunk is damaged: then there is an error.
+  /// The current frame; null after the last one, and at a damaged chunk: then error() is set.
   [[nodiscard]] const RecordingFrame* frame() const;
-  /// ms after the beginning, of the frame at hand.
+  /// Time of the current frame, ms after the beginning.
   [[nodiscard]] std::uint32_t time() const;
   void advance();
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }

@@ -12,7 +12,7 @@ namespace {
 
 using SharedReader = std::shared_ptr<const RecordingReader>;
 
-/// From the levels of a recording to those of a stream; nothing where their steps are the same.
+/// Converts the levels of a recording to those of a stream; does nothing if their steps are equal.
 struct Requantizer {
   QuantizerSteps from, to;
   [[nodiscard]] FaceFrame operator()(const FaceFrame& frame) const {
@@ -41,7 +41,7 @@ class RecordingSource : public streams::FrameSource {
       : reader_(std::move(reader)), name_(std::move(name)), requantize_(requantize) {}
   [[nodiscard]] std::string_view kind() const override { return "recording"; }
   [[nodiscard]] std::string name() const override { return name_; }
-  /// To the end of the last frame, which lasts as long as the others do in the mean.
+  /// Includes the last frame, which lasts the mean interval.
   [[nodiscard]] double duration() const override {
     return reader_->duration() + std::max(1.0, std::round(reader_->mean_interval()));
   }

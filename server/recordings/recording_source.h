@@ -9,9 +9,9 @@
 
 namespace semblante::recordings {
 
-/// A recording to be played: every frame at its own time. It is read into memory whole (no disk while it plays), still
-/// encoded. `steps`: of the stream it is played into; where the recording has others, levels go to the nearest.
-/// Errors: empty (no frames), and what is wrong with a chunk.
+/// Plays a recording, every frame at its own time. The recording is read into memory completely, still encoded, so that
+/// playing needs no disk. `steps`: of the stream it is played into; if the recording has others, levels are rounded to
+/// the nearest. Errors: empty (no frames), and those of a damaged chunk.
 Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(
     const ByteSource& bytes, std::string name, const QuantizerSteps& steps = standard_quantizers());
 

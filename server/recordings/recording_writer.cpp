@@ -76,7 +76,7 @@ Status RecordingWriter::add(const Frames& batch) {
     const std::uint64_t time = std::max(last_time_, batch.media_time + frame.time);
     if (is_first) first_time_ = time;
     if (time - first_time_ > max_recording_ms)
-      return Error{ErrorCode::out_of_range, "", "a recording lasts a day at most"};
+      return Error{ErrorCode::out_of_range, "", "a recording is limited to one day"};
     waiting_.push_back({sequence, time, frame.state});
     last_sequence_ = sequence++;
     last_time_ = time;
@@ -91,7 +91,7 @@ Status RecordingWriter::flush() {
   auto status = write_at(descriptor_, durable_.bytes, chunk);
   if (status && ::fdatasync(descriptor_) != 0) status = io_error("a recording cannot be made durable");
   if (!status) {
-    // Whether it reached the disk nobody knows after a failed sync: what was durable before is what stays.
+    // After a failed sync it is unknown what is durable: only what was durable before counts.
     broken_ = true;
     if (::ftruncate(descriptor_, static_cast<off_t>(durable_.bytes)) == 0) ::fdatasync(descriptor_);
     return status;

@@ -10,36 +10,36 @@
 
 namespace semblante::recordings {
 
-/// How far a recording has come. Times in ms after the first frame.
+/// The durable part of a recording. Times in ms after the first frame.
 struct RecordingProgress {
   std::uint64_t frames = 0, lost = 0;
   std::uint64_t bytes = 0;       ///< of the file
   std::uint64_t media_time = 0;  ///< of the first frame, on the stream's clock
   std::uint32_t duration = 0;    ///< time of the last frame
-  std::uint64_t sequence = 0;    ///< of the last frame; 0: none yet
+  std::uint64_t sequence = 0;    ///< of the last frame; 0: none
 
   friend bool operator==(const RecordingProgress&, const RecordingProgress&) = default;
 };
 
-/// Writes one recording: frames are gathered, and written as a chunk by flush() or when there are as many as one takes.
-/// What flush() has returned from is on the disk. One thread.
+/// Writes one recording. Frames are gathered and written as a chunk by flush() or when the chunk is full. They are
+/// durable when flush() returns. One thread.
 class RecordingWriter {
  public:
-  /// Makes the file, which must not be there, with its beginning; durable, the folder too. Errors: io.
+  /// Creates the file, which must not exist, with its header chunk; durable, with its folder. Errors: io.
   static Result<std::unique_ptr<RecordingWriter>> create(const std::filesystem::path& path, const Header& header);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Frames of the stream, in its order. Those before them that never came are counted as lost. A time that falls
-  /// becomes that of the frame before. Errors: io (what is on the disk stays whole); out_of_range beyond a day: then
-  /// nothing more is taken.
+  /// Adds frames in the stream's order. Missing frames before them are counted as lost. A decreasing time is replaced
+  /// by that of the frame before. Errors: io (the durable part stays valid); out_of_range after one day: then no more
+  /// frames are accepted.
   Status add(const Frames& batch);
   Status flush();
 
-  /// Of what is written and durable; add() alone changes nothing in it until its chunk is full.
+  /// The durable part; add() changes it only when a chunk is full.
   [[nodiscard]] const RecordingProgress& durable() const { return durable_; }
-  /// Of the first frame that came, durable or not.
+  /// Media time of the first frame, durable or not.
   [[nodiscard]] std::optional<std::uint64_t> first_media_time() const {
     return last_sequence_ == 0 ? std::nullopt : std::optional(first_time_);
   }
@@ -51,15 +51,15 @@ class RecordingWriter {
   const int descriptor_;
   RecordingProgress durable_;
   std::vector<RecordingFrame> waiting_;
-  std::uint32_t lost_before_ = 0;    ///< the frames that wait
-  std::uint64_t last_sequence_ = 0;  ///< that came
+  std::uint32_t lost_before_ = 0;    ///< frames lost before those that are not written yet
+  std::uint64_t last_sequence_ = 0;  ///< of the last frame added
   std::uint64_t last_time_ = 0, first_time_ = 0;
   bool broken_ = false;
 };
 
-/// Cuts a file off after its last whole chunk, as a process that was killed while it wrote may have left it; durable.
-/// Returns how it is then. Errors: as RecordingReader::open; mismatch when more than a chunk would have to go: that is
-/// damage and no torn end, and nothing is changed.
+/// Truncates the file of a killed process after its last complete chunk; durable. Returns the progress of the result.
+/// Errors: like RecordingReader::open; mismatch when more than one chunk would be removed: that is damage and not a
+/// torn end, and the file is not changed.
 Result<RecordingProgress> repair_recording(const std::filesystem::path& path);
 
 }  // namespace semblante::recordings

@@ -11,7 +11,7 @@ namespace semblante {
 
 inline constexpr int report_version = 1;
 
-/// A member of the report document beside the findings: what another step found out about the same head.
+/// A member of the report document beside the findings: the results of another stage for the same head.
 struct ReportSection {
   std::string name;  ///< of the member
   nlohmann::ordered_json value;

@@ -11,13 +11,14 @@
 
 namespace semblante::settings {
 
-/// Everything that a user may set of a stream.
+/// The settings of a stream.
 struct StreamSettings {
-  std::string title;                   ///< for people; the stream's id unless set
+  std::string title;                   ///< for display; default: the stream's id
   std::string model;                   ///< id of the model it is meant for; empty: none
-  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; without it clients take that of their model
-  std::uint32_t batch_interval = 100;  ///< ms for which frames are gathered into one message; 0: each is sent at once
-  double quantizer_scale = 1.0;        ///< of its steps against the standard ones: one of quantizer_scales
+  std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; empty: clients use that of their model
+  std::uint32_t batch_interval =
+      100;                       ///< ms for which frames are gathered into one message; 0: each is sent immediately
+  double quantizer_scale = 1.0;  ///< ratio of its quantizer steps to the standard ones: one of quantizer_scales
 
   bool operator==(const StreamSettings&) const = default;
 };
@@ -32,12 +33,12 @@ void for_each_setting(Settings& settings, Visit&& visit) {
   visit(std::string_view("quantizer_scale"), settings.quantizer_scale);
 }
 
-/// The settings among the members of `object`; other members are ignored. What is absent has its default, the title
-/// that of the stream's `id`. Errors: the first setting that is wrong, with a JSON pointer. Whether the model exists is
-/// left to the caller.
+/// The settings among the members of `object`; other members are ignored. Absent settings get their defaults, the title
+/// the stream's `id`. Errors: the first invalid setting, with a JSON pointer. The caller checks whether the model
+/// exists.
 Result<StreamSettings> read_stream_settings(const nlohmann::json& object, std::string_view id);
 
-/// Adds all settings to `object`. No model, and no viseme share, are null.
+/// Adds all settings to `object`. An empty model or viseme share is written as null.
 void write_stream_settings(nlohmann::ordered_json& object, const StreamSettings& settings);
 
 }  // namespace semblante::settings

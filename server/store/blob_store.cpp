@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// io_error(), unless the disk is full: then it throws.
+/// io_error(); throws DiskFull instead when the disk is full.
 Error write_error(const fs::path& path, int error_number = errno) {
   throw_if_disk_full(path, error_number);
   return io_error(path, error_number);
 }
 
-/// Goes with the object, if it is still there.
+/// A file that is removed with this object, if it still exists.
 struct RemovedFile {
   fs::path path;
   explicit RemovedFile(fs::path p) : path(std::move(p)) {}
@@ -38,7 +38,7 @@ struct RemovedFile {
 
 Result<BlobStore> BlobStore::open(const fs::path& folder) {
   BlobStore blobs(folder);
-  // The folder itself stays: a full disk has no room for a new one.
+  // The folder itself is kept: a full disk has no room for a new one.
   std::error_code error;
   for (const auto& left : fs::directory_iterator(blobs.temporary(), error)) {
     std::error_code ignored;
@@ -46,7 +46,7 @@ Result<BlobStore> BlobStore::open(const fs::path& folder) {
   }
   try {
     if (auto made = blobs.make_folders(); !made) return made.error();
-  } catch (const DiskFull&) {  // said by who calls make_folders() again
+  } catch (const DiskFull&) {  // reported by the caller, who calls make_folders() again
   }
   return blobs;
 }
@@ -81,7 +81,7 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
   blob.sha256 = to_hex(hash.finish());
   const auto target = path_of(blob.sha256);
   std::error_code error;
-  if (is_real_file(target)) {  // the same content is there already, whole and durable
+  if (is_real_file(target)) {  // the same content is stored already, complete and durable
     fs::remove(path, error);
     return blob;
   }

@@ -13,39 +13,40 @@
 
 namespace semblante::store {
 
-/// A blob that is there: its name and size.
+/// A stored blob: its name and size.
 struct Blob {
   std::string sha256;
   std::uint64_t bytes = 0;
 };
 
-/// Bytes by their SHA-256, in a folder: blobs/ab/abcdef.... A file has its final name only when it is whole and on the
-/// disk (write, fsync, rename, fsync of the folder), so what is there is right, whenever the machine stopped. A
-/// symbolic link in the place of a blob is none. Any thread.
+/// Bytes by their SHA-256, in a folder: blobs/ab/abcdef.... A file gets its final name only when it is complete and
+/// durable (write, fsync, rename, fsync of the folder), so a blob is intact after a crash at any moment. A symbolic
+/// link in the place of a blob is not a blob. Any thread.
 class BlobStore {
  public:
-  /// Makes the folders that are missing and removes what an earlier process left half done in `temporary()`. On a full
-  /// disk make_folders() is still to be called.
+  /// Makes missing folders and removes the unfinished files of an earlier process in `temporary()`. On a full disk the
+  /// folders may still be missing: call make_folders() later.
   static Result<BlobStore> open(const std::filesystem::path& folder);
-  /// Makes the folders that are missing. Errors: io. Throws DiskFull.
+  /// Makes missing folders. Errors: io. Throws DiskFull.
   Status make_folders() const;
 
-  /// Where files may be prepared that adopt() takes over by a rename; same file system.
+  /// The folder for files that adopt() will rename into the store; on the same file system.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_ / "tmp"; }
 
-  /// Takes a file over: hashes it, makes it durable, gives it its name. The file at `path` is gone afterwards. Errors:
+  /// Moves a file into the store: hashes it, makes it durable and renames it. `path` does not exist afterwards. Errors:
   /// io. Throws DiskFull.
   Result<Blob> adopt(const std::filesystem::path& path) const;
   /// The same for bytes in memory.
   Result<Blob> put(std::string_view bytes) const;
 
-  /// The file of a blob; nullopt when it is not there. `sha256` may be any text.
+  /// The file of a blob; nullopt when it does not exist. `sha256` may be any text.
   [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view sha256) const;
-  /// At once and for good: what its owner has deleted or replaced does not go into the trash.
+  /// Deletes the file permanently; blobs that a user deleted or a job replaced do not pass through the trash.
   void remove(std::string_view sha256) const;
 
-  /// Held shared from adopt() until the fact that refers to the blob is committed, and alone from the commit that drops
-  /// the last reference until remove(): so nobody removes what another has just found to be there.
+  /// Held shared from adopt() until the record that refers to the blob is committed, and exclusively from the commit
+  /// that drops the last reference until remove(). So no thread removes a blob that another thread is about to refer
+  /// to.
   [[nodiscard]] std::shared_mutex& references() const { return *references_; }
 
  private:

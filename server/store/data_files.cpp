@@ -14,7 +14,7 @@ constexpr std::string_view blobs_folder_name = "blobs";
 constexpr std::string_view recording_extension = ".srec";
 constexpr std::size_t prefix_length = 2;  ///< of a hash, as the name of its folder
 
-/// As random_id() makes them.
+/// The form that random_id() produces.
 bool is_recording_id(std::string_view text) {
   return text.size() == 12 &&
          std::all_of(text.begin(), text.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= '2' && c <= '7'); });
@@ -27,7 +27,7 @@ void add_if_file(const fs::path& path, std::string name, std::vector<DataFile>& 
   files.push_back({std::move(name), error ? 0 : bytes});
 }
 
-/// Calls `each` for the entries of a folder; nothing when it is no folder.
+/// Calls `each` for the entries of a folder; never when `folder` is not a folder.
 template <class Each>
 Status for_each_entry(const fs::path& folder, const Each& each) {
   if (!is_real_folder(folder)) return Unit{};

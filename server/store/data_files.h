@@ -11,11 +11,11 @@
 
 namespace semblante::store {
 
-/// The files of a data folder beside the database itself. Those in the trash have the same paths below its folders.
+/// The files of a data folder other than the database file. In the trash they have the same paths, below its folders.
 enum class DataFileKind {
   blob,          ///< blobs/ab/<sha256>
   recording,     ///< recordings/<id>.srec
-  database_log,  ///< semblante.sqlite-wal: commits that are not in semblante.sqlite yet; the name is its only one
+  database_log,  ///< semblante.sqlite-wal: commits that are not in semblante.sqlite yet; there is only this one
 };
 inline constexpr std::array data_file_kinds = {DataFileKind::blob, DataFileKind::recording, DataFileKind::database_log};
 
@@ -24,20 +24,20 @@ inline constexpr std::string_view database_log_name = "semblante.sqlite-wal";
 inline constexpr std::string_view recordings_folder_name = "recordings";
 
 std::string recording_file_name(std::string_view id);
-/// Whether a server names files of the kind so.
+/// Whether `name` has the form that the server gives to files of this kind.
 bool is_data_file_name(DataFileKind kind, std::string_view name);
-/// Where the file of this name (hash or id) is below a data folder.
+/// The path of the file with this name (hash or id) below a data folder.
 std::filesystem::path data_file_path(DataFileKind kind, std::string_view name);
 
 struct DataFile {
   std::string name;  ///< hash or id
   std::uint64_t bytes = 0;
 };
-/// All files of a kind below a folder, in no order. Whatever is not named and placed as the server does it is passed
-/// over, and so are symbolic links, which are never followed. None when the folder is missing. Errors: io.
+/// All files of a kind below a folder, in no order. Files with other names or in other places are skipped, and so are
+/// symbolic links, which are never followed. Empty when the folder is missing. Errors: io.
 Result<std::vector<DataFile>> list_data_files(const std::filesystem::path& root, DataFileKind kind);
 
-/// True for a file and a folder themselves, false for a symbolic link to one.
+/// True for a file or a folder itself, false for a symbolic link to one.
 bool is_real_file(const std::filesystem::path& path);
 bool is_real_folder(const std::filesystem::path& path);
 

@@ -4,17 +4,17 @@
 
 namespace semblante::store {
 
-/// The database itself: which one it is, and whether it works. The rules of Store (store.h) hold.
+/// The database itself: its identity, and whether it works. The rules of Store (store.h) hold.
 class DatabaseFacts {
  public:
   virtual ~DatabaseFacts() = default;
 
   virtual DatabaseIdentity identity() = 0;
-  /// One start more; the identity from now on.
+  /// Increments the number of starts and returns the new identity.
   virtual DatabaseIdentity count_start() = 0;
-  /// A cheap question to the disk, for /readyz.
+  /// Makes a cheap query, for /readyz.
   virtual bool healthy() = 0;
-  /// A commit that changes nothing; throws as one that does.
+  /// Makes a commit that changes nothing; throws like any other commit.
   virtual void check_writable() = 0;
 };
 

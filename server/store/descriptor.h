@@ -1,6 +1,6 @@
 #pragma once
 
-// What std::filesystem does not offer to whoever writes files of the data folder.
+// File operations for the data folder that std::filesystem does not have.
 
 #include <cerrno>
 #include <cstring>
@@ -13,7 +13,7 @@
 
 namespace semblante::store {
 
-/// An open file, closed with the object.
+/// A file descriptor, closed by the destructor.
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
@@ -29,13 +29,13 @@ class Descriptor {
   int value_;
 };
 
-/// Makes names that came into the folder or left it durable.
+/// Makes names that were added to the folder or removed from it durable.
 inline bool sync_folder(const std::filesystem::path& folder) {
   const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
   return descriptor.ok() && ::fsync(descriptor.get()) == 0;
 }
 
-/// The error of a call on `path` that set this errno.
+/// The error of a system call on `path` that set this errno.
 inline Error io_error(const std::filesystem::path& path, int error_number = errno) {
   return {ErrorCode::io, path.string(), path.string() + ": " + std::strerror(error_number)};
 }

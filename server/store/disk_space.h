@@ -6,20 +6,20 @@
 
 namespace semblante::store {
 
-/// Bytes that this process may still write on the disk of `folder`; the largest number when the system does not say.
+/// Bytes that this process may still write on the disk of `folder`; the largest number when the system does not tell.
 std::uint64_t free_bytes(const std::filesystem::path& folder);
 
-/// A file that only takes room. Freed when the disk is full, so that a removal, which must write before it frees
-/// anything, and the end of a job or a recording can still be committed. Any thread.
+/// A file without content that reserves disk space. Released when the disk is full, so that a removal (which must write
+/// before it frees anything) and the end of a job or a recording can still be committed. Any thread.
 class DiskReserve {
  public:
   static constexpr std::uint64_t default_bytes = std::uint64_t{4} << 20U;
 
   explicit DiskReserve(std::filesystem::path file, std::uint64_t bytes = default_bytes);
 
-  /// Frees the room. False when it was free already.
+  /// Frees the reserved space. False when it was not reserved.
   bool release();
-  /// Takes the room, if it has not. Throws DiskFull or StoreError.
+  /// Reserves the space again, if necessary. Throws DiskFull or StoreError.
   void fill();
 
  private:

@@ -9,7 +9,7 @@
 namespace semblante::store {
 namespace {
 
-/// What a text says, or nothing where it does not say it.
+/// Reads `T` from a text; a default-constructed one when the text has another form.
 template <class T>
 T read_as(std::string_view text) {
   const auto document = read_json(text);
@@ -43,10 +43,11 @@ void read_facts(std::string_view text, ModelRecord& model) {
     model.box_max = json.at("max");
     model.warnings = json.at("warnings").get<std::vector<std::string>>();
     model.findings.reset();
-    // A store of before there was a doctor has none.
+    // Stores from before the doctor existed have no findings.
     if (json.contains("findings")) model.findings = json["findings"].get<FindingCounts>();
     model.parts = json.at("parts").get<std::vector<PartRecord>>();
-    if (json.contains("frame")) model.frame = frame_from_json(json["frame"]);  // nor one of before there were frames
+    if (json.contains("frame"))
+      model.frame = frame_from_json(json["frame"]);  // and those from before frames existed have no frame
     if (json.contains("frame_wish")) model.frame_wish = wish_from_json(json["frame_wish"]);
     if (json.contains("morph_targets")) json["morph_targets"].get_to(model.morph_targets);
   } catch (const nlohmann::json::exception&) {

@@ -7,8 +7,8 @@
 
 namespace semblante::store {
 
-/// Idempotency keys: a key is stored with what its request created, by that call of another part. The rules of Store
-/// (store.h) hold.
+/// Idempotency keys. A key is stored in the transaction of another part that creates what its request asks for. The
+/// rules of Store (store.h) hold.
 class KeyStore {
  public:
   virtual ~KeyStore() = default;

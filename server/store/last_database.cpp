@@ -34,7 +34,7 @@ Status write_last_database(const std::filesystem::path& data, const DatabaseIden
   const auto target = data / file_name;
   const auto path = data / (std::string(file_name) + ".part");
   const auto text = identity.id + " " + std::to_string(identity.starts) + "\n";
-  ::unlink(path.c_str());  // of a process that was killed
+  ::unlink(path.c_str());  // left by a process that was killed
   {
     const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
     if (!file.ok()) return io_error(path);

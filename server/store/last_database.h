@@ -8,10 +8,11 @@
 
 namespace semblante::store {
 
-/// Which database a server worked with last in a data folder: the file `last-database` there, one line. So a start can
-/// tell a database that is new here, another one, and an older copy. nullopt when there is none that can be read.
+/// The identity of the database that a server last used in a data folder: one line in its file `last-database`. With
+/// it, a start recognizes a new database, a different one, and an older copy. nullopt when the file is missing or not
+/// readable.
 std::optional<DatabaseIdentity> read_last_database(const std::filesystem::path& data);
-/// Durable when it returns. Errors: io; the old one stays then.
+/// Durable when it returns. Errors: io; the old identity is kept then.
 Status write_last_database(const std::filesystem::path& data, const DatabaseIdentity& identity);
 
 }  // namespace semblante::store

@@ -58,7 +58,7 @@ bool PendingWrites::attempt(Lock& lock, std::list<Item>::iterator item) {
 }
 
 void PendingWrites::attempt_all(Lock& lock, const void* owner) {
-  // By number: while one is tried the list may change.
+  // Items are found by number, because the list may change while one is tried.
   std::uint64_t last = 0;
   while (true) {
     const auto item = std::find_if(items_.begin(), items_.end(), [&](const Item& i) {
@@ -144,7 +144,7 @@ PendingStatus PendingWrites::status() const {
   PendingStatus status;
   status.writable = !fault_;
   status.disk_full = fault_ && fault_->disk_full;
-  if (!fault_) return status;  // what is in the list now is on its way for the first time
+  if (!fault_) return status;  // without a fault, all items of the list are in their first attempt
   status.count = items_.size();
   for (const auto& item : items_) {
     if (status.what.size() == most_named) break;

@@ -18,25 +18,25 @@
 
 namespace semblante::store {
 
-/// Whether the store can be written, and what waits until it can.
+/// Whether the store can be written, and the writes that are pending.
 struct PendingStatus {
-  bool writable = true;  ///< false from a write that failed until everything pending is done and a small write succeeds
-  bool disk_full = false;         ///< why it is not writable; else another fault of the disk
-  std::size_t count = 0;          ///< pending writes
-  std::vector<std::string> what;  ///< of the first few: "the end of job 4f..."
+  bool writable = true;    ///< false from a failed write until all pending writes are done and a small write succeeds
+  bool disk_full = false;  ///< the reason why it is not writable; false: another fault of the disk
+  std::size_t count = 0;   ///< pending writes
+  std::vector<std::string> what;  ///< descriptions of the first few: "the end of job 4f..."
 };
 
-/// Keeps what must reach the store and could not, and retries it until it is durable, on a thread of its own, with a
-/// growing delay. Writes of one resource are done in the order they came. Everything that is not a client's to repeat
-/// is written through here: how jobs and recordings ended, what a start found unfinished, the steps of the sample.
-/// Bounded by its callers, who have at most one write pending for each job, recording and step. Any thread.
+/// Keeps failed writes to the store and retries them until they are durable, on its own thread, with a growing delay.
+/// Writes of one resource are made in the order of their calls. Used for all writes that no client can repeat: the ends
+/// of jobs and recordings, repairs at a start, the steps of the sample. The callers bound the number of pending writes:
+/// at most one for each job, recording and step. Any thread.
 class PendingWrites {
  public:
   using Write = std::function<void()>;
 
   struct Options {
     Write probe;                     ///< a small durable write; throws StoreError. Empty: none
-    DiskReserve* reserve = nullptr;  ///< freed for what is written through here; filled again before `writable`
+    DiskReserve* reserve = nullptr;  ///< released for pending writes; filled again before the store counts as writable
     std::chrono::milliseconds first_delay{200}, longest_delay{5000};
   };
 
@@ -45,16 +45,16 @@ class PendingWrites {
   PendingWrites(const PendingWrites&) = delete;
   PendingWrites& operator=(const PendingWrites&) = delete;
 
-  /// Calls `write` now, or, when an earlier write of `resource` is pending or this one throws, again later until it
-  /// returns. It must change nothing when it throws. True when it is done. `what` names it for people.
+  /// Calls `write` now; when it throws, or an earlier write of `resource` is pending, calls it later until it returns.
+  /// `write` must change nothing when it throws. True when it is done. `what` describes it in log and /readyz.
   bool write(const void* owner, std::string resource, std::string what, Write write);
 
-  /// Tries the writes of `owner` once more and forgets those that fail again: the next start finds what they were for.
-  /// None of them is called any more when this returns.
+  /// Tries the writes of `owner` once more and drops those that fail again: the next start repairs what they were for.
+  /// None of them is called after this returns.
   void release(const void* owner);
 
-  /// Calls a client's change that makes room or ends something, with the reserve freed for it if the disk is full.
-  /// Throws as `change` does.
+  /// Calls a change that a client asked for and that frees space or ends something; the reserve is released for it if
+  /// the disk is full. Throws what `change` throws.
   template <class Change>
   auto with_reserve(Change&& change) {
     try {
@@ -67,7 +67,7 @@ class PendingWrites {
     return change();
   }
 
-  /// A write failed that nobody keeps: the store counts as not writable until a probe succeeds.
+  /// Reports a failed write that will not be retried here: the store counts as not writable until a probe succeeds.
   void note(const std::exception& fault);
 
   [[nodiscard]] PendingStatus status() const;
@@ -78,7 +78,7 @@ class PendingWrites {
     std::string resource, what;
     Write write;
     std::uint64_t number = 0;  ///< rises
-    bool busy = false;         ///< it is being tried
+    bool busy = false;         ///< an attempt is running
   };
   struct Fault {
     bool disk_full = false;
@@ -92,11 +92,11 @@ class PendingWrites {
   void probe(Lock& lock);
   void note(const Lock& lock, const std::exception& fault);
   bool release_reserve(const DiskFull& fault);
-  /// Neither being tried nor behind another of its resource.
+  /// Neither running nor preceded by another write of its resource.
   [[nodiscard]] bool is_ready(const Item& item) const;
 
   const Options options_;
-  mutable std::mutex mutex_;  ///< guards what follows; not held while a write is tried
+  mutable std::mutex mutex_;  ///< guards the members below; not held during a write
   std::condition_variable changed_;
   std::list<Item> items_;
   std::uint64_t next_number_ = 1;

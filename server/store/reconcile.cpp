@@ -20,7 +20,7 @@ Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKi
   Reconciled result;
   auto missing = known;
   const auto files = list_data_files(data, kind);
-  if (!files) {  // what cannot be seen is neither unknown nor missing
+  if (!files) {  // files that cannot be listed are neither unknown nor missing
     note_failure(result, 0, files.error());
     return result;
   }
@@ -38,7 +38,8 @@ Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKi
     if (!found) note_failure(result, 1, found.error());
     if (found && *found)
       ++result.put_back;
-    else if (!is_real_file(data / data_file_path(kind, name)))  // behind a linked folder it is there, and not listed
+    else if (!is_real_file(data /
+                           data_file_path(kind, name)))  // a file behind a linked folder exists but is not listed
       result.missing.push_back(name);
   }
   std::sort(result.missing.begin(), result.missing.end());

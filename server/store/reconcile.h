@@ -10,17 +10,17 @@
 
 namespace semblante::store {
 
-/// What became of the files of one kind.
+/// The result of reconcile() for the files of one kind.
 struct Reconciled {
   std::uint64_t moved = 0, moved_bytes = 0;  ///< into the trash: the database does not know them
   std::uint64_t put_back = 0;                ///< out of the trash: the database knows them
-  std::uint64_t failed = 0;                  ///< could not be moved, and are where they were
-  std::string fault;                         ///< of the first that failed
-  std::vector<std::string> missing;          ///< the database knows them and they are nowhere
+  std::uint64_t failed = 0;                  ///< could not be moved and were left in place
+  std::string fault;                         ///< of the first failure
+  std::vector<std::string> missing;          ///< the database knows them, but they do not exist
 };
 
-/// Called at a start, before anything reads or adds files. Moves every file of the kind that is not `known` into the
-/// trash, and moves those that are known and missing back from it. `data` is the folder of the trash.
+/// To be called at a start, before anything reads or adds files. Moves every file of the kind that is not `known` into
+/// the trash, and moves those that are known and missing back from it. `data` is the folder of the trash.
 Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKind kind,
                      const std::unordered_set<std::string>& known);
 

@@ -6,8 +6,8 @@
 
 namespace semblante::store {
 
-// What the store keeps of a model and what a worker process says of it are the same JSON. nlohmann::json finds these
-// pairs by itself, also for vectors; the reading ones throw nlohmann::json::exception on another form.
+// The store and the worker processes use the same JSON for the facts of a model. nlohmann::json finds these pairs by
+// itself, also for vectors; the readers throw nlohmann::json::exception on another form.
 
 void to_json(nlohmann::json& json, const PartRecord& part);
 void from_json(const nlohmann::json& json, PartRecord& part);

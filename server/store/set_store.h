@@ -16,12 +16,12 @@ class SetStore {
 
   virtual void create_set(const SetRecord& set, const std::optional<IdempotencyRecord>& key) = 0;
   virtual std::optional<SetRecord> set(std::string_view id) = 0;
-  /// As models().
+  /// Like models().
   virtual std::optional<std::vector<SetRecord>> sets(std::string_view after, std::size_t limit) = 0;
   virtual std::size_t set_count() = 0;
-  /// Name, kind and displacements. False when the set is gone, or `set.revision` is not its revision any more.
+  /// Replaces name, kind and displacements. False when the set does not exist or its revision is not `set.revision`.
   virtual bool put_set(const SetRecord& set) = 0;
-  /// False when there is none. Models that wear it keep their copy.
+  /// False when it does not exist. Models that use the set keep their copy.
   virtual bool remove_set(std::string_view id) = 0;
 };
 

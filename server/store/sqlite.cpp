@@ -5,7 +5,7 @@
 namespace semblante::store {
 namespace {
 
-/// The disk's faults are told from ours by SQLite's result codes: the former may be gone when the call is repeated.
+/// SQLite's result codes distinguish faults of the disk (StoreError: a retry may succeed) from faults of this program.
 [[noreturn]] void fail(sqlite3* handle, std::string_view what) {
   const std::string message = std::string(what) + ": " + (handle != nullptr ? sqlite3_errmsg(handle) : "out of memory");
   const int extended = handle != nullptr ? sqlite3_extended_errcode(handle) : SQLITE_NOMEM;
@@ -34,7 +34,7 @@ namespace {
 }  // namespace
 
 Database::Database(const std::string& file) {
-  // The store has its own mutex, so SQLite needs none.
+  // SQLite needs no mutex, because the store has one.
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
   if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
     const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory";

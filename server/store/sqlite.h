@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to store/: a thin, safe hold on SQLite's C interface.
+// Private to store/: a thin, safe wrapper of SQLite's C interface.
 
 #include <cstdint>
 #include <optional>
@@ -19,11 +19,11 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Throws DiskFull or another StoreError when the disk is the reason, else std::runtime_error; so does every function
+  /// Throws DiskFull or another StoreError for a fault of the disk, else std::runtime_error; so does every function
   /// here that runs SQL.
   void execute(const char* sql);
   [[nodiscard]] sqlite3* get() const { return handle_; }
-  /// Rows the last statement changed.
+  /// Number of rows that the last statement changed.
   [[nodiscard]] int changes() const { return sqlite3_changes(handle_); }
 
  private:
@@ -45,7 +45,7 @@ class Statement {
   }
   /// True while there is a row.
   bool step();
-  /// For statements that give no rows.
+  /// For statements that return no rows.
   void run() {
     while (step()) {
     }
@@ -79,7 +79,7 @@ class Statement {
   int next_ = 1;
 };
 
-/// BEGIN IMMEDIATE now, COMMIT when told, ROLLBACK otherwise.
+/// BEGIN IMMEDIATE in the constructor, COMMIT by commit(), otherwise ROLLBACK in the destructor.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }

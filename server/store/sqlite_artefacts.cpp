@@ -58,7 +58,7 @@ std::vector<std::string> hashes_of(Database& db, std::string_view model) {
 }
 
 std::vector<std::string> all_hashes(Database& db) {
-  // A job that has ended needs its files no more, even if the end came between that and their removal.
+  // A job that has ended does not need its files, even if the process was killed before they were removed.
   Statement statement(db,
                       "SELECT sha256 FROM artefacts "
                       "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.state IN (0, 1)");

@@ -12,18 +12,18 @@
 
 namespace semblante::store {
 
-/// In place of one of the same name.
+/// Replaces an artefact of the same name.
 void insert_artefact(Database& db, std::string_view model, const ArtefactRecord& artefact, bool of_package);
 std::optional<ArtefactRecord> find_artefact(Database& db, std::string_view model, std::string_view name);
-/// One that clients may fetch by its hash.
+/// An artefact that clients may fetch by its hash.
 std::optional<ArtefactRecord> find_public_artefact(Database& db, std::string_view sha256);
 std::vector<ArtefactRecord> list_artefacts(Database& db, std::string_view model);
 
 std::vector<std::string> hashes_of(Database& db, std::string_view model);
 std::vector<std::string> all_hashes(Database& db);
-/// Who refers to a hash, as Store::users_of.
+/// As ArtefactStore::users_of.
 std::vector<std::string> users_of_hash(Database& db, std::string_view sha256);
-/// Those of `hashes` that no artefact has.
+/// The hashes that no record refers to.
 std::vector<std::string> without_reference(Database& db, const std::vector<std::string>& hashes);
 
 }  // namespace semblante::store

@@ -82,14 +82,15 @@ std::optional<std::vector<std::string>> SqliteJobStore::finish_parametrization(
   if (!model) return std::nullopt;
   const auto old_hashes = hashes_of(db_, job.model);
   Statement(db_, "DELETE FROM artefacts WHERE model = ? AND of_package = 1").bind(job.model).run();
-  // A model that was turned has a new preview and new positions, which outlive the package.
+  // A turned model has a new preview and new positions, which are not part of the package and are kept when it is
+  // replaced.
   for (const auto& artefact : artefacts)
     insert_artefact(db_, job.model, artefact, artefact.name != "preview.glb" && artefact.name != "positions");
   Statement(db_, "INSERT OR REPLACE INTO packages VALUES(?,?,?,?,?,?,?)")
       .bind(job.model, package.parametrization, package.created, package.metric, package.weights, package.weight_bits,
             write_levels(package.levels))
       .run();
-  // A role that a user set while the job ran stays the user's.
+  // A role that a user set during the job is kept.
   for (std::size_t i = 0; i < parts.size() && i < model->parts.size(); ++i)
     if (!model->parts[i].role_by_user) model->parts[i].role = parts[i].role;
   model->warnings = warnings;

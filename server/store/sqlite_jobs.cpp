@@ -44,7 +44,7 @@ void insert_job_files(Database& db, std::string_view job, const std::vector<std:
 }
 
 void write_job(Database& db, const JobRecord& job) {
-  // A job that is to be cancelled stays so until it ends.
+  // Keeps the cancelling stage until the job ends.
   Statement(db,
             "UPDATE jobs SET state = ?1, progress = ?2, stage = CASE WHEN stage = ?3 AND ?1 IN (0, 1) THEN stage ELSE "
             "?4 END, updated = ?5, problem = ?6, attempts = ?7, result = ?8 WHERE id = ?9")

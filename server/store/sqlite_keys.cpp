@@ -4,7 +4,7 @@ namespace semblante::store {
 
 void insert_key(Database& db, const std::optional<IdempotencyRecord>& key) {
   if (!key) return;
-  // Keys are for retries: a day is long for one.
+  // Keys serve retries, which come within a day.
   db.execute("DELETE FROM idempotency WHERE created < strftime('%Y-%m-%dT%H:%M:%fZ', 'now', '-1 day')");
   Statement(db, "INSERT INTO idempotency VALUES(?,?,?,?)")
       .bind(key->key, key->fingerprint, key->resource, timestamp_now())

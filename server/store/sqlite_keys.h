@@ -10,7 +10,7 @@
 
 namespace semblante::store {
 
-/// Nothing where there is no key. Old keys go.
+/// Does nothing without a key. Removes old keys.
 void insert_key(Database& db, const std::optional<IdempotencyRecord>& key);
 std::optional<IdempotencyRecord> find_key(Database& db, std::string_view key);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to store/: rows of models with what belongs to one, and of feature points. Within the caller's transaction.
+// Private to store/: rows of models with their packages, and of feature points. Within the caller's transaction.
 
 #include <cstddef>
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace semblante::store {
 
-/// False when there is a model of that id.
+/// False when the id is taken.
 bool insert_model(Database& db, const ModelRecord& model);
 std::optional<ModelRecord> find_model(Database& db, std::string_view id);
-/// In order of creation, those after the model `after` (empty: from the first); nullopt when there is none of that id.
+/// In order of creation, after the model `after` (empty: from the first); nullopt when `after` does not exist.
 std::optional<std::vector<ModelRecord>> list_models(Database& db, std::string_view after, std::size_t limit);
 
 std::vector<FeaturePointRecord> read_points(Database& db, std::string_view model);
 void write_points(Database& db, std::string_view model, const std::vector<FeaturePointRecord>& points);
-/// Marked positions go where the model goes.
+/// Turns the marked positions as the model was turned.
 void turn_points(Database& db, std::string_view model, const Turn& r);
 
 }  // namespace semblante::store

@@ -17,9 +17,8 @@ struct SqliteConnection {
   Database db;
 };
 
-/// What every part of the embedded store works with: each public call takes the mutex once. The parts share the
-/// connection, so a transaction of one may change rows of others through their row functions (sqlite_models.h and so
-/// on).
+/// Base of every part of the embedded store: each public call locks the mutex once. The parts share the connection, so
+/// a transaction of one may change rows of others through their row functions (sqlite_models.h and so on).
 class SqlitePart {
  public:
   /// The connection must outlive this object.

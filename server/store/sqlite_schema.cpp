@@ -6,7 +6,8 @@
 namespace semblante::store {
 namespace {
 
-/// Lists that are only ever read whole (parts, warnings, boxes) are one JSON column; what is looked up has its own.
+/// Lists that are always read completely (parts, warnings, boxes) are one JSON column; values of queries have their own
+/// columns.
 constexpr const char* first_schema = R"sql(
 CREATE TABLE models(
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -41,7 +42,7 @@ CREATE TABLE idempotency(
   key TEXT PRIMARY KEY, fingerprint TEXT NOT NULL, resource TEXT NOT NULL, created TEXT NOT NULL) STRICT;
 )sql";
 
-/// Jobs may be of no model; files that one needs beside its model's are its own.
+/// Jobs may have no model; job_files are the files that a job needs besides those of its model.
 constexpr const char* with_displacement_sets = R"sql(
 CREATE TABLE new_jobs(
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -79,14 +80,14 @@ CREATE TABLE recordings(
 CREATE INDEX recordings_by_stream ON recordings(stream);
 )sql";
 
-/// One row. A file that an earlier version has written into has had a start.
+/// One row. A database of an earlier version has had at least one start.
 constexpr const char* with_identity = R"sql(
 CREATE TABLE identity(id TEXT NOT NULL, starts INTEGER NOT NULL) STRICT;
 INSERT INTO identity SELECT lower(hex(randomblob(16))), EXISTS(SELECT 1 FROM sqlite_sequence WHERE seq > 0);
 )sql";
 
-/// What a job is asked is one JSON text, whose form its kind decides; a kind has a name in place of a number. The
-/// columns are changed and not the table, since dropping it would take the rows of job_files along.
+/// The request of a job is one JSON text, whose form depends on the kind; a kind is a name instead of a number. The
+/// columns are changed in place, because dropping the table would delete the rows of job_files too.
 constexpr const char* with_job_requests = R"sql(
 ALTER TABLE jobs ADD COLUMN request TEXT NOT NULL DEFAULT '{}';
 UPDATE jobs SET request = json_object('metric', metric, 'weights', weights, 'weight_bits', weight_bits,
@@ -106,8 +107,7 @@ ALTER TABLE jobs RENAME COLUMN kind_name TO kind;
 CREATE INDEX jobs_by_model ON jobs(model, kind);
 )sql";
 
-/// Step n takes a file of version n to version n + 1; an empty file has version 0. Steps that were released never
-/// change.
+/// Step n migrates a file from version n to n + 1; an empty file has version 0. Released steps never change.
 constexpr std::array migrations = {
     first_schema,
     "ALTER TABLE feature_points ADD COLUMN proposal TEXT; ALTER TABLE jobs ADD COLUMN result TEXT NOT NULL DEFAULT ''",

@@ -1,16 +1,16 @@
 #pragma once
 
-// Private to store/: the tables, and how a file gets those of this version.
+// Private to store/: the tables, and the migrations from earlier versions.
 
 #include "core/types/result.h"
 #include "server/store/sqlite.h"
 
 namespace semblante::store {
 
-/// Brings a file of any earlier version, or an empty one, to this version's tables. `unsupported` when a later version
-/// wrote it.
+/// Migrates a file of any earlier version, or an empty one, to the tables of this version. Errors: `unsupported` when a
+/// later version wrote it.
 Status bring_up_to_date(Database& db);
-/// Writes the version down (again).
+/// Writes the schema version of this program into the file.
 void set_schema_version(Database& db);
 
 }  // namespace semblante::store

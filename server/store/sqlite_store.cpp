@@ -15,8 +15,8 @@
 namespace semblante::store {
 namespace {
 
-/// `exclusive` holds the index of the write-ahead log in memory instead of a file, which a full disk has no room for;
-/// other programs cannot look into the database meanwhile.
+/// `exclusive` keeps the index of the write-ahead log in memory, because a full disk has no room for its file; other
+/// programs cannot open the database meanwhile.
 enum class Locking { shared, exclusive };
 
 /// The parts, on one connection.
@@ -43,8 +43,8 @@ class SqliteStore final : private SqliteConnection,
         SqliteDatabaseFacts(connection()) {
     if (locking == Locking::exclusive) db.execute("PRAGMA locking_mode=EXCLUSIVE");
     db.execute("PRAGMA journal_mode=WAL");
-    // An orderly end leaves the file of the write-ahead log, empty, so that a start on a full disk needs no new one.
-    // The limit is what empties it: a log that is not empty would be applied to any database put in this one's place.
+    // The file of the write-ahead log is kept, empty, at a shutdown, so that a start on a full disk does not need a new
+    // one. The size limit empties it: a log with content would be applied to any database that replaces this one.
     int persist = 1;
     sqlite3_file_control(db.get(), nullptr, SQLITE_FCNTL_PERSIST_WAL, &persist);
     db.execute("PRAGMA journal_size_limit=16777216");

@@ -8,10 +8,10 @@
 
 namespace semblante::store {
 
-/// Opens (creates) the facts in one SQLite file: WAL, synchronous=FULL, so that a commit is on the disk when it
-/// returns. One connection behind one mutex. Error `io` with the path when it cannot be opened, `unsupported` when it
-/// was written by a later version. Throws DiskFull when it cannot be opened or created for that reason; a file that is
-/// of this version can be opened on a full disk.
+/// Opens or creates the store in one SQLite file: WAL, synchronous=FULL, so that a commit is durable when it returns.
+/// One connection behind one mutex. Error `io` with the path when it cannot be opened, `unsupported` when it was
+/// written by a later version. Throws DiskFull when it cannot be created or migrated on a full disk; a file of this
+/// version can be opened on a full disk.
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& file);
 
 }  // namespace semblante::store

@@ -5,7 +5,7 @@
 #include "server/store/records.h"
 #include "server/store/sqlite.h"
 
-// Rows of streams: a column for each setting, under the setting's name. Callers hold the store's mutex.
+// Rows of streams: one column for each setting, with the setting's name. Callers hold the store's mutex.
 namespace semblante::store {
 
 /// False when the id is taken.

@@ -13,10 +13,10 @@
 namespace semblante::store {
 
 /// Facts about models, jobs and streams. Every call that changes something returns after the change is durable: it
-/// survives the end of the process and of the machine. Calls may come from any thread but never from an I/O thread:
-/// they wait for the disk. A disk that is full or fails throws DiskFull or another StoreError: nothing was changed.
-/// Code that needs only one part depends on that part's interface. A part may have another implementation, as long as
-/// calls that change two parts stay one transaction.
+/// survives a crash of the process and of the machine. Calls may come from any thread but never from an I/O thread:
+/// they wait for the disk. A full disk throws DiskFull, a failing one another StoreError: nothing was changed. Code
+/// that needs only one part depends on that part's interface. A part may have another implementation, as long as calls
+/// that change two parts stay one transaction.
 class Store : public virtual ModelStore,
               public virtual ArtefactStore,
               public virtual JobStore,

@@ -25,7 +25,7 @@ class NotEnoughRoom : public DiskFull {
   using DiskFull::DiskFull;
 };
 
-/// Whether this errno means that there is no room.
+/// Whether this errno means that the disk or a quota is full.
 bool is_disk_full(int error_number);
 /// Throws DiskFull if this errno means it.
 void throw_if_disk_full(const std::filesystem::path& path, int error_number);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::system_clock;
 
-constexpr const char* time_format = "%Y-%m-%dT%H-%M-%SZ";  // no colons: they trouble other systems' tools
+constexpr const char* time_format = "%Y-%m-%dT%H-%M-%SZ";  // no colons, which other systems do not allow in file names
 constexpr std::size_t time_length = 20;
 constexpr int most_batches_of_a_second = 1000;
 
@@ -29,7 +29,7 @@ std::string time_name(system_clock::time_point time) {
   return {text.data(), std::strftime(text.data(), text.size(), time_format, &utc)};
 }
 
-/// When the batch of this name was made: its first 20 characters; nullopt when no server named it.
+/// The time of a batch, from the first 20 characters of its name; nullopt when a server did not name it.
 std::optional<system_clock::time_point> parse_time_name(const std::string& name) {
   if (name.size() < time_length) return std::nullopt;
   std::tm utc{};
@@ -42,13 +42,13 @@ std::optional<system_clock::time_point> parse_time_name(const std::string& name)
   return system_clock::from_time_t(timegm(&utc));
 }
 
-/// Removes the folders of a file's path below `root` that are empty now.
+/// Removes the empty folders on a file's path below `root`.
 void remove_empty_folders(const fs::path& root, const fs::path& relative) {
   for (auto folder = relative.parent_path(); !folder.empty(); folder = folder.parent_path())
     if (::rmdir((root / folder).c_str()) != 0) return;
 }
 
-/// Makes the folders of a file's path below `root`; symbolic links are none.
+/// Makes the folders on a file's path below `root`. Errors: io, also for symbolic links in place of folders.
 Status make_folders(const fs::path& root, const fs::path& relative) {
   fs::path folder = root;
   for (const auto& part : relative.parent_path()) {
@@ -59,7 +59,7 @@ Status make_folders(const fs::path& root, const fs::path& relative) {
   return Unit{};
 }
 
-/// Whether the file is there without a symbolic link on the way from `root` to it.
+/// Whether the file exists, with no symbolic link on the path from `root`.
 bool has_real_file(const fs::path& root, const fs::path& relative) {
   fs::path folder = root;
   for (const auto& part : relative.parent_path())
@@ -79,7 +79,7 @@ Trash::Trash(fs::path data, std::chrono::seconds grace, Time now) : data_(std::m
   for (const auto& batch : batches())
     for (const auto kind : data_file_kinds) {
       const auto files = list_data_files(batch, kind);
-      if (!files) continue;  // unreadable: it is left alone
+      if (!files) continue;  // not readable: the batch is kept
       for (const auto& file : *files) {
         ++files_;
         bytes_ += file.bytes;
@@ -104,7 +104,7 @@ Status Trash::make_batch() {
   const auto folder = data_ / "trash";
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return io_error(folder, errno);
   if (!is_real_folder(folder)) return io_error(folder, ENOTDIR);
-  // A batch of its own, so that no rename ever meets a file of the same name.
+  // A new batch for each start, so that no rename replaces a file of the same name.
   for (int number = 1; number <= most_batches_of_a_second; ++number) {
     auto name = time_name(start_);
     if (number > 1) name.append("-").append(std::to_string(number));
@@ -162,7 +162,7 @@ Result<bool> Trash::put_back(DataFileKind kind, std::string_view name) {
 }
 
 Status Trash::sync() {
-  for (const auto& folder : touched_)  // but for those that went when they were empty
+  for (const auto& folder : touched_)  // folders that were removed because they were empty are missing here
     if (!sync_folder(folder) && errno != ENOENT) return io_error(folder, errno);
   touched_.clear();
   return Unit{};

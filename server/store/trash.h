@@ -14,10 +14,10 @@
 
 namespace semblante::store {
 
-/// Files of the data folder that the database does not know, until their time of grace is over: a batch for each start
-/// that found some, trash/<UTC time>/, in which they have the paths they had in the data folder. A file comes and goes
-/// by one rename within a file system, so it is in one place or the other whenever the process ends. What is in the
-/// trash and was not put there by a server (other names, links) is left alone. One thread at a time; counts() any.
+/// Files of the data folder that the database does not know, kept for a grace period. Each start that finds some makes
+/// a batch, trash/<UTC time>/, in which the files keep their paths. A file is moved by one rename within a file system,
+/// so a crash leaves it in one of the two places. Files that a server did not put into the trash (other names, links)
+/// are not touched. One thread at a time; counts() any thread.
 class Trash {
  public:
   using Time = std::chrono::system_clock::time_point;
@@ -25,27 +25,29 @@ class Trash {
     std::uint64_t files = 0, bytes = 0;
   };
 
-  /// Counts what is there; makes no folder. `grace`: 0 keeps files until the start after the one that moved them.
+  /// Counts the files in the trash; makes no folder. `grace` 0 keeps files until the start after the one that moved
+  /// them.
   Trash(std::filesystem::path data, std::chrono::seconds grace, Time now = std::chrono::system_clock::now());
 
-  /// Moves a file of the data folder here. Errors: io, e.g. a data folder that spans file systems; it stays then.
+  /// Moves a file of the data folder into the trash. Errors: io, e.g. when the data folder spans file systems; the file
+  /// is left in place then.
   Status put(DataFileKind kind, std::string_view name);
-  /// Moves a file back to the data folder, the newest of the name. False when there is none here, or the data folder
-  /// has something in its place. Errors: io.
+  /// Moves the newest file of this name back to the data folder. False when the trash has none, or the data folder has
+  /// something in its place. Errors: io.
   Result<bool> put_back(DataFileKind kind, std::string_view name);
-  /// Makes what was moved durable.
+  /// Makes the moves durable.
   Status sync();
 
-  /// Removes the files whose grace is over; what was removed. A stopped purge goes on with the next.
+  /// Removes the files whose grace period is over and returns their counts. The next call continues a stopped purge.
   Counts purge(Time now, const std::stop_token& stop);
 
   [[nodiscard]] Counts counts() const { return {files_.load(), bytes_.load()}; }
-  /// Where put() of this object moves files; empty before the first.
+  /// The batch into which put() moves files; empty before the first call.
   [[nodiscard]] const std::filesystem::path& batch() const { return batch_; }
   [[nodiscard]] std::chrono::seconds grace() const { return grace_; }
 
  private:
-  /// Folders of the trash that servers made, newest first.
+  /// The batches in the trash, newest first.
   [[nodiscard]] std::vector<std::filesystem::path> batches() const;
   Status make_batch();
   /// Renames and remembers the folders for sync().

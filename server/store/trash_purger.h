@@ -8,11 +8,12 @@
 
 namespace semblante::store {
 
-/// Purges the trash now and then once an interval, on a thread of its own. The trash is its alone from now on, but for
-/// counts(). Ends, between two files, with the object.
+/// Purges the trash now and once per interval, on its own thread. From now on, others may only call counts() of the
+/// trash. The destructor stops the purge between two files.
 class TrashPurger {
  public:
-  using OnPurged = std::function<void(const Trash::Counts& removed)>;  ///< when something was; on the thread
+  using OnPurged =
+      std::function<void(const Trash::Counts& removed)>;  ///< called on the thread, only if something was removed
   TrashPurger(Trash& trash, std::chrono::milliseconds interval, OnPurged on_purged);
 
  private:

@@ -7,12 +7,12 @@
 
 namespace semblante::streams {
 
-/// Is told all frames of a stream as subscribers get them. The recorder is one.
+/// Receives all frames of a stream as its subscribers do. The recorder implements it.
 class BatchListener {
  public:
   virtual ~BatchListener() = default;
-  /// Frames were taken and are not sent yet. Called with the stream's mutex held, so it must only queue them. `epoch`
-  /// names the life of the stream; `batch` has the sequence number and media time of its first frame.
+  /// Frames were accepted and are not sent yet. Called with the stream's mutex held, so it must only queue them.
+  /// `epoch` identifies this instance of the stream; `batch` has the sequence number and media time of its first frame.
   virtual void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) = 0;
   /// The stream has ended: no frames of this epoch follow. Called as above.
   virtual void ended(std::string_view stream) = 0;

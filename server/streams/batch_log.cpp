@@ -31,8 +31,8 @@ std::shared_ptr<Batch> BatchLog::add(std::uint64_t media_time, const std::vector
     gathering_.sequence = taken_ + 1;
     gathering_.media_time = media_time;
     gathering_.frames = frames;
-    // At multiples of the interval since the stream began, so that the batches of one stream come at even distances and
-    // those of all streams at different moments.
+    // Batches are due at multiples of the interval since the stream began, so that those of one stream are evenly
+    // spaced and those of different streams are due at different times.
     const auto interval = options_.interval;
     due_ = interval.count() == 0 ? now : options_.began + ((now - options_.began) / interval + 1) * interval;
   } else {
@@ -84,7 +84,7 @@ const http::SharedWire& BatchLog::wire(Batch& batch, Coding coding) {
              append_encoded(bytes, batch.message, false, options_.steps);
              return;
            }
-           // The plain form says what changed, so its encoder must know the face before the batch.
+           // The plain form has differences, so its encoder needs the face before the batch.
            FrameEncoder encoder;
            encoder.encode(Keyframe{batch.before.sequence(), batch.before.media_time(), batch.before.state()});
            append_payload(bytes, encoder.encode(batch.message));

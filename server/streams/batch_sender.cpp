@@ -10,7 +10,7 @@ using Clock = Stream::Clock;
 
 namespace {
 
-/// After a fault of a stream, until it gets its next turn.
+/// Delay of a stream's next turn after a fault.
 constexpr std::chrono::milliseconds retry_interval{200};
 
 }  // namespace
@@ -46,7 +46,7 @@ void BatchSender::run() {
       if (turns_.empty()) {
         changed_.wait(lock);
       } else {
-        // A copy, because wait_until reads it again after the wait, when the turns may have moved in memory.
+        // A copy, because wait_until reads it again after the wait, when turns_ may have reallocated.
         const auto next = turns_.top().when;
         changed_.wait_until(lock, next);
       }

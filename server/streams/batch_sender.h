@@ -12,9 +12,9 @@
 
 namespace semblante::streams {
 
-/// The thread that closes batches when they are due and sends them. It sends one slice of a stream at a time, in turns
-/// over all streams that have something to send, so that a stream with thousands of subscribers delays no other by more
-/// than a slice.
+/// The thread that closes batches when they are due and sends them. It sends one slice at a time, alternating between
+/// all streams with something to send, so that a stream with thousands of subscribers delays another by one slice at
+/// most.
 class BatchSender {
  public:
   BatchSender();
@@ -22,7 +22,7 @@ class BatchSender {
   BatchSender(const BatchSender&) = delete;
   BatchSender& operator=(const BatchSender&) = delete;
 
-  /// Asks for a call of stream->work(when) at that time. Any thread.
+  /// Schedules a call of stream->work(when) at that time. Any thread.
   void wake(std::weak_ptr<Stream> stream, Stream::Clock::time_point when);
   /// Ends the thread; nothing is sent after it returns. Must not be called by the thread itself.
   void stop();

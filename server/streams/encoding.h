@@ -21,11 +21,11 @@ inline constexpr std::array<std::string_view, coding_count> coding_names = {"pac
 /// Appends a binary message with its WebSocket frame header.
 void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload);
 
-/// Appends one message that can be decoded alone, so no `frames` in binary form: those say what changed since the
-/// message before. `steps` are the stream's quantizer steps, by which JSON gives levels in FAP units.
+/// Appends one message that can be decoded alone, so no `frames` in binary form: those are differences to the message
+/// before. `steps` are the stream's quantizer steps, used to convert levels to FAP units in JSON.
 void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps);
 
-/// Appends the newest state of `packed`, from which a reader of that form can go on.
+/// Appends the newest state of `packed`, from which a reader of that form can continue.
 void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding, const QuantizerSteps& steps);
 
 }  // namespace semblante::streams

@@ -2,18 +2,18 @@
 
 #include <utility>
 
-#include "server/streams/stream_client.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 namespace {
 
 using Clock = FanOut::Clock;
 
-/// Subscribers served before another stream has its turn.
+/// Subscribers per slice, after which another stream has its turn.
 constexpr std::size_t slice_size = 256;
-/// The clock is read once for so many messages.
+/// The clock is read once per this number of messages.
 constexpr std::size_t messages_per_look = 16;
-/// Outboxes are scattered over memory: those of the next few targets are fetched while one is served.
+/// Outboxes are scattered over memory: those of the next few targets are prefetched.
 constexpr std::size_t looks_ahead = 4;
 
 void fetch(const http::WebSocketSink* sink) {
@@ -54,7 +54,7 @@ void FanOut::count_sent(const http::WireMessage& message) {
   counts_.bytes_sent += message.bytes.size();
 }
 
-void FanOut::add(StreamClient& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin,
+void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin,
                  bool waits, const BatchLog& log) {
   Subscriber subscriber;
   subscriber.client = &client;
@@ -67,7 +67,7 @@ void FanOut::add(StreamClient& client, http::WebSocketSink& sink, Coding coding,
   subscribers_.add(subscriber);
 }
 
-void FanOut::remove(StreamClient& client) {
+void FanOut::remove(StreamPeer& client) {
   if (client.notes().subscriber != Subscriber::nowhere) subscribers_.remove(client.notes().subscriber);
 }
 
@@ -109,12 +109,12 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
       if (target.sent == http::Sent::handed) continue;
     }
     const auto slot = target.client->notes().subscriber;
-    if (slot == Subscriber::nowhere) continue;  // it has left meanwhile
+    if (slot == Subscriber::nowhere) continue;  // removed meanwhile
     auto& subscriber = subscribers_[slot];
     subscriber.waits = true;
     if (target.sent != http::Sent::refused) continue;
     subscriber.behind = true;
-    // It may have become writable since; then nothing else would report it.
+    // The socket may have become writable meanwhile; no other event would report that.
     if (subscriber.sink->idle()) send_newest(subscriber, log);
   }
   slice.wires_ = {};
@@ -135,7 +135,7 @@ void FanOut::send_rest(BatchLog& log) {
   passes_.clear();
 }
 
-void FanOut::writable(StreamClient& client, BatchLog& log) {
+void FanOut::writable(StreamPeer& client, BatchLog& log) {
   const auto slot = client.notes().subscriber;
   if (slot == Subscriber::nowhere) return;
   auto& subscriber = subscribers_[slot];
@@ -153,8 +153,8 @@ void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
   count_sent(*newest);
 }
 
-std::vector<StreamClient*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {
-  std::vector<StreamClient*> stalled;
+std::vector<StreamPeer*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {
+  std::vector<StreamPeer*> stalled;
   for (auto& subscriber : subscribers_.all()) {
     if (!subscriber.waits) continue;
     const auto since = subscriber.sink->stalled_since();

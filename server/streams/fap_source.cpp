@@ -19,10 +19,10 @@ class FapSource : public FrameSource {
   }
   [[nodiscard]] std::string_view kind() const override { return "fap"; }
   [[nodiscard]] std::string name() const override { return name_; }
-  /// To the end of the last frame, so that a loop shows it as long as the others.
+  /// Includes the last frame, so that a loop shows it as long as the others.
   [[nodiscard]] double duration() const override { return duration_; }
   [[nodiscard]] FaceFrame frame_at(double ms, double /*played_ms*/) const override {
-    // Times of the file are rounded to milliseconds; a moment at its own rate must give exactly a frame.
+    // Times of the file are rounded to milliseconds; times at the file's own rate must give exactly its frames.
     const auto after = std::upper_bound(frames_.begin(), frames_.end(), ms + 0.5,
                                         [](double time, const TimedFrame& frame) { return time < frame.time; });
     if (after == frames_.begin()) return frames_.front().state;

@@ -5,7 +5,7 @@
 namespace semblante::streams {
 namespace {
 
-/// A flood has ended when nothing was left out for so long; and messages about one flood are so far apart.
+/// A flood has ended when no frame was dropped for this time; also the minimum interval of messages about one flood.
 constexpr std::chrono::milliseconds pause{1000};
 
 }  // namespace
@@ -31,7 +31,7 @@ FloodGuard::Verdict FloodGuard::offer(std::size_t frames, Clock::time_point now)
 }
 
 std::string FloodGuard::words() {
-  std::string text = "more than " + std::to_string(limits_.frames_per_second) + " frames a second, or " +
+  std::string text = "more than " + std::to_string(limits_.frames_per_second) + " frames per second, or " +
                      std::to_string(limits_.frames_burst) + " at once: " + std::to_string(unsaid_frames_) +
                      " frames in " + std::to_string(unsaid_messages_) + " messages were left out";
   unsaid_frames_ = 0;

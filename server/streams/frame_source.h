@@ -10,32 +10,34 @@
 
 namespace semblante::streams {
 
-/// Goes through the frames of a source that has times of its own, in order of time. For one thread.
+/// Iterates over the frames of a source with its own times, in order of time. One thread.
 class FrameCursor {
  public:
   virtual ~FrameCursor() = default;
-  /// When the current frame is due, in ms after the beginning of the source; never falls. Nothing after the last frame.
+  /// When the current frame is due, in ms after the beginning of the source; never decreases. nullopt after the last
+  /// frame.
   [[nodiscard]] virtual std::optional<double> time() const = 0;
   [[nodiscard]] virtual FaceFrame frame() const = 0;
   virtual void advance() = 0;
 };
 
-/// Something that has a face for every moment and can be played into a stream: a performance, a .fap file, a recording.
-/// Immutable, so any thread may use it. A new kind of source implements this and is given to StreamHub::play.
+/// A source that has a face for every time and can be played into a stream: a performance, a .fap file, a recording.
+/// Immutable, so any thread may use it. A new kind of source implements this interface and is passed to
+/// StreamHub::play.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   /// The kind shown in the stream's status: "performance", "fap", "recording".
   [[nodiscard]] virtual std::string_view kind() const = 0;
-  /// For people; may be empty.
+  /// For display; may be empty.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// In ms; 0: without end.
+  /// In ms; 0: endless.
   [[nodiscard]] virtual double duration() const = 0;
   /// The face `ms` after the beginning, 0..duration. `played_ms` is the same time without starting over in each round
   /// of a loop; noise uses it so as not to repeat.
   [[nodiscard]] virtual FaceFrame frame_at(double ms, double played_ms) const = 0;
-  /// For a source whose frames have times of their own: the frames from the first one at or after `ms` on. Each is
-  /// played at its time, none is left out and none is interpolated. Null: the source is played at a rate.
+  /// For a source whose frames have their own times: the frames from the first one at or after `ms` on. Each is played
+  /// at its time, none is skipped or interpolated. Null: the source is played at a rate.
   [[nodiscard]] virtual std::unique_ptr<FrameCursor> frames_from(double /*ms*/) const { return nullptr; }
   /// Approximate memory use.
   [[nodiscard]] virtual std::size_t bytes() const = 0;

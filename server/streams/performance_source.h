@@ -12,7 +12,7 @@ namespace semblante::streams {
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance,
                                                            const QuantizerSteps& steps = standard_quantizers());
 
-/// What the stream `demo` plays: the compiled-in document of demo_document.h.
+/// The source of the stream `demo`: the embedded document of demo_document.h.
 std::shared_ptr<const FrameSource> demo_source();
 
 }  // namespace semblante::streams

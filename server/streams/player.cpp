@@ -75,7 +75,7 @@ void Player::play_frames(Clock::time_point now) {
       stream_->end_playing(ticket_, false);
       return;
     }
-    // A start between two frames first sends the face that holds at that moment.
+    // A start between two frames first sends the face at that time.
     const bool leads_in = frame_ == 0 && *time > options_.from && options_.from > 0.0;
     const double played = leads_in ? 0.0 : rounds_ms_ + *time;
     next_ = time_of(played);

@@ -10,25 +10,25 @@
 
 namespace semblante::streams {
 
-inline constexpr double least_play_rate = 1.0;  ///< frames a second
+inline constexpr double least_play_rate = 1.0;  ///< frames per second
 inline constexpr double most_play_rate = 120.0;
 
 struct PlayOptions {
-  double rate = 25.0;  ///< frames a second; for a source with times of its own only a hint for clients
+  double rate = 25.0;  ///< frames per second; for a source with its own times only a hint for clients
   bool loop = false;
   double from = 0.0;       ///< ms after the beginning of the source
-  bool take_over = false;  ///< from another holder of the stream; otherwise that refuses the play
+  bool take_over = false;  ///< replaces another holder of the stream, which otherwise is an error
 };
 
 /// Plays one source into one stream. Frame k is due at begin + k / rate and carries that media time, so deadlines do
-/// not drift and the jitter of the calling thread is not in the media times. When play() is called late it sends the
-/// newest frame that is due and skips those before it. Of a source with times of its own every frame is sent, at begin
-/// + its time, late ones too. Not synchronized.
+/// not drift and the jitter of the calling thread is not in the media times. When play() is called late, it sends the
+/// newest frame that is due and skips those before it. Of a source with its own times every frame is sent, at begin +
+/// its time, even when late. Not synchronized.
 class Player {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `ticket` is from Stream::begin_playing; 0: it is the stream's own filling, sent by Stream::fill.
+  /// `ticket` is from Stream::begin_playing; 0: the stream's own filling, sent by Stream::fill.
   Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
          std::shared_ptr<const FrameSource> source, PlayOptions options, Clock::time_point begin);
 
@@ -37,16 +37,16 @@ class Player {
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] const std::string& id() const { return id_; }
 
-  /// Sends the newest frame due by now; of a source with times of its own all that are due, at most `most_at_once`.
+  /// Sends the newest frame that is due; of a source with its own times all that are due, at most `most_at_once`.
   /// Finished after the last frame, or when another source has taken over the stream.
   void play(Clock::time_point now);
 
-  /// Ends it early; the face returns to neutral.
+  /// Ends the play early; the face returns to neutral.
   void stop();
 
   [[nodiscard]] PlayStatus status(Clock::time_point now) const;
 
-  /// Bound of one call of play() for a source with times of its own; next() is then in the past.
+  /// Limit of one call of play() for a source with its own times; next() is then in the past.
   static constexpr std::size_t most_at_once = 512;
 
  private:
@@ -62,10 +62,10 @@ class Player {
   const std::shared_ptr<const FrameSource> source_;
   const PlayOptions options_;
   const Clock::time_point begin_;
-  double end_;  ///< ms after begin_; infinite when looped or without end
+  double end_;  ///< ms after begin_; infinite when looped or endless
   Clock::time_point next_;
   std::uint64_t frame_ = 0;
-  std::unique_ptr<FrameCursor> frames_;  ///< null: at a rate
+  std::unique_ptr<FrameCursor> frames_;  ///< null: played at a rate
   double rounds_ms_ = 0.0;               ///< length of the loop's earlier rounds, minus options_.from
   bool finished_ = false;
 };

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = SourceArbiter::Clock;
 
-constexpr double filling_rate = 25.0;  ///< frames a second
+constexpr double filling_rate = 25.0;  ///< frames per second
 
 SourceArbiter::Placement placement(Result<std::uint64_t> media_time) {
   if (!media_time) return SourceArbiter::Refusal{std::move(media_time).error(), std::nullopt};
@@ -40,8 +40,8 @@ Result<SourceArbiter::Claim> SourceArbiter::claim(Source source, double rate, bo
   if (holder_ && !take_over)
     return Error{ErrorCode::mismatch, "",
                  holder_->source == Source::connection
-                     ? "a connection publishes to this stream: one source at a time"
-                     : "something plays into this stream already: one source at a time"};
+                     ? "a connection publishes to this stream; only one source at a time"
+                     : "another source plays into this stream; only one source at a time"};
   const bool replaces_publisher = is_held_by(Source::connection);
   holder_ = Holder{++last_ticket_, source, rate, FloodGuard(limits_, now)};
   if (source == Source::connection) timeline_.forget_publisher();
@@ -50,7 +50,7 @@ Result<SourceArbiter::Claim> SourceArbiter::claim(Source source, double rate, bo
 
 bool SourceArbiter::release(Ticket ticket, Clock::time_point now) {
   if (!holder_ || holder_->ticket != ticket) return false;
-  // A publisher's silence began with its last frame. What plays may have been between two frames.
+  // The silence of a publisher begins with its last frame; a player may be between two frames.
   if (holder_->source != Source::connection) heard(false, now);
   holder_.reset();
   return true;
@@ -67,7 +67,7 @@ SourceArbiter::Placement SourceArbiter::place_published(Ticket ticket, std::uint
   if (const auto verdict = holder_->guard.offer(frames.size(), now); verdict != FloodGuard::Verdict::take) {
     auto refusal = too_many(holder_->guard, verdict);
     if (verdict == FloodGuard::Verdict::close) {
-      // It was heard until now, even if its frames were left out.
+      // The publisher counts as active until now, even if its frames were dropped.
       heard(false, now);
       holder_.reset();
     }
@@ -80,10 +80,11 @@ SourceArbiter::Placement SourceArbiter::place_published(Ticket ticket, std::uint
 }
 
 SourceArbiter::Placement SourceArbiter::place_request(std::vector<TimedFrame>& frames, Clock::time_point now) {
-  if (is_held_by(Source::connection)) return mismatch("a connection publishes to this stream: one source at a time");
+  if (is_held_by(Source::connection))
+    return mismatch("a connection publishes to this stream; only one source at a time");
   if (holder_)
     return mismatch("a " + std::string(source_names[static_cast<std::size_t>(holder_->source)]) +
-                    " plays into this stream: one source at a time");
+                    " plays into this stream; only one source at a time");
   if (const auto verdict = requests_.offer(frames.size(), now); verdict != FloodGuard::Verdict::take)
     return Refusal{Error{ErrorCode::too_large, "/frames", requests_.words()}, verdict};
   auto placed = placement(timeline_.place_now(media_time_at(now), frames));

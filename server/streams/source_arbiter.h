@@ -14,57 +14,57 @@
 
 namespace semblante::streams {
 
-/// Decides who may feed a stream, and what media time each frame gets. One source at a time may *hold* the stream: a
-/// connection that publishes, or what plays. Requests and the stream's own filling feed it only while nobody holds it.
-/// A state machine: events with their time in, decisions out. Not synchronized.
+/// Decides which source may feed a stream, and the media time of each frame. One source at a time may *hold* the
+/// stream: a publishing connection, or a player. Requests and the stream's own filling feed it only while no source
+/// holds it. A state machine: its inputs are events with their time, its outputs decisions. Not synchronized.
 class SourceArbiter {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Names one hold; never used twice. 0: no hold.
+  /// Identifies one hold; never reused. 0: no hold.
   using Ticket = std::uint64_t;
 
   struct Claim {
     Ticket ticket = 0;
-    bool replaces_publisher = false;  ///< a connection held the stream until now: it must be told and closed
+    bool replaces_publisher = false;  ///< a connection held the stream until now; the caller must notify and close it
   };
   struct Refusal {
     Error error;
-    /// Set when there were too many frames in too short a time: `close` (the publisher, which holds the stream no
-    /// more), `drop_and_say` or `drop` (say nothing; `error` is empty).
+    /// Set when frames came too fast: `close` (the publisher no longer holds the stream), `drop_and_say` or `drop`
+    /// (silently; `error` is empty).
     std::optional<FloodGuard::Verdict> flood;
   };
-  /// The media time of the first frame in ms, or why the frames are not taken.
+  /// The media time of the first frame in ms, or the reason why the frames are refused.
   using Placement = std::variant<std::uint64_t, Refusal>;
 
-  /// `began`: where the stream's clock is 0. `limits` hold for each publisher, and for all requests together. The
-  /// stream's own filling comes back after `filling_patience` of silence.
+  /// `began`: the zero of the stream's clock. `limits` apply to each publisher, and to all requests together. The
+  /// stream's own filling returns after `filling_patience` of silence.
   SourceArbiter(bool has_filling, FloodLimits limits, std::chrono::milliseconds filling_patience,
                 Clock::time_point began);
 
-  /// Makes `source`, which is neither request nor demo, the holder. `rate`: frames a second, 0 when unknown. Errors:
+  /// Makes `source`, which is neither request nor demo, the holder. `rate`: frames per second, 0 when unknown. Errors:
   /// `mismatch` when there is a holder and `take_over` is not set.
   Result<Claim> claim(Source source, double rate, bool take_over, Clock::time_point now);
   /// Ends a hold; false when it had ended before.
   bool release(Ticket ticket, Clock::time_point now);
 
   /// Frames of a publisher. `media_time` is by its own clock, 0: now. May change the frames' times, so that media time
-  /// never falls. Errors: `mismatch` (it holds the stream no more), `out_of_range` (the frames last too long),
+  /// never decreases. Errors: `mismatch` (it no longer holds the stream), `out_of_range` (the frames last too long),
   /// `too_large` (too many frames, see Refusal::flood, or too far ahead of the stream's clock).
   Placement place_published(Ticket ticket, std::uint64_t media_time, std::vector<TimedFrame>& frames,
                             Clock::time_point now);
   /// Frames of a request. Errors as above; `mismatch` when there is a holder.
   Placement place_request(std::vector<TimedFrame>& frames, Clock::time_point now);
-  /// One frame of what plays, due at `when`. Nothing when it holds the stream no more.
+  /// One frame of a player, due at `when`. nullopt when it no longer holds the stream.
   std::optional<std::uint64_t> place_played(Ticket ticket, Clock::time_point when, Clock::time_point now);
-  /// One frame of the stream's own filling. Nothing while another source feeds the stream, or did a moment ago.
+  /// One frame of the stream's own filling. nullopt while another source feeds the stream or did so recently.
   std::optional<std::uint64_t> place_filling(Clock::time_point when, Clock::time_point now);
 
   [[nodiscard]] bool is_held_by(Source source) const { return holder_ && holder_->source == source; }
-  /// What feeds the stream now; requests count for some seconds after the last one.
+  /// The source that feeds the stream now; requests count for some seconds after the last one.
   [[nodiscard]] std::optional<Source> active(Clock::time_point now) const;
-  /// Frames a second of what feeds the stream, 0: unknown.
+  /// Frames per second of the current source, 0: unknown.
   [[nodiscard]] double rate() const;
-  /// When the newest frame is to be seen. No later frame is seen before.
+  /// When the newest frame is to be shown. No later frame is shown earlier.
   [[nodiscard]] Clock::time_point newest_frame_time() const;
 
  private:
@@ -87,7 +87,7 @@ class SourceArbiter {
   Ticket last_ticket_ = 0;
   Timeline timeline_;
   FloodGuard requests_;
-  std::optional<Clock::time_point> last_heard_;  ///< when a source other than the filling fed the stream
+  std::optional<Clock::time_point> last_heard_;  ///< when a source other than the filling last fed the stream
   bool last_was_request_ = false;
 };
 

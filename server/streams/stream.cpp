@@ -14,15 +14,15 @@ namespace {
 using Clock = Stream::Clock;
 
 Error has_ended() { return {ErrorCode::missing, "", "the stream has ended"}; }
-Error has_no_frame() { return {ErrorCode::empty, "/frames", "there is no frame in it"}; }
+Error has_no_frame() { return {ErrorCode::empty, "/frames", "there are no frames"}; }
 
-void close_as_slow(StreamClient& client) {
-  client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: come back later"});
+void close_as_slow(StreamPeer& client) {
+  client.close(Message(End{EndReason::slow}), {1013, "reads too slowly: reconnect later"});
 }
 
 }  // namespace
 
-/// Sends what was taken when there is no sender to do it. Declared before the lock, so that it runs after the mutex has
+/// Sends accepted frames when the stream has no sender. Declared before the lock, so that it runs after the mutex has
 /// been released.
 class Stream::SendAfter {
  public:
@@ -60,7 +60,7 @@ http::OutboxLimits Stream::outbox_limits() const {
   return limits;
 }
 
-// ---- what it says about itself
+// ---- status
 
 StreamInfo Stream::info() const {
   StreamInfo info = made_;
@@ -112,7 +112,7 @@ PublishReceipt Stream::take(Source source, std::uint64_t media_time, std::vector
   counts_.clamped_values += clamped;
   counts_.frames += frames.size();
   counts_.frames_by_source[static_cast<std::size_t>(source)] += frames.size();
-  // Before they gather: a frame that a client was told is taken must be in a recording that ends now.
+  // The listener is called first: a frame that is acknowledged to a client must be in a recording that ends now.
   if (listener_) listener_->taken(made_.id, made_.epoch, {log_.taken() + 1, media_time, frames});
   if (auto full = log_.add(media_time, frames, now)) fan_out_.push(std::move(full));
   if (made_.settings.batch_interval == 0 && fan_out_.has_room()) fan_out_.push(log_.close(now, now));
@@ -135,7 +135,7 @@ Result<PublishReceipt> Stream::publish_request(const std::vector<TimedFrame>& fr
   return take(Source::request, std::get<std::uint64_t>(placement), std::move(placed), now);
 }
 
-std::optional<SourceArbiter::Refusal> Stream::publish(StreamClient& client, std::uint64_t media_time,
+std::optional<SourceArbiter::Refusal> Stream::publish(StreamPeer& client, std::uint64_t media_time,
                                                       const std::vector<TimedFrame>& frames) {
   using Refusal = SourceArbiter::Refusal;
   if (frames.empty()) return Refusal{has_no_frame(), std::nullopt};
@@ -157,7 +157,7 @@ std::optional<SourceArbiter::Refusal> Stream::publish(StreamClient& client, std:
   return std::nullopt;
 }
 
-Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over, StreamClient* publisher) {
+Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over, StreamPeer* publisher) {
   if (ended_) return has_ended();
   auto claim = sources_.claim(source, rate, take_over, Clock::now());
   if (!claim) return std::move(claim).error();
@@ -169,11 +169,11 @@ Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over,
   return claim->ticket;
 }
 
-void Stream::release(StreamClient& publisher) {
+void Stream::release(StreamPeer& publisher) {
   if (sources_.release(publisher.notes().ticket, Clock::now())) publisher_ = nullptr;
 }
 
-Result<Header> Stream::begin_publishing(StreamClient& client, bool take_over) {
+Result<Header> Stream::begin_publishing(StreamPeer& client, bool take_over) {
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
   auto ticket = claim(Source::connection, 0.0, take_over, &client);
@@ -185,7 +185,7 @@ Result<Header> Stream::begin_publishing(StreamClient& client, bool take_over) {
   return header_for(false, StreamCoding::plain);
 }
 
-void Stream::end_publishing(StreamClient& client) {
+void Stream::end_publishing(StreamPeer& client) {
   const std::lock_guard lock(mutex_);
   release(client);
 }
@@ -201,7 +201,7 @@ Status Stream::publish_playing(Ticket ticket, Clock::time_point when, const Time
   const auto now = Clock::now();
   const auto source = sources_.active(now);
   const auto media_time = ended_ ? std::nullopt : sources_.place_played(ticket, when, now);
-  if (!media_time) return Error{ErrorCode::mismatch, "", "it plays no more"};
+  if (!media_time) return Error{ErrorCode::mismatch, "", "the play has ended"};
   take(*source, *media_time, {frame}, now);
   return Unit{};
 }
@@ -228,7 +228,7 @@ Clock::time_point Stream::newest_frame_time() const {
 
 // ---- connections
 
-bool Stream::admit(const std::shared_ptr<StreamClient>& client) {
+bool Stream::admit(const std::shared_ptr<StreamPeer>& client) {
   const std::lock_guard lock(mutex_);
   if (ended_ || clients_.size() >= limits_.max_connections) {
     ++counts_.refused;
@@ -238,15 +238,15 @@ bool Stream::admit(const std::shared_ptr<StreamClient>& client) {
   return true;
 }
 
-void Stream::leave(StreamClient& client) {
-  std::shared_ptr<StreamClient> kept;  // let go of after the mutex
+void Stream::leave(StreamPeer& client) {
+  std::shared_ptr<StreamPeer> kept;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   release(client);
   fan_out_.remove(client);
   kept = clients_.remove(client);
 }
 
-void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) {
+void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) {
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
   if (ended_) return;
@@ -263,7 +263,7 @@ void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const He
   const auto sent = sink.send(begin.wire, http::Purpose::answer);
   if (sent == http::Sent::closed) return;
   if (sent == http::Sent::refused) {
-    // It has read nothing of many answers before its hello. Batches without a beginning are no use to it.
+    // It has not read the many answers before its hello, and batches without a beginning cannot be decoded.
     ++counts_.closed_slow;
     close_as_slow(client);
     return;
@@ -271,13 +271,13 @@ void Stream::subscribe(StreamClient& client, http::WebSocketSink& sink, const He
   fan_out_.add(client, sink, coding, *begin.wire, sent != http::Sent::handed, log_);
 }
 
-void Stream::writable(StreamClient& client) {
+void Stream::writable(StreamPeer& client) {
   const std::lock_guard lock(mutex_);
   fan_out_.writable(client, log_);
 }
 
 void Stream::look_after_connections() {
-  std::vector<std::shared_ptr<StreamClient>> silent;  // let go of after the mutex
+  std::vector<std::shared_ptr<StreamPeer>> silent;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   for (auto* client : fan_out_.remove_stalled(limits_.stalled, now)) {
@@ -286,14 +286,14 @@ void Stream::look_after_connections() {
   }
   silent = clients_.silent(limits_.hello_time, now);
   for (const auto& client : silent) {
-    if (client->close(Message(StreamError{StreamErrorCode::missing, "", "no hello came in time"}),
-                      {1008, "no hello came in time"}))
+    if (client->close(Message(StreamError{StreamErrorCode::missing, "", "no hello received in time"}),
+                      {1008, "no hello received in time"}))
       ++counts_.closed_silent;
   }
 }
 
 void Stream::end(EndReason reason) {
-  // The slice under way, if there is one, is finished: what follows comes behind it.
+  // Waits for the slice that is being sent: later messages must follow it.
   const std::lock_guard pass(pass_mutex_);
   const std::lock_guard lock(mutex_);
   if (ended_) return;
@@ -305,7 +305,7 @@ void Stream::end(EndReason reason) {
   const bool stops = reason == EndReason::shutdown;
   for (const auto& client : clients_.all())
     client->close(Message(End{reason}), {static_cast<std::uint16_t>(stops ? 1001 : 1000),
-                                         stops ? "the server stops" : "the stream has ended"});
+                                         stops ? "the server is shutting down" : "the stream has ended"});
   counts_.closed_ended += clients_.size();
   fan_out_.remove_all();
 }
@@ -338,7 +338,7 @@ Clock::time_point Stream::advance(Clock::time_point now) {
     clients_.begin_slice();
   }
   slice_.send(*lateness_);
-  std::vector<std::shared_ptr<StreamClient>> left;  // let go of after the mutex
+  std::vector<std::shared_ptr<StreamPeer>> left;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   left = clients_.end_slice();
   fan_out_.finish_slice(slice_, log_);

@@ -16,81 +16,81 @@
 #include "server/streams/client_list.h"
 #include "server/streams/fan_out.h"
 #include "server/streams/source_arbiter.h"
-#include "server/streams/stream_client.h"
 #include "server/streams/stream_info.h"
 #include "server/streams/stream_limits.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 
 class BatchListener;
 class BatchSender;
 
-/// One live stream, shared by the hub and its connections. It owns the mutexes and joins the parts: SourceArbiter
-/// decides whose frames are taken, BatchLog makes batches of them, FanOut brings the batches to the subscribers, and
-/// ClientList holds the connections. Batches are sent without the mutex, in slices, so that a publisher or a newcomer
-/// waits for no socket. Any thread.
+/// One live stream, shared by the hub and its connections. It owns the mutexes and connects the parts: SourceArbiter
+/// decides which frames are accepted, BatchLog makes batches of them, FanOut sends the batches to the subscribers, and
+/// ClientList owns the connections. Batches are sent without the mutex, in slices, so that publishers and new
+/// connections never wait for a socket. Any thread.
 class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> {
  public:
   using Clock = std::chrono::steady_clock;
   using Ticket = SourceArbiter::Ticket;
 
-  /// `sender` calls work(). Without one, the thread that brings frames sends them too.
+  /// `sender` calls work(). Without one, the thread that publishes frames also sends them.
   Stream(StreamInfo info, StreamLimits limits, std::shared_ptr<BatchSender> sender = nullptr);
 
   [[nodiscard]] StreamInfo info() const;
   [[nodiscard]] StreamCounts counts() const;
-  /// What clients and recordings are told about the stream. Clients are told more, about their own connection.
+  /// The header for recordings and, with members of the connection added, for clients.
   [[nodiscard]] Header header() const;
 
-  /// The listener hears all frames from now on; null: nobody. One at a time.
+  /// Sets the listener of all frames from now on; null: none. One at a time.
   void set_listener(std::shared_ptr<BatchListener> listener);
 
   // ---- sources
 
   /// Frames of a request. Errors: `mismatch` (another source holds the stream), `empty` (no frame), `out_of_range`
-  /// (they last too long), `too_large` (too many in too short a time, or too far ahead of the clock: later there is
-  /// room), `missing` (the stream has ended).
+  /// (they last too long), `too_large` (too many per second, or too far ahead of the clock: retry later), `missing`
+  /// (the stream has ended).
   Result<PublishReceipt> publish_request(const std::vector<TimedFrame>& frames);
-  /// Makes what plays, at `rate` frames a second, the holder of the stream. Errors: `mismatch` when another source
-  /// holds it and `take_over` is not set, `missing`. A publisher that is taken over from is told `replaced` and closed.
+  /// Makes a player, with `rate` frames per second, the holder of the stream. Errors: `mismatch` when another source
+  /// holds it and `take_over` is not set, `missing`. A publisher that loses the stream gets `replaced` and is closed.
   Result<Ticket> begin_playing(double rate, bool take_over, Source source = Source::performance);
-  /// One frame of what plays, due at `when`. Errors: `mismatch` when it plays no more.
+  /// One frame of a player, due at `when`. Errors: `mismatch` when the play has ended.
   Status publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame);
-  /// Does nothing when another source holds the stream by now. `neutral`: the face goes back to rest.
+  /// Does nothing when another source holds the stream already. `neutral`: the face returns to neutral.
   void end_playing(Ticket ticket, bool neutral);
-  /// A frame of the stream's own filling, which is left out while another source feeds the stream, or did a moment ago.
+  /// A frame of the stream's own filling; dropped while another source feeds the stream or did so recently.
   Status fill(Clock::time_point when, const TimedFrame& frame);
-  /// When the newest frame is to be seen. A source with times of its own begins no earlier, because media time never
-  /// falls.
+  /// When the newest frame is to be shown. A source with its own times begins no earlier, because media time never
+  /// decreases.
   [[nodiscard]] Clock::time_point newest_frame_time() const;
 
   // ---- connections
 
-  /// A new connection, before its hello. False when there are as many as the limit says, or the stream has ended.
-  bool admit(const std::shared_ptr<StreamClient>& client);
+  /// Adds a new connection, before its hello. False when the limit of connections is reached or the stream has ended.
+  bool admit(const std::shared_ptr<StreamPeer>& client);
 
   [[nodiscard]] const QuantizerSteps& steps() const override { return steps_; }
   [[nodiscard]] http::OutboxLimits outbox_limits() const override;
   [[nodiscard]] std::uint64_t media_time_now() const override { return media_time_at(began_, Clock::now()); }
-  void subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) override;
-  Result<Header> begin_publishing(StreamClient& client, bool take_over) override;
-  std::optional<SourceArbiter::Refusal> publish(StreamClient& client, std::uint64_t media_time,
+  void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) override;
+  Result<Header> begin_publishing(StreamPeer& client, bool take_over) override;
+  std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                 const std::vector<TimedFrame>& frames) override;
-  void end_publishing(StreamClient& client) override;
-  void writable(StreamClient& client) override;
-  void leave(StreamClient& client) override;
+  void end_publishing(StreamPeer& client) override;
+  void writable(StreamPeer& client) override;
+  void leave(StreamPeer& client) override;
   void answer_dropped() override { ++answers_dropped_; }
 
   // ---- threads of the hub
 
-  /// Tells all connections the reason and closes them. Frames that were taken are sent before.
+  /// Sends all connections the reason and closes them. Accepted frames are sent first.
   void end(EndReason reason);
-  /// Closes connections that say no hello, or read nothing. To be called a few times a second.
+  /// Closes connections that send no hello, or read nothing. To be called a few times per second.
   void look_after_connections();
-  /// Closes the batch that is due at `now`, and sends one slice. Returns when it is to be called again: at once (not
-  /// after `now`), later, or never (time_point::max()).
+  /// Closes the batch that is due at `now`, and sends one slice. Returns when it is to be called again: immediately
+  /// (not after `now`), later, or never (time_point::max()).
   Clock::time_point advance(Clock::time_point now);
-  /// advance() for the sender. Does nothing if the stream has asked for another time than `asked` meanwhile.
+  /// advance() for the sender. Does nothing if the stream has scheduled another time than `asked` meanwhile.
   Clock::time_point work(Clock::time_point asked);
 
  private:
@@ -98,15 +98,15 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
 
   // All with mutex_ held:
   PublishReceipt take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames, Clock::time_point now);
-  Result<Ticket> claim(Source source, double rate, bool take_over, StreamClient* publisher);
-  void release(StreamClient& publisher);
+  Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
+  void release(StreamPeer& publisher);
   [[nodiscard]] StreamCounts all_counts() const;
   [[nodiscard]] Header header_for(bool recovered, StreamCoding coding) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
   void want(Clock::time_point when);
 
   // Never changed.
-  const StreamInfo made_;  ///< id, created, source, settings, epoch; the rest is empty
+  const StreamInfo made_;  ///< id, created, source, settings, epoch; other members are empty
   const StreamLimits limits_;
   const QuantizerSteps steps_;
   const Clock::time_point began_ = Clock::now();
@@ -117,15 +117,15 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   std::mutex pass_mutex_;  ///< held by the thread that sends a slice; taken before mutex_
   Slice slice_;            ///< guarded by pass_mutex_
 
-  mutable std::mutex mutex_;  ///< guards what follows
-  StreamCounts counts_;       ///< without what other parts count: see all_counts()
+  mutable std::mutex mutex_;  ///< guards the members below
+  StreamCounts counts_;       ///< without the counts of the parts: see all_counts()
   SourceArbiter sources_;
   BatchLog log_;
   FanOut fan_out_{counts_};
   ClientList clients_;
-  StreamClient* publisher_ = nullptr;  ///< the connection that holds the stream, if one does
+  StreamPeer* publisher_ = nullptr;  ///< the connection that holds the stream, or null
   std::shared_ptr<BatchListener> listener_;
-  Clock::time_point wanted_ = Clock::time_point::max();  ///< when the sender is to call
+  Clock::time_point wanted_ = Clock::time_point::max();  ///< when the sender is to call work()
   bool ended_ = false;
 };
 

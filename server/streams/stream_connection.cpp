@@ -63,11 +63,11 @@ void StreamConnection::disconnected() {
 
 void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (closing_) return;
-  // A message that is wrong is answered and the connection goes on. A client that never says hello is closed by the
-  // stream after a while.
+  // An invalid message is answered with an error and the connection stays open. The stream closes a client that sends
+  // no hello in time.
   if (binary != binary_) {
     refuse(StreamErrorCode::malformed, "",
-           binary_ ? "this subprotocol is binary, a text came" : "this subprotocol is text, bytes came");
+           binary_ ? "text message in a binary subprotocol" : "binary message in a text subprotocol");
     return;
   }
   FrameDecoder decoder_of_one;
@@ -99,17 +99,17 @@ void StreamConnection::handle(Message message) {
                         },
                         [&](const Pong&) {}, [&](const StreamError&) {},
                         [&](const Header&) {
-                          refuse(StreamErrorCode::invalid_argument, "", "a header is the server's to send");
+                          refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header");
                         }},
              message);
 }
 
 void StreamConnection::handle_hello(const Hello& hello) {
   if (role_ != Role::unknown) {
-    refuse(StreamErrorCode::invalid_argument, "", "the hello was said already");
+    refuse(StreamErrorCode::invalid_argument, "", "the hello was sent before");
     return;
   }
-  // The hello names the highest version the client knows; the header then says which one is spoken.
+  // The hello has the highest version that the client knows; the header then has the version in use.
   if (hello.version < protocol_version) {
     close(Message(StreamError{StreamErrorCode::unsupported, "/version",
                               "this server speaks version " + std::to_string(protocol_version)}),
@@ -127,9 +127,8 @@ void StreamConnection::handle_hello(const Hello& hello) {
     send(Message(*header));
   } else {
     close(Message(StreamError{StreamErrorCode::conflict, "/role",
-                              "somebody else publishes or plays to this stream: one source at a time; `take_over` in "
-                              "the hello takes its place"}),
-          {1008, "another source is there"});
+                              "another source holds this stream; `take_over` in the hello replaces it"}),
+          {1008, "another source holds the stream"});
   }
 }
 
@@ -161,7 +160,7 @@ void StreamConnection::refuse(StreamErrorCode code, std::string where, std::stri
   send(Message(StreamError{code, std::move(where), std::move(message)}));
 }
 
-// ---- StreamClient
+// ---- StreamPeer
 
 bool StreamConnection::close(const Message& last, http::CloseReason reason) {
   if (closing_.exchange(true)) return false;

@@ -10,14 +10,14 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
 #include "server/http/websocket_peer.h"
-#include "server/streams/stream_client.h"
+#include "server/streams/stream_peer.h"
 
 namespace semblante::streams {
 
-/// One WebSocket of a stream: decodes and checks what the client says, tells the stream, and answers. Shared by the
-/// stream and net's connection. There are thousands of them and most only listen, so what only publishers need is made
-/// when one publishes.
-class StreamConnection : public http::WebSocketPeer, public StreamClient {
+/// One WebSocket of a stream: decodes and checks messages, calls the stream, and answers. Shared by the stream and
+/// net's connection. There are thousands of them and most only subscribe, so members for publishers are allocated on
+/// publishing.
+class StreamConnection : public http::WebSocketPeer, public StreamPeer {
  public:
   StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered);
   ~StreamConnection() override;
@@ -33,14 +33,13 @@ class StreamConnection : public http::WebSocketPeer, public StreamClient {
   void writable() override;
   void disconnected() override;
 
-  // ---- StreamClient: any thread
+  // ---- StreamPeer: any thread
   bool close(const Message& last, http::CloseReason reason) override;
 
  private:
   enum class Role : std::uint8_t { unknown, subscribes, publishes };
 
-  // All on the strand:
-  /// Sends an answer, which newer state never replaces.
+  // All on the strand: Sends an answer, which is never replaced by newer state.
   void send(const Message& message);
   void refuse(StreamErrorCode code, std::string where, std::string message);
   void handle(Message message);
@@ -52,13 +51,13 @@ class StreamConnection : public http::WebSocketPeer, public StreamClient {
   const bool subprotocol_offered_;
   std::atomic<bool> closing_{false};
   Role role_ = Role::unknown;              ///< strand only
-  std::unique_ptr<FrameDecoder> decoder_;  ///< strand only; of a publisher, whose messages refer to earlier ones
+  std::unique_ptr<FrameDecoder> decoder_;  ///< strand only; of a publisher: its messages depend on earlier ones
 
   struct LastWords {
     http::SharedWire last;
     http::CloseReason reason;
   };
-  std::mutex mutex_;  ///< guards setting the sink, and closing before there is one
+  std::mutex mutex_;  ///< guards setting the sink, and closing before it is set
   std::shared_ptr<http::WebSocketSink> sink_;
   std::unique_ptr<LastWords> last_words_;
 };

@@ -8,26 +8,26 @@
 
 namespace semblante::streams {
 
-/// What has happened in a stream, or in all of them.
+/// Event counts of a stream, or of all streams.
 struct StreamCounts {
-  std::uint64_t frames = 0;  ///< taken from sources
+  std::uint64_t frames = 0;  ///< accepted from sources
   std::array<std::uint64_t, source_count> frames_by_source{};
   std::uint64_t batches = 0;            ///< closed
   std::uint64_t messages_sent = 0;      ///< batches and join points, to each subscriber
   std::uint64_t bytes_sent = 0;         ///< of these, WebSocket headers included
-  std::uint64_t messages_replaced = 0;  ///< batches that a slow subscriber did not get, but newer state instead
-  std::uint64_t messages_dropped = 0;   ///< that waited when their connection was closed as slow; answers refused
+  std::uint64_t messages_replaced = 0;  ///< batches replaced by newer state for slow subscribers
+  std::uint64_t messages_dropped = 0;   ///< pending when their connection was closed as slow; answers refused
   std::uint64_t closed_slow = 0;        ///< subscribers that read nothing
-  std::uint64_t closed_silent = 0;      ///< connections that said no hello
-  std::uint64_t closed_replaced = 0;    ///< publishers that another source took over from
+  std::uint64_t closed_silent = 0;      ///< connections that sent no hello
+  std::uint64_t closed_replaced = 0;    ///< publishers replaced by another source
   std::uint64_t closed_ended = 0;       ///< connections of streams that ended
-  std::uint64_t closed_flooding = 0;    ///< publishers that sent too much for too long
+  std::uint64_t closed_flooding = 0;    ///< publishers closed by their flood guard
   std::uint64_t closed_conflict = 0;    ///< publishers that came while another source held the stream
   std::uint64_t refused = 0;            ///< connections over the limit
-  std::uint64_t throttled = 0;          ///< frames left out by a flood guard
-  std::uint64_t clamped_values = 0;     ///< that were beyond the range of their FAP
-  double encode_seconds = 0.0;          ///< spent on batches and join points, in all codings
-  metrics::LatenessValues lateness;     ///< of batches to each subscriber: from due to the kernel
+  std::uint64_t throttled = 0;          ///< frames dropped by a flood guard
+  std::uint64_t clamped_values = 0;     ///< values outside the range of their FAP
+  double encode_seconds = 0.0;          ///< spent on encoding batches and join points, in all codings
+  metrics::LatenessValues lateness;     ///< of batches to each subscriber: from deadline to kernel
 
   StreamCounts& operator+=(const StreamCounts& other) {
     frames += other.frames;

@@ -7,12 +7,12 @@
 
 namespace semblante::streams {
 
-/// What clients and recordings are told about a stream, whose newest frame has that sequence number. A field that
-/// describes the stream is set here, and nowhere else.
+/// The header of a stream for clients and recordings; `sequence` is that of its newest frame. All fields that describe
+/// the stream are set here.
 Header stream_header(const StreamInfo& stream, std::uint64_t sequence);
 
-/// The same for one connection: also what it needs to follow the stream. `media_time`: now. `rate`: frames a second of
-/// what feeds the stream, 0: unknown.
+/// The same for one connection, with the members that it needs to follow the stream. `media_time`: now. `rate`: frames
+/// per second of the current source, 0: unknown.
 Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::uint64_t media_time, double rate,
                          bool recovered, StreamCoding coding);
 

@@ -45,7 +45,7 @@ void InProcessHub::set_listener(std::shared_ptr<BatchListener> listener) {
 bool InProcessHub::open(const StreamInfo& info) {
   const std::lock_guard lock(mutex_);
   if (stopping_ || streams_.contains(info.id)) return false;
-  // Epochs never repeat, not even over restarts, so that a resume point of an earlier life is never found in this one.
+  // Epochs never repeat, even across restarts, so that a resume point of an earlier instance is never accepted.
   last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(server_time_now()));
   StreamInfo full = info;
   full.epoch = last_epoch_;
@@ -67,7 +67,7 @@ bool InProcessHub::open(const StreamInfo& info) {
 bool InProcessHub::close(std::string_view id, EndReason reason) {
   const auto stream = find(id);
   if (!stream) return false;
-  // Before it is removed, so that what its end counts is in the sum of counts(), and that sum never falls.
+  // Ended before it is removed, so that its last events are in the sum of counts() and that sum never decreases.
   stream->end(reason);
   const std::lock_guard lock(mutex_);
   const auto found = streams_.find(id);
@@ -148,7 +148,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> InProcessHub::connec
                                                                                   std::string_view offered) {
   const auto stream = find(id);
   if (!stream) return Refusal::no_such_stream;
-  // The first of the client's offers that the server speaks; JSON, which people can type, when it offers none.
+  // The first offered subprotocol that the server supports; JSON, which can be typed by hand, when none is offered.
   bool binary = false;
   bool known = false;
   for (const auto& name : http::split_list(offered)) {
@@ -170,13 +170,13 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   std::size_t bytes = source->bytes();
   for (const auto& [stream, playing] : playing_) bytes += stream == id ? 0 : playing->bytes;
   if (bytes > limits_.playing_bytes)
-    return Error{ErrorCode::too_large, "", "what plays in all streams takes as much memory as it may"};
+    return Error{ErrorCode::too_large, "", "the memory limit of all playing sources is reached"};
   auto ticket = found->second->begin_playing(options.rate, options.take_over, played_source(source->kind()));
   if (!ticket) return std::move(ticket).error();
   const auto now = Player::Clock::now();
-  // Frames that another source sent in advance are played out first; they end at most most_ahead from now.
+  // Frames that another source sent in advance are shown first; they end at most most_ahead from now.
   const auto begin = std::max(now, found->second->newest_frame_time());
-  // Like epochs, ids never repeat over restarts, so that an old address never stops another play.
+  // Like epochs, ids never repeat across restarts, so that an old URL never stops another play.
   last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(server_time_now()));
   const std::size_t own_bytes = source->bytes();
   auto playing = std::make_shared<Playing>(
@@ -235,7 +235,7 @@ void InProcessHub::run() {
     std::vector<std::shared_ptr<Playing>> finished;
     for (const auto& playing : all_playing()) {
       const std::lock_guard lock(playing->mutex);
-      // A source that fails plays no more: it would fail again at its next frame.
+      // A source that fails is stopped: it would fail again at its next frame.
       if (!log::guarded("playing into a stream", [&] { playing->player.play(Player::Clock::now()); }))
         log::guarded("stopping what plays", [&] { playing->player.stop(); });
       next = std::min(next, playing->player.next());

@@ -21,39 +21,39 @@ namespace semblante::streams {
 
 class BatchListener;
 
-/// Why a connection was refused.
+/// Reasons for refusing a connection.
 enum class Refusal { no_such_stream, too_many };
 
-/// The live streams of one node. The hub of a cluster would implement the same interface.
+/// The live streams of one node. A hub for a cluster would implement the same interface.
 class StreamHub {
  public:
   virtual ~StreamHub() = default;
   /// Makes a stream; false when the id is taken.
   virtual bool open(const StreamInfo& info) = 0;
-  /// Ends a stream and tells its connections why; false when there is no such stream.
+  /// Ends a stream and sends its connections the reason; false when there is no such stream.
   virtual bool close(std::string_view id, EndReason reason) = 0;
   virtual void close_all(EndReason reason) = 0;
   [[nodiscard]] virtual std::vector<StreamInfo> list() const = 0;
   [[nodiscard]] virtual std::optional<StreamInfo> info(std::string_view id) const = 0;
-  /// What a recording that begins now is to know about the stream.
+  /// The header for a recording that begins now.
   [[nodiscard]] virtual std::optional<Header> header(std::string_view id) const = 0;
   [[nodiscard]] virtual StreamCounts counts() const = 0;
   /// Frames of a request. Errors: `missing` (no such stream), and those of Stream::publish_request.
   virtual Result<PublishReceipt> publish(std::string_view id, const std::vector<TimedFrame>& frames) = 0;
-  /// Plays a source into a stream, beginning now. While it plays, other publishers and requests are refused. What plays
-  /// is not stored: a restart of the server ends it. Errors: `missing` (no such stream); `mismatch` (another source
-  /// holds the stream and options.take_over is not set); `too_large` (all that plays would take too much memory).
+  /// Plays a source into a stream, beginning now. While it plays, other publishers and requests are refused. Plays are
+  /// not stored: a restart of the server ends them. Errors: `missing` (no such stream); `mismatch` (another source
+  /// holds the stream and options.take_over is not set); `too_large` (all playing sources would take too much memory).
   virtual Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
                                   const PlayOptions& options) = 0;
-  /// Ends a play; the face returns to neutral. False when it does not play in that stream, or plays no more.
+  /// Ends a play; the face returns to neutral. False when that stream does not have it, or it has ended.
   virtual bool stop(std::string_view id, std::string_view play_id) = 0;
   /// Makes the peer of a WebSocket to a stream. `offered` is the client's Sec-WebSocket-Protocol, may be empty.
   virtual std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
                                                                               std::string_view offered) = 0;
 };
 
-/// All streams of this process. It has two threads: its own one runs the players and looks after slow connections, that
-/// of the BatchSender sends. Any thread may call it.
+/// All streams of this process. It uses two threads: its own runs the players and closes slow connections, that of the
+/// BatchSender sends. Any thread may call it.
 class InProcessHub : public StreamHub {
  public:
   explicit InProcessHub(StreamLimits limits = {});
@@ -61,7 +61,7 @@ class InProcessHub : public StreamHub {
   InProcessHub(const InProcessHub&) = delete;
   InProcessHub& operator=(const InProcessHub&) = delete;
 
-  /// The listener hears the frames of all streams, present and future.
+  /// Sets the listener of all frames of present and future streams.
   void set_listener(std::shared_ptr<BatchListener> listener);
 
   bool open(const StreamInfo& info) override;
@@ -79,7 +79,7 @@ class InProcessHub : public StreamHub {
                                                                       std::string_view offered) override;
 
  private:
-  /// Its mutex is taken before a stream's, never after.
+  /// Its mutex is locked before a stream's, never after.
   struct Playing {
     explicit Playing(Player made, std::size_t source_bytes = 0) : player(std::move(made)), bytes(source_bytes) {}
     std::mutex mutex;

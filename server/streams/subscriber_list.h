@@ -13,24 +13,24 @@
 
 namespace semblante::streams {
 
-class StreamClient;
+class StreamPeer;
 
-/// One subscriber, as the fan-out sees it.
+/// One subscriber of the fan-out.
 struct Subscriber {
   static constexpr std::size_t nowhere = SIZE_MAX;
 
-  StreamClient* client = nullptr;
+  StreamPeer* client = nullptr;
   http::WebSocketSink* sink = nullptr;
-  std::size_t* slot = nullptr;   ///< where its index in the list is written
+  std::size_t* slot = nullptr;   ///< where its current index in the list is stored
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
   Coding coding = Coding::plain;
-  bool behind = false;  ///< gets no batch before it has got the newest state
-  bool waits = false;   ///< something may wait in its outbox
+  bool behind = false;  ///< needs the newest state before the next batch
+  bool waits = false;   ///< its outbox may have messages
 };
 
-/// The subscribers of a stream, side by side in memory, and the cursor of the pass over them that sends a batch.
-/// Subscribers may come and go during a pass: everyone who is there from its beginning to its end is visited once. Not
-/// synchronized.
+/// The subscribers of a stream, contiguous in memory, and the cursor of the pass that sends a batch to them.
+/// Subscribers may be added and removed during a pass: each one present from its beginning to its end is visited once.
+/// Not synchronized.
 class SubscriberList {
  public:
   [[nodiscard]] std::size_t size() const { return items_.size(); }
@@ -46,7 +46,7 @@ class SubscriberList {
   void remove(std::size_t slot) {
     assert(slot < items_.size());
     *items_[slot].slot = Subscriber::nowhere;
-    // Those that the pass has visited stay before the cursor, the others stay behind it.
+    // Keeps visited subscribers before the cursor and the others after it.
     if (slot < cursor_) {
       --cursor_;
       if (slot != cursor_) place(items_[cursor_], slot);

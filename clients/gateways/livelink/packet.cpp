@@ -13,7 +13,7 @@ constexpr std::uint8_t version = 6;
 constexpr std::size_t value_count = 61;
 constexpr double max_rate = 1000.0;
 
-/// The first fault is kept; everything after it is empty.
+/// The first error is kept; later values are empty.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

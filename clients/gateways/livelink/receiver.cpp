@@ -17,7 +17,7 @@ Result<std::optional<ReceivedFace>> Receiver::take(std::span<const std::uint8_t>
     return std::optional<ReceivedFace>();
   }
   if (!packet->face) {
-    // A device that sees nothing is not worth following yet.
+    // A device without a face is not followed yet.
     if (followed_) last_ = arrival;
     ++faceless_;
     return std::optional<ReceivedFace>();

@@ -13,24 +13,26 @@ namespace semblante::livelink {
 struct ReceivedFace {
   semblante_frame frame{};        ///< every FAP within its range
   std::optional<double> seconds;  ///< of the device's clock
-  std::size_t clamped = 0;        ///< coefficients that were outside 0..1 and were taken as 0 or 1
+  std::size_t clamped = 0;        ///< number of coefficients clamped to 0..1
 };
 
-/// Follows one of the devices that send: the one of the subject it is told, or else the first that sends a face, until
-/// that one has sent nothing for `forget_seconds`.
+/// Follows one of the sending devices: that with the given subject, or else the first that sends a face, until it has
+/// sent nothing for `forget_seconds`.
 class Receiver {
  public:
   static constexpr double forget_seconds = 5.0;
 
-  /// `subject`: empty for the first.
+  /// `subject`: empty for the first device.
   explicit Receiver(std::string subject) : wanted_(std::move(subject)) {}
 
-  /// `arrival`: seconds of a clock that does not fall. The face, if the device followed sees one. Errors: the packet is
-  /// none (livelink::read_packet).
+  /// `arrival`: seconds of a monotonic clock. Returns the face, if the followed device sees one. Errors: an invalid
+  /// packet (livelink::read_packet).
   Result<std::optional<ReceivedFace>> take(std::span<const std::uint8_t> packet, double arrival);
 
-  [[nodiscard]] std::uint64_t others() const { return others_; }      ///< packets of subjects that are not followed
-  [[nodiscard]] std::uint64_t faceless() const { return faceless_; }  ///< packets of the one followed, without a face
+  [[nodiscard]] std::uint64_t others() const { return others_; }  ///< packets of subjects that are not followed
+  [[nodiscard]] std::uint64_t faceless() const {
+    return faceless_;
+  }  ///< packets of the followed device, without a face
 
  private:
   std::string wanted_;

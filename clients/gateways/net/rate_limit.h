@@ -4,8 +4,8 @@
 
 namespace semblante::gateways {
 
-/// So many a second on average, and a quarter of a second's worth at once. Times are seconds of any clock that does not
-/// fall.
+/// A limit per second on average, with a burst of a quarter of a second's amount. Times are seconds of any monotonic
+/// clock.
 class RateLimit {
  public:
   explicit RateLimit(double per_second)

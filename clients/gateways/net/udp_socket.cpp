@@ -18,7 +18,7 @@ namespace {
 
 /// The largest packet of UDP, and one byte more.
 constexpr std::size_t buffer_bytes = 65'536;
-/// Of the system's queue: a few hundred packets, while the server is not there or slow.
+/// Size of the system's queue: a few hundred packets, for times without a server or with a slow one.
 constexpr int queue_bytes = 512 * 1024;
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
@@ -95,7 +95,7 @@ Result<UdpSocket> UdpSocket::listen(const Endpoint& at) {
   const int handle = ::socket(address.ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (handle < 0) return system_error(at, "no socket");
   UdpSocket socket(handle);
-  // The system may give less; packets that find no room are lost, as on the way.
+  // The system may give less; packets over the limit are lost, as in the network.
   static_cast<void>(::setsockopt(handle, SOL_SOCKET, SO_RCVBUF, &queue_bytes, sizeof(queue_bytes)));
   if (::bind(handle, address.ai_addr, address.ai_addrlen) != 0) return system_error(at, "cannot listen");
   return socket;

@@ -11,8 +11,7 @@
 
 namespace semblante::gateways {
 
-/// "host:port" with a number for a port, an IPv6 address in brackets; the port may be left out where there is a usual
-/// one.
+/// "host:port" with a number for a port, an IPv6 address in brackets; the port may be omitted if there is a default.
 struct Endpoint {
   std::string host;
   std::string port;
@@ -24,8 +23,8 @@ class UdpSocket {
  public:
   /// Receives at an address of this machine (numbers, no name). Port 0: any free one.
   static Result<UdpSocket> listen(const Endpoint& at);
-  /// Sends to one address. Unless `anywhere`, refused when that is not of this machine's loopback: UDP asks nobody
-  /// whether he wants the packets.
+  /// Sends to one address. Unless `anywhere`, only loopback addresses are accepted: with UDP the receiver does not
+  /// consent to the packets.
   static Result<UdpSocket> send_to(const Endpoint& to, bool anywhere);
   ~UdpSocket();
   UdpSocket(UdpSocket&& other) noexcept;
@@ -33,11 +32,11 @@ class UdpSocket {
 
   [[nodiscard]] std::uint16_t port() const;
 
-  /// Waits for a packet; false when none came in time (or a signal did).
+  /// Waits for a packet; false at the timeout (or a signal).
   bool wait(std::chrono::milliseconds timeout);
-  /// The packet that is there, valid until the next call; nullopt when there is none.
+  /// The received packet, valid until the next call; nullopt when there is none.
   std::optional<std::span<const std::uint8_t>> receive();
-  /// False when the system does not take it; UDP does not tell more.
+  /// False when the system does not accept it; delivery is unknown with UDP.
   bool send(std::span<const std::uint8_t> packet);
 
  private:

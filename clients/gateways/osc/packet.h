@@ -10,7 +10,7 @@
 
 namespace semblante::osc {
 
-/// Values of types we only step over: nil, infinitum, MIDI.
+/// Values of skipped types: nil, infinitum, MIDI.
 struct Nothing {
   friend bool operator==(const Nothing&, const Nothing&) = default;
 };
@@ -21,7 +21,7 @@ struct TimeTag {
 };
 using Blob = std::span<const std::uint8_t>;
 /// By type tag: i c r -> int32; f -> float; s S -> text; b -> blob; T F -> bool; h -> int64; d -> double; t -> time;
-/// N I m -> nothing. Numbers are as they came: NaN and infinity too.
+/// N I m -> nothing. Numbers are unchanged, including NaN and infinity.
 using Argument =
     std::variant<std::int32_t, float, std::string_view, Blob, bool, std::int64_t, double, TimeTag, Nothing>;
 
@@ -40,10 +40,9 @@ inline constexpr std::size_t max_packet_bytes = 65'507;  ///< what UDP over IPv4
 inline constexpr std::size_t max_bundle_depth = 8;
 inline constexpr std::size_t max_arguments = 64;
 
-/// One UDP packet of Open Sound Control 1.0, whole or not at all. Takes any bytes. A message may lack its type tags
-/// (old senders) when it then ends: it has no arguments. Arrays ([ and ]) are read as if their elements stood alone.
-/// Errors say the byte: truncated, malformed (padding that is not zero, no address, tags that are none), too_large
-/// (a limit above).
+/// One complete UDP packet of Open Sound Control 1.0. Accepts any bytes. A message without type tags (old senders) must
+/// end there: it has no arguments. Elements of arrays ([ and ]) are read as separate arguments. Errors have the byte:
+/// truncated, malformed (padding that is not zero, no address, invalid tags), too_large (a limit above).
 Result<Packet> read_packet(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::osc

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view bundle_begin("#bundle\0", 8);
 constexpr std::size_t time_tag_bytes = 8;
 
-/// Big-endian, in steps of four bytes; the first fault is kept and everything after it is empty.
+/// Big-endian, in steps of four bytes; the first error is kept and later values are empty.
 class Reader {
  public:
   Reader(std::span<const std::uint8_t> bytes, std::size_t origin) : bytes_(bytes), origin_(origin) {}

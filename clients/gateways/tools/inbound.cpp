@@ -17,15 +17,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Packets read one after the other before the connection gets its turn.
+/// Packets read in sequence before the connection is served.
 constexpr int packets_at_once = 256;
 
 struct Counts {
   std::uint64_t packets = 0;    ///< that came
-  std::uint64_t refused = 0;    ///< that were none of the protocol
-  std::uint64_t throttled = 0;  ///< that were too many
+  std::uint64_t refused = 0;    ///< invalid packets
+  std::uint64_t throttled = 0;  ///< packets over the limit
   std::uint64_t frames = 0;     ///< published
-  std::uint64_t dropped = 0;    ///< faces: too many a second, or no connection
+  std::uint64_t dropped = 0;    ///< faces over the rate limit, or without a connection
   std::uint64_t clamped = 0;    ///< values outside 0..1
 };
 
@@ -83,14 +83,14 @@ class Inbound {
     }
     if (!*face) return;
     counts_.clamped += (*face)->clamped;
-    // A face that may not go yet gives way to a newer one: the newest state is what counts.
+    // A waiting face is replaced by a newer one: only the newest state matters.
     counts_.dropped += waiting_ ? 1 : 0;
     waiting_ = {**face, timeline_.place((*face)->seconds, arrival)};
     publish_waiting();
   }
 
   void refused(std::string_view where, std::string_view why) {
-    // Once: a stranger's packets must not fill a log.
+    // Logged once: packets of a stranger must not fill the log.
     if (counts_.refused++ > 0) return;
     std::cerr << options_.program << ": a packet was refused: " << where << ": " << why << '\n';
   }

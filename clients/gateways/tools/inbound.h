@@ -16,14 +16,14 @@ class App;
 
 namespace semblante::gateways {
 
-/// A face that a packet finished.
+/// A face completed by a packet.
 struct InboundFace {
   semblante_frame frame{};
   std::optional<double> seconds;  ///< of the sender's clock
   std::size_t clamped = 0;        ///< values outside 0..1
 };
 
-/// One packet; `arrival` in seconds of a clock that does not fall. Errors: no packet of the protocol.
+/// One packet; `arrival` in seconds of a monotonic clock. Errors: an invalid packet.
 using Decode = std::function<Result<std::optional<InboundFace>>(std::span<const std::uint8_t> packet, double arrival)>;
 
 struct InboundOptions {
@@ -39,7 +39,7 @@ struct InboundOptions {
 
 void add_inbound_options(CLI::App& app, InboundOptions& options);
 
-/// UDP in, stream out, until SIGINT or SIGTERM; prints the address it listens at first and the counts last. Errors: it
+/// UDP in, stream out, until SIGINT or SIGTERM; prints its address at the start and the counts at the end. Errors:
 /// cannot listen, or the server has no such stream.
 Status run_inbound(const InboundOptions& options, const Decode& decode);
 

@@ -23,7 +23,7 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t most_waiting = 1024;  ///< frames that are not due yet
 constexpr double repeat_ms = 250.0;
-constexpr milliseconds longest_wait{20};  ///< between looks for a signal
+constexpr milliseconds longest_wait{20};  ///< between checks for a signal
 constexpr milliseconds connect_time{3000};
 constexpr milliseconds first_retry{250};
 constexpr milliseconds last_retry{5000};
@@ -71,7 +71,7 @@ class Outbound {
   std::string why_it_ends(client::StreamClient& stream) {
     try {
       return follow(stream);
-    } catch (const std::exception& fault) {  // one connection is given up, not the gateway
+    } catch (const std::exception& fault) {  // ends the connection, not the gateway
       return fault.what();
     }
   }
@@ -96,7 +96,7 @@ class Outbound {
       steps_ = quantizers_of(*header);
       epoch_ = header->epoch;
     } else if (const auto* key = std::get_if<Keyframe>(&message)) {
-      // The state as it is, however old: in place of all that waits.
+      // The current state, however old, replaces all waiting frames.
       sequence_ = key->sequence;
       waiting_.clear();
       waiting_.emplace_back(now(), key->state);
@@ -139,7 +139,7 @@ class Outbound {
   QuantizerSteps steps_ = standard_quantizers();
   std::uint64_t epoch_ = 0, sequence_ = 0;
   Pacer pacer_;
-  std::deque<std::pair<double, FaceFrame>> waiting_;  ///< by when they are due
+  std::deque<std::pair<double, FaceFrame>> waiting_;  ///< with their due times
   std::optional<semblante_frame> newest_;
   double said_ = 0.0;
   std::uint64_t packets_ = 0, refused_ = 0, frames_ = 0, repeated_ = 0;

@@ -13,13 +13,13 @@ struct OutboundOptions {
   std::string stream;
   std::string to = "127.0.0.1";
   std::string usual_port;
-  bool anywhere = false;  ///< not to this machine alone
+  bool anywhere = false;  ///< also to other machines
   vmc::SenderOptions sender;
 };
 
-/// Stream in, VMC out, until SIGINT or SIGTERM; connects again when the connection is lost, prints the counts last. A
-/// face that does not change is said four times a second, since UDP loses packets and receivers wait for some. Errors:
-/// it cannot send there, or the server has no such stream.
+/// Stream in, VMC out, until SIGINT or SIGTERM; reconnects when the connection is lost, prints the counts at the end.
+/// An unchanged face is repeated four times per second, because UDP loses packets and receivers expect some. Errors:
+/// cannot send, or the server has no such stream.
 Status run_outbound(const OutboundOptions& options);
 
 }  // namespace semblante::gateways

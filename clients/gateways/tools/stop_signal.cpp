@@ -13,7 +13,7 @@ void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = [](int) { requested = 1; };
   sigemptyset(&action.sa_mask);
-  // Without SA_RESTART: waits end at once. A second signal ends the program the usual way.
+  // Without SA_RESTART: waits end immediately. A second signal ends the program the usual way.
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -2,7 +2,7 @@
 
 namespace semblante::gateways {
 
-/// From here on SIGINT and SIGTERM end no wait of theirs but are remembered.
+/// From now on SIGINT and SIGTERM do not end the process but are remembered.
 void catch_stop_signals();
 bool stop_requested();
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace semblante;
 
-/// Where a marionette, the receiver of motion, listens.
+/// The default port of a marionette, the receiver of motion.
 constexpr const char* marionette_port = "39539";
 
 Status receive(const gateways::InboundOptions& options) {

@@ -16,7 +16,7 @@ float in_units(std::size_t fap, double radians) {
       std::clamp(radians / mpeg4::radians_per_au, static_cast<double>(range.min()), static_cast<double>(range.max())));
 }
 
-/// Where the eyes look, as coefficients: the lids follow them.
+/// Sets the coefficients of the gaze, which the lids follow.
 void look(const arkit::Eye& eye, const Turn& turn, ArkitCoefficients& coefficients) {
   const auto share = [](double angle) {
     return static_cast<float>(std::clamp(angle * 1e5 / arkit::full_turn, 0.0, 1.0));
@@ -57,7 +57,7 @@ void speak_by_presets(const Values& values, semblante_frame& frame) {
   }
 }
 
-/// The number of the strongest expression, which is then taken out.
+/// Removes the strongest expression and returns its number.
 std::uint8_t strongest(std::array<float, SEMBLANTE_EXPRESSION_COUNT>& amounts, std::uint8_t& intensity) {
   const auto most = std::max_element(amounts.begin(), amounts.end());
   intensity = static_cast<std::uint8_t>(std::lround(std::min(*most, 1.0F) * SEMBLANTE_BLEND_MAX));

@@ -10,7 +10,7 @@
 namespace semblante::vmc {
 namespace {
 
-/// Smaller values are taken for trackers' noise, or for a blend shape that the avatar has and nobody drives.
+/// Smaller values are treated as noise of trackers, or as a blend shape that is not driven.
 constexpr float is_driven = 1e-3F;
 /// Cosine of half the angle from which on an eye's bone counts as turned: a tenth of a degree.
 constexpr double is_turned = 0.9999996;
@@ -24,7 +24,7 @@ std::optional<glm::dquat> rotation_at(const osc::Message& message, std::size_t f
   std::array<double, 4> xyzw{};
   for (std::size_t i = 0; i < xyzw.size(); ++i) {
     const float* part = value<float>(message, first + i);
-    // Beyond 1e6 a length would tell nothing: a unit quaternion has parts of at most 1.
+    // Refuses values beyond 1e6: a unit quaternion has components of at most 1.
     if (part == nullptr || !std::isfinite(*part) || std::abs(*part) > 1e6F) return std::nullopt;
     xyzw[i] = static_cast<double>(*part);
   }
@@ -44,7 +44,7 @@ Result<std::optional<ReceivedFace>> Receiver::take(std::span<const std::uint8_t>
     time_.reset();
     last_packet_.reset();
   }
-  // Whoever begins may be about to say Apply: the first bundle is not all of a face.
+  // A new sender may still send Apply: its first bundle may be an incomplete face.
   if (!last_packet_) last_apply_ = arrival;
   last_packet_ = arrival;
   bool applied = false;
@@ -75,7 +75,7 @@ Receiver::Said Receiver::read(const osc::Message& message) {
   if (message.address != "/VMC/Ext/T") return Said::nothing;
   const float* seconds = value<float>(message, 0);
   if (seconds == nullptr || !std::isfinite(*seconds)) return Said::wrong;
-  // After nine hours a float's steps are 4 ms: the packets' arrival tells more.
+  // After nine hours the resolution of a float is 4 ms: the packets' arrival is more precise.
   constexpr float coarse = 32'768.0F;
   if (std::abs(*seconds) < coarse) time_ = static_cast<double>(*seconds);
   return Said::time;

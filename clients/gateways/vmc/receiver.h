@@ -13,31 +13,31 @@ struct Message;
 
 namespace semblante::vmc {
 
-/// A face that a VMC sender has finished.
+/// A complete face from a VMC sender.
 struct ReceivedFace {
   semblante_frame frame{};     ///< every FAP within its range
-  std::optional<double> time;  ///< seconds of the sender's own clock, if it told them since the last face
-  std::size_t clamped = 0;     ///< values that were outside 0..1 and were taken as 0 or 1
+  std::optional<double> time;  ///< seconds of the sender's clock, if sent since the last face
+  std::size_t clamped = 0;     ///< number of values clamped to 0..1
 };
 
-/// Gathers what a VMC sender says, packet by packet; a value holds until it is said again, or until nothing has come
-/// for `forget_seconds`. Addresses, blend values and bones that say nothing about a face are passed over. So is, as the
-/// protocol asks, a message with too few values or with values of other types than it should have; and one with a
-/// number that is not finite or a rotation that is none.
+/// Gathers the values of a VMC sender, packet by packet; a value is kept until it is sent again, or until nothing has
+/// arrived for `forget_seconds`. Addresses, blend values and bones unrelated to a face are skipped. So are, as the
+/// protocol requires, messages with too few values or wrong types; and those with a number that is not finite or an
+/// invalid rotation.
 ///
-/// A face is finished by a packet that has /VMC/Ext/Blend/Apply. A sender that says no Apply for `apply_seconds`
-/// finishes one by each bundle that changes something, or by each single message /VMC/Ext/T after a change.
+/// A face is finished by a packet that has /VMC/Ext/Blend/Apply. If a sender sends no Apply for `apply_seconds`, each
+/// bundle that changes something completes a face, or each single message /VMC/Ext/T after a change.
 class Receiver {
  public:
   static constexpr double forget_seconds = 5.0;
   static constexpr double apply_seconds = 1.0;
 
-  /// `arrival`: seconds of a clock that does not fall. The face, if the packet finishes one. Errors: the packet is not
-  /// OSC (osc::read_packet); it then changes nothing.
+  /// `arrival`: seconds of a monotonic clock. Returns the face, if the packet completes one. Errors: the packet is not
+  /// OSC (osc::read_packet) and changes nothing.
   Result<std::optional<ReceivedFace>> take(std::span<const std::uint8_t> packet, double arrival);
 
   [[nodiscard]] const Values& values() const { return values_; }
-  /// Messages so far that were passed over though their address is one of those read here.
+  /// Number of messages skipped although their address is supported.
   [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace semblante::vmc {
 
-/// What is said of a face, and how.
+/// Options of the sent values.
 struct SenderOptions {
   bool perfect_sync = true;  ///< blend values with ARKit's names
   bool vrm0 = true;          ///< those of VRM 0's presets
@@ -15,7 +15,7 @@ struct SenderOptions {
   bool bones = true;         ///< Neck, Head, LeftEye and RightEye; their positions are 0
 };
 
-/// Of a bundle: a packet of 1500 bytes on Ethernet less the headers of IPv4 and UDP.
+/// Limit of a bundle: an Ethernet packet of 1500 bytes without the headers of IPv4 and UDP.
 inline constexpr std::size_t max_sent_bytes = 1472;
 
 /// One face as UDP packets of OSC bundles, to be sent in this order: OK and T (`seconds` of the sender's clock) first,

@@ -13,7 +13,7 @@ glm::dquat to_rotation(const Turn& turn) {
 }
 
 Turn to_turn(const glm::dquat& rotation) {
-  // m[column][row]. The face's own axis out of it (z) shows yaw and pitch, what is left of x and y shows the roll.
+  // m[column][row]. The face's z axis determines yaw and pitch, the remaining rotation of x and y the roll.
   const glm::dmat3 m = glm::mat3_cast(rotation);
   return {std::atan2(m[2][0], m[2][2]), std::asin(std::clamp(-m[2][1], -1.0, 1.0)), std::atan2(m[0][1], m[1][1])};
 }

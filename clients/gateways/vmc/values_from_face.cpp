@@ -12,7 +12,7 @@ double angle(const semblante_frame& frame, std::size_t fap) {
   return static_cast<double>(frame.fap[fap]) * mpeg4::radians_per_au;
 }
 
-/// How much of an expression FAP 2 has; it is taken out.
+/// Removes an expression from FAP 2 and returns its intensity.
 float take_expression(semblante_frame& frame, std::uint8_t expression) {
   float amount = 0.0F;
   const auto take = [&](std::uint8_t select, std::uint8_t& intensity) {

@@ -17,7 +17,7 @@ bool same(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return small(x) == small(y); });
 }
 
-/// Of a table that is ours: what is not in it is a mistake in the file.
+/// Looks up a value in a table of this program: a missing one is a mistake in the file.
 template <class Value>
 Value known(std::optional<Value> found) {
   assert(found);

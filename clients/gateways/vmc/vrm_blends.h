@@ -12,7 +12,7 @@
 
 namespace semblante::vmc {
 
-/// One preset blend value of VRM avatars and what it says: data/vrm_blends.json.
+/// One preset blend value of VRM avatars and its meaning: data/vrm_blends.json.
 struct VrmPreset {
   std::string vrm0, vrm1;          ///< its names
   std::vector<std::size_t> arkit;  ///< coefficients (arkit.h)
@@ -23,9 +23,9 @@ struct VrmPreset {
   std::array<float, oculus_count> shown{};  ///< share of it that a mouth of each viseme shows
 };
 
-/// The file data/vrm_blends.json, which is compiled in.
+/// The file data/vrm_blends.json, embedded at compile time.
 std::string_view vrm_blends_document();
-/// What it says; asserts that the file is right.
+/// The parsed file; asserts that it is valid.
 const std::vector<VrmPreset>& vrm_presets();
 /// By its VRM 0 or VRM 1 name, in any case.
 std::optional<std::size_t> find_vrm_preset(std::string_view name);

@@ -19,7 +19,7 @@ void ClockEstimate::answered(double sent, double received, double media_time) {
   if (!(received >= sent)) {
     return;
   }
-  // The answer says whole ms, cut off.
+  // The answer has whole ms, truncated.
   const Bounds bounds{received, media_time - received, media_time + 1 - sent};
   if (!answers_.empty()) {
     const Bounds before = bounds_at(received);
@@ -61,7 +61,7 @@ void ClockEstimate::heard(double received, double media_time) {
     if (offset <= now_.offset + half_width_ + farthest_ahead) {
       return;
     }
-    // No server sends this: our clock has slept. Until the next answer the frames are all we know.
+    // No server sends this: the local clock was suspended. Until the next answer only frames give an estimate.
     const std::size_t steps = steps_ + 1;
     clear();
     steps_ = steps;

@@ -13,7 +13,7 @@
 
 namespace semblante::client {
 
-/// mesh.drc, decoded: what the weight table counts its rows by.
+/// The decoded mesh.drc. The rows of the weight table are in the order of its vertices.
 struct DecodedMesh {
   std::vector<glm::vec3> positions;     ///< #V
   std::vector<glm::vec2> uvs;           ///< #V or empty
@@ -21,8 +21,8 @@ struct DecodedMesh {
   std::vector<Triangle> triangles;      ///< #T, all indices < #V
 };
 
-/// Decodes any bytes: refuses what is not a triangle mesh with the counts and positions that `mesh` announces. UVs and
-/// materials that are not there, or not as announced, are left out.
+/// Decodes any bytes: refuses all but a triangle mesh with the counts and positions stated in `mesh`. Missing UVs and
+/// materials, or ones that do not match it, are omitted.
 Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh);
 
 }  // namespace semblante::client

@@ -136,7 +136,7 @@ FeaturePointSet Face::feature_points() const {
 }
 
 void Face::play_by(const Header& header) const {
-  // Cannot fail: both readers keep it within 0 and 1.
+  // Cannot fail: both readers check the range 0..1.
   static_cast<void>(semblante_head_set_viseme_share(
       head_.get(), static_cast<float>(header.viseme_share.value_or(rig_.viseme_share))));
 }

@@ -18,34 +18,35 @@
 
 namespace semblante::client {
 
-/// The artefacts as they came.
+/// The artefacts as received.
 struct PackageBytes {
   std::string mesh_drc;
   std::string weights;
   std::string rig_json;
 };
 
-/// A face that takes frames. Owns the head of the C SDK.
+/// A face to be animated by frames. Owns the head of the C SDK.
 class Face {
  public:
-  /// Checks hashes and counts of the three against each other, decodes, and makes a head in the neutral pose.
-  /// Errors: mismatch (not of one package), and whatever is wrong with one of the three, named in `where`.
+  /// Compares hashes and counts of the three artefacts, decodes them, and makes a head in the neutral pose. Errors:
+  /// mismatch (not of one package), and errors of one of the three, named in `where`.
   static Result<Face> create(const PackageBytes& bytes);
 
   [[nodiscard]] const RigDocument& rig() const { return rig_; }
   /// The neutral mesh with its materials, vertices in decoded order; images come from fetch_images.
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] Model& model() { return model_; }
-  /// PartRole of each vertex as far as the package tells: eyes and tongue by their rigid motion, `rest` for all else.
+  /// PartRole of each vertex, if the package determines it: eyes and tongue by their rigid motion, `rest` for all
+  /// others.
   [[nodiscard]] const std::vector<PartRole>& roles() const { return roles_; }
   /// For close-ups; vertices are those of the model.
   [[nodiscard]] FeaturePointSet feature_points() const;
   [[nodiscard]] semblante_head* head() const { return head_.get(); }
 
-  /// Frames from now on get the viseme share that the header names (Eq. 5), or rig.json's where it names none.
+  /// Sets the viseme share (Eq. 5) for later frames: that of the header, else that of rig.json.
   void play_by(const Header& header) const;
 
-  /// The vertices in the head's present pose, #V.
+  /// The vertices in the head's current pose, #V.
   [[nodiscard]] std::vector<glm::vec3> positions() const;
 
  private:
@@ -62,17 +63,17 @@ class Face {
 /// Which level of detail to fetch. At most one of the two; neither: the full mesh.
 struct LevelChoice {
   std::optional<std::uint32_t> lod;           ///< by its number; 0: the full mesh
-  std::optional<std::uint32_t> max_vertices;  ///< the largest of no more; the smallest, when all have more
+  std::optional<std::uint32_t> max_vertices;  ///< the largest level with no more; the smallest, when all have more
 };
 
-/// The three artefacts of a model's newest package. Sizes are bounded by what rig.json announces. Errors as
-/// HttpClient::fetch; too_large when the announced sizes are beyond reason.
+/// The three artefacts of a model's newest package. Sizes are bounded by those stated in rig.json. Errors like
+/// HttpClient::fetch; too_large when the stated sizes are over a limit.
 Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view model, const LevelChoice& level = {});
 
-/// Fetches the images that the face's materials use. What cannot be had is left out; the words say so.
+/// Fetches the images of the face's materials. Missing images are omitted; the returned warnings name them.
 std::vector<std::string> fetch_images(const HttpClient& http, Face& face);
 
-/// fetch_package and Face::create; once more from the start when a new package replaced the old one in between.
+/// fetch_package and Face::create; retries once when a new package has replaced the old one in between.
 Result<Face> load_face(const HttpClient& http, std::string_view model, const LevelChoice& level = {});
 
 }  // namespace semblante::client

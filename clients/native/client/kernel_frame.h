@@ -6,7 +6,7 @@
 
 namespace semblante::client {
 
-/// A frame of a stream -> what the kernel takes: levels times the stream's quantizer steps.
+/// Converts a frame of a stream to one of the kernel: levels times the stream's quantizer steps.
 semblante_frame to_kernel_frame(const FaceFrame& frame, const QuantizerSteps& steps);
 
 }  // namespace semblante::client

@@ -10,7 +10,7 @@
 namespace semblante::client {
 namespace {
 
-/// Who receives but shows nothing keeps so many frames: only the newest matter when it shows again.
+/// Limit of the frames kept while nothing is shown: only the newest matter when display resumes.
 constexpr std::size_t max_held_frames = 2048;
 
 }  // namespace
@@ -35,7 +35,7 @@ Status LivePlayer::receive(std::chrono::milliseconds time) {
 
 void LivePlayer::take(const Message& message) {
   if (std::holds_alternative<Header>(message) || std::holds_alternative<Pong>(message)) {
-    playout_.clock() = stream_.clock();  // these are what it is measured by
+    playout_.clock() = stream_.clock();  // the playout is measured by these arrivals
   }
   if (const auto* header = std::get_if<Header>(&message)) {
     steps_ = quantizers_of(*header);

@@ -13,15 +13,15 @@
 
 namespace semblante::client {
 
-/// A stream as it happens: what to show at each display frame, over losses of the connection, by the stream's clock
-/// less a delay (`Playout`). For one thread.
+/// Plays a live stream: selects the frame to show at each display frame, across losses of the connection, by the
+/// stream's clock minus a delay (`Playout`). For one thread.
 class LivePlayer {
  public:
   LivePlayer(Url url, std::string stream, LiveStreamOptions options = {}, const PlayoutOptions& playout = {});
 
-  /// Receives for that long; call it with the time until the next display frame. Errors as LiveStream::next.
+  /// Receives for this time; call it with the time until the next display frame. Errors like LiveStream::next.
   Status receive(std::chrono::milliseconds time);
-  /// What to show now; nullopt before the first frame.
+  /// The frame to show now; nullopt before the first frame.
   std::optional<DisplayedFrame> show();
 
   [[nodiscard]] const LiveStream& stream() const { return stream_; }
@@ -38,7 +38,7 @@ class LivePlayer {
   LiveStream stream_;
   Playout playout_;
   QuantizerSteps steps_ = standard_quantizers();
-  std::deque<Held> held_;  ///< the first is the newest that is not after the playhead
+  std::deque<Held> held_;  ///< the first is the newest frame not after the playhead
   double shown_at_ = 0;
 };
 

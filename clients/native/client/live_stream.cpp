@@ -50,7 +50,7 @@ void LiveStream::lose() {
   const double doubled = static_cast<double>(options_.first_pause.count()) *
                          static_cast<double>(std::uint64_t{1} << std::min<std::uint64_t>(tries_, 30));
   ++tries_;
-  // Half of the pause is chance, so that a thousand clients do not come back in the same moment.
+  // Half of the pause is random, so that many clients do not reconnect at the same time.
   const double share = std::uniform_real_distribution<double>(0.5, 1.0)(random_);
   next_try_ = Clock::now() + milliseconds(std::min(longest, doubled) * share);
 }
@@ -75,7 +75,7 @@ Result<std::optional<Message>> LiveStream::next(std::chrono::milliseconds timeou
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
     auto message = client_->next(std::max(left, std::chrono::milliseconds(0)));
     if (!message) {
-      // Gone, or unreadable: whatever was missed is missing in every later difference, so only a new start helps.
+      // Closed, or not readable: a missed message affects every later difference, so the client must reconnect.
       lose();
     } else if (*message) {
       take(**message, now());
@@ -97,7 +97,7 @@ void LiveStream::take(const Message& message, double received) {
     clock_.answered(to_ms(client_->hello_sent()), received, static_cast<double>(header->media_time));
     header_ = *header;
     if (!resume_ || resume_->epoch != header->epoch) {
-      resume_.reset();  // until the keyframe there is nothing to go on from
+      resume_.reset();  // there is no resume point until the keyframe
     }
     greeted_ = true;
     tries_ = 0;
@@ -124,7 +124,7 @@ void LiveStream::ping() {
   ping.client_time = now();
   ++pings_;
   next_ping_ = Clock::now() + milliseconds(ping_pause(pings_, clock_.uncertainty().value_or(0)));
-  // If it cannot be sent, reading says so next.
+  // If it cannot be sent, the next read reports the error.
   static_cast<void>(client_->send(ping));
 }
 

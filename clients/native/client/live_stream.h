@@ -15,33 +15,33 @@
 namespace semblante::client {
 
 struct LiveStreamOptions {
-  /// Of every connection; its `resume` is the first one's.
+  /// For every connection; its `resume` is for the first one.
   StreamOptions stream;
-  /// First and longest pause before connecting again; each try doubles it, half of it is chance.
+  /// First and longest pause before reconnecting; each attempt doubles it, half of it is random.
   std::chrono::milliseconds first_pause{250}, longest_pause{10'000};
   std::uint64_t seed = std::random_device{}();
 };
 
-/// A subscription that outlives its connections: connects again after a loss, resumes where it stopped, and measures
-/// the stream's clock all the while. For one thread, which should be in next() as much as it can: what comes meanwhile
-/// is stamped late.
+/// A subscription across connections: reconnects after a loss, resumes where it stopped, and measures the stream's
+/// clock continuously. For one thread, which should be in next() as much as possible: messages received otherwise get
+/// late timestamps.
 class LiveStream {
  public:
   using Clock = std::chrono::steady_clock;
 
   LiveStream(Url url, std::string stream, LiveStreamOptions options = {});
 
-  /// The next message; nullopt when none came in time, and while there is no connection. Errors: missing (no such
-  /// stream), mismatch (another subprotocol): connecting again does not help. After an `end` for good nothing comes.
+  /// The next message; nullopt at the timeout, and without a connection. Errors: missing (no such stream), mismatch
+  /// (another subprotocol), for which reconnecting does not help. No messages follow the stream's final `end`.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
   /// The stream's clock against now().
   ClockEstimate& clock() { return clock_; }
-  /// ms of the clock that everything is stamped by, of any origin.
+  /// ms of the clock for all timestamps, with any origin.
   static double now();
 
   [[nodiscard]] bool connected() const { return client_.has_value() && greeted_; }
   [[nodiscard]] const std::optional<Header>& header() const { return header_; }
-  /// What the next hello resumes from; with what the last one did, `recovered` is to be compared.
+  /// The resume point of the next hello.
   [[nodiscard]] const std::optional<ResumePoint>& resume() const { return resume_; }
   [[nodiscard]] const std::optional<ResumePoint>& said_resume() const { return said_resume_; }
   [[nodiscard]] std::uint64_t connections() const { return connections_; }

@@ -17,7 +17,7 @@ void append(std::string& text, Number number) {
 
 template <class Value>
 void append_bytes(std::string& text, const Value& value) {
-  // Little-endian as it lies: the machines this is built for are.
+  // Copies the bytes: all supported machines are little-endian.
   std::array<char, sizeof(Value)> bytes{};
   std::memcpy(bytes.data(), &value, sizeof(Value));
   text.append(bytes.data(), bytes.size());
@@ -45,7 +45,7 @@ std::string write_obj(const Model& model, std::span<const glm::vec3> positions) 
     text += "vt ";
     append(text, model.uvs[i].x);
     text += ' ';
-    append(text, 1.0F - model.uvs[i].y);  // OBJ counts from below
+    append(text, 1.0F - model.uvs[i].y);  // v of OBJ has its origin at the bottom
     text += '\n';
   }
   for (const Primitive& primitive : model.primitives) {

@@ -9,14 +9,14 @@
 
 namespace semblante::client {
 
-/// Wavefront OBJ: `v` lines in vertex order, `vt` if the model has UVs, one group a primitive. Numbers are the shortest
-/// that read back as the same float32.
+/// Wavefront OBJ: `v` lines in vertex order, `vt` if the model has UVs, one group per primitive. Numbers are the
+/// shortest that read back as the same float32.
 std::string write_obj(const Model& model, std::span<const glm::vec3> positions);
 
 /// Binary little-endian PLY with float x, y, z and uchar-counted uint triangles.
 std::string write_ply(const Model& model, std::span<const glm::vec3> positions);
 
-/// "vertex,x,y,z" and a line a vertex.
+/// "vertex,x,y,z" and one line per vertex.
 std::string write_table(std::span<const glm::vec3> positions);
 
 }  // namespace semblante::client

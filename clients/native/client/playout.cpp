@@ -96,13 +96,13 @@ double Playout::arrived(double first, double before_last, double last, double no
   const bool rested = first - before > rest();
   measure_interval(first - before);
   const double wanted = clock - delay_;
-  // The playhead stands at the newest frame there was, and should be farther.
+  // The playhead is held at the newest frame that had arrived, and should be farther.
   const bool held = playhead_ >= before && wanted > playhead_;
   if (before >= history_until_) {
     count_lateness(clock - (rested ? first - motion_after_rest : base), now);
   }
   if (rested) {
-    // Nothing moved in between: going on at the right moment is no jump that could be seen.
+    // The face did not move in between: continuing at the right time is not a visible jump.
     if (held) {
       playhead_ = std::max(playhead_, std::min(wanted, first - motion_after_rest / 2));
     }
@@ -114,7 +114,7 @@ double Playout::arrived(double first, double before_last, double last, double no
   ++stats_.starved;
   stats_.starved_time += wanted - playhead_;
   if (!options_.delay) {
-    // What was shown late stays so much behind and is caught up slowly, if it is little enough.
+    // A small lag is caught up slowly.
     const double behind = clock - playhead_;
     delay_ = behind - wanted_delay_ > snap_threshold ? wanted_delay_ : behind;
   }

@@ -11,40 +11,40 @@
 namespace semblante::client {
 
 struct PlayoutOptions {
-  /// ms behind the stream's clock, whatever the network does; without it the delay adapts to how late frames come.
+  /// Fixed delay behind the stream's clock, ms; empty: the delay adapts to the lateness of frames.
   std::optional<double> delay;
-  /// One frame more is wanted beyond the shown moment: a curve has to know where it goes after the pair it is in.
+  /// Requires one more frame after the shown time, because a curve needs the frame after the current pair.
   bool eased = false;
 };
 
-/// How a playout goes. Times in ms.
+/// The state of a playout. Times in ms.
 struct PlayoutStats {
-  double delay = 0;         ///< behind the stream's clock now
-  double wanted_delay = 0;  ///< where it is going
+  double delay = 0;         ///< current delay behind the stream's clock
+  double wanted_delay = 0;  ///< target of the delay
   double jitter = 0;        ///< mean change from one arrival to the next (RFC 3550)
-  double error = 0;         ///< what is shown minus what should be, by our own estimate; below 0 while held
+  double error = 0;         ///< shown minus wanted media time, by the client's estimate; below 0 while held
   std::uint64_t starved = 0, snaps = 0;
   double starved_time = 0;
 };
 
-/// Which media time to show when: the stream's clock less a delay that frames need to be there in time, at a speed that
-/// changes by little, never back. Knows times only. Times in ms, "now" is of the client's clock.
-/// protocol/SPEC.md, 7.2; clients/js/playout.ts is the same, and protocol/vectors/clock holds the two together.
+/// Computes the media time to show: the stream's clock minus a delay with which frames arrive in time, at a nearly
+/// constant speed, never backwards. Uses only times. Times in ms, "now" is of the client's clock. protocol/SPEC.md,
+/// 7.2; clients/js/playout.ts is the same algorithm; both are tested with protocol/vectors/clock.
 class Playout {
  public:
   static constexpr double max_speed_change = 0.05;
   /// Of that, for the delay's sake.
   static constexpr double delay_rate = 0.04;
-  /// In which an error is played away, as far as the speed allows.
+  /// Time in which an error is corrected, within the limits of the speed.
   static constexpr double correction_time = 1000;
-  /// Farther behind than this it jumps.
+  /// A larger lag causes a jump.
   static constexpr double snap_threshold = 500;
   static constexpr double least_delay = 60;
   static constexpr double greatest_delay = 2000;
-  /// Added to the lateness that is to be waited for.
+  /// Added to the expected lateness.
   static constexpr double margin = 15;
-  /// Lateness is kept as the worst of each second for this many of them; the second worst of those counts, and in the
-  /// first few seconds the worst.
+  /// The maximum lateness of each second is kept for this many seconds; the second largest is used, in the first few
+  /// seconds the largest.
   static constexpr std::int64_t seconds_kept = 60;
   static constexpr std::size_t seconds_for_second_worst = 5;
   /// Frames farther apart than this, or than 2.5 frames of a slow stream, have a rest between them.
@@ -57,18 +57,19 @@ class Playout {
   ClockEstimate& clock() { return clock_; }
   [[nodiscard]] const ClockEstimate& clock() const { return clock_; }
 
-  /// A header came, at first or after a lost connection. Another epoch is another time line: true if so.
+  /// A header was received, at first or after a lost connection. Returns true for another epoch, which has another
+  /// timeline.
   bool begin(const Header& header);
-  /// Frames came: the media times of the first and the last, and of the one before the last (equal to the first when
-  /// there is one only). Frames at or before the newest known are not to be given. Returns the media time at which the
-  /// motion towards the first of them begins: mostly that of the frame before.
+  /// Frames were received: the media times of the first and the last, and of the one before the last (equal to the
+  /// first when there is one only). Frames at or before the newest known one must not be passed. Returns the media time
+  /// at which the motion towards the first of them begins: mostly that of the frame before.
   double arrived(double first, double before_last, double last, double now);
-  /// Moves on by a display frame that is shown `elapsed` after the one before.
+  /// Advances by a display frame that is shown `elapsed` after the one before.
   void advance(double now, double elapsed);
-  /// Shows this moment, as far as frames go: another clock leads, such as the sound's. Back only from farther than the
-  /// snap threshold.
+  /// Moves to this time, limited by the received frames: for an external clock, such as that of sound. Backwards only
+  /// beyond the snap threshold.
   void move_to(double media_time);
-  /// Forgets the frames; the clock stays.
+  /// Drops the frames; keeps the clock.
   void clear();
 
   /// Media time to show, ms; NaN before the first frame.
@@ -93,7 +94,7 @@ class Playout {
   std::optional<std::uint64_t> epoch_;
   double message_interval_ = 0, frame_interval_ = 0;  ///< as the header says; 0: unknown
   double measured_interval_ = 0;                      ///< between frames
-  double history_until_ = 0;  ///< what is older than this was sent before we were there: its lateness says nothing
+  double history_until_ = 0;  ///< older frames were sent before this client connected: their lateness is not used
   double playhead_ = std::numeric_limits<double>::quiet_NaN();
   double newest_ = std::numeric_limits<double>::quiet_NaN();
   double before_newest_ = std::numeric_limits<double>::quiet_NaN();

@@ -39,15 +39,15 @@ struct StreamClient::Impl {
   bool reading = false;
   std::optional<error_code> read_result;
   Clock::time_point hello_sent{};
-  std::string fault;  ///< an exception that ended an operation, and with it the connection
+  std::string fault;  ///< an exception that ended an operation and the connection
 
-  /// Lets things happen until `done` or the time is up.
+  /// Runs handlers until `done` or the deadline.
   template <class Done>
   bool run_until(Clock::time_point deadline, Done done) {
     io.restart();
     while (!done() && fault.empty()) {
       try {
-        // What is ready is done even when the time is up: who never has time to wait must hear of it, too.
+        // Ready handlers run even after the deadline, so that callers with a zero timeout make progress too.
         if (io.run_one_until(deadline) == 0 && io.poll_one() == 0) {
           break;
         }
@@ -126,7 +126,7 @@ struct StreamClient::Impl {
   Result<Message> decode() {
     const auto data = buffer.cdata();
     const std::span bytes(static_cast<const std::uint8_t*>(data.data()), data.size());
-    // The kind of each message counts, not the subprotocol: a server that mixes them up is told so by the decoder.
+    // The kind of each message is used, not the subprotocol: the decoder reports a server that mixes them.
     auto message = socket.got_text() ? decode_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, steps)
                                      : decoder.decode(bytes);
     if (message) {
@@ -217,7 +217,7 @@ void StreamClient::close() {
   if (!impl_->socket.is_open()) {
     return;
   }
-  // What it says makes no difference any more.
+  // The result is ignored.
   static_cast<void>(impl_->wait(
       "cannot close", [&](auto done) { impl_->socket.async_close(websocket::close_code::normal, std::move(done)); }));
 }

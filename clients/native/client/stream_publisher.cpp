@@ -16,7 +16,7 @@ StreamPublisher::StreamPublisher(Url url, std::string stream, PublisherOptions o
 
 Status StreamPublisher::look_after() {
   if (client_) {
-    // The connection's handlers run while it is asked for messages, and no sooner.
+    // The connection's handlers run only while it is polled for messages.
     static_cast<void>(listen(std::chrono::milliseconds(1)));
     return Unit{};
   }
@@ -64,7 +64,7 @@ Status StreamPublisher::make_stream() {
     lose(answer.error().message);
     return Unit{};
   }
-  // Somebody else may have made it meanwhile.
+  // Another client may have made it meanwhile.
   if (answer->status == 201 || answer->status == 409) return Unit{};
   return Error{
       ErrorCode::invalid_argument, stream_,
@@ -83,7 +83,7 @@ bool StreamPublisher::listen(std::chrono::milliseconds patience) {
     steps_ = quantizers_of(*header);
     has_header_ = true;
   } else if (const auto* error = std::get_if<StreamError>(&**message)) {
-    // The server's state is that of the message before the one it refused.
+    // The server's state is that before the refused message.
     needs_keyframe_ = true;
     if (last_trouble_ != error->message) news_ = "the server says: " + error->message;
     last_trouble_ = error->message;

@@ -13,40 +13,40 @@
 namespace semblante::client {
 
 struct PublisherOptions {
-  bool create = false;  ///< make the stream where there is none
-  std::string model;    ///< what a stream made so suggests; may be empty
+  bool create = false;  ///< create the stream if it does not exist
+  std::string model;    ///< the model of a stream created so; may be empty
   bool take_over = false;
   std::chrono::milliseconds timeout{3000};     ///< of connecting, and of one send
   std::chrono::milliseconds retry_first{250};  ///< after a loss; doubled with each failure
   std::chrono::milliseconds retry_most{5000};
 };
 
-/// A publisher that stays: it connects, connects again when the connection is lost, and then goes on with a keyframe.
-/// For one thread; nothing happens but within its calls.
+/// A publisher that reconnects when the connection is lost and continues with a keyframe. For one thread; all work is
+/// done within its calls.
 class StreamPublisher {
  public:
   StreamPublisher(Url url, std::string stream, PublisherOptions options = {});
 
-  /// Connects when there is no connection and it is time to try; else reads what the server has to say, for about a
-  /// millisecond. Call it at least a few times a second. Errors: missing (no such stream, and none is to be made) and
-  /// what the server says against making one; all else is tried again.
+  /// Connects when there is no connection and a retry is due; else reads messages of the server for about a
+  /// millisecond. Call it at least a few times per second. Errors: missing (no such stream, and `create` is not set)
+  /// and the server's error on creating one; other errors are retried.
   Status look_after();
 
   [[nodiscard]] bool connected() const { return client_.has_value(); }
-  /// Sends the state of the face. `media_time`: ms of a clock of the caller's own that does not fall, more than 0; the
-  /// server keeps its spacing. The FAPs must be finite. False when there is no connection: the frame is lost.
+  /// Sends the state of the face. `media_time`: ms of a monotonic clock of the caller, more than 0; the server keeps
+  /// its spacing. The FAPs must be finite. False when there is no connection: the frame is lost.
   bool publish(const semblante_frame& frame, std::uint64_t media_time);
 
-  /// What happened to the connection since the last call, for people.
+  /// Events of the connection since the last call, as text for display.
   std::optional<std::string> take_news();
-  /// Says goodbye.
+  /// Closes the connection.
   void close();
 
  private:
   using Clock = std::chrono::steady_clock;
   Status connect();
   Status make_stream();
-  /// False when the connection is over.
+  /// False when the connection has ended.
   bool listen(std::chrono::milliseconds patience);
   void lose(const std::string& why);
 

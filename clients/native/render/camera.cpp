@@ -69,7 +69,7 @@ std::optional<Subjects> from_points(const Box& all, std::span<const FeaturePoint
   const float mouth = found.mouth.size().x;
   found.eyes = grown(found.eyes, {0.18F * eyes, 0.16F * eyes, 0});
   found.mouth = grown(found.mouth, {0.40F * mouth, 0.22F * mouth, 0});
-  // The brows are the top of what is marked on every face; a forehead's height more shows what they do.
+  // The brows are the topmost points marked on every face; some forehead above shows their motion.
   found.face = grown(found.face, {0.12F * eyes, 0.12F * eyes, 0});
   found.face.max.y += 0.22F * eyes;
   found.face.min.y -= 0.10F * eyes;
@@ -121,7 +121,7 @@ Camera frame_box(const Box& subject, const Box& scene, View view, float aspect) 
   const glm::mat3 axes(glm::lookAt(glm::vec3(0), -towards, glm::vec3(0, 1, 0)));
   const float slope_y = std::tan(camera.vertical_field / 2) / margin;
   const float slope_x = slope_y * aspect;
-  // Farthest of what each corner asks for: |x| <= slope * (distance - depth towards the camera).
+  // The largest of the distances required by each corner: |x| <= slope * (distance - depth towards the camera).
   float distance = 1e-6F;
   for_each_corner(subject, [&](glm::vec3 corner) {
     const glm::vec3 local = axes * (corner - camera.target);
@@ -151,7 +151,7 @@ Subjects find_subjects(const Box& all, std::span<const FeaturePoint> points,
     const glm::vec3 b = (*eyes)[1].centre();
     return from_proportions(all, (a + b) * 0.5F, glm::length(a - b));
   }
-  // A head alone: its eyes are half way up and about 0.42 of its width apart.
+  // Only a head: its eyes are at half its height and about 0.42 of its width apart.
   const glm::vec3 size = all.size();
   return from_proportions(all, {all.centre().x, all.centre().y, all.max.z - 0.2F * size.z}, 0.4F * size.x);
 }

@@ -33,7 +33,7 @@ Appearance appearance_of(Substance substance) {
       return {{0.46F, 0.13F, 0.13F}, 1.0F, 0.35F, 0.04F};
     case Substance::hair:
       return {{0.045F, 0.028F, 0.02F}, 1.0F, 0.7F, 0.03F};
-    case Substance::lashes:  // strips that stand for single hairs: what a strip hides is mostly not hidden
+    case Substance::lashes:  // strips that represent single hairs: most of the area behind a strip is visible
       return {{0.04F, 0.025F, 0.018F}, 0.3F, 0.8F, 0.02F};
     case Substance::film:
       return {{0.8F, 0.8F, 0.8F}, 0.0F, 0.1F, 0.03F};
@@ -60,14 +60,14 @@ std::optional<Substance> substance_by_role(PartRole role) {
   return std::nullopt;
 }
 
-/// White and greys are what files hold when nobody chose a colour.
+/// White and greys are the defaults of files without chosen colours.
 bool says_nothing(const Material& material) {
   const glm::vec4& c = material.base_color;
   const float spread = std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
   return material.base_color_image < 0 && spread < 0.02F && c.a > 0.99F && c.r > 0.3F;
 }
 
-/// The white of an eye by any file's idea of white: no iris can be meant by it, so one may be painted.
+/// Any near-white colour: it cannot be an iris, so one may be painted.
 bool is_eye_white(const Material& material) {
   const glm::vec4& c = material.base_color;
   const float low = std::min({c.r, c.g, c.b});
@@ -116,7 +116,7 @@ Look look_of(const Model& model, const Primitive& primitive, std::optional<PartR
   look.roughness = appearance.roughness;
   look.specular = appearance.specular;
   if (material != nullptr && !says_nothing(*material)) {
-    // A chosen colour also means that nobody wants an iris painted over it.
+    // With a chosen colour no iris is painted.
     if ((look.substance == Substance::eyeball && !is_eye_white(*material)) || look.substance == Substance::film) {
       look.substance = Substance::plain;
     }

@@ -10,7 +10,7 @@
 
 namespace semblante::render {
 
-/// What a run of triangles shows, so that a head without materials still reads as a head.
+/// The substance of a run of triangles, so that a head without materials is recognizable.
 enum class Substance { plain, skin, eyeball, iris, teeth, gums, hair, lashes, film };
 
 /// How one run of triangles is drawn.
@@ -28,8 +28,8 @@ struct Look {
 /// Guesses from a name of a material or group ("M_EyeLashes", "teeth-upper"); empty when the name says nothing.
 std::optional<Substance> substance_by_name(std::string_view name);
 
-/// The look of a primitive. A material that has a texture or a colour of its own keeps it; one that says nothing (none,
-/// or plain white or grey) gets the colour of its substance: by name first, then by role, and skin when neither tells.
+/// The look of a primitive. A material with a texture or a colour keeps it; one without (or plain white or grey) gets
+/// the colour of its substance: by name first, then by role, else skin.
 Look look_of(const Model& model, const Primitive& primitive, std::optional<PartRole> role);
 
 }  // namespace semblante::render

@@ -201,7 +201,7 @@ struct Renderer::Impl {
     glUseProgram(shadow_program);
     glUniformMatrix4fv(glGetUniformLocation(shadow_program, "to_light"), 1, GL_FALSE, glm::value_ptr(to_light));
     for (const Run& run : scene.runs) {
-      // Lashes, textured or not, would shade the eye like a fence.
+      // Lashes cast no shadow, because the shadow of their strips would cover the eye.
       if (is_drawn(run) && !is_blended(run) && run.look.substance != Substance::lashes) {
         draw_triangles(run);
       }
@@ -342,7 +342,7 @@ Result<Picture> Renderer::draw(const Camera& camera, PictureSize size) {
   glBindVertexArray(impl.vertex_array);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  // The lights go half way with the camera: a profile is lit like a profile, and a turn still shows in the shading.
+  // The lights follow the camera by half its angle: profiles are lit well, and a rotation still changes the shading.
   const glm::vec3 towards = glm::normalize(camera.eye - camera.target);
   const float turn = std::atan2(towards.x, towards.z) * 0.6F;
   const glm::mat3 turned(glm::rotate(glm::mat4(1.0F), turn, glm::vec3(0, 1, 0)));

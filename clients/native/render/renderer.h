@@ -29,7 +29,7 @@ class Renderer {
 
   [[nodiscard]] const Scene& scene() const;
 
-  /// Takes deformed positions, one a file vertex; normals follow. Errors: mismatch, when the count is another.
+  /// Sets deformed positions, one per file vertex, and updates normals. Errors: mismatch for another count.
   Status set_positions(std::span<const glm::vec3> positions);
 
   /// Errors: invalid_argument for a size outside 16..4096; internal when OpenGL reports a fault.

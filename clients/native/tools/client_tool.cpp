@@ -1,4 +1,4 @@
-// semblante-client: fetches a face, follows a stream, writes what it sees; or publishes to one.
+// semblante-client: fetches a face, follows a stream and writes its frames; or publishes to a stream.
 
 #include <algorithm>
 #include <chrono>
@@ -59,9 +59,9 @@ Status publish(const client::Url& url, const Arguments& arguments) {
   return Unit{};
 }
 
-/// The faces to write: one state after another as they come, or at a display's own rate, where between two states lies
-/// a straight way. All are read before the first is written, since writing is slower than a
-/// stream and a subscriber that reads late gets the newest state instead of every state.
+/// The faces to write: all received states, or linear interpolation at a display's own rate. All are read before the
+/// first is written, since writing is slower than a stream and a subscriber that reads late gets the newest state
+/// instead of every state.
 Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player, std::size_t count, double fps) {
   std::vector<client::DisplayedFrame> collected;
   double start = 0;
@@ -106,7 +106,7 @@ Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face
   return output.finish();
 }
 
-/// What the stream sends, as the JSON that publishing takes: the first frame is at 0.
+/// Writes the stream as the JSON accepted for publishing: the first frame is at 0.
 Status record(client::StreamClient& stream, client::FramePlayer& player, const Arguments& arguments) {
   std::vector<TimedValues> frames;
   double begin = 0;
@@ -116,7 +116,7 @@ Status record(client::StreamClient& stream, client::FramePlayer& player, const A
       return frame.error();
     }
     if (!*frame) {
-      break;  // what there was until the stream ended is a recording too
+      break;  // keeps the frames until the end of the stream
     }
     begin = frames.empty() ? (*frame)->media_time : begin;
     const double since = std::max(0.0, (*frame)->media_time - begin);

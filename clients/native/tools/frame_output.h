@@ -19,11 +19,11 @@ struct OutputOptions {
   std::string size = "512x512";                ///< of the png
 };
 
-/// Writes the face as it stands, a numbered file a frame and format, and an index of them.
+/// Writes the current face, one numbered file per frame and format, and an index of them.
 class FrameOutput {
  public:
-  /// Makes the folder, and the renderer when pictures are asked for. `face` must outlive the output.
-  /// Errors: invalid_argument (a format, shot or size that is none), io, unsupported (no EGL).
+  /// Makes the folder, and the renderer when pictures are asked for. `face` must outlive the output. Errors:
+  /// invalid_argument (an unknown format, shot or size), io, unsupported (no EGL).
   static Result<FrameOutput> create(const client::Face& face, const OutputOptions& options);
   FrameOutput(FrameOutput&&) noexcept;
   FrameOutput& operator=(FrameOutput&&) noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Reads what the server has to say until `until`; it speaks only to complain or to end.
+/// Reads messages of the server until `until`; it sends only errors and the end.
 Status listen(client::StreamClient& stream, Clock::time_point until) {
   while (true) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
@@ -44,14 +44,14 @@ Result<std::size_t> publish_frames(client::StreamClient& stream, std::string_vie
       return std::move(fine).error();
     }
     ++sequence;
-    // The first frame is whole; each later one is a difference to the one before it.
+    // The first frame is complete; each later one is a difference to the one before it.
     const Message message = sequence == 1 ? Message(Keyframe{sequence, frame.time, frame.state})
                                           : Message(Frames{sequence, frame.time, {TimedFrame{0, frame.state}}});
     if (auto sent = stream.send(message); !sent) {
       return std::move(sent).error();
     }
   }
-  // A complaint about the last frame is still on its way.
+  // Waits for a possible error about the last frame.
   if (auto fine = listen(stream, Clock::now() + std::chrono::milliseconds(200)); !fine) {
     return std::move(fine).error();
   }

@@ -1,4 +1,4 @@
-// semblante-codegen-expressions SOURCE_FOLDER: writes what is generated from core/expressions/data.
+// semblante-codegen-expressions SOURCE_FOLDER: writes the files that are generated from core/expressions/data.
 #include "core/codegen/generator.h"
 #include "core/expressions/generate/render.h"
 

@@ -48,8 +48,8 @@ std::map<std::string, Displacements> read_actions(const std::string& path) {
   return actions;
 }
 
-NamedSet read_set(const json& entry, const std::map<std::string, Displacements>& actions) {
-  NamedSet set{entry.at("name"), {}, entry.value("meets_upper_teeth", false)};
+AuthoredSet read_set(const json& entry, const std::map<std::string, Displacements>& actions) {
+  AuthoredSet set{entry.at("name"), {}, entry.value("meets_upper_teeth", false)};
   const json amounts = entry.value("actions", json::object());
   for (const auto& [name, amount] : amounts.items()) {
     const auto action = actions.find(name);
@@ -57,7 +57,7 @@ NamedSet read_set(const json& entry, const std::map<std::string, Displacements>&
     add(set.displacements, action->second, amount.get<double>());
   }
   add(set.displacements, read_displacements(entry.value("displacements", json::object())), 1.0);
-  // Whole units are fine enough (a unit is about 0.02 mm), and keep the table readable.
+  // Whole units are precise enough (a unit is about 0.02 mm) and readable.
   for (auto& [point, d] : set.displacements) {
     for (double& component : d) component = std::round(component) + 0.0;  // + 0.0: no negative zero
   }
@@ -65,13 +65,12 @@ NamedSet read_set(const json& entry, const std::map<std::string, Displacements>&
   return set;
 }
 
-/// A motion of eyes, cheeks or nose below this goes unseen while the mouth moves; FAPU units.
+/// A motion of eyes, cheeks or nose below this is not noticed while the mouth moves; FAPU units.
 constexpr double unseen = 50.0;
 
-/// Where a viseme moves a point that an expression moves too, Eq. 5 leaves 15 % of the expression. So a viseme says
-/// nothing of eyes, cheeks and nose unless it moves them by more than goes unseen: a smile keeps its cheeks while it
-/// talks.
-void leave_to_expressions(NamedSet& viseme) {
+/// If a viseme and an expression move the same point, Eq. 5 keeps only 15 % of the expression. So a viseme omits points
+/// of eyes, cheeks and nose with displacements too small to notice: a smile keeps its cheeks during speech.
+void leave_to_expressions(AuthoredSet& viseme) {
   std::erase_if(viseme.displacements, [](const auto& item) {
     const auto& [point, d] = item;
     const int group = group_of(point);
@@ -82,9 +81,9 @@ void leave_to_expressions(NamedSet& viseme) {
 }
 
 template <class Infos>
-std::vector<NamedSet> read_list(const std::string& path, const char* key, const Infos& infos,
-                                const std::map<std::string, Displacements>& actions) {
-  std::vector<NamedSet> sets;
+std::vector<AuthoredSet> read_list(const std::string& path, const char* key, const Infos& infos,
+                                   const std::map<std::string, Displacements>& actions) {
+  std::vector<AuthoredSet> sets;
   const json file = codegen::read_json(path);
   try {
     for (const json& entry : file.at(key)) {
@@ -104,8 +103,8 @@ std::vector<NamedSet> read_list(const std::string& path, const char* key, const 
 
 Sets read_sets(const std::string& data_folder) {
   const auto actions = read_actions(data_folder + "/actions.json");
-  std::vector<NamedSet> visemes = read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions);
-  for (NamedSet& viseme : visemes) leave_to_expressions(viseme);
+  std::vector<AuthoredSet> visemes = read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions);
+  for (AuthoredSet& viseme : visemes) leave_to_expressions(viseme);
   return {std::move(visemes), read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions)};
 }
 
@@ -113,9 +112,9 @@ std::string render_header(const Sets& sets) {
   std::ostringstream entries;
   std::ostringstream tables;
   std::size_t count = 0;
-  const auto table = [&](const char* name, const std::vector<NamedSet>& list) {
+  const auto table = [&](const char* name, const std::vector<AuthoredSet>& list) {
     tables << "inline constexpr std::array<Set, " << list.size() << "> " << name << " = {{\n";
-    for (const NamedSet& set : list) {
+    for (const AuthoredSet& set : list) {
       tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size()
              << (set.meets_upper_teeth ? ", true},\n" : ", false},\n");
       entries << "    // " << set.name << "\n";
@@ -149,9 +148,9 @@ std::string render_typescript(const Sets& sets) {
       << "/** FPs by dense index (2.1 is 0) with their displacement, FAPU units: [point, x, y, z]. */\n"
       << "export interface DisplacementSet {\n  readonly name: string;\n"
       << "  readonly displacements: readonly (readonly [number, number, number, number])[];\n}\n";
-  const auto list = [&](const char* name, const std::vector<NamedSet>& entries) {
+  const auto list = [&](const char* name, const std::vector<AuthoredSet>& entries) {
     out << "\n// prettier-ignore\nexport const " << name << ": readonly DisplacementSet[] = [\n";
-    for (const NamedSet& set : entries) {
+    for (const AuthoredSet& set : entries) {
       out << "  { name: '" << set.name << "', displacements: [";
       const char* separator = "";
       for (const auto& [point, d] : set.displacements) {

@@ -13,15 +13,15 @@ namespace semblante::expressions {
 using Vec3 = std::array<double, 3>;
 
 /// A set as authored, resolved: actions summed, sides mirrored. FAPU units.
-struct NamedSet {
+struct AuthoredSet {
   std::string name;
   std::map<FeaturePointId, Vec3> displacements;
   bool meets_upper_teeth = false;
 };
 
 struct Sets {
-  std::vector<NamedSet> visemes;
-  std::vector<NamedSet> expressions;  ///< entry 0 is "none"
+  std::vector<AuthoredSet> visemes;
+  std::vector<AuthoredSet> expressions;  ///< entry 0 is "none"
 };
 
 /// Reads actions.json, visemes.json and expressions.json. Throws std::exception naming file and entry on any fault:

@@ -1,4 +1,4 @@
-// semblante-codegen-tables SOURCE_FOLDER: writes what is generated from core/tables/data.
+// semblante-codegen-tables SOURCE_FOLDER: writes the files that are generated from core/tables/data.
 #include "core/codegen/generator.h"
 #include "core/tables/generate/render.h"
 

@@ -17,7 +17,7 @@ struct TableData {
 /// Reads the data files. Throws std::exception with the file's name on any fault: this runs at development time only.
 TableData read_table_data(const std::string& data_folder);
 
-/// core/tables/generated/mpeg4_tables.h: what the freestanding kernel needs, in C.
+/// core/tables/generated/mpeg4_tables.h: the tables of the freestanding kernel, in C.
 std::string render_c_header(const TableData& data);
 /// core/tables/generated/mpeg4_entries.h: the constexpr entries of core/tables/mpeg4.h.
 std::string render_cpp_header(const TableData& data);

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// Questions to an OpenAPI document that several renderers ask.
+/// Queries on an OpenAPI document that several renderers use.
 namespace semblante::codegen {
 
 using Json = nlohmann::ordered_json;
@@ -18,9 +18,9 @@ struct Operation {
 };
 std::vector<Operation> operations(const Json& document);
 
-/// What a `$ref` points to; the node itself where it is none.
+/// The target of a `$ref`; the node itself if it is not a reference.
 const Json& follow(const Json& document, const Json& node);
-/// "#/components/schemas/Model" -> "Model"; empty where the schema is no reference.
+/// "#/components/schemas/Model" -> "Model"; empty when the schema is not a reference.
 std::string component_name(const Json& schema);
 
 /// "getModel" -> "get_model".
@@ -29,7 +29,7 @@ std::string snake_case(const std::string& name);
 std::string pascal_case(const std::string& name);
 /// "a" -> "\"a\"", with escapes.
 std::string quoted(const std::string& text);
-/// The head of each generated C++ file.
+/// The first lines of each generated C++ file.
 std::string generated_notice();
 
 }  // namespace semblante::codegen

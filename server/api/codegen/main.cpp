@@ -1,4 +1,4 @@
-// semblante-codegen-api SOURCE_FOLDER OUTPUT_FOLDER: writes what is generated from server/api/openapi.json.
+// semblante-codegen-api SOURCE_FOLDER OUTPUT_FOLDER: writes the files that are generated from server/api/openapi.json.
 #include "core/codegen/generator.h"
 #include "server/api/codegen/render.h"
 

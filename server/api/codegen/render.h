@@ -4,7 +4,8 @@
 
 #include "server/api/codegen/api_document.h"
 
-/// The generated files, each from the whole document. All throw std::runtime_error on what they cannot express.
+/// The generated files, each from the whole document. All throw std::runtime_error for constructs that they do not
+/// support.
 namespace semblante::codegen {
 
 std::string render_handlers(const Json& document);

@@ -13,7 +13,7 @@ struct Texts {
 
 bool is_null(const Json& schema) { return schema.value("type", Json()) == "null"; }
 
-/// A schema without the null that it may allow.
+/// A schema without `null`, and whether it allowed null.
 struct Nullable {
   Json schema;
   bool may_be_null = false;
@@ -43,7 +43,7 @@ Nullable without_null(const Json& schema) {
   return result;
 }
 
-/// Makes the types of all schemas that JSON answers consist of, and their writers.
+/// Generates the types of all schemas in JSON answers, and their writers.
 class Answers {
  public:
   explicit Answers(const Json& document) : document_(document) {

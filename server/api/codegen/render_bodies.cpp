@@ -9,7 +9,7 @@ class Bodies {
  public:
   explicit Bodies(const Json& document) : document_(document) {}
 
-  /// A schema of a JSON body under the name of its component, or else of its operation.
+  /// Adds the schema of a JSON body under the name of its component, or else of its operation.
   void add(const std::string& name, const Json& schema) {
     if (const auto component = component_name(schema); !component.empty())
       return add(snake_case(component), follow(document_, schema));

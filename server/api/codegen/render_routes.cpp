@@ -6,12 +6,12 @@
 namespace semblante::codegen {
 namespace {
 
-/// The one media type of the good answers that content negotiation has to know; "" where they have no body, "*/*"
-/// where there are several types or bytes are given as they are stored.
+/// The media type of the successful answers, for content negotiation; "" when they have no body, "*/*" when there are
+/// several types or stored bytes are sent.
 std::string produced_type(const Json& document, const Operation& operation) {
   std::set<std::string> types;
   for (const auto& [status, node] : operation.json->at("responses").items()) {
-    // A part of something else, by Range, is of its type.
+    // A 206 has the media type of the 200.
     if (status[0] != '2' || status == "206") continue;
     const Json& response = follow(document, node);
     if (!response.contains("content")) continue;

@@ -122,7 +122,7 @@ TEST_F(DataFolder, DatabaseGoneOrEmpty_NothingIsLost_AndAllComesBackWithIt) {
       ServerProcess server(data());
       expect_served(server.port(), served);
       EXPECT_EQ(metric(server.port(), "semblante_trash_files"), 0.0);
-      EXPECT_THAT(server.errors(), HasSubstr("1 recording that the database knows came back from the trash"));
+      EXPECT_THAT(server.errors(), HasSubstr("1 recording that the database knows returned from the trash"));
       EXPECT_THAT(server.errors(), Not(HasSubstr("missing")));
       server.end(SIGTERM);
     }
@@ -155,7 +155,7 @@ TEST_F(DataFolder, OlderCopy_ServesWhatItKnows_AndTheNewerOneGetsAllBack) {
     ServerProcess server(data());
     expect_served(server.port(), first);
     expect_gone(server.port(), second);
-    EXPECT_THAT(server.errors(), HasSubstr("is an older copy of the one that worked in this folder last"));
+    EXPECT_THAT(server.errors(), HasSubstr("is an older copy of the one last used in this folder"));
     EXPECT_GT(metric(server.port(), "semblante_trash_files"), 0.0);
     server.end(SIGTERM);
   }
@@ -220,7 +220,7 @@ TEST_F(DataFolder, CommitLogOfADatabaseThatIsGone_IsKept) {
   {
     ServerProcess server(data());
     expect_gone(server.port(), served);
-    EXPECT_THAT(server.errors(), HasSubstr("commit log"));
+    EXPECT_THAT(server.errors(), HasSubstr("write-ahead log"));
     server.end(SIGTERM);
   }
   take_database(folder_.path() / "thrown-away");

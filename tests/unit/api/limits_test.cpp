@@ -72,7 +72,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
   const streams::FloodLimits flood;
   const http::OutboxLimits outbox;
   const jobs::JobConfig job;
-  const std::string rate = count(flood.frames_per_second) + " a second, " + count(flood.frames_burst) + " at once";
+  const std::string rate = count(flood.frames_per_second) + " per second, " + count(flood.frames_burst) + " in a burst";
   const std::vector<std::pair<std::string, std::string>> kept = {
       {"model file", size(api.max_upload_bytes)},
       {"JSON body", size(api.max_json_bytes)},
@@ -80,7 +80,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
                              count(net.max_header_fields) + " query parameters"},
       {"trailers of a chunked body, with the last chunk's extensions", size(net.max_header_bytes)},
       {"line before a chunk; chunk extensions of a body, together", size(net.max_header_bytes) + " each"},
-      {"bytes of a connection that wait to be parsed", size(net.max_header_bytes)},
+      {"unparsed bytes of a connection", size(net.max_header_bytes)},
       {"idle connection", seconds(net.idle_timeout)},
       {"header of a request", seconds(net.header_timeout)},
       {"between two pieces of a body or an answer", seconds(net.read_timeout)},
@@ -91,14 +91,14 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"streams", count(api.max_streams)},
       {"performance: document, cues, keys",
        size(max_performance_bytes) + ", " + count(max_performance_cues) + ", " + count(max_performance_keys)},
-      {"performance: cues at once on one target", count(max_overlapping_cues)},
-      {"performance: frames a second", count(streams::least_play_rate) + " to " + count(streams::most_play_rate)},
-      {"performances and .fap files that play, together", size(stream.playing_bytes) + " of memory"},
-      {"recordings", count(recorder.max_recordings) + " kept, " + count(recorder.max_running) + " at a time"},
+      {"performance: simultaneous cues on one target", count(max_overlapping_cues)},
+      {"performance: frames per second", count(streams::least_play_rate) + " to " + count(streams::most_play_rate)},
+      {"playing performances and .fap files, together", size(stream.playing_bytes) + " of memory"},
+      {"recordings", count(recorder.max_recordings) + " stored, " + count(recorder.max_running) + " running"},
       {"recording", count(recordings::max_recording_ms / 3'600'000) + " h, " + size(recorder.max_bytes)},
       {"recordings, together", size(recorder.max_total_bytes)},
       {"free bytes of the disk that recordings leave", size(recorder.disk_reserve)},
-      {"frames on their way to the disk, of a recording", count(recorder.queued_frames)},
+      {"frames of a recording that wait to be written", count(recorder.queued_frames)},
       {"recording as performance, or as .fap before its rate", count(recordings::max_gathered_frames) + " frames"},
       {"recording as frames or CSV", size(recordings::max_written_bytes)},
       {"jobs waiting", count(job.max_queued)},
@@ -111,12 +111,12 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"WebSocket message", size(max_binary_message_bytes) + " binary, " + size(max_json_message_bytes) + " JSON"},
       {"frames of one publisher", rate},
       {"frames by requests, of one stream", rate},
-      {"frames ahead of the stream's clock, of a publisher's or requests'", count(streams::most_ahead / 1000) + " s"},
-      {"state waiting for a subscriber, beside what the kernel holds (32 KiB)",
+      {"frames ahead of the stream's clock, of a publisher or requests", count(streams::most_ahead / 1000) + " s"},
+      {"state waiting for a subscriber, beside the kernel's buffer (32 KiB)",
        count(stream.pending_messages) + " messages, " + size(stream.pending_bytes)},
       {"answers waiting for a client", count(outbox.answers) + " messages, " + size(outbox.answer_bytes)},
       {"gap held for a resume", "30 s, " + count(stream.held_batches) + " batches; " + count(stream.resumed_frames) +
-                                    " frames, " + size(stream.resumed_bytes) + " in one go"},
+                                    " frames, " + size(stream.resumed_bytes) + " per resume"},
   };
   const auto stated = stated_limits();
   for (const auto& [what, value] : kept) {

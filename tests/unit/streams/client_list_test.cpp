@@ -7,7 +7,7 @@ namespace {
 
 using std::chrono::seconds;
 
-struct Client : StreamClient {
+struct Client : StreamPeer {
   bool close(const Message&, http::CloseReason) override { return true; }
 };
 

@@ -31,7 +31,7 @@ TEST(FloodGuard, TenThousandMessagesASecond_AreAnsweredOnceASecondAndClosedInThe
     if (verdict == Verdict::drop_and_say) {
       ++said;
       const auto words = guard.words();
-      EXPECT_THAT(words, HasSubstr("more than 500 frames a second, or 2000 at once"));
+      EXPECT_THAT(words, HasSubstr("more than 500 frames per second, or 2000 at once"));
       if (said > 1) {
         EXPECT_THAT(words, HasSubstr(": 9"));  // of 10,000, about 500 had room
       }

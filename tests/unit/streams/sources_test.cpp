@@ -220,7 +220,7 @@ TEST(Floods, PublisherIsToldOnceASecondThenClosed) {
   ASSERT_EQ(said.size(), 1U);
   const auto& error = std::get<StreamError>(said[0]);
   EXPECT_EQ(error.code, StreamErrorCode::throttled);
-  EXPECT_THAT(error.message, HasSubstr("more than 0 frames a second, or 20 at once: 20 frames in 1 message"));
+  EXPECT_THAT(error.message, HasSubstr("more than 0 frames per second, or 20 at once: 20 frames in 1 message"));
   ASSERT_TRUE(publisher.socket->closed());
   EXPECT_EQ(publisher.socket->closed()->code, 1008);
   EXPECT_EQ(stream->counts().throttled, 20U);

@@ -1618,7 +1618,7 @@ export interface components {
                 /**
                  * @example {
                  *       "type": "/problems/invalid-feature-point",
-                 *       "title": "A feature point cannot be where it is said to be",
+                 *       "title": "A feature point has an impossible place",
                  *       "status": 422,
                  *       "detail": "vertex 99999 is not there: the model has the vertices 0 to 26718",
                  *       "pointer": "/points/2.1/vertex"

@@ -1,4 +1,4 @@
-#include "protocol/package/gltf_document.h"
+#include "protocol/package/gltf_builder.h"
 
 #include <algorithm>
 #include <cstring>
@@ -61,7 +61,7 @@ int vector_type(int components) {
 
 }  // namespace
 
-class GltfDocument::Content {
+class GltfBuilder::Content {
  public:
   Content(const std::vector<Material>& materials, const std::vector<Image>& images) {
     gltf_.asset.version = "2.0";
@@ -87,7 +87,7 @@ class GltfDocument::Content {
     }
     auto bytes = encode_draco(slice.vertices.size(), slice.triangles, inputs);
     if (!bytes) return bytes.error();
-    // The accessors must state what a decoder will find, and Draco may split or drop vertices.
+    // The accessors must match the decoded data, and Draco may split or drop vertices.
     const auto decoded = DracoMesh::decode(*bytes);
     if (!decoded) return decoded.error();
 
@@ -225,7 +225,7 @@ class GltfDocument::Content {
     accessor.componentType = component_type(attribute.type);
     accessor.normalized = attribute.normalized;
     accessor.type = vector_type(attribute.components);
-    if (attribute.name == "POSITION") {  // glTF demands the bounds of positions
+    if (attribute.name == "POSITION") {  // glTF requires the bounds of positions
       accessor.minValues.assign(3, std::numeric_limits<double>::max());
       accessor.maxValues.assign(3, std::numeric_limits<double>::lowest());
       for (std::size_t i = 0; i < attribute.bytes.size() / sizeof(float); ++i) {
@@ -238,7 +238,7 @@ class GltfDocument::Content {
     return add(accessor);
   }
 
-  /// `before`: floats of the view that come earlier.
+  /// `before`: number of earlier floats in the view.
   static tinygltf::Accessor floats(int view, std::size_t before, std::size_t count, int components) {
     tinygltf::Accessor accessor;
     accessor.bufferView = view;
@@ -251,7 +251,7 @@ class GltfDocument::Content {
 
   int add_view(std::span<const std::byte> bytes, int target) {
     std::vector<unsigned char>& data = gltf_.buffers[0].data;
-    data.resize((data.size() + 3) / 4 * 4);  // accessors want their component size, images do not mind
+    data.resize((data.size() + 3) / 4 * 4);  // accessors need alignment to their component size
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = data.size();
@@ -303,29 +303,29 @@ class GltfDocument::Content {
   std::size_t first_joint_ = 0;  ///< node of the skin's first joint
 };
 
-GltfDocument::GltfDocument(const std::vector<Material>& materials, const std::vector<Image>& images)
+GltfBuilder::GltfBuilder(const std::vector<Material>& materials, const std::vector<Image>& images)
     : content_(std::make_unique<Content>(materials, images)) {}
 
-GltfDocument::~GltfDocument() = default;
+GltfBuilder::~GltfBuilder() = default;
 
-Status GltfDocument::add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
+Status GltfBuilder::add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
   return content_->add_draco_primitive(slice, attributes);
 }
 
-void GltfDocument::add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
+void GltfBuilder::add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes) {
   content_->add_plain_primitive(slice, attributes);
 }
 
-void GltfDocument::set_rig(const std::string& rig_json) { content_->set_rig(rig_json); }
+void GltfBuilder::set_rig(const std::string& rig_json) { content_->set_rig(rig_json); }
 
-void GltfDocument::set_skin(std::span<const GltfJoint> joints) { content_->set_skin(joints); }
+void GltfBuilder::set_skin(std::span<const GltfJoint> joints) { content_->set_skin(joints); }
 
-void GltfDocument::add_animation(const std::string& name, std::span<const GltfChannel> channels) {
+void GltfBuilder::add_animation(const std::string& name, std::span<const GltfChannel> channels) {
   content_->add_animation(name, channels);
 }
 
-void GltfDocument::set_asset_extras(const std::string& json) { content_->set_asset_extras(json); }
+void GltfBuilder::set_asset_extras(const std::string& json) { content_->set_asset_extras(json); }
 
-Result<std::vector<std::uint8_t>> GltfDocument::finish() { return content_->finish(); }
+Result<std::vector<std::uint8_t>> GltfBuilder::finish() { return content_->finish(); }
 
 }  // namespace semblante

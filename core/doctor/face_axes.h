@@ -13,7 +13,7 @@ namespace semblante {
 
 /// The axes of a face by its marked points, and the points' coordinates in these axes. Points with exchanged left and
 /// right are corrected here, so that one fault does not cause twenty findings.
-struct FaceFrame {
+struct FaceAxes {
   /// Unit vectors in model space: to the face's left, up, and out of the face; right-handed.
   glm::dvec3 left{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
   /// Pairs with exchanged left and right, by their left points.
@@ -30,6 +30,6 @@ struct FaceFrame {
 };
 
 /// Axes without enough points are those of the model.
-FaceFrame fit_face_frame(const FeaturePointSet& points);
+FaceAxes fit_face_axes(const FeaturePointSet& points);
 
 }  // namespace semblante

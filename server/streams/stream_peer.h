@@ -1,6 +1,6 @@
 #pragma once
 
-// The two interfaces between a stream and its connections: all that either asks of the other.
+// The two interfaces between a stream and its connections, one for each direction.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,18 +16,18 @@
 namespace semblante::streams {
 
 /// Stream to connection.
-class StreamClient {
+class StreamPeer {
  public:
   static constexpr std::size_t nowhere = SIZE_MAX;
-  /// What the stream notes about a connection, so that it needs no map. Guarded by the stream's mutex.
+  /// Data of the stream for each connection, so that it needs no map. Guarded by the stream's mutex.
   struct Notes {
     std::size_t client = nowhere;      ///< index in the stream's ClientList
     std::size_t subscriber = nowhere;  ///< index in the FanOut's SubscriberList
-    SourceArbiter::Ticket ticket = 0;  ///< of one that publishes
+    SourceArbiter::Ticket ticket = 0;  ///< of a publisher
     bool said_hello = false;
   };
 
-  virtual ~StreamClient() = default;
+  virtual ~StreamPeer() = default;
   /// Sends a last message, then closes; false when it was closing already. Any thread, also with the stream's mutex
   /// held: it must not call the stream.
   virtual bool close(const Message& last, http::CloseReason reason) = 0;
@@ -42,28 +42,28 @@ class StreamAccess {
  public:
   virtual ~StreamAccess() = default;
 
-  /// FAP units a level.
+  /// FAP units per level.
   [[nodiscard]] virtual const QuantizerSteps& steps() const = 0;
   [[nodiscard]] virtual http::OutboxLimits outbox_limits() const = 0;
   /// ms since the stream began.
   [[nodiscard]] virtual std::uint64_t media_time_now() const = 0;
 
-  /// A hello asks to subscribe: sends the header, then the join point or the gap since the hello's resume point; the
-  /// batches follow that are closed from then on. `sink` stays valid as long as the client.
-  virtual void subscribe(StreamClient& client, http::WebSocketSink& sink, const Hello& hello, bool binary) = 0;
-  /// A hello asks to publish: the header for it. Errors: `mismatch` when another source holds the stream and
+  /// A hello of a subscriber: sends the header, then the join point or the gap since the hello's resume point; then
+  /// follow the batches closed from now on. `sink` is valid as long as the client.
+  virtual void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) = 0;
+  /// A hello of a publisher: returns its header. Errors: `mismatch` when another source holds the stream and
   /// `take_over` is not set, `missing` when the stream has ended.
-  virtual Result<Header> begin_publishing(StreamClient& client, bool take_over) = 0;
-  /// Frames came; `media_time` is by the publisher's clock, 0: now. Nothing when they were taken.
-  virtual std::optional<SourceArbiter::Refusal> publish(StreamClient& client, std::uint64_t media_time,
+  virtual Result<Header> begin_publishing(StreamPeer& client, bool take_over) = 0;
+  /// Publishes frames; `media_time` is by the publisher's clock, 0: now. nullopt when they are accepted.
+  virtual std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                         const std::vector<TimedFrame>& frames) = 0;
-  /// A publisher has finished; the next one need not wait until its socket is closed.
-  virtual void end_publishing(StreamClient& client) = 0;
-  /// All that waited for the client has gone to the kernel.
-  virtual void writable(StreamClient& client) = 0;
-  /// The socket is gone. No event follows.
-  virtual void leave(StreamClient& client) = 0;
-  /// An answer was not sent because the client read none of many before it.
+  /// A publisher has finished; the next one can start before its socket is closed.
+  virtual void end_publishing(StreamPeer& client) = 0;
+  /// The client's outbox is empty: the kernel has all messages.
+  virtual void writable(StreamPeer& client) = 0;
+  /// The socket is closed. No event follows.
+  virtual void leave(StreamPeer& client) = 0;
+  /// An answer was dropped because the client has not read many earlier ones.
   virtual void answer_dropped() = 0;
 };
 

@@ -18,7 +18,7 @@
 
 namespace semblante {
 
-/// A joint as glTF places it: relative to its parent.
+/// A joint of glTF, relative to its parent.
 struct GltfJoint {
   std::string name;
   std::optional<std::size_t> parent;  ///< a joint before this one; empty: the root of the skeleton
@@ -36,27 +36,26 @@ struct GltfChannel {
   std::vector<float> values;  ///< #keys by 3, of a rotation by 4: x, y, z, w
 };
 
-/// A glTF 2.0 document in the making: one mesh named "face" in one scene, its materials and images. tinygltf's types
-/// stay behind it.
-class GltfDocument {
+/// Builds a glTF 2.0 document: one mesh named "face" in one scene, its materials and images. Hides tinygltf's types.
+class GltfBuilder {
  public:
-  GltfDocument(const std::vector<Material>& materials, const std::vector<Image>& images);
-  ~GltfDocument();
-  GltfDocument(const GltfDocument&) = delete;
-  GltfDocument& operator=(const GltfDocument&) = delete;
+  GltfBuilder(const std::vector<Material>& materials, const std::vector<Image>& images);
+  ~GltfBuilder();
+  GltfBuilder(const GltfBuilder&) = delete;
+  GltfBuilder& operator=(const GltfBuilder&) = delete;
 
   Status add_draco_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
   void add_plain_primitive(const Slice& slice, const std::vector<SliceAttribute>& attributes);
-  /// The rig document as extension SEMBLANTE_face of the scene.
+  /// Adds the rig document as extension SEMBLANTE_face of the scene.
   void set_rig(const std::string& rig_json);
-  /// The skeleton beside the mesh, and the mesh's skin. Once.
+  /// Adds the skeleton beside the mesh, and the mesh's skin. At most once.
   void set_skin(std::span<const GltfJoint> joints);
-  /// Linear interpolation throughout. After set_skin; at least one channel.
+  /// Adds an animation with linear interpolation and at least one channel. After set_skin.
   void add_animation(const std::string& name, std::span<const GltfChannel> channels);
-  /// What glTF has no word for, as a JSON object.
+  /// Sets data without a place in glTF, as a JSON object.
   void set_asset_extras(const std::string& json);
 
-  /// A GLB. Once, at the end.
+  /// Returns the GLB. To be called once, at the end.
   Result<std::vector<std::uint8_t>> finish();
 
  private:

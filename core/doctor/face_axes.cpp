@@ -1,4 +1,4 @@
-#include "core/doctor/face_frame.h"
+#include "core/doctor/face_axes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,14 +132,14 @@ std::optional<double> separation_of_eyes(const Points& points, const glm::dvec3&
 
 }  // namespace
 
-const std::optional<glm::dvec3>& FaceFrame::place(std::string_view name) const { return places[index_of(name)]; }
+const std::optional<glm::dvec3>& FaceAxes::place(std::string_view name) const { return places[index_of(name)]; }
 
-FaceFrame fit_face_frame(const FeaturePointSet& points) {
+FaceAxes fit_face_axes(const FeaturePointSet& points) {
   Points marked;
   for (const FeaturePoint& point : points) marked[point.id.value()] = glm::dvec3(point.position);
   const std::vector<Pair> pairs = marked_pairs(marked);
 
-  FaceFrame frame;
+  FaceAxes frame;
   if (const auto left = common_way(pairs)) frame.left = *left;
   const double spread = pairs.empty() ? 0.0 : glm::length(pairs.front().across);
   const double least = 1e-3 * spread;
