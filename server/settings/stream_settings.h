@@ -37,7 +37,4 @@ void for_each_setting(Settings& settings, Visit&& visit) {
 /// left to the caller.
 Result<StreamSettings> read_stream_settings(const nlohmann::json& object, std::string_view id);
 
-/// Adds all settings to `object`. No model, and no viseme share, are null.
-void write_stream_settings(nlohmann::ordered_json& object, const StreamSettings& settings);
-
 }  // namespace semblante::settings
