@@ -9,7 +9,6 @@ namespace semblante::settings {
 namespace {
 
 using nlohmann::json;
-using Written = nlohmann::ordered_json;  ///< members stay in the order of the settings
 
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_model_bytes = 64;
@@ -51,11 +50,6 @@ Status read_setting(std::string_view name, const json& value, StreamSettings& se
   return Error{ErrorCode::internal, "", "this setting cannot be read"};
 }
 
-Written to_json(const std::string& text) { return text.empty() ? Written(nullptr) : Written(text); }
-Written to_json(const std::optional<double>& number) { return number ? Written(*number) : Written(nullptr); }
-Written to_json(std::uint32_t number) { return number; }
-Written to_json(double number) { return number; }
-
 }  // namespace
 
 Result<StreamSettings> read_stream_settings(const json& object, std::string_view id) {
@@ -70,11 +64,6 @@ Result<StreamSettings> read_stream_settings(const json& object, std::string_view
   });
   if (wrong) return std::move(*wrong);
   return settings;
-}
-
-void write_stream_settings(Written& object, const StreamSettings& settings) {
-  for_each_setting(settings,
-                   [&](std::string_view name, const auto& value) { object[std::string(name)] = to_json(value); });
 }
 
 }  // namespace semblante::settings

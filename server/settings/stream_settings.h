@@ -16,8 +16,8 @@ struct StreamSettings {
   std::string title;                   ///< for display; default: the stream's id
   std::string model;                   ///< id of the model it is meant for; empty: none
   std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; empty: clients use that of their model
-  std::uint32_t batch_interval =
-      100;                       ///< ms for which frames are gathered into one message; 0: each is sent immediately
+  /// Interval in ms for which frames are gathered into one message; 0: each frame is sent immediately.
+  std::uint32_t batch_interval = 100;
   double quantizer_scale = 1.0;  ///< ratio of its quantizer steps to the standard ones: one of quantizer_scales
 
   bool operator==(const StreamSettings&) const = default;
@@ -37,8 +37,5 @@ void for_each_setting(Settings& settings, Visit&& visit) {
 /// the stream's `id`. Errors: the first invalid setting, with a JSON pointer. The caller checks whether the model
 /// exists.
 Result<StreamSettings> read_stream_settings(const nlohmann::json& object, std::string_view id);
-
-/// Adds all settings to `object`. An empty model or viseme share is written as null.
-void write_stream_settings(nlohmann::ordered_json& object, const StreamSettings& settings);
 
 }  // namespace semblante::settings

@@ -12,9 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
-/// No setting has its default.
-const StreamSettings unusual{"Talk", "head", 0.25, 40, 0.125};
-
 TEST(StreamSettings, WhatIsAbsent_HasItsDefault) {
   const auto settings = read_stream_settings(Json::object(), "talk");
   ASSERT_TRUE(settings);
@@ -24,33 +21,32 @@ TEST(StreamSettings, WhatIsAbsent_HasItsDefault) {
   EXPECT_EQ(expected.batch_interval, 100U);
 }
 
-TEST(StreamSettings, Written_AreReadAgain_EveryOne) {
-  Json json = {{"id", "talk"}};
-  write_stream_settings(json, unusual);
+TEST(StreamSettings, EverySettingIsRead) {
+  const Json json = {{"id", "talk"},         {"title", "Talk"},      {"model", "head"},
+                     {"viseme_share", 0.25}, {"batch_interval", 40}, {"quantizer_scale", 0.125}};
   const auto settings = read_stream_settings(json, "other");
   ASSERT_TRUE(settings) << settings.error().message;
-  EXPECT_EQ(*settings, unusual);
+  const StreamSettings defaults;
   std::size_t visited = 0;
-  const StreamSettings usual;
-  for_each_setting(unusual, [&](std::string_view name, const auto& value) {
-    EXPECT_TRUE(json.contains(name)) << name;
-    for_each_setting(usual, [&](std::string_view other, const auto& default_value) {
+  for_each_setting(*settings, [&](std::string_view name, const auto& value) {
+    EXPECT_TRUE(json.contains(name)) << name << ": give it a value here that is not its default";
+    for_each_setting(defaults, [&](std::string_view other, const auto& default_value) {
       if constexpr (std::is_same_v<decltype(value), decltype(default_value)>) {
         if (name == other) {
-          EXPECT_NE(value, default_value) << name << " must differ to be tested";
+          EXPECT_NE(value, default_value) << name << " was not read";
         }
       }
     });
     ++visited;
   });
   EXPECT_EQ(json.size(), visited + 1);
-  // A null where null is said, and so again.
-  StreamSettings bare;
-  bare.title = "other";
-  write_stream_settings(json, bare);
-  EXPECT_TRUE(json["model"].is_null());
-  EXPECT_TRUE(json["viseme_share"].is_null());
-  EXPECT_EQ(*read_stream_settings(json, "other"), bare);
+}
+
+TEST(StreamSettings, Null_IsNoModelAndNoVisemeShare) {
+  const auto settings = read_stream_settings({{"model", nullptr}, {"viseme_share", nullptr}}, "talk");
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->model, "");
+  EXPECT_EQ(settings->viseme_share, std::nullopt);
 }
 
 TEST(StreamSettings, WhatIsWrong_IsNamed) {
