@@ -100,9 +100,8 @@ class Recorder : public streams::BatchListener {
   using Clock = std::chrono::steady_clock;
   struct Running {
     store::RecordingRecord record;
-    std::unique_ptr<RecordingWriter> writer;  ///< the thread's own
-    std::optional<Clock::time_point>
-        waiting_since;  ///< used by the thread only: since when frames wait to become durable
+    std::unique_ptr<RecordingWriter> writer;         ///< the thread's own
+    std::optional<Clock::time_point> waiting_since;  ///< thread only: since when frames are not durable
     std::optional<Clock::time_point> ends;
     // Guarded by the mutex:
     std::deque<std::shared_ptr<const Frames>> queue;
