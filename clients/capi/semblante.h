@@ -39,12 +39,11 @@ extern "C" {
 /* Result codes. Values never change; new ones are added at the end. */
 typedef enum semblante_result {
   SEMBLANTE_OK = 0,
-  SEMBLANTE_INVALID_ARGUMENT =
-      1,                     /* a null that is not allowed, a number that is not finite, a value out of its range */
-  SEMBLANTE_MALFORMED = 2,   /* the bytes are not of the format they claim, or end early */
-  SEMBLANTE_UNSUPPORTED = 3, /* a version this SDK does not read */
-  SEMBLANTE_MISMATCH = 4,    /* mesh, weights and rig are not of one package */
-  SEMBLANTE_TOO_LARGE = 5,   /* over a documented limit (4 million vertices, 48 million weights) */
+  SEMBLANTE_INVALID_ARGUMENT = 1, /* a null that is not allowed, a number not finite or out of range */
+  SEMBLANTE_MALFORMED = 2,        /* the bytes are not of the format they claim, or end early */
+  SEMBLANTE_UNSUPPORTED = 3,      /* a version this SDK does not read */
+  SEMBLANTE_MISMATCH = 4,         /* mesh, weights and rig are not of one package */
+  SEMBLANTE_TOO_LARGE = 5,        /* over a documented limit (4 million vertices, 48 million weights) */
   SEMBLANTE_BUFFER_TOO_SMALL = 6, /* nothing was written */
   SEMBLANTE_OUT_OF_MEMORY = 7,
   SEMBLANTE_INTERNAL = 8

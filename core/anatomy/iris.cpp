@@ -27,9 +27,8 @@ Polar seen_along(const glm::dvec3& axis, const glm::dvec3& pivot, const glm::dve
 /// The centre of the flat regular polygon with the corner `marked` at the front of an eye; nullopt if there is none.
 std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface& surface, SurfaceVertexId marked,
                                               const glm::dvec3& axis) {
-  constexpr double flat = 0.9945;  // cosine of six degrees: files may have only three decimals
-  constexpr std::size_t most_corners =
-      256;  // of a face, and facets at the marked vertex: with more it is not a polygon
+  constexpr double flat = 0.9945;            // cosine of six degrees: files may have only three decimals
+  constexpr std::size_t most_corners = 256;  // of a face, and facets at the marked vertex
   struct Facet {
     std::array<SurfaceVertexId, 3> corners;
     glm::dvec3 normal;

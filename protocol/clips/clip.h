@@ -14,9 +14,8 @@ namespace semblante {
 
 /// Limits of a clip, which is made in memory.
 inline constexpr std::size_t max_clip_frames = 1'000'000;
-inline constexpr std::uint32_t max_clip_time =
-    4 * 3600 * 1000;                                     ///< ms; beyond it, seconds as float cannot represent ms
-inline constexpr std::size_t max_clip_keys = 4'000'000;  ///< of all joints together, after thinning
+inline constexpr std::uint32_t max_clip_time = 4 * 3600 * 1000;  ///< ms; the limit of float seconds with ms resolution
+inline constexpr std::size_t max_clip_keys = 4'000'000;          ///< of all joints together, after thinning
 
 struct ClipOptions {
   std::string name = "performance";     ///< of the animation

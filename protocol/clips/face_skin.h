@@ -24,11 +24,10 @@ struct FaceJoint {
   enum class Kind : std::uint8_t { head, eye, pupil, point };
   Kind kind = Kind::head;
   std::string name;
-  std::optional<std::size_t> parent;  ///< empty: the head, which is the first
-  glm::vec3 place{0.0F};              ///< position on the neutral face
-  glm::quat facing{1.0F, 0.0F, 0.0F,
-                   0.0F};  ///< orientation on the neutral face; only pupils are rotated: z along the iris' axis
-  std::size_t index = 0;   ///< eye and pupil: 0 left, 1 right; point: the FeaturePointId's value
+  std::optional<std::size_t> parent;         ///< empty: the head, which is the first
+  glm::vec3 place{0.0F};                     ///< position on the neutral face
+  glm::quat facing{1.0F, 0.0F, 0.0F, 0.0F};  ///< on the neutral face; only pupils are rotated: z along the axis
+  std::size_t index = 0;                     ///< eye and pupil: 0 left, 1 right; point: the FeaturePointId's value
   /// For a pupil that grows to 1 + s of its radius: its z axis is scaled by 1 + 2 s sink[0].x + s s sink[1].x, and it
   /// moves along it by 2 s sink[0].y + s s sink[1].y.
   std::array<glm::vec2, 2> sink{glm::vec2(0.0F), glm::vec2(0.0F)};

@@ -145,8 +145,7 @@ void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
   if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
   log::set_level(*level);
-  std::signal(SIGPIPE,
-              SIG_IGN);  // a write to a dead worker or closed connection must return an error, not end the server
+  std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error
   const auto address = checked_address(options.address);
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))

@@ -20,7 +20,7 @@ void add_serve_command(CLI::App& app) {
   const CLI::Range count(1, 1'000'000);
   constexpr std::uint64_t max_size = std::uint64_t{1} << 50U;
   add("--address", options->address, "Address to listen on; loopback only", "ADDRESS");
-  add("--port", options->port, "Port to listen on; 0 takes any that is free and says which", "PORT")
+  add("--port", options->port, "Port to listen on; 0: any free port, which is printed", "PORT")
       ->check(CLI::Range(0, 65535));
   add("--data", options->data, "Folder for models, packages and facts; made if missing", "DATA");
   add("--web-root", options->web_root, "Folder of the studio's built pages, served at /; none if left out", "WEB_ROOT");
@@ -29,18 +29,18 @@ void add_serve_command(CLI::App& app) {
       "SAMPLE");
   command->add_flag("--demo", options->demo, "Play the stream `demo`: a face that talks, in a loop")
       ->envname("SEMBLANTE_DEMO");
-  add("--threads", options->threads, "Threads that answer requests", "THREADS")->check(CLI::Range(1, 256));
-  add("--workers", options->workers, "Jobs that run at a time, each in a process of its own", "WORKERS")
+  add("--threads", options->threads, "Threads that handle requests", "THREADS")->check(CLI::Range(1, 256));
+  add("--workers", options->workers, "Jobs that run at the same time, each in its own process", "WORKERS")
       ->check(CLI::Range(1, 64));
-  add("--max-upload-bytes", options->max_upload_bytes, "Largest model file taken", "MAX_UPLOAD_BYTES")
+  add("--max-upload-bytes", options->max_upload_bytes, "Size limit of a model file", "MAX_UPLOAD_BYTES")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(std::uint64_t{1}, max_size));
-  add("--max-models", options->max_models, "Models kept at most", "MAX_MODELS")->check(count);
-  add("--max-expressions", options->max_expressions, "Displacement sets kept at most, beside the library's",
+  add("--max-models", options->max_models, "Maximum number of models", "MAX_MODELS")->check(count);
+  add("--max-expressions", options->max_expressions, "Maximum number of displacement sets, without the library's",
       "MAX_EXPRESSIONS")
       ->check(count);
-  add("--max-streams", options->max_streams, "Streams open at most", "MAX_STREAMS")->check(count);
-  add("--max-recordings", options->max_recordings, "Recordings of streams kept at most", "MAX_RECORDINGS")
+  add("--max-streams", options->max_streams, "Maximum number of streams", "MAX_STREAMS")->check(count);
+  add("--max-recordings", options->max_recordings, "Maximum number of stored recordings", "MAX_RECORDINGS")
       ->check(count);
   const auto add_size = [&](const std::string& name, std::uint64_t& value, const std::string& help,
                             const std::string& variable) {
@@ -48,9 +48,9 @@ void add_serve_command(CLI::App& app) {
   };
   add_size("--max-recording-bytes", options->max_recording_bytes, "Size at which a recording ends",
            "MAX_RECORDING_BYTES");
-  add_size("--max-recordings-bytes", options->max_recordings_bytes, "Size of all recordings at which none goes on",
+  add_size("--max-recordings-bytes", options->max_recordings_bytes, "Size of all recordings at which running ones end",
            "MAX_RECORDINGS_BYTES");
-  add_size("--disk-reserve", options->disk_reserve, "Free bytes of the disk that recordings leave", "DISK_RESERVE");
+  add_size("--disk-reserve", options->disk_reserve, "Free bytes that recordings leave on the disk", "DISK_RESERVE");
   const std::map<std::string, std::uint64_t> time_units = {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
   constexpr std::uint64_t max_grace = std::uint64_t{10} * 365 * 86400;
   add("--trash-grace", options->trash_grace,
@@ -60,7 +60,7 @@ void add_serve_command(CLI::App& app) {
       ->transform(CLI::AsNumberWithUnit(time_units, CLI::AsNumberWithUnit::DEFAULT, "TIME"))
       ->check(CLI::Range(std::uint64_t{0}, max_grace));
   add("--max-connections", options->max_connections,
-      "Connections served at a time; 0: as many as the process may have files open (its hard limit), but 512",
+      "Maximum number of connections; 0: the limit of open files of the process (hard limit), less 512",
       "MAX_CONNECTIONS")
       ->check(CLI::Range(0, 1'000'000));
   add("--max-stream-connections", options->max_stream_connections, "Connections of one stream",
@@ -74,14 +74,14 @@ void add_serve_command(CLI::App& app) {
       "WORKER_CPU_SECONDS")
       ->check(CLI::Range(0, 1'000'000));
   add("--allow-host", options->allowed_hosts,
-      "Name the server goes by beside localhost, e.g. studio.example behind a proxy that keeps the Host of requests; * "
+      "Accepted host name besides localhost, e.g. studio.example behind a proxy that keeps the Host of requests; * "
       "takes any; may be given more than once",
       "ALLOW_HOST");
   add("--allow-origin", options->allowed_origins,
       "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
       "be given more than once",
       "ALLOW_ORIGIN");
-  add("--log-level", options->log_level, "debug (one line a request), info, warning or error", "LOG_LEVEL");
+  add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
   command->callback([options] { run_serve(*options); });
 }
 

@@ -186,7 +186,7 @@ void add_play_command(CLI::App& app) {
   command->add_flag("--create", options->create, "Open the stream first, if it is not there")
       ->envname("SEMBLANTE_CREATE");
   command->add_flag("--loop", options->loop, "Begin again at its end")->envname("SEMBLANTE_LOOP");
-  command->add_flag("--take-over", options->take_over, "From whoever publishes or plays there")
+  command->add_flag("--take-over", options->take_over, "Replace the current source of the stream")
       ->envname("SEMBLANTE_TAKE_OVER");
   command->add_option("--rate", options->rate, "Frames a second; left out: a .fap file's own, else 25")
       ->check(CLI::Range(1.0, 120.0))

@@ -74,7 +74,7 @@ class Recorder : public streams::BatchListener {
   Recorder& operator=(const Recorder&) = delete;
 
   /// Starts a recording; durable when this returns, and every later batch is in it. Errors: too_large (a limit; the
-  /// message says which), io. Throws DiskFull, also while the disk is nearly full, and StoreError.
+  /// message names it), io. Throws DiskFull, also while the disk is nearly full, and StoreError.
   Result<store::RecordingRecord> start(RecordingStart start, std::optional<store::IdempotencyRecord> key);
   /// Ends a recording, and returns when all of it is durable. Does nothing when it has ended; nullopt when it does not
   /// exist. The state is still `recording` when its end cannot be stored yet and is a pending write.
@@ -100,9 +100,8 @@ class Recorder : public streams::BatchListener {
   using Clock = std::chrono::steady_clock;
   struct Running {
     store::RecordingRecord record;
-    std::unique_ptr<RecordingWriter> writer;  ///< the thread's own
-    std::optional<Clock::time_point>
-        waiting_since;  ///< used by the thread only: since when frames wait to become durable
+    std::unique_ptr<RecordingWriter> writer;         ///< the thread's own
+    std::optional<Clock::time_point> waiting_since;  ///< thread only: since when frames are not durable
     std::optional<Clock::time_point> ends;
     // Guarded by the mutex:
     std::deque<std::shared_ptr<const Frames>> queue;

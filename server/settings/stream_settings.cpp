@@ -15,7 +15,7 @@ constexpr std::size_t max_model_bytes = 64;
 constexpr int max_batch_interval = 1000;  ///< ms
 
 Status read_text(const json& value, std::size_t max_bytes, std::string& text) {
-  if (!value.is_string()) return Error{ErrorCode::malformed, "", "it must be a string"};
+  if (!value.is_string()) return Error{ErrorCode::malformed, "", "must be a string"};
   text = value.get<std::string>();
   return check_text(text, max_bytes);
 }

@@ -16,9 +16,8 @@ struct StreamSettings {
   std::string title;                   ///< for display; default: the stream's id
   std::string model;                   ///< id of the model it is meant for; empty: none
   std::optional<double> viseme_share;  ///< of Eq. 5, 0..1; empty: clients use that of their model
-  /// Interval in ms for which frames are gathered into one message; 0: each frame is sent immediately.
-  std::uint32_t batch_interval = 100;
-  double quantizer_scale = 1.0;  ///< ratio of its quantizer steps to the standard ones: one of quantizer_scales
+  std::uint32_t batch_interval = 100;  ///< ms of frames in one message; 0: each frame is sent immediately
+  double quantizer_scale = 1.0;        ///< ratio of its quantizer steps to the standard ones: one of quantizer_scales
 
   bool operator==(const StreamSettings&) const = default;
 };

@@ -46,8 +46,7 @@ void read_facts(std::string_view text, ModelRecord& model) {
     // Stores from before the doctor existed have no findings.
     if (json.contains("findings")) model.findings = json["findings"].get<FindingCounts>();
     model.parts = json.at("parts").get<std::vector<PartRecord>>();
-    if (json.contains("frame"))
-      model.frame = frame_from_json(json["frame"]);  // and those from before frames existed have no frame
+    if (json.contains("frame")) model.frame = frame_from_json(json["frame"]);  // absent in older stores
     if (json.contains("frame_wish")) model.frame_wish = wish_from_json(json["frame_wish"]);
     if (json.contains("morph_targets")) json["morph_targets"].get_to(model.morph_targets);
   } catch (const nlohmann::json::exception&) {

@@ -38,8 +38,7 @@ Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKi
     if (!found) note_failure(result, 1, found.error());
     if (found && *found)
       ++result.put_back;
-    else if (!is_real_file(data /
-                           data_file_path(kind, name)))  // a file behind a linked folder exists but is not listed
+    else if (!is_real_file(data / data_file_path(kind, name)))  // not listed behind a linked folder
       result.missing.push_back(name);
   }
   std::sort(result.missing.begin(), result.missing.end());

@@ -36,8 +36,7 @@ struct FindingCounts {
 /// What a parametrization found out about the frame of its model.
 struct FrameUpdate {
   std::optional<ModelFrame> frame;
-  std::optional<Turn>
-      turn;  ///< from the old to the new orientation: boxes are computed anew, and marked positions turned
+  std::optional<Turn> turn;  ///< from the old to the new orientation; turns marked positions too
   std::array<double, 3> box_min{}, box_max{};
 
   bool operator==(const FrameUpdate&) const = default;

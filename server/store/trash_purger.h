@@ -12,8 +12,7 @@ namespace semblante::store {
 /// trash. The destructor stops the purge between two files.
 class TrashPurger {
  public:
-  using OnPurged =
-      std::function<void(const Trash::Counts& removed)>;  ///< called on the thread, only if something was removed
+  using OnPurged = std::function<void(const Trash::Counts& removed)>;  ///< on the thread, if any were removed
   TrashPurger(Trash& trash, std::chrono::milliseconds interval, OnPurged on_purged);
 
  private:

@@ -29,10 +29,8 @@ class Receiver {
   /// packet (livelink::read_packet).
   Result<std::optional<ReceivedFace>> take(std::span<const std::uint8_t> packet, double arrival);
 
-  [[nodiscard]] std::uint64_t others() const { return others_; }  ///< packets of subjects that are not followed
-  [[nodiscard]] std::uint64_t faceless() const {
-    return faceless_;
-  }  ///< packets of the followed device, without a face
+  [[nodiscard]] std::uint64_t others() const { return others_; }      ///< packets of subjects that are not followed
+  [[nodiscard]] std::uint64_t faceless() const { return faceless_; }  ///< followed, without a face
 
  private:
   std::string wanted_;

@@ -92,7 +92,7 @@ class Playout {
   PlayoutOptions options_;
   ClockEstimate clock_;
   std::optional<std::uint64_t> epoch_;
-  double message_interval_ = 0, frame_interval_ = 0;  ///< as the header says; 0: unknown
+  double message_interval_ = 0, frame_interval_ = 0;  ///< from the header; 0: unknown
   double measured_interval_ = 0;                      ///< between frames
   double history_until_ = 0;  ///< older frames were sent before this client connected: their lateness is not used
   double playhead_ = std::numeric_limits<double>::quiet_NaN();

@@ -57,12 +57,12 @@ TEST(StreamSettings, WhatIsWrong_IsNamed) {
     EXPECT_THAT(settings.error().message, HasSubstr(message)) << value;
   };
   for (const char* name : {"title", "model"}) {
-    expect_wrong(name, 5, "must be a text");
+    expect_wrong(name, 5, "must be a string");
     expect_wrong(name, "", "must not be empty");
     expect_wrong(name, "a\nb", "control character");
     expect_wrong(name, std::string(201, 'a'), "more than");
   }
-  expect_wrong("title", nullptr, "must be a text");
+  expect_wrong("title", nullptr, "must be a string");
   for (const Json& value : {Json(-0.01), Json(1.01), Json("0.5"), Json(true)})
     expect_wrong("viseme_share", value, "from 0 to 1");
   for (const Json& value : {Json(-1), Json(1001), Json(0.5), Json(nullptr), Json("5"), Json(1e300)})

@@ -228,7 +228,7 @@ TEST_F(Arbiter, Requests_ShareOneGuard_AndAreToldEveryTime) {
     EXPECT_FALSE(send(Source::request, 0));
     EXPECT_EQ(refusal_.error.code, ErrorCode::too_large);
     EXPECT_TRUE(refusal_.flood);
-    EXPECT_THAT(refusal_.error.message, HasSubstr("more than 2 frames a second"));
+    EXPECT_THAT(refusal_.error.message, HasSubstr("more than 2 frames per second"));
   }
   now_ += seconds(1);
   EXPECT_TRUE(send(Source::request, 0, 0, 0, 2));
