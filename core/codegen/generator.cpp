@@ -1,5 +1,6 @@
 #include "core/codegen/generator.h"
 
+#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -59,6 +60,16 @@ std::vector<std::string> out_of_date(const std::string& source_folder, Generator
     if (read_text(source_folder + "/" + file.path) != file.text) paths.push_back(file.path);
   }
   return paths;
+}
+
+std::string snake_case(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const bool upper = std::isupper(static_cast<unsigned char>(c)) != 0;
+    if (upper && !result.empty()) result += '_';
+    result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return result;
 }
 
 }  // namespace semblante::codegen

@@ -25,6 +25,9 @@ int run_generator(int argc, char** argv, Generator generate);
 /// The paths of the files whose committed text is not what the generator makes: none where all are up to date.
 std::vector<std::string> out_of_date(const std::string& source_folder, Generator generate);
 
+/// "ResumePoint" and "resumePoint" -> "resume_point".
+std::string snake_case(const std::string& name);
+
 /// Both throw std::runtime_error that names the file where it cannot be read or is no JSON.
 std::string read_text(const std::string& path);
 nlohmann::ordered_json read_json(const std::string& path);

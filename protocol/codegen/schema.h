@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/codegen/generator.h"
+
 /// Queries on the schema that all renderers use.
 namespace semblante::codegen {
 
@@ -14,8 +16,6 @@ inline std::string text(const Json& node, const char* key) { return node.value(k
 inline bool required(const Json& field) { return field.value("required", false); }
 /// Of an enumeration or a bool: it was not there at first (an `optional_real` is appended by its nature).
 inline bool appended(const Json& field) { return field.value("appended", false); }
-/// "ResumePoint" -> "resume_point".
-std::string snake_case(const std::string& name);
 /// A field's documentation with its unit in front: "ms, since 1970".
 std::string documentation(const Json& field);
 

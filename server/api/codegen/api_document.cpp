@@ -26,16 +26,6 @@ std::string component_name(const Json& schema) {
   return ref.substr(ref.rfind('/') + 1);
 }
 
-std::string snake_case(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    const bool upper = std::isupper(static_cast<unsigned char>(c)) != 0;
-    if (upper && !result.empty()) result += '_';
-    result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return result;
-}
-
 std::string pascal_case(const std::string& name) {
   std::string result;
   bool begins = true;

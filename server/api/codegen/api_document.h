@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/codegen/generator.h"
+
 /// Queries on an OpenAPI document that several renderers use.
 namespace semblante::codegen {
 
@@ -23,8 +25,6 @@ const Json& follow(const Json& document, const Json& node);
 /// "#/components/schemas/Model" -> "Model"; empty when the schema is not a reference.
 std::string component_name(const Json& schema);
 
-/// "getModel" -> "get_model".
-std::string snake_case(const std::string& name);
 /// "by_user" -> "ByUser".
 std::string pascal_case(const std::string& name);
 /// "a" -> "\"a\"", with escapes.
