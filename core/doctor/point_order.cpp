@@ -168,7 +168,7 @@ constexpr auto relations = std::to_array<Relation>({
     {z, "3.12", "10.10"},
 });
 
-/// A violated relation, and the amount as a fraction of ES0.
+/// A relation that two points violate; `by`: by how much along the axis, as a fraction of ES0.
 struct Broken {
   FeaturePointId more, less;
   Axis axis;

@@ -25,8 +25,8 @@ class RimChoice {
   /// Keeps references to both. `anchors` may grow until the first choice for an opening.
   RimChoice(const FaceSurface& face, const std::vector<SurfacePoint>& anchors) : face_(face), anchors_(anchors) {}
 
-  /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. If the side is
-  /// uncertain, the nearest vertex, with a doubt. Empty if the model has no such role.
+  /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. If the surface does not
+  /// show which vertices are on the point's side, the nearest vertex, with `doubt` set. Empty if no part has this role.
   std::optional<RimVertex> nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
                                    const MirrorPlane* on);
 

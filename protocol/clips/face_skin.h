@@ -28,8 +28,8 @@ struct FaceJoint {
   glm::vec3 place{0.0F};                     ///< position on the neutral face
   glm::quat facing{1.0F, 0.0F, 0.0F, 0.0F};  ///< on the neutral face; only pupils are rotated: z along the axis
   std::size_t index = 0;                     ///< eye and pupil: 0 left, 1 right; point: the FeaturePointId's value
-  /// For a pupil that grows to 1 + s of its radius: its z axis is scaled by 1 + 2 s sink[0].x + s s sink[1].x, and it
-  /// moves along it by 2 s sink[0].y + s s sink[1].y.
+  /// Of a pupil. If its radius grows by the factor 1 + s, the joint is scaled along its z axis by
+  /// 1 + 2 s sink[0].x + s^2 sink[1].x and moved along that axis by 2 s sink[0].y + s^2 sink[1].y.
   std::array<glm::vec2, 2> sink{glm::vec2(0.0F), glm::vec2(0.0F)};
   float gain = 1.0F;  ///< of a point: factor of its displacement
 };
@@ -53,8 +53,8 @@ struct FaceSkin {
   std::vector<std::string> warnings;  ///< in words
 };
 
-/// `influences`: 4, 8, 12 or 16. At most that many are written, fewer if no vertex has as many. `unsupported` for a
-/// table that needs more than 256 joints.
+/// `influences`: the largest number of joints that move one vertex: 4, 8, 12 or 16; fewer are written if no vertex has
+/// that many. Error `unsupported`: the weight table needs more than 256 joints.
 Result<FaceSkin> make_face_skin(const PackedFace& face, int influences);
 
 JointTransform joint_transform(const FaceSkin& skin, std::size_t joint, const semblante_pose& pose);

@@ -172,7 +172,6 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""));
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
-
     return to_response(Refused{make_problem("too-many-requests", "the stream has reached its limit of connections"),
                                connections_retry_after});
   return to_response(make_problem("not-found", "there is no stream " + id));

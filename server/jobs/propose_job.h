@@ -40,7 +40,7 @@ struct ProposeJob::Request {
 
 struct ProposeJob::Outcome {
   std::vector<store::FeaturePointRecord> proposals;               ///< for points that are not placed
-  std::vector<std::pair<std::string, std::string>> not_proposed;  ///< point, reason
+  std::vector<std::pair<std::string, std::string>> not_proposed;  ///< each point without a proposal, and the reason
 
   bool operator==(const Outcome&) const = default;
 };
