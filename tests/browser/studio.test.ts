@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { faces, sampleHead, samplePoints } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -94,6 +95,25 @@ describe('studio', () => {
       .first()
       .waitFor();
     await studio.pictureUnlike(await studio.picture(), faceAlone, 0.5);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_GraphicsContextLost_IsDrawnAgain', async () => {
+    const studio = await StudioPage.open(browser, server.url, { allowed: /Context Lost/ });
+    await studio.waitForStage('ready');
+    await studio.page.getByRole('button', { name: 'Pause the stream' }).click();
+    const before = await studio.pictureAtRest();
+    const context = await studio.page.evaluateHandle(() => {
+      const canvas = document.querySelector<HTMLCanvasElement>('canvas.canvas')!;
+      return canvas.getContext('webgl2')!.getExtension('WEBGL_lose_context')!;
+    });
+    await context.evaluate((extension) => extension.loseContext());
+    await studio.pictureUnlike(before, faceAlone, 5);
+    await context.evaluate((extension) => extension.restoreContext());
+    await eventually('the same picture, with the same light', async () => {
+      return (await studio.difference(before, await studio.picture(), faceAlone)) < 0.5;
+    });
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

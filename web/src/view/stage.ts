@@ -77,12 +77,14 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(new Color(0), 0);
 
-    const generator = new PMREMGenerator(this.renderer);
-    const room = new RoomEnvironment();
-    this.scene.environment = generator.fromScene(room, 0.04, 0.1, 100, { size: quality.roomSize }).texture;
     this.scene.environmentIntensity = 0.42;
-    room.dispose();
-    generator.dispose();
+    this.drawEnvironment();
+    // A phone takes the graphics context from a page in the background. three.js uploads meshes and textures again, but
+    // not what was drawn into a texture.
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.drawEnvironment();
+      this.invalidate();
+    });
 
     this.scene.add(new HemisphereLight(0xffffff, 0x6b5a4e, 0.35), this.key, this.key.target, this.rim, this.rim.target);
 
@@ -94,7 +96,7 @@ export class Stage {
 
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.resize();
-    this.renderer.setAnimationLoop(this.frame);
+    requestAnimationFrame(this.frame);
   }
 
   /** Requests one more drawn frame. */
@@ -225,6 +227,16 @@ export class Stage {
     return to.toDataURL('image/webp', 0.8);
   }
 
+  /** Draws the surroundings that light the head, once per graphics context. */
+  private drawEnvironment(): void {
+    const generator = new PMREMGenerator(this.renderer);
+    const room = new RoomEnvironment();
+    this.scene.environment?.dispose();
+    this.scene.environment = generator.fromScene(room, 0.04, 0.1, 100, { size: this.quality.roomSize }).texture;
+    room.dispose();
+    generator.dispose();
+  }
+
   private placeLights(): void {
     const { center: c, radius: r } = this;
     this.key.position.set(c.x - r * 1.6, c.y + r * 1.9, c.z + r * 2.8);
@@ -258,6 +270,7 @@ export class Stage {
   }
 
   private readonly frame = (time: number): void => {
+    requestAnimationFrame(this.frame); // first: an exception below must not end the loop
     const delta = Math.min(0.1, (time - this.lastTime) / 1000);
     this.lastTime = time;
     if (this.flight.flying) {
