@@ -39,7 +39,8 @@ export class StudioPage {
     const page = await context.newPage();
     const studio = new StudioPage(context, page);
     page.on('console', (message) => {
-      if (message.type() === 'error' && !options.allowed?.test(message.text())) studio.errors.push(message.text());
+      const error = message.type() === 'error' || message.text().includes('Context Lost');
+      if (error && !options.allowed?.test(message.text())) studio.errors.push(message.text());
     });
     page.on('pageerror', (error) => studio.errors.push(String(error)));
     page.on('requestfailed', (request) => {
@@ -127,11 +128,37 @@ export class StudioPage {
     least: number,
   ): Promise<Buffer> {
     let picture = before;
-    await eventually(`the picture changes by more than ${least}`, async () => {
-      picture = await this.picture();
-      return (await this.difference(before, picture, region)) > least;
-    });
+    let difference = 0;
+    try {
+      await eventually(`the picture changes by more than ${least}`, async () => {
+        // Whoever waits for a page with an error would wait until the end.
+        if (this.errors.length > 0) throw new Error(`the page reports: ${this.errors.join('; ')}`);
+        picture = await this.picture();
+        difference = await this.difference(before, picture, region);
+        return difference > least;
+      });
+    } catch (error) {
+      throw new Error(`${String(error)} (last difference ${difference}; ${await this.motion()})`);
+    }
     return picture;
+  }
+
+  /** What moves the face and how far it is, as JSON, for the message of a test that fails. */
+  private motion(): Promise<string> {
+    return this.page.evaluate(() => {
+      const { driver, scene } = (window as unknown as Inside).semblante;
+      const player = scene.performer.value?.player;
+      const { face, stage, state } = scene;
+      return JSON.stringify({
+        source: driver.source.value,
+        stage: state.value.kind,
+        visible: face?.object.visible,
+        drawnPerSecond: stage.framesPerSecond,
+        playhead: player?.playhead,
+        delay: player?.delay,
+        playout: player?.stats,
+      });
+    });
   }
 
   /**
@@ -150,6 +177,8 @@ export class StudioPage {
           return context.getImageData(image.width * x, image.height * y, image.width * w, image.height * h);
         };
         const [one, two] = [await pixels(first), await pixels(second)];
+        if (one.width !== two.width || one.height !== two.height)
+          throw new Error(`pictures of ${one.width} by ${one.height} and ${two.width} by ${two.height} pixels`);
         let sum = 0;
         for (let i = 0; i < one.data.length; i += 4)
           for (let k = 0; k < 3; k += 1) sum += Math.abs(one.data[i + k]! - two.data[i + k]!);
@@ -189,13 +218,15 @@ export interface Inside {
       markers: {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
-      stage: { camera: { position: { toArray(): number[] } } };
-      face: { mesh: { vertexCount: number } } | null;
+      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number };
+      face: { mesh: { vertexCount: number }; object: { visible: boolean } } | null;
+      performer: { value: { player: { playhead: number; delay: number; stats: object } } | null };
       highlight: {
         parts: { children: { geometry: { index: { count: number } | null } }[] };
         dots: { count: number; object: { visible: boolean } };
       };
     };
+    driver: { source: { value: string } };
     studio: { selected: { value: { id: string; state: string } | null } };
   };
 }
