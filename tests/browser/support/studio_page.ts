@@ -145,14 +145,18 @@ export class StudioPage {
 
   /** What moves the face and how far it is, as JSON, for the message of a test that fails. */
   private motion(): Promise<string> {
-    return this.page.evaluate(() => {
+    return this.page.evaluate(async () => {
       const { driver, scene } = (window as unknown as Inside).semblante;
+      const frames = new Promise<boolean>((answer) => requestAnimationFrame(() => answer(true)));
+      const noFrames = new Promise<boolean>((answer) => setTimeout(() => answer(false), 10_000));
       const player = scene.performer.value?.player;
       const { face, stage, state } = scene;
       return JSON.stringify({
         source: driver.source.value,
         stage: state.value.kind,
         visible: face?.object.visible,
+        page: document.visibilityState,
+        frames: await Promise.race([frames, noFrames]),
         drawnPerSecond: stage.framesPerSecond,
         playhead: player?.playhead,
         delay: player?.delay,
