@@ -37,7 +37,7 @@ struct RemovedMotion {
 
 struct Extraction {
   std::vector<Displacement> displacements;  ///< FAPU units, rising; none is all zero
-  std::vector<MissingUnit> skipped;      ///< moved points left out for want of a FAPU, with the first that is missing
+  std::vector<MissingUnit> skipped;      ///< moved points omitted because of a missing FAPU, with the first missing one
   std::vector<FeaturePointId> at_rest;   ///< marked points that move by less than `least`
   std::vector<FeaturePointId> bare;      ///< bare positions (7.1, a pupil inside a triangle): they follow no vertex
   std::vector<FeaturePointId> unmarked;  ///< of the 84, those the head does not have

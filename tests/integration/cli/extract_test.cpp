@@ -82,7 +82,8 @@ TEST_F(Extract, RefusesInOneLine_NamingWhatIsWrong) {
     EXPECT_EQ(line_count(outcome.err), 1U) << outcome.err;
   };
   refused(extract({}), "give the file of the expression, or --target");
-  refused(extract({"--target", "smile"}), "--target smile: the model has no morph target of this name; it has none");
+  refused(extract({"--target", "smile"}),
+          "--target smile: the model has no morph target of this name; it has no morph targets");
   refused(extract({neutral}), "moves none of the marked feature points");
   refused(extract({work.write("fewer.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}),
           "has 3 vertices, the neutral head 81");
