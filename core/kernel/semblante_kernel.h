@@ -68,7 +68,7 @@ typedef struct semblante_rig {
   float fapu[SEMBLANTE_FAPU_COUNT]; /* already divided by 1024; 0: unknown, and FAPs in that unit do nothing */
   float eye_pivot[2][3];            /* left, right */
   float head_pivot[3];
-  float viseme_share;     /* share of the viseme at an FP that an expression moves too (Eq. 5): 0.85 */
+  float viseme_share;     /* share of the viseme at an FP that an expression also moves (Eq. 5): 0.85 */
   semblante_iris iris[2]; /* left, right */
   semblante_tongue tongue;
 } semblante_rig;
@@ -83,7 +83,7 @@ typedef struct semblante_pose {
   float eye_pivot[2][3];
   float head_pivot[3];
   float pupil_growth[2]; /* left, right: change of the pupil's radius */
-  float tongue_roll;     /* radians that a border of the tongue turns upwards */
+  float tongue_roll;     /* radians by which a border of the tongue rotates upwards */
   semblante_iris iris[2];
   semblante_tongue tongue;
 } semblante_pose;
