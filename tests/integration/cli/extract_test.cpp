@@ -55,7 +55,7 @@ TEST_F(Extract, WritesTheDifferenceInUnits_AndSaysWhatIsMissing) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   // 1 / (4 / 1024), -0.5 / (2 / 1024)
   EXPECT_EQ(set(), json::parse(R"({"name": "smile", "kind": "expression", "displacements": {"8.3": [256, -256, 0]}})"));
-  EXPECT_NE(outcome.err.find("they lie at no vertex: 7.1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("they have no vertex: 7.1"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("not marked on this head: "), std::string::npos) << outcome.err;
 }
 
