@@ -121,14 +121,14 @@ semblante_result check_triangles(const semblante_package& package, semblante_err
     return SEMBLANTE_OK;
   }
   if (package.triangles == nullptr || package.normals == nullptr) {
-    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "triangles and normals are given both or not");
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "triangles and normals must be given together");
   }
   if (package.triangle_count > 3 * semblante::max_weights_vertices) {
     return fail(error, SEMBLANTE_TOO_LARGE, "package.triangle_count", "more than 12 million triangles");
   }
   const std::span corners(package.triangles, std::size_t{package.triangle_count} * 3);
   if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return v >= package.vertex_count; })) {
-    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "a corner is no vertex");
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.triangles", "a corner is not the number of a vertex");
   }
   if (!all_finite({package.normals, std::size_t{package.vertex_count} * 3})) {
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.normals", "a normal is not a finite number");
@@ -139,13 +139,14 @@ semblante_result check_triangles(const semblante_package& package, semblante_err
 semblante_result check_pairing(const semblante_package& package, const semblante::InfluenceTable& table,
                                const RigDocument& document, semblante_error* error) {
   if (table.vertex_count != package.vertex_count) {
-    return fail(error, SEMBLANTE_MISMATCH, "weights", "the weight table has another number of vertices than the mesh");
+    return fail(error, SEMBLANTE_MISMATCH, "weights",
+                "the weight table has a different number of vertices than the mesh");
   }
   if (document.mesh.vertices != package.vertex_count) {
-    return fail(error, SEMBLANTE_MISMATCH, "rig.json", "the rig is of a mesh with another number of vertices");
+    return fail(error, SEMBLANTE_MISMATCH, "rig.json", "the rig belongs to a mesh with a different number of vertices");
   }
   if (document.mesh.sha256 != table.mesh_sha256) {
-    return fail(error, SEMBLANTE_MISMATCH, "weights", "the weight table and the rig name different meshes");
+    return fail(error, SEMBLANTE_MISMATCH, "weights", "the weight table and the rig refer to different meshes");
   }
   if (package.mesh_sha256 != nullptr &&
       !std::equal(table.mesh_sha256.begin(), table.mesh_sha256.end(), package.mesh_sha256)) {
@@ -161,7 +162,7 @@ semblante_result check_arguments(const semblante_package* package, const semblan
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package", "positions, weights and rig_json must be given");
   }
   if (package->vertex_count == 0) {
-    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.vertex_count", "a head has at least one vertex");
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.vertex_count", "a head must have at least one vertex");
   }
   if (package->vertex_count > semblante::max_weights_vertices) {
     return fail(error, SEMBLANTE_TOO_LARGE, "package.vertex_count", "more than 4 million vertices");
@@ -170,7 +171,7 @@ semblante_result check_arguments(const semblante_package* package, const semblan
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "package.positions", "a position is not a finite number");
   }
   if (options != nullptr && !(options->viseme_share >= 0.0F && options->viseme_share <= 1.0F)) {
-    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "options.viseme_share", "the share is 0 to 1");
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "options.viseme_share", "the share must be 0 to 1");
   }
   return check_triangles(*package, error);
 }
@@ -232,7 +233,7 @@ const char* semblante_result_name(semblante_result result) {
 semblante_result semblante_head_create(const semblante_package* package, const semblante_head_options* options,
                                        semblante_head** head, semblante_error* error) {
   if (head == nullptr) {
-    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "head", "there is nowhere to put the head");
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, "head", "the pointer for the new head is null");
   }
   *head = nullptr;
   // JSON and containers throw; no exception may cross the C boundary.
@@ -247,7 +248,7 @@ semblante_result semblante_head_create(const semblante_package* package, const s
   } catch (const std::bad_alloc&) {
     return fail(error, SEMBLANTE_OUT_OF_MEMORY, "", "not enough memory for this head");
   } catch (...) {
-    return fail(error, SEMBLANTE_INTERNAL, "", "an unexpected fault inside the SDK");
+    return fail(error, SEMBLANTE_INTERNAL, "", "unexpected error inside the SDK");
   }
 }
 

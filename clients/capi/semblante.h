@@ -1,4 +1,4 @@
-/* The C SDK of Semblante: a face package in, moving vertices out.
+/* The C SDK of Semblante: computes the moving vertices of a face package.
  *
  * The caller fetches the package (HTTP), decodes mesh.drc (Draco) and passes the bytes. From then on: frame in,
  * positions out. No network, no files, no threads, no logging, no locale, no callbacks; no exception ever crosses this
@@ -16,7 +16,7 @@
  *   semblante_head_positions(head, out, 3 * n);                 // draw these
  *   semblante_head_destroy(head);
  *
- * Threads: functions that take a const head may run at the same time on one head; the others need it alone.
+ * Threads: functions that take a const head may run at the same time on one head; the others need exclusive access.
  * Frames and poses are the kernel's own (semblante_kernel.h); its functions are exported as well.
  */
 #ifndef SEMBLANTE_H
@@ -39,10 +39,10 @@ extern "C" {
 /* Result codes. Values never change; new ones are added at the end. */
 typedef enum semblante_result {
   SEMBLANTE_OK = 0,
-  SEMBLANTE_INVALID_ARGUMENT = 1, /* a null that is not allowed, a number not finite or out of range */
-  SEMBLANTE_MALFORMED = 2,        /* the bytes are not of the format they claim, or end early */
+  SEMBLANTE_INVALID_ARGUMENT = 1, /* a null that is not allowed, a number that is not finite or out of range */
+  SEMBLANTE_MALFORMED = 2,        /* the bytes do not follow their format, or end early */
   SEMBLANTE_UNSUPPORTED = 3,      /* a version this SDK does not read */
-  SEMBLANTE_MISMATCH = 4,         /* mesh, weights and rig are not of one package */
+  SEMBLANTE_MISMATCH = 4,         /* mesh, weights and rig do not belong to one package */
   SEMBLANTE_TOO_LARGE = 5,        /* over a documented limit (4 million vertices, 48 million weights) */
   SEMBLANTE_BUFFER_TOO_SMALL = 6, /* nothing was written */
   SEMBLANTE_OUT_OF_MEMORY = 7,
@@ -73,21 +73,21 @@ typedef struct semblante_package {
 } semblante_package;
 
 typedef struct semblante_head_options {
-  float viseme_share; /* share of the viseme where an expression acts too (Eq. 5); 0: what rig.json says; a share of
-                         0 is set by semblante_head_set_viseme_share */
+  float viseme_share; /* share of the viseme at an FP that an expression also moves (Eq. 5); 0: that of rig.json; a
+                         share of 0 is set by semblante_head_set_viseme_share */
   uint32_t reserved[7];
 } semblante_head_options;
 
 /* One parametrized head and its current pose. */
 typedef struct semblante_head semblante_head;
 
-/* Version of the library that runs, to compare with SEMBLANTE_SDK_VERSION. */
+/* Version of the loaded library, to compare with SEMBLANTE_SDK_VERSION. */
 uint32_t semblante_sdk_version(void);
 /* "ok", "malformed", ...: a static string for logs. */
 const char* semblante_result_name(semblante_result result);
 
-/* Makes a head in the neutral pose. `options` and `error` may be null. On failure *head is null and, if given, *error
- * says why. */
+/* Makes a head in the neutral pose. `options` and `error` may be null. On failure *head is null and *error, if given,
+ * has the reason. */
 semblante_result semblante_head_create(const semblante_package* package, const semblante_head_options* options,
                                        semblante_head** head, semblante_error* error);
 /* Accepts null. */
@@ -100,9 +100,10 @@ const semblante_rig* semblante_head_rig(const semblante_head* head);
 /* Rest positions and influence table; valid until the head is destroyed. Null for null. */
 const semblante_face* semblante_head_face(const semblante_head* head);
 
-/* The share of the viseme where an expression acts too (Eq. 5), 0..1, both ends allowed, as the header of a stream may
- * name it: for frames set from now on; the pose in use stays. semblante_head_rig shows the one in use, at first that of
- * rig.json or of the options. INVALID_ARGUMENT, and no change, for what is outside or not a number. */
+/* Sets the share of the viseme at an FP that an expression also moves (Eq. 5), 0..1 inclusive, for example that of the
+ * header of a stream. It applies to frames set from now on; the current pose does not change. semblante_head_rig has
+ * the current share, initially that of rig.json or of the options. INVALID_ARGUMENT, without a change, for a share
+ * outside 0..1 or NaN. */
 semblante_result semblante_head_set_viseme_share(semblante_head* head, float viseme_share);
 
 /* Frame -> pose of this head (Eq. 5, 6), kept in the head. FAPs that are not finite are refused. */
@@ -114,22 +115,22 @@ semblante_result semblante_head_set_interpolated(semblante_head* head, const sem
 semblante_result semblante_head_get_pose(const semblante_head* head, semblante_pose* pose);
 semblante_result semblante_head_set_pose(semblante_head* head, const semblante_pose* pose);
 
-/* The vertices of the pose in use (Eq. 7, then eyes, then head): 3 * vertex_count floats, in decoded order.
+/* The vertices of the current pose (Eq. 7, then eyes and tongue, then head): 3 * vertex_count floats, in decoded order.
  * `capacity` is in floats. */
 semblante_result semblante_head_positions(const semblante_head* head, float* positions, size_t capacity);
 
-/* The same when `positions` still has the result of this head in the pose `before`: only vertices that may have changed
- * are written. A talking face without head motion moves half of them. */
+/* Like semblante_head_positions, if `positions` still has the result of this head in the pose `before`: writes only
+ * vertices that may have changed. A talking face without head motion moves half of them. */
 semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
                                                  float* positions, size_t capacity);
 
 /* Unit normals of `positions` from this head: both 3 * #V floats, `capacity` of `normals`. Seams are smooth, hard edges
- * stay hard. INVALID_ARGUMENT for a head whose package came without triangles and normals. */
+ * stay hard. INVALID_ARGUMENT for a head whose package was given without triangles and normals. */
 semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
                                         size_t capacity);
 
 /* ARKit's 52 blend shape coefficients, in the order of Live Link Face's stream (core/bridges/data/arkit.json), 0..1:
- * what is outside is taken as 0 or 1. NaN and infinity are refused, `where` names the shape. `error` may be null. */
+ * values outside are clamped. NaN and infinity are refused, and `where` names the shape. `error` may be null. */
 semblante_result semblante_frame_from_arkit(const float coefficients[52], semblante_frame* frame,
                                             semblante_error* error);
 /* ARKit's coefficients for the face of a frame, each in 0..1. FAPs that are not finite are refused. */

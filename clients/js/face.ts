@@ -66,12 +66,12 @@ export async function assembleFace(
 ): Promise<Face> {
   const rig = readRig(new TextDecoder().decode(rigJson));
   const [meshHash, weightsHash] = await Promise.all([sha256(meshDrc), sha256(weights)]);
-  if (meshHash !== rig.mesh.sha256) throw new FaceError('mismatch', 'mesh.drc has not the hash in rig.json');
-  if (weightsHash !== rig.weights.sha256) throw new FaceError('mismatch', 'the weights have not the hash in rig.json');
+  if (meshHash !== rig.mesh.sha256) throw new FaceError('mismatch', 'the SHA-256 of mesh.drc differs from rig.json');
+  if (weightsHash !== rig.weights.sha256) throw new FaceError('mismatch', 'the SHA-256 of the weights differs from rig.json');
   const influence = await decodeWeights(weights);
   if (influence.meshSha256 !== meshHash) throw new FaceError('mismatch', 'the weights belong to another mesh');
   if (influence.vertexCount !== rig.mesh.vertices) {
-    throw new FaceError('mismatch', `weights of ${influence.vertexCount} vertices, mesh of ${rig.mesh.vertices}`);
+    throw new FaceError('mismatch', `the weights have ${influence.vertexCount} vertices, the mesh ${rig.mesh.vertices}`);
   }
   return { rig, mesh: decodeMesh(draco, meshDrc, rig), influence };
 }

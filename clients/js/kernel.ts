@@ -268,7 +268,7 @@ export class Kernel {
 
   private poseAt(pose: number): number {
     const at = this.at.poses[pose];
-    if (at === undefined) throw new RangeError(`no pose ${pose}`);
+    if (at === undefined) throw new RangeError(`unknown pose ${pose}`);
     return at;
   }
 }

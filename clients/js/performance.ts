@@ -246,7 +246,7 @@ function tracksOf({ target }: Cue): string[] {
 }
 
 function wayOf(cue: Cue): LookOffset {
-  if (cue.target.kind !== 'look_at') throw new TypeError('no look');
+  if (cue.target.kind !== 'look_at') throw new TypeError('the target of the cue is not look_at');
   const { yaw, pitch, distance, headShare } = cue.target;
   const look: LookOffset = {
     yaw,

@@ -9,23 +9,24 @@
 
 namespace semblante {
 
-/// A place on the edge of a lip or lid, between feature points, that moves as a mix of theirs.
+/// A vertex on the edge of a lip or lid, between feature points, that moves by a weighted mean of their displacements.
 struct MarginSite {
   SurfaceVertexId vertex;
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
 };
 
-/// Places along the edges of lips and lids, which define for the smooth weights how an edge moves between its few
+/// Places along the edges of lips and lids. They define for the smooth weights how an edge moves between its few
 /// points:
 ///
-/// - A lid's edge is moved by its middle (3.1 to 3.4) in the measure of the eye's opening there: where the eye is open
-///   half as high as IRISD0, half as far; the rest is the corners' share. So FAPs 19 to 22 shut the eye along its whole
-///   edge and not in the middle alone, and upper and lower lid that each go part of the way meet.
-/// - An inner edge of a lip goes evenly from point to point; both lips in the same measure, so that lips which touch
-///   and move alike go on touching.
+/// - Edge of a lid: the share of its middle point (3.1 to 3.4) is the height of the eye's opening at the place divided
+/// by
+///   IRISD0; the corners have the rest. So FAPs 19 to 22 close the eye along the whole edge instead of only in the
+///   middle, and upper and lower lid meet even if each moves only part of the way.
+/// - Inner edge of a lip: linear interpolation from point to point, with the same shares for both lips, so that lips
+///   that touch and move equally continue to touch.
 ///
-/// Edges are shortest paths between the points that bound them; edges whose points are missing have no places. A lid
-/// on a part without corners (a shell behind the fold) ends at its vertices nearest to them.
+/// Edges are shortest paths between the points that bound them; an edge with a missing point has no places. A lid on a
+/// part without corners (a shell behind the fold) ends at its vertices nearest to the corners.
 std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points);
 
 }  // namespace semblante

@@ -9,8 +9,8 @@
 
 namespace semblante {
 
-/// The opening whose upper or lower flesh has this point, and which of the two; null for all other points (corners
-/// belong to both sides).
+/// The opening to whose upper or lower lip (or lid) the point belongs, and to which of the two; null for all other
+/// points (corners belong to both sides).
 struct RimOfPoint {
   const mpeg4::Opening* opening = nullptr;
   bool is_upper = false;
@@ -21,8 +21,8 @@ RimOfPoint rim_of_point(FeaturePointId id);
 /// overlapping rims are close to each other across the gap, while the path on the surface goes around a corner or
 /// through the cavity behind.
 ///
-/// `anchors` are points with certain vertices. All given ones of the flesh and beside the opening are used: the
-/// distance from the anchors to the nearest corner is subtracted before the comparison, so that no side has an
+/// `anchors` are points whose vertices are certain. All those on the lips (or lids) and beside the opening are used.
+/// The distance from the anchors to the nearest corner is subtracted before the comparison, so that no side has an
 /// advantage because its anchors are nearer.
 class RimSides {
  public:

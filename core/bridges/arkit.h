@@ -11,8 +11,8 @@
 
 namespace semblante {
 
-/// ARKit's blend shapes, in the order of Live Link Face's stream (its CSV files have another; read those by name).
-/// Left and right are the face's own.
+/// ARKit's blend shapes, in the order of Live Link Face's stream. Its CSV files have another order; they are read by
+/// name. Left and right are the face's own.
 inline constexpr std::size_t arkit_count = 52;
 using ArkitCoefficients = std::array<float, arkit_count>;
 

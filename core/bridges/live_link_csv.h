@@ -11,9 +11,9 @@
 
 namespace semblante {
 
-/// One row of a take: ARKit's face at one moment.
+/// One row of a take: ARKit's parameters of a face at one time.
 struct LiveLinkRow {
-  double seconds = 0.0;  ///< from the first row; never falls
+  double seconds = 0.0;  ///< since the first row; never decreases
   ArkitCoefficients coefficients{};
   HeadTurn head;
   EyeTurn left_eye, right_eye;
@@ -21,7 +21,7 @@ struct LiveLinkRow {
 
 struct LiveLinkTake {
   std::vector<LiveLinkRow> rows;      ///< at least one
-  std::vector<std::string> warnings;  ///< columns that were skipped or are not there, in words
+  std::vector<std::string> warnings;  ///< skipped and missing columns, as text
 };
 
 /// Frames per second of the app's timecodes; a take of 30 frames per second steps by two.
@@ -30,9 +30,9 @@ inline constexpr std::size_t max_live_link_bytes = std::size_t{64} << 20U;
 inline constexpr std::size_t max_live_link_rows = 500'000;
 inline constexpr std::size_t max_live_link_columns = 256;
 
-/// The CSV file of Live Link Face: `Timecode,BlendShapeCount,` and a column a shape, found by their names, since the
-/// file's order (JawRight before JawLeft) is not that of the stream. Timecodes are HH:MM:SS:FF.sub. A row that counts 0
-/// shapes is a moment without a face: it repeats the row before. Errors name the line ("line 12").
+/// Reads the CSV file of Live Link Face: `Timecode,BlendShapeCount,` and one column per shape. Columns are found by
+/// name, because the file's order (JawRight before JawLeft) differs from the stream's. Timecodes are HH:MM:SS:FF.sub. A
+/// row with a BlendShapeCount of 0 has no face and repeats the previous row. Errors name the line ("line 12").
 Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate = live_link_timecode_rate);
 
 /// Converts a face to the row that the app would write.
@@ -42,7 +42,7 @@ LiveLinkRow live_link_row_of(double seconds, const semblante_frame& face);
 void append_live_link_header(std::string& to);
 void append_live_link_row(std::string& to, const LiveLinkRow& row, double timecode_rate = live_link_timecode_rate);
 
-/// Writes the file: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines ended by LF.
+/// Writes the file: all 61 columns in the app's order, timecodes from 00:00:00:00.000, lines end with LF.
 std::string write_live_link_csv(std::span<const LiveLinkRow> rows, double timecode_rate = live_link_timecode_rate);
 
 }  // namespace semblante

@@ -144,14 +144,14 @@ Result<Columns> read_header(std::string_view line, std::vector<std::string>& war
     } else if (names[c] == "BlendShapeCount" && !columns.shape_count) {
       columns.shape_count = c;
     } else if (const auto field = field_of(names[c])) {
-      if (seen[*field]) return at_line(1, ErrorCode::malformed, "column " + shown(names[c]) + " twice");
+      if (seen[*field]) return at_line(1, ErrorCode::malformed, "column " + shown(names[c]) + " occurs twice");
       seen[*field] = true;
       columns.field[c] = field;
     } else if (!names[c].empty()) {
-      warnings.push_back("column " + shown(names[c]) + " is no shape of ARKit and is skipped");
+      warnings.push_back("column " + shown(names[c]) + " is not a shape of ARKit and is skipped");
     }
   }
-  if (!has_timecode) return at_line(1, ErrorCode::malformed, "no column Timecode: not a file of Live Link Face");
+  if (!has_timecode) return at_line(1, ErrorCode::malformed, "no column Timecode: not a CSV file of Live Link Face");
   const auto shapes = static_cast<std::size_t>(std::count(seen.begin(), seen.begin() + arkit_count, true));
   if (shapes == 0) return at_line(1, ErrorCode::malformed, "no column has the name of a shape of ARKit");
   if (shapes < arkit_count) {
@@ -159,7 +159,7 @@ Result<Columns> read_header(std::string_view line, std::vector<std::string>& war
     for (std::size_t s = 0; s < arkit_count; ++s) {
       if (!seen[s]) missing.append(missing.empty() ? "" : ", ").append(arkit_name(s));
     }
-    warnings.push_back("no column for " + missing + ": taken as 0");
+    warnings.push_back("no column for " + missing + ": the values are 0");
   }
   return columns;
 }
@@ -167,12 +167,13 @@ Result<Columns> read_header(std::string_view line, std::vector<std::string>& war
 Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Columns& columns, double rate,
                              const LiveLinkRow& before) {
   const auto cells = cells_of(line);
-  if (cells.size() <= columns.timecode) return at_line(number, ErrorCode::truncated, "ends before its timecode");
+  if (cells.size() <= columns.timecode)
+    return at_line(number, ErrorCode::truncated, "the row ends before its timecode");
   const auto seconds = seconds_of(cells[columns.timecode], rate);
   if (!seconds) {
     return at_line(number, ErrorCode::malformed,
-                   shown(cells[columns.timecode]) + " is no timecode HH:MM:SS:FF.sub with fewer than " +
-                       std::to_string(std::lround(rate)) + " frames a second");
+                   shown(cells[columns.timecode]) + " is not a timecode HH:MM:SS:FF.sub with FF below " +
+                       std::to_string(std::lround(rate)));
   }
   if (columns.shape_count && *columns.shape_count < cells.size() && cells[*columns.shape_count] == "0") {
     LiveLinkRow same = before;
@@ -180,8 +181,9 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
     return same;
   }
   if (cells.size() != columns.count) {
-    return at_line(number, cells.size() < columns.count ? ErrorCode::truncated : ErrorCode::malformed,
-                   "has " + std::to_string(cells.size()) + " values for " + std::to_string(columns.count) + " columns");
+    return at_line(
+        number, cells.size() < columns.count ? ErrorCode::truncated : ErrorCode::malformed,
+        "the row has " + std::to_string(cells.size()) + " values for " + std::to_string(columns.count) + " columns");
   }
   LiveLinkRow row;
   row.seconds = *seconds;
@@ -204,10 +206,10 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
 
 Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate) {
   if (text.size() > max_live_link_bytes) {
-    return Error{ErrorCode::too_large, "", "more than " + std::to_string(max_live_link_bytes) + " bytes"};
+    return Error{ErrorCode::too_large, "", "the file has more than " + std::to_string(max_live_link_bytes) + " bytes"};
   }
   if (!(timecode_rate >= 1.0 && timecode_rate <= 1000.0)) {
-    return Error{ErrorCode::invalid_argument, "", "a timecode counts 1 to 1000 frames a second"};
+    return Error{ErrorCode::invalid_argument, "", "the timecode rate must be 1 to 1000 frames per second"};
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   LiveLinkTake take;
@@ -230,12 +232,13 @@ Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_r
       now += seconds_of_a_day;
     }
     if (take.rows.empty()) first = now;
-    if (!take.rows.empty() && now < last) return at_line(number, ErrorCode::out_of_range, "the timecode falls");
+    if (!take.rows.empty() && now < last)
+      return at_line(number, ErrorCode::out_of_range, "the timecode is before that of the previous row");
     last = now;
     row->seconds = now - first;
     take.rows.push_back(*std::move(row));
   }
-  if (take.rows.empty()) return Error{ErrorCode::empty, "", "no rows"};
+  if (take.rows.empty()) return Error{ErrorCode::empty, "", "the file has no rows"};
   return take;
 }
 

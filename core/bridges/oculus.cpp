@@ -136,11 +136,11 @@ Result<FrameFromOculus> frame_from_oculus(std::span<const float, oculus_count> w
 
 OculusWeights oculus_from_frame(const semblante_frame& frame) {
   const MouthOfVisemes& mouth = mouth_of_visemes();
-  Weights said{};
+  Weights of_fap1{};
   const double share = std::min<int>(frame.viseme_blend, SEMBLANTE_BLEND_MAX) / 63.0;
-  if (frame.viseme1 < oculus_count) said[frame.viseme1] += share;
-  if (frame.viseme2 < oculus_count) said[frame.viseme2] += 1.0 - share;
-  said[0] = 0.0;
+  if (frame.viseme1 < oculus_count) of_fap1[frame.viseme1] += share;
+  if (frame.viseme2 < oculus_count) of_fap1[frame.viseme2] += 1.0 - share;
+  of_fap1[0] = 0.0;
 
   semblante_frame without_expressions = frame;
   without_expressions.intensity1 = without_expressions.intensity2 = 0;
@@ -148,21 +148,21 @@ OculusWeights oculus_from_frame(const semblante_frame& frame) {
   std::vector<double> left;  // mm: residual of FAP 1
   for (std::size_t i = 0; i < mouth.faps.size(); ++i) {
     double units = displacement[mouth.faps[i]];
-    for (std::size_t v = 1; v < oculus_count; ++v) units -= said[v] * mouth.units[v][i];
+    for (std::size_t v = 1; v < oculus_count; ++v) units -= of_fap1[v] * mouth.units[v][i];
     left.push_back(units * mouth.millimetres[i]);
   }
   Weights slope{};
   for (std::size_t v = 1; v < oculus_count; ++v) {
     for (std::size_t i = 0; i < left.size(); ++i) slope[v] -= mouth.units[v][i] * mouth.millimetres[i] * left[i];
   }
-  Weights w = said;
+  Weights w = of_fap1;
   for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t v = 1; v < oculus_count; ++v) {
       // A soft threshold: the weight leaves FAP 1's only if the gain exceeds the cost.
       const double stiff = mouth.gram[v][v] + trust_in_fap1;
-      const double change = (mouth.gram[v][v] * (w[v] - said[v]) - slope[v]) / stiff;
+      const double change = (mouth.gram[v][v] * (w[v] - of_fap1[v]) - slope[v]) / stiff;
       const double worth = std::max(std::abs(change) - cost_of_change / stiff, 0.0);
-      const double wanted = said[v] + std::copysign(worth, change);
+      const double wanted = of_fap1[v] + std::copysign(worth, change);
       const double step = std::clamp(wanted, 0.0, 1.0) - w[v];
       w[v] += step;
       for (std::size_t k = 1; k < oculus_count; ++k) slope[k] += step * mouth.gram[v][k];

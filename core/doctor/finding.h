@@ -102,8 +102,8 @@ constexpr std::string_view to_string(FindingCode code) { return finding_code_nam
 struct VertexSample {
   static constexpr std::size_t capacity = 32;
 
-  std::vector<VertexId> vertices;  ///< the first `capacity` that were added, each once if they were added so
-  std::size_t count = 0;           ///< all that were added
+  std::vector<VertexId> vertices;  ///< the first `capacity` added ones; add() does not remove duplicates
+  std::size_t count = 0;           ///< number of all added ones
 
   void add(VertexId vertex) {
     if (count++ < capacity) vertices.push_back(vertex);
@@ -113,14 +113,14 @@ struct VertexSample {
 /// The place of a finding; members that do not apply are empty.
 struct Place {
   std::optional<PartId> part;
-  std::vector<FeaturePointId> points;  ///< as the finding tells them
+  std::vector<FeaturePointId> points;  ///< in the order of the text
   VertexSample vertices;
-  std::optional<glm::dvec3> position;  ///< what to look at; model units, MPEG-4 frame
+  std::optional<glm::dvec3> position;  ///< where to look; model units, MPEG-4 frame
 };
 
 /// A measured value, and the threshold of the finding.
 struct Measurement {
-  std::string what;  ///< with its unit: "distance as a share of ES0"
+  std::string what;  ///< with its unit: "distance as a fraction of ES0"
   double value = 0.0;
   double threshold = 0.0;
 };
@@ -129,8 +129,8 @@ struct Measurement {
 struct Finding {
   FindingCode code{};
   Severity severity = Severity::warning;
-  std::string words;   ///< what is wrong and what comes of it: a sentence without a full stop
-  std::string remedy;  ///< what to do about it, likewise
+  std::string words;   ///< the fault and its consequence, a sentence without a full stop
+  std::string remedy;  ///< what to do about it, in the same form
   Place place;
   std::optional<Measurement> measured;
 };

@@ -35,8 +35,8 @@ bool moves_with_the_skin(FeaturePointId id) { return is_skin_point(id) && group_
 
 /// The distances of a part to the points that move the skin.
 struct Nearness {
-  double distance = std::numeric_limits<double>::infinity();  ///< the least, in model units
-  std::size_t point = 0;                                      ///< to which
+  double distance = std::numeric_limits<double>::infinity();  ///< smallest distance, model units
+  std::size_t point = 0;                                      ///< index of the nearest point
   glm::dvec3 at{0.0};
   std::set<std::size_t> beside;  ///< points within reach
 };

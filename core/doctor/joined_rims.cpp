@@ -23,7 +23,7 @@ constexpr double shortest_share = 0.5;
 struct Crossing {
   const SurfacePoint* upper;
   const SurfacePoint* lower;
-  double share;  ///< of the way round
+  double share;  ///< length of the path as a fraction of the path around the nearer corner
   std::vector<SurfaceVertexId> way;
 };
 
@@ -83,13 +83,14 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
     finding.place.position = 0.5 * (crossing->upper->position + crossing->lower->position);
     const std::string name(opening.name);
     finding.words = "the " + name + " are joined: from " + to_string(crossing->upper->id) + " to " +
-                    to_string(crossing->lower->id) + " the surface leads straight across, in " +
-                    percent(crossing->share) + " of the way round by the corner; so one moves the other, and the " +
+                    to_string(crossing->lower->id) + " the path along the surface crosses the gap, with " +
+                    percent(crossing->share) + " of the distance around the corner; so one moves the other, and the " +
                     (opening.is_mouth ? "mouth" : "eye") + " cannot open or close cleanly";
     finding.remedy =
         "delete the faces that span the gap between the " + name +
         ", or split the vertices that both share; smooth weights suffer less from it than those of the paper";
-    finding.measured = {"way across as a share of the way by the nearer corner", crossing->share, shortest_share};
+    finding.measured = {"path across as a fraction of the distance around the nearer corner", crossing->share,
+                        shortest_share};
     findings.push_back(std::move(finding));
   }
   return findings;

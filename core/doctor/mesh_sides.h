@@ -14,7 +14,7 @@ struct MeshSide {
   std::uint32_t low, high;  ///< surface vertices, low < high
   std::uint32_t across;     ///< the triangle's third corner
   std::uint32_t triangle;   ///< index into Model::triangles
-  bool rising;              ///< the triangle goes round from low to high
+  bool rising;              ///< the winding of the triangle leads from low to high
 };
 
 /// The sides of all triangles on the surface, sorted by shared edges.

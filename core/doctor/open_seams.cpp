@@ -142,7 +142,7 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
       "merge vertices by distance along the seam: give those that belong together the same position; lips and lids "
       "that "
       "only touch may stay as they are";
-  finding.measured = {"widest gap as a share of the length of a border edge", gap / *half, gap_share};
+  finding.measured = {"widest gap as a fraction of the length of a border edge", gap / *half, gap_share};
   return {std::move(finding)};
 }
 

@@ -11,8 +11,8 @@
 namespace semblante {
 
 /// One attribute of a mesh to be Draco-encoded. `values` holds #values by `components` numbers of `type`, tightly
-/// packed; `value_of_point` maps each point to its value (empty: point i has value i). Sharing values across points is
-/// what tells Draco that a UV seam is not a hole.
+/// packed; `value_of_point` maps each point to its value (empty: point i has value i). Points of a UV seam
+/// share their position value, so that Draco does not treat the seam as a border of the mesh.
 struct DracoAttribute {
   enum class Kind : std::uint8_t { position, normal, uv, generic };
   enum class Type : std::uint8_t { float32, uint8, uint16, uint32 };

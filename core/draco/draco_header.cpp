@@ -62,9 +62,9 @@ Result<DracoCounts> announced_counts(std::span<const std::uint8_t> bytes) {
   const int major = head.byte();
   const int minor = head.byte();
   if (head.ok && (major != 2 || minor != 2)) {
-    return Error{
-        ErrorCode::unsupported, "",
-        "is of Draco bitstream version " + std::to_string(major) + "." + std::to_string(minor) + ", only 2.2 is read"};
+    return Error{ErrorCode::unsupported, "",
+                 "has Draco bitstream version " + std::to_string(major) + "." + std::to_string(minor) +
+                     ", but only 2.2 is supported"};
   }
   constexpr std::uint8_t triangular_mesh = 1;
   if (const auto type = head.byte(); head.ok && type != triangular_mesh) {
@@ -90,9 +90,9 @@ Result<DracoCounts> announced_counts(std::span<const std::uint8_t> bytes) {
     announced.points = head.varint();
     announced.faces = head.varint();
   } else {
-    return Error{ErrorCode::unsupported, "", "uses an unknown Draco method"};
+    return Error{ErrorCode::unsupported, "", "uses an unsupported Draco encoding method"};
   }
-  if (!head.ok) return Error{ErrorCode::truncated, "", "has Draco data that ends in its header"};
+  if (!head.ok) return Error{ErrorCode::truncated, "", "has Draco data that ends within its header"};
   return announced;
 }
 

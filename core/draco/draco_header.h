@@ -9,11 +9,12 @@ namespace semblante {
 
 struct DracoCounts {
   std::uint64_t faces = 0;
-  std::uint64_t points = 0;  ///< edgebreaker: before seams split them
+  std::uint64_t points = 0;  ///< edgebreaker: the number before seams split points
 };
 
-/// The counts that a stream begins with, without decoding it: Draco allocates by them, so they are checked first. Reads
-/// triangle meshes of bitstream 2.2: what Draco writes, and the one version that KHR_draco_mesh_compression allows.
+/// The numbers of faces and points that a stream declares, without decoding it. Draco allocates memory by these
+/// numbers, so they are checked first. Supports triangle meshes of bitstream 2.2, the version that Draco writes and the
+/// only one that KHR_draco_mesh_compression allows.
 Result<DracoCounts> announced_counts(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante

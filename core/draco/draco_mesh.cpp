@@ -15,8 +15,8 @@
 namespace semblante {
 namespace {
 
-/// The types that glTF and a face package have. Draco knows more, and reading its bool from a byte that is neither 0
-/// nor 1 is undefined.
+/// Whether glTF and face packages use the type. Draco has more types, and reading its bool from a byte that is neither
+/// 0 nor 1 is undefined behaviour.
 bool is_readable(draco::DataType type) {
   switch (type) {
     case draco::DT_INT8:
@@ -56,18 +56,20 @@ DracoMesh::~DracoMesh() = default;
 Result<DracoMesh> DracoMesh::decode(std::span<const std::uint8_t> bytes, const DracoLimits& limits) {
   const auto announced = announced_counts(bytes);
   if (!announced) return announced.error();
-  // A face of the most regular mesh still costs about a bit; 64 of them in a byte is a lie, told to make us allocate.
+  // Draco needs about a bit per face even for the most regular mesh, so more than 64 faces per byte are a false count
+  // that would only cause a large allocation.
   constexpr std::uint64_t max_per_byte = 64;
   const std::uint64_t plausible = max_per_byte * bytes.size();
   if (announced->faces > plausible || announced->points > plausible) {
     return Error{ErrorCode::malformed, "",
-                 "announces " + std::to_string(announced->faces) + " faces and " + std::to_string(announced->points) +
-                     " points in " + std::to_string(bytes.size()) + " bytes of Draco data"};
+                 "declares " + std::to_string(announced->faces) + " faces and " + std::to_string(announced->points) +
+                     " points, more than " + std::to_string(bytes.size()) + " bytes of Draco data can contain"};
   }
   if (announced->faces > limits.max_triangles || announced->points > limits.max_points) {
     return Error{ErrorCode::too_large, "",
-                 "announces " + std::to_string(announced->faces) + " faces and " + std::to_string(announced->points) +
-                     " points of Draco data"};
+                 "declares " + std::to_string(announced->faces) + " faces and " + std::to_string(announced->points) +
+                     " points of Draco data, at most " + std::to_string(limits.max_triangles) + " and " +
+                     std::to_string(limits.max_points) + " are allowed"};
   }
   std::unique_ptr<draco::Mesh> mesh;
   try {
@@ -75,12 +77,12 @@ Result<DracoMesh> DracoMesh::decode(std::span<const std::uint8_t> bytes, const D
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) return Error{ErrorCode::malformed, "", "has Draco data that does not decode"};
+    if (!decoded.ok()) return Error{ErrorCode::malformed, "", "has Draco data that cannot be decoded"};
     mesh = std::move(decoded).value();
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::too_large, "", "has Draco data that wants more memory than there is"};
+    return Error{ErrorCode::too_large, "", "has Draco data that needs more memory than is available"};
   } catch (const std::length_error&) {
-    return Error{ErrorCode::malformed, "", "has Draco data that wants more memory than there can be"};
+    return Error{ErrorCode::malformed, "", "has Draco data that declares an impossible size"};
   }
   if (mesh == nullptr || mesh->num_faces() > limits.max_triangles || mesh->num_points() > limits.max_points) {
     return Error{ErrorCode::too_large, "", "has Draco data that decodes to more than the limit"};
@@ -89,8 +91,8 @@ Result<DracoMesh> DracoMesh::decode(std::span<const std::uint8_t> bytes, const D
     for (const draco::PointIndex& point : mesh->face(f)) {
       if (point.value() >= mesh->num_points()) {
         return Error{ErrorCode::out_of_range, "",
-                     "has Draco data whose face " + std::to_string(f.value()) + " names point " +
-                         std::to_string(point.value()) + ", there are " + std::to_string(mesh->num_points())};
+                     "has Draco data whose face " + std::to_string(f.value()) + " refers to point " +
+                         std::to_string(point.value()) + ", but there are " + std::to_string(mesh->num_points())};
       }
     }
   }
@@ -114,15 +116,16 @@ std::vector<Triangle> DracoMesh::triangles() const {
 Result<const draco::PointAttribute*> DracoMesh::attribute(std::uint32_t unique_id, std::size_t components) const {
   const draco::PointAttribute* const attribute = mesh_->GetAttributeByUniqueId(unique_id);
   if (attribute == nullptr || attribute->buffer() == nullptr) {
-    return Error{ErrorCode::missing, "", "names Draco attribute " + std::to_string(unique_id) + ", which is not there"};
+    return Error{ErrorCode::missing, "",
+                 "refers to Draco attribute " + std::to_string(unique_id) + ", which does not exist"};
   }
   if (attribute->num_components() != components) {
     return Error{ErrorCode::mismatch, "",
-                 "names a Draco attribute of " + std::to_string(int{attribute->num_components()}) +
-                     " components, it needs " + std::to_string(components)};
+                 "refers to a Draco attribute of " + std::to_string(int{attribute->num_components()}) +
+                     " components, but needs " + std::to_string(components)};
   }
   if (!is_readable(attribute->data_type())) {
-    return Error{ErrorCode::unsupported, "", "names a Draco attribute of a type that is not read"};
+    return Error{ErrorCode::unsupported, "", "refers to a Draco attribute of an unsupported type"};
   }
   if (!attribute->is_mapping_identity() && attribute->indices_map_size() < mesh_->num_points()) {
     return Error{ErrorCode::malformed, "", "has Draco data with points that have no value"};

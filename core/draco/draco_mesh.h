@@ -26,12 +26,12 @@ struct DracoLimits {
   std::size_t max_triangles = std::numeric_limits<std::uint32_t>::max();
 };
 
-/// A decoded triangle mesh. Attributes are read by Draco's unique id; an id that is not there, values of another type
-/// or number of components, points without a value and floats that are not finite are errors. Errors have no `where`.
+/// A decoded triangle mesh. Attributes are read by Draco's unique id. Errors are an unknown id, values of another type
+/// or number of components, points without a value, and floats that are not finite. Errors have no `where`.
 class DracoMesh {
  public:
-  /// Decodes any bytes, if they announce no more than the limits and no more than so many bytes could hold. Draco has
-  /// no checksum, and what is announced further inside may ask for more memory than there is: that is an error, too.
+  /// Decodes untrusted bytes. Checks the numbers declared in the header against the limits and against the number of
+  /// bytes. Data inside can still declare more memory than is available, which is an error too.
   static Result<DracoMesh> decode(std::span<const std::uint8_t> bytes, const DracoLimits& limits = {});
 
   DracoMesh(DracoMesh&&) noexcept;

@@ -8,11 +8,11 @@
 
 namespace semblante {
 
-/// Share of the viseme at an FP that an expression moves too (Eq. 5).
+/// Share of the viseme at an FP that an expression also moves (Eq. 5).
 inline constexpr float default_viseme_share = 0.85F;
 
-/// The kernel's data of one head, with the library's visemes and expressions in its units. Owns the arrays that view()
-/// points to; copies and moves freely.
+/// The kernel's data of one head, with the library's visemes and expressions in its units. Owns the arrays to which
+/// view() points; can be copied and moved.
 struct KernelRig {
   std::vector<float> visemes;      ///< 15 by 84 by 3, model units
   std::vector<float> expressions;  ///< 7 by 84 by 3, model units

@@ -14,25 +14,25 @@ namespace semblante {
 
 struct Displacement {
   FeaturePointId point;
-  glm::vec3 value;  ///< the unit is that of the owner
+  glm::vec3 value;  ///< in the unit that the owner of the displacement defines
 };
 
-/// A viseme or an expression for any head: how far each FP moves, per axis in units of that FP's and axis' FAPU
-/// (fapu_of below). Points rise; none is all zero.
+/// A viseme or an expression for any head: the displacement of each FP, each component in units of the FAPU for this FP
+/// and axis (fapu_of below). Sorted by point, without zero displacements.
 struct DisplacementSet {
   std::string_view name;
   std::span<const Displacement> displacements;
   bool meets_upper_teeth = false;  ///< the lower lip moves to the edge of the upper teeth of each head
 };
 
-/// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Lives as long as the
-/// program.
+/// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Static
+/// lifetime.
 std::span<const DisplacementSet> viseme_library();
 /// The expressions of FAP 2, by number: none joy sadness anger fear disgust surprise. Static lifetime.
 std::span<const DisplacementSet> expression_library();
 
-/// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it so, else that of its region
-/// (mouth and jaw: MW, MNS; eyes: ES, IRISD; all else: ES, ENS).
+/// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it along this axis, else that of its
+/// region (mouth and jaw: MW, MNS; eyes: ES, IRISD; all else: ES, ENS).
 FapuUnit fapu_of(FeaturePointId point, int axis);
 
 /// A displacement that cannot be applied to a head, because its unit is unknown there.

@@ -15,9 +15,9 @@ namespace {
 
 Status check_options(const ExtractOptions& options) {
   if (!std::isfinite(options.least) || options.least < 0.0)
-    return Error{ErrorCode::invalid_argument, "/least", "it must be a number of units, not below 0"};
+    return Error{ErrorCode::invalid_argument, "/least", "must be a finite number of at least 0"};
   if (!std::isfinite(options.strength) || options.strength < least_strength || options.strength > most_strength)
-    return Error{ErrorCode::invalid_argument, "/strength", "it must be a number from 0.01 to 100"};
+    return Error{ErrorCode::invalid_argument, "/strength", "must be a number from 0.01 to 100"};
   return Unit{};
 }
 
@@ -25,7 +25,7 @@ Status check_shapes(std::span<const glm::vec3> neutral, std::span<const glm::vec
   if (neutral.size() != expression.size()) {
     return Error{ErrorCode::mismatch, "/expression",
                  "the expression has " + std::to_string(expression.size()) + " vertices, the neutral head " +
-                     std::to_string(neutral.size()) + ": both must be the same mesh, vertices in the same order"};
+                     std::to_string(neutral.size()) + ": both must be the same mesh with the same vertex order"};
   }
   // A morph target can move finite vertices outside the range of float; checks the neutral shape too.
   const auto is_finite = [](const glm::vec3& p) {
@@ -73,7 +73,7 @@ Status check_size(FeaturePointId point, const glm::dvec3& units) {
     return Error{ErrorCode::out_of_range, "/expression",
                  "feature point " + to_string(point) + " moves by more than " +
                      std::to_string(static_cast<int>(most_set_units / 1024.0)) + " " + std::string(unit) +
-                     "0: are both meshes in one unit, and vertices in one order?"};
+                     "0: check that both meshes have the same unit and the same vertex order"};
   }
   return Unit{};
 }
@@ -97,7 +97,7 @@ Result<Extraction> extract_displacements(const FeaturePointSet& points, const Fa
     const auto found = find_head_motion(neutral, expression);
     if (!found) {
       return Error{ErrorCode::invalid_argument, "/align",
-                   "the motion of the head cannot be told: too few vertices keep their place towards each other"};
+                   "the motion of the head cannot be determined: too few vertices move rigidly"};
     }
     motion = *found;
     result.removed = RemovedMotion{motion.degrees(), glm::length(motion.still - motion.moved)};
@@ -143,10 +143,10 @@ std::vector<std::string> explain(const Extraction& extraction) {
       if (static_cast<std::size_t>(missing.unit) == unit) points.push_back(missing.point);
     }
     if (points.empty()) continue;
-    sentences.push_back("left out, since " + std::string(fapu_unit_names[unit]) +
-                        " of this head is not known: " + list(points));
+    sentences.push_back("omitted, because " + std::string(fapu_unit_names[unit]) +
+                        " of this head is unknown: " + list(points));
   }
-  if (!extraction.bare.empty()) sentences.push_back("left out, since they lie at no vertex: " + list(extraction.bare));
+  if (!extraction.bare.empty()) sentences.push_back("omitted, because they have no vertex: " + list(extraction.bare));
   if (!extraction.unmarked.empty()) sentences.push_back("not marked on this head: " + list(extraction.unmarked));
   return sentences;
 }

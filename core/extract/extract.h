@@ -15,7 +15,7 @@
 namespace semblante {
 
 struct ExtractOptions {
-  /// Remove the motion of the whole head first, estimated from the vertices that only it moves (head_motion.h). By
+  /// Remove the motion of the whole head first, estimated from vertices without another motion (head_motion.h). By
   /// default the meshes are compared in place, as in the paper.
   bool align = false;
   /// A point that moves by less than this many units along every axis is omitted, because by Eq. 5 a point in the set
@@ -32,12 +32,12 @@ inline constexpr double most_strength = 100.0;
 /// The motion removed by `align`.
 struct RemovedMotion {
   double degrees = 0.0;   ///< the angle of the turn, never negative
-  double distance = 0.0;  ///< of the middle of the still vertices, in model units
+  double distance = 0.0;  ///< displacement of the centre of the still vertices, model units
 };
 
 struct Extraction {
-  std::vector<Displacement> displacements;  ///< FAPU units, rising; none is all zero
-  std::vector<MissingUnit> skipped;      ///< moved points left out for want of a FAPU, with the first that is missing
+  std::vector<Displacement> displacements;  ///< FAPU units, sorted by point; none is zero
+  std::vector<MissingUnit> skipped;      ///< moved points omitted because of a missing FAPU, with the first missing one
   std::vector<FeaturePointId> at_rest;   ///< marked points that move by less than `least`
   std::vector<FeaturePointId> bare;      ///< bare positions (7.1, a pupil inside a triangle): they follow no vertex
   std::vector<FeaturePointId> unmarked;  ///< of the 84, those the head does not have

@@ -33,7 +33,7 @@ Status check_same_mesh(std::span<const Triangle> neutral, std::span<const Triang
   if (2 * shared >= theirs.size()) return Unit{};
   return Error{ErrorCode::mismatch, "/expression",
                "only " + std::to_string(shared) + " of the " + std::to_string(theirs.size()) +
-                   " edges of the expression are edges of the neutral head: its vertices are numbered otherwise"};
+                   " edges of the expression are edges of the neutral head: its vertices have another order"};
 }
 
 }  // namespace semblante

@@ -19,7 +19,8 @@ Result<std::vector<glm::vec3>> shape_of_target(const Model& model, std::string_v
       names.append(i > 0 ? ", " : "").append(model.examples[i].name);
     if (model.examples.size() > most_named) names += ", ...";
     return Error{ErrorCode::missing, "",
-                 "the model has no morph target of this name; " + (names.empty() ? "it has none" : "it has " + names)};
+                 "the model has no morph target of this name; " +
+                     (names.empty() ? "it has no morph targets" : "it has " + names)};
   }
   for (std::size_t i = 0; i < found->vertices.size(); ++i) shape[found->vertices[i]] += found->displacements[i];
   return shape;
@@ -37,7 +38,7 @@ Result<std::vector<glm::vec3>> shape_of_file(const Model& neutral, std::span<con
     return Error{ErrorCode::mismatch, "/expression",
                  "the expression has " + std::to_string(model->positions.size()) + " vertices, the neutral head " +
                      std::to_string(neutral.positions.size()) +
-                     ": both must be the same mesh, vertices in the same order"};
+                     ": both must be the same mesh with the same vertex order"};
   }
   if (const Status status = check_same_mesh(neutral.triangles, model->triangles); !status) return status.error();
   return std::move(model->positions);

@@ -17,20 +17,20 @@ ModelFrame apply_wish(ModelFrame guess, const FrameWish& wish) {
   if (wish.unit) {
     guess.unit = *wish.unit;
     guess.unit_sure = true;
-    guess.reasons.push_back("The unit is " + std::string(to_string(guess.unit)) + " as the user says");
+    guess.reasons.push_back("The unit is " + std::string(to_string(guess.unit)) + ", as set by the user");
   }
   if (!wish.has_axes()) return guess;
   Axes axes{wish.up.value_or(guess.axes.up), wish.front.value_or(guess.axes.front)};
   if (!are_valid(axes)) axes = wish.up ? Axes{*wish.up, front_of(*wish.up)} : Axes{up_of(*wish.front), *wish.front};
   if (guess.axes_sure && guess.axes != axes) {
-    guess.reasons.push_back("What was seen speaks for " + std::string(to_string(guess.axes.up)) +
+    guess.reasons.push_back("The shape indicates " + std::string(to_string(guess.axes.up)) +
                             " up and the face towards " + std::string(to_string(guess.axes.front)) +
-                            ", the user says otherwise");
+                            ", but the user set other axes");
   }
   guess.axes = axes;
   guess.axes_sure = true;
   guess.reasons.push_back("The head stands along " + std::string(to_string(axes.up)) + " and faces " +
-                          std::string(to_string(axes.front)) + " as the user says");
+                          std::string(to_string(axes.front)) + ", as set by the user");
   return guess;
 }
 

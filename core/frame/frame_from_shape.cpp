@@ -30,8 +30,7 @@ class ShapeGuess {
       guess_.axes = {*up_, *front_};
     } else if (guess_.axes_sure = stands_by_rule(); !guess_.axes_sure) {
       guess_.reasons.emplace_back(
-          "How the head stands cannot be told for certain without feature points: it is taken to stand along +Y and to "
-          "face +Z");
+          "The axes of the head are uncertain without feature points: +Y is assumed to be up, and +Z the front");
     }
     guess_unit();
     return std::move(guess_);
@@ -60,8 +59,8 @@ class ShapeGuess {
   void find_across() {
     if (eyes_) {
       across_ = eyes_->axis;
-      say(std::string(eyes_->by_name ? "Parts named as eyes" : "Two equal balls, taken for eyes,") +
-          " lie apart along " + letter(eyes_->axis));
+      say(std::string(eyes_->by_name ? "Parts named as eyes" : "Two equal balls, assumed to be eyes,") +
+          " are apart along " + letter(eyes_->axis));
       return;
     }
     across_ = find_mirror_axis(skin());
@@ -103,14 +102,14 @@ class ShapeGuess {
       const double ahead = eyes_->middle[axis] - 0.5 * (low + high);
       if (!(high > low) || std::abs(ahead) < 0.1 * (high - low)) return;
       front_ = direction_along(axis, ahead);
-      say("The eyes lie towards " + name(*front_) + " in the head");
+      say("The eyes are near the " + name(*front_) + " side of the head");
       return;
     }
     constexpr double least_crowding = 0.06;
     const double crowded = crowding(model_, surface_, skin_id(), skin(), axis);
     if (std::abs(crowded) < least_crowding) return;
     front_ = direction_along(axis, crowded);
-    say("The vertices crowd towards " + name(*front_) + ", as they do in a face");
+    say("The vertices are densest towards " + name(*front_) + ", as in a face");
   }
 
   void guess_unit() {
@@ -133,7 +132,7 @@ class ShapeGuess {
     const double height = guess_.axes_sure ? size[axis_of(guess_.axes.up)] : std::max({size.x, size.y, size.z});
     if (is_gltf() && height >= 0.1 && height <= 2.6) {
       take_unit(LengthUnit::metre, true,
-                "glTF counts in metres, and " + std::to_string(height) + " m fits a head or a body");
+                "The unit of glTF is the metre, and " + std::to_string(height) + " m fits a head or a body");
     } else if (const auto by_size = unit_of_height(height)) {
       take_unit(by_size->unit, by_size->is_sure && !is_gltf(),
                 "The model is " + std::to_string(height) +
@@ -141,7 +140,7 @@ class ShapeGuess {
                     std::string(to_string(by_size->unit)));
     } else {
       take_unit(LengthUnit::metre, false,
-                "The model is " + std::to_string(height) + " tall, which fits no one unit: taken for metres");
+                "The model is " + std::to_string(height) + " tall, which fits no unit: metres are assumed");
     }
   }
 

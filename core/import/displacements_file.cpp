@@ -31,7 +31,7 @@ Result<std::vector<std::pair<FeaturePointId, glm::dvec3>>> parse_displacements(s
     displacements.emplace_back(*id, import::read_vector(displacement));
     if (fault) return *fault;
   }
-  if (displacements.empty()) return Error{ErrorCode::empty, "", "no feature point is moved"};
+  if (displacements.empty()) return Error{ErrorCode::empty, "", "no feature point has a displacement"};
   std::sort(displacements.begin(), displacements.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return displacements;
 }

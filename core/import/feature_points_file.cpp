@@ -60,7 +60,7 @@ Result<FeaturePointsFile> parse_feature_points(std::string_view json) {
   points.must_be_object();
   if (fault) return *fault;
   if (root.integer_or("vertex_index_base", 0) != 0) {
-    root.member("vertex_index_base").fail(ErrorCode::unsupported, "must be 0: vertices count from 0");
+    root.member("vertex_index_base").fail(ErrorCode::unsupported, "must be 0, because vertices are numbered from 0");
   }
   FeaturePointsFile file;
   for (const auto& [name, point] : points.members()) {

@@ -36,18 +36,19 @@ int base64_value(char c) {
 
 Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < glb_header_bytes) {
-    return error_at(ErrorCode::truncated, bytes.size(), "a GLB header has 12 bytes");
+    return error_at(ErrorCode::truncated, bytes.size(), "the file ends within the GLB header of 12 bytes");
   }
   if (u32_at(bytes, 0) != magic_gltf)
-    return error_at(ErrorCode::malformed, 0, "not a GLB: it does not begin with 'glTF'");
+    return error_at(ErrorCode::malformed, 0, "not a GLB file: it does not begin with 'glTF'");
   if (const std::uint32_t version = u32_at(bytes, 4); version != 2) {
-    return error_at(ErrorCode::unsupported, 4, "glTF version " + std::to_string(version) + ", only 2 is read");
+    return error_at(ErrorCode::unsupported, 4,
+                    "glTF version " + std::to_string(version) + " is not supported, only version 2");
   }
   const std::uint32_t length = u32_at(bytes, 8);
   if (length > bytes.size()) {
     return error_at(
         ErrorCode::truncated, 8,
-        "the GLB announces " + std::to_string(length) + " bytes, there are " + std::to_string(bytes.size()));
+        "the GLB header declares " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()));
   }
   if (length < glb_header_bytes + chunk_header_bytes) return error_at(ErrorCode::truncated, 8, "the GLB has no chunk");
   bytes = bytes.first(length);
@@ -60,7 +61,7 @@ Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
     const std::uint32_t type = u32_at(bytes, at + 4);
     if (size > bytes.size() - at - chunk_header_bytes) {
       return error_at(ErrorCode::truncated, at,
-                      "a chunk announces " + std::to_string(size) + " bytes, " +
+                      "a chunk declares " + std::to_string(size) + " bytes, only " +
                           std::to_string(bytes.size() - at - chunk_header_bytes) + " are left");
     }
     const auto data = bytes.subspan(at + chunk_header_bytes, size);
@@ -80,7 +81,7 @@ Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
 
 Result<std::vector<std::uint8_t>> refuse_resource(std::string_view uri, std::size_t /*max_bytes*/) {
   return Error{ErrorCode::unsupported, "",
-               "refers to " + shown(uri) + " outside of the file; send a GLB, or a zip with all files"};
+               "refers to " + shown(uri) + ", which is another file; send a GLB, or a zip with all files"};
 }
 
 Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri, std::size_t max_bytes) {

@@ -87,7 +87,7 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
   std::span<const std::uint8_t> bytes;
   if (!where.has("uri")) {
     if (index != 0) {
-      where.fail(ErrorCode::missing, "has no uri, and only buffer 0 is the binary chunk");
+      where.fail(ErrorCode::missing, "has no uri, but only buffer 0 can be the binary chunk");
       return {};
     }
     bytes = binary_;
@@ -107,7 +107,7 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
   if (announced > bytes.size()) {
     where.member("byteLength")
         .fail(ErrorCode::truncated,
-              "is " + std::to_string(announced) + ", there are " + std::to_string(bytes.size()) + " bytes");
+              "is " + std::to_string(announced) + ", but the buffer has " + std::to_string(bytes.size()) + " bytes");
     return {};
   }
   return bytes.first(announced);
@@ -123,7 +123,7 @@ std::span<const std::uint8_t> GltfDocument::slice(const JsonCursor& where) {
   if (offset > bytes.size() || length > bytes.size() - offset) {
     where.fail(ErrorCode::out_of_range, "spans bytes " + std::to_string(offset) + " to " +
                                             std::to_string(offset + length) + " of a buffer of " +
-                                            std::to_string(bytes.size()));
+                                            std::to_string(bytes.size()) + " bytes");
     return {};
   }
   return bytes.subspan(offset, length);
@@ -139,7 +139,7 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
   if (!decoded_views_[index]) {
     const MeshoptLayout layout = read_meshopt_layout(compressed);
     if (where.integer_or("byteStride", layout.stride) != layout.stride)
-      compressed.member("byteStride").fail(ErrorCode::mismatch, "is not the byteStride of its buffer view");
+      compressed.member("byteStride").fail(ErrorCode::mismatch, "must be equal to the byteStride of its buffer view");
     const auto bytes = slice(compressed);
     if (failed()) return {};
     auto decoded =
@@ -154,7 +154,7 @@ std::span<const std::uint8_t> GltfDocument::view(std::size_t index) {
   const std::span<const std::uint8_t> bytes = *decoded_views_[index];
   if (const std::uint64_t length = where.member("byteLength").integer(); !failed() && length > bytes.size()) {
     where.member("byteLength")
-        .fail(ErrorCode::out_of_range, "is " + std::to_string(length) + ", its meshopt data decodes to " +
+        .fail(ErrorCode::out_of_range, "is " + std::to_string(length) + ", but its meshopt data decodes to " +
                                            std::to_string(bytes.size()) + " bytes");
   }
   return failed() ? std::span<const std::uint8_t>{} : bytes;
@@ -165,7 +165,8 @@ std::span<const std::uint8_t> GltfDocument::draco_view(std::size_t index, const 
   const auto bytes = view(index);
   draco_bytes_ += bytes.size();
   if (draco_bytes_ <= max_times * (binary_.size() + resource_bytes_)) return bytes;
-  where.fail(ErrorCode::too_large, "names the same Draco data again and again");
+  where.fail(ErrorCode::too_large, "repeats Draco data: all references together exceed " + std::to_string(max_times) +
+                                       " times the size of the file");
   return {};
 }
 
@@ -181,14 +182,14 @@ GltfDocument::Layout GltfDocument::layout(const JsonCursor& where, std::size_t c
     item("bufferViews", view_index)
         .member("byteStride")
         .fail(ErrorCode::out_of_range,
-              "is " + std::to_string(stride) + ", elements have " + std::to_string(element_size) + " bytes");
+              "is " + std::to_string(stride) + ", but elements have " + std::to_string(element_size) + " bytes");
     return {};
   }
   // count, stride and offset are all far below 2^63 here: no overflow.
   const std::uint64_t needed = count == 0 ? 0 : offset + (count - 1) * stride + element_size;
   if (needed > bytes.size()) {
     where.fail(ErrorCode::out_of_range,
-               "needs " + std::to_string(needed) + " bytes, its buffer view has " + std::to_string(bytes.size()));
+               "needs " + std::to_string(needed) + " bytes, but its buffer view has " + std::to_string(bytes.size()));
     return {};
   }
   return {count == 0 ? std::span<const std::uint8_t>{} : bytes.subspan(offset), stride};
@@ -221,8 +222,8 @@ void GltfDocument::for_each_sparse(const JsonCursor& accessor, std::size_t count
   for (std::size_t i = 0; i < replaced; ++i) {
     const std::uint32_t index = to_index(indices.bytes.data() + i * indices.stride, type);
     if (index >= count) {
-      index_place.fail(ErrorCode::out_of_range,
-                       "has index " + std::to_string(index) + ", the accessor has " + std::to_string(count));
+      index_place.fail(ErrorCode::out_of_range, "has index " + std::to_string(index) + ", but the accessor has " +
+                                                    std::to_string(count) + " elements");
       return;
     }
     put(index, values.bytes.data() + i * values.stride);
@@ -248,7 +249,7 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& where, std::size
   }
   if (announced != count) {
     where.member("count").fail(ErrorCode::mismatch,
-                               "is " + std::to_string(announced) + ", it must be " + std::to_string(count));
+                               "is " + std::to_string(announced) + ", but must be " + std::to_string(count));
   }
   if (failed()) return {};
   elements.size = components * component_size;
@@ -349,8 +350,9 @@ std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor, std::size
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] >= end) {
-      where.fail(ErrorCode::out_of_range, "element " + std::to_string(i) + " is vertex " + std::to_string(values[i]) +
-                                              ", there are " + std::to_string(end));
+      where.fail(ErrorCode::out_of_range, "element " + std::to_string(i) + " refers to vertex " +
+                                              std::to_string(values[i]) + ", but there are " + std::to_string(end) +
+                                              " vertices");
       return {};
     }
   }

@@ -45,7 +45,7 @@ class MaterialReader {
     if (material.normal_image >= 0 && (normal_uv.set != uv.set || normal_uv.transform != uv.transform)) {
       // Only the texture coordinates of the base colour are kept. With them the normal map would be misplaced.
       builder_.warn("the normal map of material " + shown(material.name) +
-                    " lies otherwise than its base colour and is left out");
+                    " has other texture coordinates than its base colour and is omitted");
       material.normal_image = -1;
     }
     const std::string mode = source.text_or("alphaMode", "OPAQUE");
@@ -108,7 +108,7 @@ class MaterialReader {
     const auto source = texture.index("source", document_.count("images"));
     if (document_.failed()) return -1;
     if (!source) {
-      builder_.warn("texture " + std::to_string(texture_index) + " has no PNG or JPEG image and is left out");
+      builder_.warn("texture " + std::to_string(texture_index) + " has no PNG or JPEG image and is omitted");
       return -1;
     }
     const auto [entry, is_new] = image_by_source_.try_emplace(*source, -1);
@@ -129,7 +129,7 @@ class MaterialReader {
       if (document_.failed()) return -1;
       if (!loaded) {
         // A missing texture is not an error.
-        builder_.warn("image " + std::to_string(index) + " " + loaded.error().message + "; it is left out");
+        builder_.warn("image " + std::to_string(index) + " " + loaded.error().message + "; it is omitted");
         return -1;
       }
       if (within_limit(loaded->size(), source)) bytes = std::move(*loaded);
@@ -137,7 +137,7 @@ class MaterialReader {
     if (document_.failed()) return -1;
     const std::string_view mime_type = image_type(bytes);
     if (mime_type.empty()) {
-      builder_.warn("image " + std::to_string(index) + " is neither PNG nor JPEG and is left out");
+      builder_.warn("image " + std::to_string(index) + " is neither PNG nor JPEG and is omitted");
       return -1;
     }
     builder_.model.images.push_back({std::string(mime_type), std::move(bytes)});

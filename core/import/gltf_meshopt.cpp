@@ -14,18 +14,18 @@ Status check(const MeshoptLayout& layout) {
   const std::string stride = "byteStride " + std::to_string(layout.stride);
   if (layout.mode != Mode::attributes) {
     if (layout.stride != 2 && layout.stride != 4)
-      return Error{ErrorCode::malformed, "", "has " + stride + ", indices have 2 or 4 bytes"};
+      return Error{ErrorCode::malformed, "", "has " + stride + ", but indices have 2 or 4 bytes"};
     if (layout.mode == Mode::triangles && layout.count % 3 != 0)
       return Error{ErrorCode::malformed, "", "has a count of triangle indices that is not a multiple of 3"};
     if (layout.filter != Filter::none) return Error{ErrorCode::malformed, "", "has a filter for indices"};
     return Unit{};
   }
   if (layout.stride == 0 || layout.stride > 256 || layout.stride % 4 != 0)
-    return Error{ErrorCode::malformed, "", "has " + stride + ", it must be a multiple of 4 up to 256"};
+    return Error{ErrorCode::malformed, "", "has " + stride + ", but it must be a multiple of 4 up to 256"};
   if (layout.filter == Filter::octahedral && layout.stride != 4 && layout.stride != 8)
-    return Error{ErrorCode::malformed, "", "has " + stride + ", the filter OCTAHEDRAL takes 4 or 8"};
+    return Error{ErrorCode::malformed, "", "has " + stride + ", but the filter OCTAHEDRAL needs 4 or 8"};
   if (layout.filter == Filter::quaternion && layout.stride != 8)
-    return Error{ErrorCode::malformed, "", "has " + stride + ", the filter QUATERNION takes 8"};
+    return Error{ErrorCode::malformed, "", "has " + stride + ", but the filter QUATERNION needs 8"};
   return Unit{};
 }
 
@@ -80,7 +80,7 @@ MeshoptLayout read_meshopt_layout(const JsonCursor& extension) {
   } else if (mode == "INDICES") {
     layout.mode = Mode::indices;
   } else if (mode != "ATTRIBUTES") {
-    extension.member("mode").fail(ErrorCode::unsupported, "is none of ATTRIBUTES, TRIANGLES and INDICES");
+    extension.member("mode").fail(ErrorCode::unsupported, "must be ATTRIBUTES, TRIANGLES or INDICES");
   }
   const std::string filter = extension.text_or("filter", "NONE");
   if (filter == "OCTAHEDRAL") {
@@ -90,7 +90,7 @@ MeshoptLayout read_meshopt_layout(const JsonCursor& extension) {
   } else if (filter == "EXPONENTIAL") {
     layout.filter = Filter::exponential;
   } else if (filter != "NONE") {
-    extension.member("filter").fail(ErrorCode::unsupported, "is none of NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL");
+    extension.member("filter").fail(ErrorCode::unsupported, "must be NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
   }
   return layout;
 }
@@ -100,8 +100,8 @@ Result<std::vector<std::uint8_t>> decode_meshopt(std::span<const std::uint8_t> b
   if (const Status status = check(layout); !status) return status.error();
   if (layout.count > most_elements(layout, bytes.size())) {
     return Error{ErrorCode::malformed, "",
-                 "announces " + std::to_string(layout.count) + " elements in " + std::to_string(bytes.size()) +
-                     " bytes of meshopt data"};
+                 "declares " + std::to_string(layout.count) + " elements, more than " + std::to_string(bytes.size()) +
+                     " bytes of meshopt data can contain"};
   }
   if (layout.count > max_bytes / layout.stride) {
     return Error{ErrorCode::too_large, "",
@@ -110,7 +110,7 @@ Result<std::vector<std::uint8_t>> decode_meshopt(std::span<const std::uint8_t> b
   std::vector<std::uint8_t> decoded(layout.count * layout.stride);
   if (layout.count == 0) return decoded;
   if (!decode(bytes, layout, decoded.data()))
-    return Error{ErrorCode::malformed, "", "has meshopt data that does not decode"};
+    return Error{ErrorCode::malformed, "", "has meshopt data that cannot be decoded"};
   apply_filter(layout, decoded.data());
   return decoded;
 }

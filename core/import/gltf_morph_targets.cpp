@@ -44,13 +44,14 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
     if (!accessor) continue;
     if (document_.item("accessors", *accessor).member("count").integer(0, ~std::uint64_t{0}) != count) {
       // Draco may have merged vertices that are separate in a target.
-      builder_.warn(target.pointer() + " has another number of vertices than its primitive and is left out");
+      builder_.warn(target.pointer() + " has a different number of vertices than its primitive and is omitted");
       continue;
     }
     const auto rows = document_.rows(*accessor, count, rows_left_);
     if (document_.failed()) return;
     if (rows_left_ == 0) {
-      if (!has_warned_) builder_.warn("the file has more morph targets than are kept; the last are left out");
+      if (!has_warned_)
+        builder_.warn("the morph targets have more displacements than the limit; the last targets are omitted");
       has_warned_ = true;
       return;
     }
@@ -66,7 +67,7 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
       kept.displacements.push_back(transform.displacement(index, glm::vec3(value[0], value[1], value[2])));
     }
     if (!follows && !rows.empty())
-      builder_.warn(target.pointer() + " has the name " + shown(name) + " again and is left out");
+      builder_.warn(target.pointer() + " has the same name " + shown(name) + " as an earlier target and is omitted");
   }
 }
 

@@ -39,12 +39,12 @@ void check_asset(GltfDocument& document) {
   if (document.failed()) return;
   const JsonCursor version = root.member("asset").member("version");
   if (const std::string text = version.text(); !document.failed() && !text.starts_with("2.")) {
-    version.fail(ErrorCode::unsupported, "is " + shown(text) + ", only glTF 2 is read");
+    version.fail(ErrorCode::unsupported, "is " + shown(text) + ", but only glTF 2 is supported");
   }
   for (std::size_t i = 0; i < root.size_of("extensionsRequired"); ++i) {
     const JsonCursor name = root.member("extensionsRequired").element(i);
     if (const std::string text = name.text(); !document.failed() && !is_known_extension(text)) {
-      name.fail(ErrorCode::unsupported, "requires " + shown(text) + ", which is not read");
+      name.fail(ErrorCode::unsupported, "requires the extension " + shown(text) + ", which is not supported");
     }
   }
 }
@@ -68,7 +68,7 @@ class PrimitiveData {
       draco_ = std::move(*decoded);
     }
     // The decoded triangles index the decoded points, so other positions cannot be used.
-    if (draco_ && !in_draco("POSITION")) draco_place_->fail(ErrorCode::missing, "compresses no POSITION");
+    if (draco_ && !in_draco("POSITION")) draco_place_->fail(ErrorCode::missing, "has no attribute POSITION");
   }
 
   [[nodiscard]] bool has(const char* attribute) const { return attributes_.has(attribute); }
@@ -149,9 +149,9 @@ class GltfReader {
     const auto& placement = placements_[index];
     if (!placement) {
       builder_.warn("mesh " + std::to_string(index) + " " + shown(name) +
-                    " is in no node of the scene: its vertices are numbered, its triangles left out");
+                    " is in no node of the scene: its vertices keep their numbers, its triangles are omitted");
     } else if (placement->node_count > 1) {
-      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) + " stands in " +
+      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) + " is in " +
                     std::to_string(placement->node_count) + " nodes; only the first is kept");
     }
     const JsonCursor primitives = mesh.member("primitives");
@@ -165,12 +165,14 @@ class GltfReader {
     const PrimitiveData data(document_, primitive, builder_.limits());
     if (document_.failed()) return;
     if (!data.has("POSITION")) {
-      builder_.warn(primitive.pointer() + " has no positions and is left out");
+      builder_.warn(primitive.pointer() + " has no positions and is omitted");
       return;
     }
     const std::size_t vertices_left = builder_.limits().max_vertices - builder_.model.positions.size();
     const std::size_t count = data.vertex_count(vertices_left);
-    if (count > vertices_left) primitive.fail(ErrorCode::too_large, "has too many vertices");
+    if (count > vertices_left)
+      primitive.fail(ErrorCode::too_large, "has " + std::to_string(count) + " vertices, only " +
+                                               std::to_string(vertices_left) + " more are allowed");
     const auto material = primitive.index("material", builder_.model.materials.size());
     if (document_.failed()) return;
 
@@ -189,7 +191,7 @@ class GltfReader {
           transform.position(i, glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2])));
     }
     if (data.has("COLOR_0") && !has_colors_) {
-      builder_.warn("colours of vertices are left out: the face has those of its materials");
+      builder_.warn("vertex colours are omitted: the face has the colours of its materials");
       has_colors_ = true;
     }
     const bool has_uvs = read_uvs(data, material, count);
@@ -247,10 +249,10 @@ class GltfReader {
 
   void add_triangles(const JsonCursor& primitive, const PrimitiveData& data, const Range& range) {
     const std::uint64_t mode = data.mode();
-    if (mode > triangle_fan) primitive.member("mode").fail(ErrorCode::out_of_range, "is no glTF mode");
+    if (mode > triangle_fan) primitive.member("mode").fail(ErrorCode::out_of_range, "must be a glTF mode, 0 to 6");
     if (document_.failed()) return;
     if (mode < triangles) {
-      builder_.warn(primitive.pointer() + " has points or lines: its vertices are numbered, nothing is drawn");
+      builder_.warn(primitive.pointer() + " has points or lines: its vertices keep their numbers, nothing is drawn");
       return;
     }
     const std::size_t left = builder_.triangles_left();
@@ -258,7 +260,7 @@ class GltfReader {
     if (document_.failed() || indices.size() < 3) return;
     if (mode == triangles && indices.size() % 3 != 0) {
       builder_.warn(primitive.pointer() + " has " + std::to_string(indices.size()) +
-                    " indices, not a multiple of 3; the last are left out");
+                    " indices, not a multiple of 3; the last are omitted");
     }
     const std::size_t triangle_count = mode == triangles ? indices.size() / 3 : indices.size() - 2;
     if (triangle_count > left) {

@@ -40,7 +40,8 @@ glm::dmat4 local_transform(const JsonCursor& node) {
     const auto r = numbers<4>(node.member("rotation"));
     const glm::dquat rotation(r[3], r[0], r[1], r[2]);
     const double length = glm::length(rotation);
-    if (length < 1e-6) node.member("rotation").fail(ErrorCode::invalid_argument, "is no rotation");
+    if (length < 1e-6)
+      node.member("rotation").fail(ErrorCode::invalid_argument, "must be a quaternion other than zero");
     if (length > 0.0) transform *= glm::mat4_cast(rotation / length);
   }
   if (node.has("scale")) {
@@ -122,7 +123,7 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
     pending.pop_back();
     const JsonCursor node = document.item("nodes", index);
     if (world[index]) {
-      node.fail(ErrorCode::malformed, "is in the scene twice: nodes must form trees");
+      node.fail(ErrorCode::malformed, "is in the scene twice, but nodes must form trees");
       break;
     }
     const glm::dmat4 to_world = parent * local_transform(node);

@@ -28,7 +28,7 @@ std::vector<glm::dmat4> joint_matrices(GltfDocument& document, std::size_t skin,
   const JsonCursor joints = source.member("joints");
   const std::size_t count = joints.size();
   constexpr std::size_t max_joints = 65536;
-  if (count > max_joints) joints.fail(ErrorCode::too_large, "has too many joints");
+  if (count > max_joints) joints.fail(ErrorCode::too_large, "has more than " + std::to_string(max_joints) + " joints");
   std::vector<float> inverse_bind;
   const auto accessor = source.index("inverseBindMatrices", document.count("accessors"));
   if (accessor && !document.failed()) inverse_bind = document.floats(*accessor, 16, count);

@@ -69,7 +69,7 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
     is_obj = ending == ".obj";
     break;
   }
-  if (!name) return Error{ErrorCode::missing, "", "the zip has no .gltf, .glb or .obj"};
+  if (!name) return Error{ErrorCode::missing, "", "the zip has no .gltf, .glb, .vrm or .obj file"};
   const auto model = archive->read(*name, limits.max_file_bytes);
   if (!model) return model.error();
   const std::string folder = folder_of(*name);
@@ -93,7 +93,7 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
       [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
         const auto entry = resolve_in_zip(folder, uri);
         if (!entry) {
-          return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + " outside of the zip"};
+          return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip"};
         }
         return read(*entry, max_bytes);
       },

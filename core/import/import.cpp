@@ -85,10 +85,10 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
       case ModelFormat::stl:
         return import::read_stl(bytes, limits);
     }
-    return Error{ErrorCode::invalid_argument, "", "no such format"};
+    return Error{ErrorCode::invalid_argument, "", "unknown model format"};
   } catch (const std::bad_alloc&) {
     // Within the limits, but more memory than this machine has: an error of the file must not end the server.
-    return Error{ErrorCode::too_large, "", "the model wants more memory than there is"};
+    return Error{ErrorCode::too_large, "", "the model needs more memory than is available"};
   }
 }
 

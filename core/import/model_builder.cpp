@@ -123,14 +123,13 @@ Result<Model> ModelBuilder::finish(std::string format) && {
   if (Status status = check_positions(model); !status) return status.error();
   if (Status status = check_examples(model); !status) return status.error();
   if (model.triangles.empty() && (limits_.needs_triangles || model.positions.empty())) {
-    return Error{
-        ErrorCode::empty, "",
-        degenerate_ == 0 ? "the file has no triangles" : "the file has no triangles but ones that use a vertex twice"};
+    return Error{ErrorCode::empty, "",
+                 degenerate_ == 0 ? "the file has no triangles" : "every triangle of the file uses a vertex twice"};
   }
   if (limits_.needs_triangles && !has_extent(model))
-    return Error{ErrorCode::empty, "", "all triangles lie in one point"};
+    return Error{ErrorCode::empty, "", "all triangles are at one point"};
   if (degenerate_ > 0) {
-    model.warnings.push_back(std::to_string(degenerate_) + " triangles that use a vertex twice were left out");
+    model.warnings.push_back(std::to_string(degenerate_) + " triangles that use a vertex twice were omitted");
   }
   if (suppressed_warnings_ > 0) {
     model.warnings.push_back("and " + std::to_string(suppressed_warnings_) + " more warnings");

@@ -53,7 +53,7 @@ std::optional<std::vector<std::uint8_t>> ObjMaterials::load(std::string_view nam
   const std::size_t limit = builder_.limits().max_file_bytes;
   auto bytes = resources_(name, limit - std::min(bytes_read_, limit));
   if (!bytes) {
-    builder_.warn(shown(name) + ", which the OBJ wants, is left out: " + bytes.error().message);
+    builder_.warn(shown(name) + ", to which the OBJ file refers, is omitted: " + bytes.error().message);
     return std::nullopt;
   }
   bytes_read_ += bytes->size();
@@ -71,7 +71,7 @@ int ObjMaterials::image(std::string_view rest) {
   const std::string_view type = image_type(*bytes);
   if (type.empty() || bytes->size() > builder_.limits().max_image_bytes) {
     builder_.warn("the image " + shown(path) + (type.empty() ? " is neither PNG nor JPEG" : " is too large") +
-                  " and is left out");
+                  " and is omitted");
     return -1;
   }
   builder_.model.images.push_back({std::string(type), std::move(*bytes)});
@@ -105,7 +105,7 @@ void ObjMaterials::read_library(std::string_view name) {
   const auto bytes = load(trimmed(name));
   if (!bytes) return;
   if (bytes->size() > max_library_bytes) {
-    builder_.warn("the material file " + shown(name) + " is too large and is left out");
+    builder_.warn("the material file " + shown(name) + " is too large and is omitted");
     return;
   }
   current_ = nullptr;

@@ -26,26 +26,25 @@ class ObjReader {
 
   Result<Model> read() {
     if (lines_.rest().find('\0') != std::string_view::npos) {
-      return Error{ErrorCode::malformed, "", "not an OBJ file: it has zero bytes, an OBJ file is text"};
+      return Error{ErrorCode::malformed, "", "not an OBJ file: it contains zero bytes, but an OBJ file is text"};
     }
     while (const auto line = lines_.next_logical()) {
       if (Status status = read_line(*line); !status) return status.error();
     }
     if (unknown_lines_ > 0 && polygons_.empty()) {
-      return Error{ErrorCode::malformed, first_unknown_, "not a line of an OBJ file, and the file has no faces"};
+      return Error{ErrorCode::malformed, first_unknown_, "not an OBJ statement, and the file has no faces"};
     }
     if (Status status = check_forward_references(); !status) return status.error();
     add_triangles();
     if (library_) {
       for (Material& material : builder_.model.materials) library_->fill(material);
     }
-    if (has_colors_) builder_.warn("colours of vertices are left out: the face has those of its materials");
+    if (has_colors_) builder_.warn("vertex colours are omitted: the face has the colours of its materials");
     if (unknown_lines_ > 0) {
-      builder_.warn(std::to_string(unknown_lines_) + " lines are not of an OBJ file and were skipped, the first is " +
+      builder_.warn(std::to_string(unknown_lines_) + " lines are not OBJ statements and were skipped; the first is " +
                     first_unknown_);
     }
-    if (short_faces_ > 0)
-      builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were left out");
+    if (short_faces_ > 0) builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were omitted");
     return std::move(builder_).finish("obj");
   }
 
@@ -116,14 +115,14 @@ class ObjReader {
       const std::string_view token = next_token(rest);
       if (token.empty() || token.front() == '#') {
         if (i >= minimum) return Unit{};
-        return error(ErrorCode::truncated,
-                     std::string(what) + " has " + std::to_string(i) + " numbers, it needs " + std::to_string(minimum));
+        return error(ErrorCode::truncated, std::string(what) + " has " + std::to_string(i) + " numbers, but needs " +
+                                               std::to_string(minimum));
       }
       switch (parse_number(token, out[i])) {
         case NumberFault::none:
           break;
         case NumberFault::not_a_number:
-          return error(ErrorCode::malformed, std::string(what) + " has " + shown(token) + " where a number belongs");
+          return error(ErrorCode::malformed, std::string(what) + " has " + shown(token) + " in place of a number");
         case NumberFault::not_finite:
           return error(ErrorCode::not_finite,
                        std::string(what) + " has " + shown(token) + ", which is not a finite number");
@@ -212,13 +211,13 @@ class ObjReader {
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (text.empty() || fault == std::errc::invalid_argument || end != text.data() + text.size()) {
       return error(ErrorCode::malformed,
-                   "f has " + shown(corner) + " where a corner (v, v/vt, v//vn, v/vt/vn) belongs");
+                   "f has " + shown(corner) + " in place of a corner (v, v/vt, v//vn or v/vt/vn)");
     }
     const auto available = static_cast<std::int64_t>(count);
     if (fault != std::errc{} || number == 0 || number < -available ||
         number > static_cast<std::int64_t>(limits_.max_vertices)) {
-      return error(ErrorCode::out_of_range, "f names " + std::string(what) + " " + std::string(text.substr(0, 24)) +
-                                                ", there are " + std::to_string(count));
+      return error(ErrorCode::out_of_range, "f refers to " + std::string(what) + " " + std::string(text.substr(0, 24)) +
+                                                ", but there are " + std::to_string(count));
     }
     out = static_cast<std::uint32_t>(number > 0 ? number - 1 : available + number);
     if (out >= count && (forward.empty() || out > forward.back().index)) forward.push_back({out, lines_.line()});
@@ -236,8 +235,8 @@ class ObjReader {
     for (const auto& [index, line] : forward) {
       if (index >= count) {
         return Error{ErrorCode::out_of_range, "line " + std::to_string(line),
-                     "f names " + std::string(what) + " " + std::to_string(std::uint64_t{index} + 1) + ", there are " +
-                         std::to_string(count)};
+                     "f refers to " + std::string(what) + " " + std::to_string(std::uint64_t{index} + 1) +
+                         ", but there are " + std::to_string(count)};
       }
     }
     return Unit{};
@@ -252,7 +251,7 @@ class ObjReader {
     } else if (libraries_ == 1) {
       builder_.warn(
           "the material file " + shown(name) +
-          " is not read, materials have default colours; send a zip of the OBJ, its material file and images");
+          " was not read, so materials have default colours; send a zip of the OBJ file, its material file and images");
     }
   }
 

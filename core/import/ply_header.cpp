@@ -81,7 +81,7 @@ Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
   const auto error = [&lines](ErrorCode code, std::string message) {
     return Error{code, lines.where(), std::move(message)};
   };
-  if (lines.next() != "ply") return error(ErrorCode::malformed, "not a PLY: the first line must be 'ply'");
+  if (lines.next() != "ply") return error(ErrorCode::malformed, "not a PLY file: the first line must be 'ply'");
   PlyHeader header;
   bool has_format = false;
   while (auto line = lines.next()) {
@@ -94,7 +94,7 @@ Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
       } else if (kind == "binary_big_endian") {
         header.order = std::endian::big;
       } else if (kind != "binary_little_endian") {
-        return error(ErrorCode::unsupported, "PLY format " + shown(kind) + " is not known");
+        return error(ErrorCode::unsupported, "PLY format " + shown(kind) + " is not supported");
       }
       has_format = true;
     } else if (keyword == "element") {
@@ -105,7 +105,8 @@ Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
       if (element.name.empty() || count.empty() || fault != std::errc{} || end != count.data() + count.size()) {
         return error(ErrorCode::malformed, shown(whole) + " must be 'element <name> <count>'");
       }
-      if (header.elements.size() >= max_elements) return error(ErrorCode::too_large, "too many kinds of elements");
+      if (header.elements.size() >= max_elements)
+        return error(ErrorCode::too_large, "more than " + std::to_string(max_elements) + " kinds of elements");
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       auto property = parse_property(*line);
@@ -114,7 +115,8 @@ Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
                      shown(whole) + " must be 'property [list <type>] <type> <name>' of an element");
       }
       auto& properties = header.elements.back().properties;
-      if (properties.size() >= max_properties) return error(ErrorCode::too_large, "too many properties");
+      if (properties.size() >= max_properties)
+        return error(ErrorCode::too_large, "more than " + std::to_string(max_properties) + " properties");
       properties.push_back(std::move(*property));
     } else if (keyword == "end_header") {
       if (!has_format) return error(ErrorCode::missing, "the header has no 'format'");
@@ -122,7 +124,7 @@ Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
       header.line_count = lines.line();
       return header;
     } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-      return error(ErrorCode::malformed, shown(whole) + " is no line of a PLY header");
+      return error(ErrorCode::malformed, shown(whole) + " is not a line of a PLY header");
     }
   }
   return error(ErrorCode::truncated, "the header ends without 'end_header'");

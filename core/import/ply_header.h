@@ -16,13 +16,13 @@ std::size_t size_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::f32;       ///< of the value, or of each item of a list
-  std::optional<PlyType> list_size;  ///< of the number in front of a list
+  PlyType type = PlyType::f32;       ///< type of the value, or of each item of a list
+  std::optional<PlyType> list_size;  ///< type of the length of a list; empty: not a list
 };
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0;  ///< as announced: not checked here
+  std::uint64_t count = 0;  ///< as declared; not checked here
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] std::optional<std::size_t> find(std::string_view property) const;

@@ -67,7 +67,8 @@ class ValueSource {
         value = data_.read<double>();
         break;
     }
-    if (!data_.ok()) fault_ = Error{ErrorCode::truncated, place, "the data ends here, the header announces more"};
+    if (!data_.ok())
+      fault_ = Error{ErrorCode::truncated, place, "the data ends before the last element that the header declares"};
     return value;
   }
 
@@ -76,7 +77,7 @@ class ValueSource {
     while (token.empty()) {
       const auto line = lines_.next();
       if (!line) {
-        fault_ = Error{ErrorCode::truncated, where(), "the data ends here, the header announces more"};
+        fault_ = Error{ErrorCode::truncated, where(), "the data ends before the last element that the header declares"};
         return 0.0;
       }
       line_ = *line;
@@ -90,7 +91,7 @@ class ValueSource {
       float small = 0.0F;
       value = parse_number(token, small) == NumberFault::none ? 0.0 : std::numeric_limits<double>::infinity();
     } else if (error != std::errc{} || end != token.data() + token.size()) {
-      fault_ = Error{ErrorCode::malformed, where(), shown(token) + " stands where a number belongs"};
+      fault_ = Error{ErrorCode::malformed, where(), shown(token) + " is not a number"};
     }
     return value;
   }
@@ -115,8 +116,8 @@ class PlyReader {
       // The last value of a text may have no blank after it.
       if (element.count > 0 && (least == 0 || element.count > (source_.left() + 1) / least)) {
         return Error{ErrorCode::truncated, source_.where(),
-                     "the header announces " + std::to_string(element.count) + " of element " + shown(element.name) +
-                         ", there are " + std::to_string(source_.left()) + " bytes left"};
+                     "the header declares " + std::to_string(element.count) + " elements " + shown(element.name) +
+                         ", but only " + std::to_string(source_.left()) + " bytes are left"};
       }
       Status status = Unit{};
       if (element.name == "vertex") {
@@ -124,7 +125,7 @@ class PlyReader {
       } else if (element.name == "face") {
         status = read_faces(element);
       } else {
-        if (element.name == "tristrips") builder_.warn("triangle strips are not read");
+        if (element.name == "tristrips") builder_.warn("triangle strips are not supported and are omitted");
         status = skip(element);
       }
       if (!status) return status.error();
@@ -156,7 +157,7 @@ class PlyReader {
     has_vertices_ = true;
     if (element.count > limits_.max_vertices) {
       return Error{ErrorCode::too_large, "",
-                   "the header announces " + std::to_string(element.count) + " vertices, at most " +
+                   "the header declares " + std::to_string(element.count) + " vertices, at most " +
                        std::to_string(limits_.max_vertices) + " are allowed"};
     }
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -176,7 +177,7 @@ class PlyReader {
     }
     has_normals_ = places[3] != none && places[4] != none && places[5] != none;
     has_uvs_ = places[6] != none;
-    if (element.find("red")) builder_.warn("colours of vertices are left out: the face has those of its materials");
+    if (element.find("red")) builder_.warn("vertex colours are omitted: the face has the colours of its materials");
     std::vector<double> values(element.properties.size());
     for (std::uint64_t i = 0; i < element.count && !source_.fault(); ++i) {
       if (Status status = read_properties(element, values); !status) return status;
@@ -202,7 +203,7 @@ class PlyReader {
     if (announced < 0 || announced != std::floor(announced) ||
         announced > static_cast<double>((source_.left() + 1) / item)) {
       return Error{ErrorCode::out_of_range, source_.where(),
-                   "list " + shown(property.name) + " announces a number of items that is not there"};
+                   "list " + shown(property.name) + " has a number of items that is invalid or exceeds the data"};
     }
     return static_cast<std::size_t>(announced);
   }
@@ -264,7 +265,8 @@ class PlyReader {
     for (std::size_t i = 0; i < size && !source_.fault(); ++i) {
       const double index = source_.next(type);
       if (!(index >= 0.0 && index < static_cast<double>(limits_.max_vertices)) || index != std::floor(index)) {
-        return Error{ErrorCode::out_of_range, where, "a face names a vertex that cannot be there"};
+        return Error{ErrorCode::out_of_range, where,
+                     "a face has a vertex index that is negative, not an integer or too large"};
       }
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
@@ -281,8 +283,7 @@ class PlyReader {
   /// Called after everything has been read: a file may have its faces before its vertices.
   Status add_triangles() {
     if (!has_vertices_) return Error{ErrorCode::missing, "", "the header has no element 'vertex'"};
-    if (short_faces_ > 0)
-      builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were left out");
+    if (short_faces_ > 0) builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were omitted");
     Triangulator triangulator;
     std::vector<glm::vec3> positions;
     for (std::size_t i = 0; i < polygons_.size(); ++i) {
@@ -292,7 +293,7 @@ class PlyReader {
       for (const std::uint32_t vertex : corners) {
         if (vertex >= builder_.model.positions.size()) {
           return Error{ErrorCode::out_of_range, "face " + std::to_string(i),
-                       "names vertex " + std::to_string(vertex) + ", there are " +
+                       "refers to vertex " + std::to_string(vertex) + ", but there are " +
                            std::to_string(builder_.model.positions.size())};
         }
         positions.push_back(builder_.model.positions[vertex]);

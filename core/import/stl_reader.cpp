@@ -38,13 +38,14 @@ Error too_many(const char* what, std::size_t limit) {
 
 Result<Model> read_binary(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
   if (bytes.size() < stl_header_bytes + 4) {
-    return Error{ErrorCode::truncated, "byte " + std::to_string(bytes.size()), "a binary STL has a header of 84 bytes"};
+    return Error{ErrorCode::truncated, "byte " + std::to_string(bytes.size()),
+                 "the file ends within the binary STL header of 84 bytes"};
   }
   ByteReader reader(bytes.subspan(stl_header_bytes));
   const auto count = reader.read<std::uint32_t>();
   if (count > reader.left() / facet_bytes) {
     return Error{ErrorCode::truncated, "byte 80",
-                 "the STL announces " + std::to_string(count) + " facets, there are bytes for " +
+                 "the STL header declares " + std::to_string(count) + " facets, but the file has bytes for " +
                      std::to_string(reader.left() / facet_bytes)};
   }
   if (count > limits.max_triangles) return too_many("triangles", limits.max_triangles);
@@ -91,7 +92,7 @@ Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
           case NumberFault::none:
             break;
           case NumberFault::not_a_number:
-            return error(ErrorCode::malformed, "vertex has " + shown(token) + " where a number belongs");
+            return error(ErrorCode::malformed, "vertex has " + shown(token) + " in place of a number");
           case NumberFault::not_finite:
             return error(ErrorCode::not_finite, "vertex has " + shown(token) + ", which is not a finite number");
         }

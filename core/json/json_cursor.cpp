@@ -23,7 +23,7 @@ std::string kind_of(const json& value) {
     case json::value_t::array:
       return "an array";
     case json::value_t::string:
-      return "a text";
+      return "a string";
     case json::value_t::boolean:
       return "true or false";
     case json::value_t::null:
@@ -155,7 +155,7 @@ bool JsonCursor::boolean() const {
 }
 
 std::string JsonCursor::text(std::size_t most_bytes) const {
-  if (!node_->is_string()) return fail(ErrorCode::malformed, "must be a text, not " + kind_of(*node_)), std::string();
+  if (!node_->is_string()) return fail(ErrorCode::malformed, "must be a string, not " + kind_of(*node_)), std::string();
   const auto& value = node_->get_ref<const std::string&>();
   if (value.size() <= most_bytes) return value;
   fail(ErrorCode::too_large, "must not exceed " + std::to_string(most_bytes) + " bytes");
@@ -188,7 +188,7 @@ std::size_t JsonCursor::size_of(std::string_view name) const { return has(name) 
 std::optional<std::size_t> JsonCursor::index(std::string_view name, std::size_t count) const {
   if (!has(name)) return std::nullopt;
   const JsonCursor member = this->member(name);
-  if (count == 0) return member.fail(ErrorCode::out_of_range, "there are none"), std::nullopt;
+  if (count == 0) return member.fail(ErrorCode::out_of_range, "refers to an empty list"), std::nullopt;
   const std::uint64_t value = member.integer(0, count - 1);
   return member.failed() ? std::nullopt : std::optional(static_cast<std::size_t>(value));
 }

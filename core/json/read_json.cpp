@@ -40,7 +40,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
     Open& object = open_.back();
     const auto [member, is_new] = object.container->get_ref<json::object_t&>().try_emplace(std::move(name));
     object.member = &*member;
-    return is_new || fail(ErrorCode::malformed, "is there twice");
+    return is_new || fail(ErrorCode::malformed, "occurs twice");
   }
   bool start_object(std::size_t /*size*/) override { return start(json::object()); }
   bool start_array(std::size_t /*size*/) override { return start(json::array()); }
@@ -50,7 +50,7 @@ class DocumentBuilder final : public nlohmann::json_sax<json> {
   bool parse_error(std::size_t byte, const std::string& /*token*/, const json::exception& error) override {
     if (fault_) return false;
     // 4xx: a number beyond the range of a double. Other errors are invalid JSON.
-    if (error.id / 100 == 4) return fail(ErrorCode::not_finite, "is a number too large to be read");
+    if (error.id / 100 == 4) return fail(ErrorCode::not_finite, "is a number too large for a double");
     fault_ = not_json(byte, pointer());
     return false;
   }

@@ -1,4 +1,5 @@
-/* Pose -> vertices: Eq. 7 for all, local motions for the vertices that have one, the head's motion for all. */
+/* Pose -> vertices: Eq. 7 for all vertices, then the local motions of eyes, irises and tongue, then the head's motion.
+ */
 #include <stddef.h>
 
 #include "core/kernel/export.h"
@@ -29,7 +30,7 @@ void semblante_deform(const semblante_face* face, const semblante_pose* pose, fl
   uint32_t entry = face->row_offsets[0];
   const float* rest = face->rest;
   for (uint32_t v = 0; v < face->vertex_count; ++v) {
-    /* Eq. 7: D_P = sum of (W_iP / sum of W) D_i; an empty row stays where it is. */
+    /* Eq. 7: D_P = sum of (W_iP / sum of W) D_i; a vertex with an empty row keeps its position. */
     lanes d = {0.0F, 0.0F, 0.0F, 0.0F};
     for (const uint32_t end = face->row_offsets[v + 1]; entry < end; ++entry) {
       d += face->row_weights[entry] * displacement[face->row_points[entry]];

@@ -1,21 +1,22 @@
-/* Internal: Eq. 7, local motions and the head's over groups of eight vertices. The including file says by
- * SEMBLANTE_LANES how many floats its registers hold (4 or 8) and by SEMBLANTE_DEFORM_GROUPS what the function is
- * called. Every lane adds up what semblante_deform adds, in its order, so that every variant gives its bits. */
+/* Internal: Eq. 7, local motions and the head's motion for groups of eight vertices. The including file defines
+ * SEMBLANTE_LANES, the number of floats per register (4 or 8), and SEMBLANTE_DEFORM_GROUPS, the name of the function.
+ * Every lane adds the same terms as semblante_deform in the same order, so that all variants are bit-identical to it.
+ */
 #include "core/kernel/prepared_layout.h"
 
 #if SEMBLANTE_LANES == 8
 #include <immintrin.h>
 #endif
 
-#define REGISTERS (SEMBLANTE_GROUP / SEMBLANTE_LANES) /* a group takes in each coordinate */
+#define REGISTERS (SEMBLANTE_GROUP / SEMBLANTE_LANES) /* registers per coordinate of a group */
 
 typedef float reg __attribute__((vector_size(4 * SEMBLANTE_LANES)));
-/* The same at the alignment and under the aliasing rules of the floats of others. */
+/* For the caller's floats: only 4-byte alignment, and may alias other types. */
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 typedef float quad __attribute__((vector_size(16)));
 
-/* x, y, z of four (or twice four) vertices in their rows to x y z x y z ...: the shuffles stay within quarters of
- * 128 bits, which every machine does in one instruction. */
+/* Stores x, y, z of four (or eight) vertices as x y z x y z ... All shuffles stay within 128-bit lanes, so that each is
+ * one instruction on every machine. */
 static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z, float* to) {
 #if SEMBLANTE_LANES == 8
   const reg xy = __builtin_shufflevector(x, y, 0, 2, 8, 10, 4, 6, 12, 14);
@@ -27,7 +28,7 @@ static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z
   *(loose_quad*)(to + 0) = __builtin_shufflevector(a, a, 0, 1, 2, 3);
   *(loose_quad*)(to + 4) = __builtin_shufflevector(b, b, 0, 1, 2, 3);
   *(loose_quad*)(to + 8) = __builtin_shufflevector(c, c, 0, 1, 2, 3);
-  /* As intrinsics: a shuffle of the language would go through a register. */
+  /* Intrinsics, because a built-in shuffle would need an additional register. */
   _mm_storeu_ps(to + 12, _mm256_extractf128_ps((__m256)a, 1));
   _mm_storeu_ps(to + 16, _mm256_extractf128_ps((__m256)b, 1));
   _mm_storeu_ps(to + 20, _mm256_extractf128_ps((__m256)c, 1));
@@ -41,7 +42,7 @@ static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z
 #endif
 }
 
-/* semblante_move, a lane a vertex. `slides`: there may be a translation. */
+/* semblante_move with one vertex per lane. `slides`: the motion may have a translation. */
 static inline __attribute__((always_inline)) void move_registers(const semblante_rigid_motion* m, int slides,
                                                                  reg p[3]) {
   const reg d[3] = {p[0] - m->pivot[0], p[1] - m->pivot[1], p[2] - m->pivot[2]};
@@ -51,7 +52,7 @@ static inline __attribute__((always_inline)) void move_registers(const semblante
   }
 }
 
-/* A run of one kind: eight vertices at a time. */
+/* The current position in the arrays of the prepared face. */
 typedef struct cursor {
   const reg* rest;
   const reg* weights;
@@ -60,7 +61,7 @@ typedef struct cursor {
   uint32_t written;
 } cursor;
 
-/* Vertices that move each in their own way, and a last group that is not full. */
+/* Local motions vertex by vertex, for groups with different motions and for an incomplete last group. */
 static __attribute__((noinline)) void finish_by_vertex(const semblante_prepared_face* face,
                                                        const semblante_group_pose* pose, const float* rest,
                                                        uint32_t first, const float* moved, float* to) {
@@ -89,7 +90,7 @@ static inline __attribute__((always_inline)) int any_changed(const uint8_t* chan
   return any != 0;
 }
 
-/* Eq. 7 of one group. The first product is not added to zero: the same sum. */
+/* Eq. 7 of one group. Starts with the first product instead of zero, which gives the same sum. */
 static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4], const uint8_t* points,
                                                             const reg* weights, uint32_t count, const reg* rest,
                                                             reg p[REGISTERS][3]) {
@@ -114,7 +115,7 @@ static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4]
   }
 }
 
-/* What happens to the vertices of a run after Eq. 7. */
+/* The motions of a run's vertices after Eq. 7. */
 typedef enum after { AFTER_NOTHING, AFTER_HEAD, AFTER_PART_AND_HEAD, AFTER_BY_VERTEX } after;
 
 static inline __attribute__((always_inline)) void deform_run(const semblante_prepared_face* face,
@@ -166,7 +167,7 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   at->written += written * SEMBLANTE_GROUP;
 }
 
-/* The counts that most groups have get a loop of their own, but not in the module that browsers fetch. */
+/* Separate loops for the most frequent numbers of points; not in the WebAssembly module, to keep it small. */
 static inline __attribute__((always_inline)) void deform_run_of(const semblante_prepared_face* face,
                                                                 const semblante_group_pose* pose, float* positions,
                                                                 const semblante_run* run, after then, cursor* at) {
@@ -194,7 +195,7 @@ static inline __attribute__((always_inline)) void deform_run_of(const semblante_
   }
 }
 
-/* What a part comes to in this pose. *eye: which one turns. */
+/* The motions of a part in this pose. *eye: the eye that rotates it. */
 static after after_of(uint32_t part, const semblante_group_pose* pose, uint32_t* eye) {
   *eye = part == SEMBLANTE_GROUP_RIGHT_EYE || part == SEMBLANTE_GROUP_RIGHT_IRIS;
   const int iris = part == SEMBLANTE_GROUP_LEFT_IRIS || part == SEMBLANTE_GROUP_RIGHT_IRIS;

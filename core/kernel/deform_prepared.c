@@ -77,7 +77,7 @@ void semblante_deform_prepared(const semblante_prepared_face* face, const sembla
   best()(face, &prepared, positions);
 }
 
-/* Whether eyes, pupils or tongue differ: all of a pose but the points and the head. */
+/* Whether eyes, pupils or tongue differ, that is, all members of a pose except the points and the head. */
 static int parts_differ(const semblante_pose* a, const semblante_pose* b) {
   return differ(&a->eye_rotation[0][0], &b->eye_rotation[0][0], 8) ||
          differ(&a->eye_translation[0][0], &b->eye_translation[0][0], 6) ||

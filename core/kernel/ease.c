@@ -2,7 +2,7 @@
 #include "core/kernel/export.h"
 #include "core/kernel/semblante_ease.h"
 
-/* Where on the curve: the weights of Hermite's form, and those of the two slopes on both sides of each end. */
+/* The weights of the Hermite form at one parameter, and the three spans, which determine the weights of the slopes. */
 typedef struct curve {
   float from, to, slope_from, slope_to; /* weights of the values, and of the slopes times the middle span */
   float spans[3];
@@ -14,7 +14,7 @@ static curve make_curve(const float spans[3], float t) {
   return made;
 }
 
-/* The slope where two spans meet, from the slopes within them. */
+/* The slope at the point between two spans, from the slopes within them. */
 static float slope(float left, float right, float left_span, float right_span) {
   if (!(left * right > 0.0F)) {
     return 0.0F;
@@ -34,7 +34,7 @@ static float at(const curve* c, float before, float from, float to, float after)
 
 static float side(const float a[4], const float b[4]) {
   const float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-  return dot < 0.0F ? -1.0F : 1.0F; /* q and -q are one rotation: take the nearer */
+  return dot < 0.0F ? -1.0F : 1.0F; /* q and -q are the same rotation: uses the nearer one */
 }
 
 static void ease_rotation(const curve* c, const float before[4], const float from[4], const float to[4],

@@ -1,4 +1,4 @@
-/* Frame -> pose: Eq. 5 (visemes and expressions), Eq. 6 (low-level FAPs) and the turns of eyes and head. */
+/* Frame -> pose: Eq. 5 (visemes and expressions), Eq. 6 (low-level FAPs) and the rotations of eyes and head. */
 #include <stddef.h>
 
 #include "core/kernel/export.h"
@@ -65,7 +65,7 @@ static float pupil_growth(const semblante_iris* iris, float diameter_growth) {
   return clamped(0.5F * diameter_growth, -kept * iris->pupil_radius, kept * (iris->iris_radius - iris->pupil_radius));
 }
 
-/* Which rigid part a FAP of this FP turns: 0, 1 the eyes, 2 the head. */
+/* The rigid part that a FAP of this FP rotates: 0, 1 the eyes, 2 the head. */
 static int rigid_part_of(uint8_t fp) {
   return fp == SEMBLANTE_FP_LEFT_PUPIL ? 0 : fp == SEMBLANTE_FP_RIGHT_PUPIL ? 1 : 2;
 }
@@ -75,7 +75,7 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
   evaluate_high_level(rig, frame, pose->fp);
 
   float* const rotation[3] = {pose->eye_rotation[0], pose->eye_rotation[1], pose->head_rotation};
-  float angle[3][3] = {{0}}; /* AU, part by axis */
+  float angle[3][3] = {{0}}; /* AU; by part and axis */
   for (int i = 0; i < 3; ++i) {
     pose->eye_translation[0][i] = 0.0F;
     pose->eye_translation[1][i] = 0.0F;
@@ -104,7 +104,7 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
     } else if (fap->kind == SEMBLANTE_FAP_ROLL) {
       pose->tongue_roll = clamped(value * SEMBLANTE_AU_RADIANS, -rig->tongue.roll_limit, rig->tongue.roll_limit);
     } else if (fap->kind == SEMBLANTE_FAP_TRANSLATION && rig->fapu[fap->unit] != 0.0F) {
-      /* Eq. 6. An eyeball is thrust as a whole; every other FAP moves its point. */
+      /* Eq. 6. A thrust moves the whole eyeball; every other FAP moves its point. */
       const float displacement = (float)fap->sign * value * rig->fapu[fap->unit];
       const int eye = fap->fp == SEMBLANTE_FP_LEFT_PUPIL || fap->fp == SEMBLANTE_FP_RIGHT_PUPIL;
       float* const target = eye ? pose->eye_translation[rigid_part_of(fap->fp)] : &pose->fp[(size_t)fap->fp * 3];

@@ -4,12 +4,12 @@
 
 static float lerp(float a, float b, float t) { return a + t * (b - a); }
 
-/* Normalized linear interpolation: on the great arc, but with a slightly uneven speed. The angle is off by at most 0.03
- * degrees for a step of 30 degrees, 0.9 for one of 90 (tested): too little to notice, and a change would alter the
+/* Normalized linear interpolation: follows the great arc with a slightly uneven speed. The error of the angle is at
+ * most 0.03 degrees for a step of 30 degrees, 0.9 for one of 90 (tested): not noticeable, and a change would alter the
  * results of every client. */
 static void interpolate_rotation(const float a[4], const float b[4], float t, float out[4]) {
   const float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-  const float side = dot < 0.0F ? -1.0F : 1.0F; /* q and -q are one rotation: take the nearer */
+  const float side = dot < 0.0F ? -1.0F : 1.0F; /* q and -q are the same rotation: uses the nearer one */
   float q[4];
   for (int i = 0; i < 4; ++i) {
     q[i] = lerp(a[i], side * b[i], t);

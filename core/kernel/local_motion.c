@@ -4,7 +4,8 @@ static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1]
 
 static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
 
-/* A pupil grows or shrinks: p += the way of the rest position along its radius and along the surface's curve. */
+/* Changes the size of a pupil: adds to p the displacement of the rest position along its radius and along the curved
+ * surface. */
 static void move_iris(const semblante_iris* iris, const float pivot[3], float growth, const float rest[3], float p[3]) {
   if (growth == 0.0F || iris->pupil_radius <= 0.0F) {
     return;
@@ -13,7 +14,7 @@ static void move_iris(const semblante_iris* iris, const float pivot[3], float gr
   const float along = dot(d, iris->axis);
   const float out[3] = {d[0] - along * iris->axis[0], d[1] - along * iris->axis[1], d[2] - along * iris->axis[2]};
   const float r = __builtin_sqrtf(dot(out, out));
-  float stretch = 0.0F; /* the vertex goes out by stretch * r */
+  float stretch = 0.0F; /* the vertex moves outwards by stretch * r */
   if (r < iris->pupil_radius) {
     stretch = growth / iris->pupil_radius;
   } else if (r < iris->iris_radius) {
@@ -26,9 +27,9 @@ static void move_iris(const semblante_iris* iris, const float pivot[3], float gr
   }
 }
 
-/* A sheet of half width w bent about its middle line, so that its borders turn by `roll`: an arc of curvature
- * roll / w. A point u across the sheet and v above it goes to (sin(t) / k - v sin(t), (1 - cos(t)) / k + v cos(t)) with
- * t = k u, k the curvature; beyond the border straight on, along the tangent. */
+/* Bends a sheet of half width w about its middle line, so that its borders rotate by `roll`: an arc of curvature
+ * k = roll / w. A point at u across the sheet and v above it moves to (sin(t) / k - v sin(t), (1 - cos(t)) / k + v
+ * cos(t)) with t = k u; beyond the border it continues along the tangent. */
 static void roll_tongue(const semblante_tongue* tongue, float roll, const float rest[3], float p[3]) {
   if (roll == 0.0F || tongue->half_width <= 0.0F) {
     return;

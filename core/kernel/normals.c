@@ -19,7 +19,7 @@ SEMBLANTE_EXPORT(semblante_join_scratch)
 size_t semblante_join_scratch(uint32_t vertex_count) { return table_size(vertex_count); }
 
 static uint32_t bits_of(float value) {
-  const float positive_zero = value + 0.0F; /* -0 and 0 are one place */
+  const float positive_zero = value + 0.0F; /* -0 and 0 are the same position */
   uint32_t bits;
   __builtin_memcpy(&bits, &positive_zero, sizeof bits);
   return bits;
@@ -88,7 +88,7 @@ void semblante_normals(const semblante_triangles* triangles, const float* positi
     if (!(ab2 > 0.0F && ac2 > 0.0F && bc2 > 0.0F)) {
       continue;
     }
-    /* A corner's weight: 1 / (the product of the squares of its two edges). */
+    /* The weight of a corner: 1 / (product of the squared lengths of its two edges). */
     const float r_ab = 1.0F / ab2;
     const float r_ac = 1.0F / ac2;
     const float r_bc = 1.0F / bc2;

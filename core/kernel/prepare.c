@@ -1,4 +1,4 @@
-/* The influence table regrouped: see semblante_prepared_face.h. */
+/* Regroups the influence table: see semblante_prepared_face.h. */
 #include "core/kernel/export.h"
 #include "core/kernel/prepared_layout.h"
 
@@ -11,10 +11,10 @@ typedef struct group_facts {
   uint32_t point_count;
   uint32_t part;
   uint8_t points[SEMBLANTE_FP_COUNT];
-  int rises; /* the points of its rows do */
+  int rises; /* whether the points of each row are increasing */
 } group_facts;
 
-/* The part of a group that holds one more vertex. */
+/* The part of a group after adding one vertex. */
 static uint32_t join_part(uint32_t part, int is_first, uint8_t rigid) {
   const uint32_t own = rigid >= SEMBLANTE_RIGID_TONGUE       ? SEMBLANTE_GROUP_TONGUE
                        : rigid == SEMBLANTE_RIGID_LEFT_EYE   ? SEMBLANTE_GROUP_LEFT_EYE
@@ -80,7 +80,7 @@ static uint32_t window_end(uint32_t first, uint32_t groups) {
   return groups - first < WINDOW ? groups : first + WINDOW;
 }
 
-/* Groups of a window by key; false if a row does not rise. */
+/* Counts the groups of a window by key; false if the points of a row are not increasing. */
 static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, uint16_t by_key[KEYS]) {
   for (uint32_t key = 0; key < KEYS; ++key) {
     by_key[key] = 0;
@@ -95,7 +95,7 @@ static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, 
   return 1;
 }
 
-/* Where a prepared face's arrays lie behind its header. */
+/* The offsets of the arrays of a prepared face from its header, and its total size. */
 typedef struct layout {
   size_t runs, first, rest, weights, points, rigid, end;
   uint32_t run_count;
@@ -107,7 +107,7 @@ static size_t place(size_t* end, size_t bytes) {
   return at;
 }
 
-/* `end` is 0 if a row does not rise. */
+/* `end` is 0 if the points of a row are not increasing. */
 static layout lay_out(const semblante_face* face) {
   layout l = {0};
   const uint32_t groups = group_count_of(face);
@@ -180,7 +180,7 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
 
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
     const uint32_t end = window_end(first, groups);
-    uint16_t slot[KEYS]; /* of the next group with a key, from the window's first */
+    uint16_t slot[KEYS]; /* by key: index of its next group within the window */
     count_keys(face, first, end, slot);
     uint16_t taken = 0;
     for (uint32_t key = 0; key < KEYS; ++key) {

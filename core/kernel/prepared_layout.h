@@ -1,4 +1,4 @@
-/* Internal: what semblante_prepare writes and the loops over groups read. */
+/* Internal: the data that semblante_prepare writes and the loops over groups read. */
 #ifndef SEMBLANTE_KERNEL_PREPARED_LAYOUT_H
 #define SEMBLANTE_KERNEL_PREPARED_LAYOUT_H
 
@@ -8,15 +8,15 @@
 
 #define SEMBLANTE_GROUP 8U /* vertices */
 
-/* What moves the vertices of a group after Eq. 7 and before the head. */
+/* The motion of a group's vertices after Eq. 7 and before the head's motion. */
 typedef enum semblante_group_part {
   SEMBLANTE_GROUP_NONE,
   SEMBLANTE_GROUP_LEFT_EYE,
   SEMBLANTE_GROUP_RIGHT_EYE,
-  SEMBLANTE_GROUP_LEFT_IRIS, /* all of the eye, some of the iris */
+  SEMBLANTE_GROUP_LEFT_IRIS, /* all vertices belong to the eye, some to its iris */
   SEMBLANTE_GROUP_RIGHT_IRIS,
-  SEMBLANTE_GROUP_TONGUE, /* some; the others nothing */
-  SEMBLANTE_GROUP_MIXED,  /* anything else, and a last group that is not full */
+  SEMBLANTE_GROUP_TONGUE, /* some vertices belong to the tongue, the others have no local motion */
+  SEMBLANTE_GROUP_MIXED,  /* any other combination, and an incomplete last group */
   SEMBLANTE_GROUP_PARTS
 } semblante_group_part;
 
@@ -30,23 +30,23 @@ typedef struct semblante_run {
 /* Groups are stored run after run. Every array starts at a multiple of 64 bytes. */
 struct semblante_prepared_face {
   uint32_t vertex_count;
-  uint32_t group_count; /* #G, the last one filled up with vertices that are never written */
+  uint32_t group_count; /* #G; the last group is padded with vertices that are never written */
   uint32_t run_count;   /* #R */
   const semblante_run* runs;
   const uint32_t* first; /* #G: number of the group's first vertex */
-  const float* rest;     /* #G by 3 by 8: x of the group, y, z */
-  const float* weights;  /* #U by 8: for each point of each group the weights of its vertices */
-  const uint8_t* points; /* #U, rise within a group */
-  const uint8_t* rigid;  /* #V filled up, by the number of the vertex, of SEMBLANTE_RIGID_* */
+  const float* rest;     /* #G by 3 by 8: eight x, eight y, eight z */
+  const float* weights;  /* #U by 8: for each point of each group the weights of the group's vertices */
+  const uint8_t* points; /* #U, increasing within a group */
+  const uint8_t* rigid;  /* #V padded to whole groups, by vertex: SEMBLANTE_RIGID_* */
 };
 
 /* One pose, prepared for all groups. */
 typedef struct semblante_group_pose {
-  float fp[SEMBLANTE_FP_COUNT][4]; /* the fourth is not used */
+  float fp[SEMBLANTE_FP_COUNT][4]; /* the fourth component is unused */
   semblante_rigid_motion head;
   int head_moves;
   semblante_local_motions local;
-  int eye_moves[2]; /* left, right; what does not move is left out, which gives the same bits */
+  int eye_moves[2]; /* left, right; a motion that is zero is skipped, which gives the same bits */
   int iris_moves[2];
   int tongue_moves;
   /* For semblante_deform_changed; null: everything is computed. */
@@ -54,20 +54,20 @@ typedef struct semblante_group_pose {
   int local_changed;             /* whether eyes, pupils or tongue moved */
 } semblante_group_pose;
 
-/* Goes over all groups; returns how many vertices were written. */
+/* Deforms all groups; returns the number of written vertices. */
 typedef uint32_t (*semblante_deform_groups)(const semblante_prepared_face* face, const semblante_group_pose* pose,
                                             float* positions);
 
-/* The loop compiled for one kind of register. */
+/* The loop compiled for one register size. */
 typedef struct semblante_deform_variant {
   const char* name;
   semblante_deform_groups run;
 } semblante_deform_variant;
 
-/* The variants that this machine can run, the fastest last; *count of them. */
+/* The *count variants that this machine supports, the fastest last. */
 const semblante_deform_variant* semblante_deform_variants(uint32_t* count);
 
-/* semblante_deform_prepared by a variant of choice. */
+/* semblante_deform_prepared by the given variant. */
 void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,
                          const semblante_pose* pose, float* positions);
 

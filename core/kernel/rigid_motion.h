@@ -1,4 +1,4 @@
-/* Internal: how a pose moves a rigid part. Inline: the head's applies to every vertex. */
+/* Internal: the motion of a rigid part in a pose. Inline, because the head's motion applies to every vertex. */
 #ifndef SEMBLANTE_KERNEL_RIGID_MOTION_H
 #define SEMBLANTE_KERNEL_RIGID_MOTION_H
 

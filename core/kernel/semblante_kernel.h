@@ -27,11 +27,11 @@ extern "C" {
 #define SEMBLANTE_RIGID_NONE 0
 #define SEMBLANTE_RIGID_LEFT_EYE 1
 #define SEMBLANTE_RIGID_RIGHT_EYE 2
-#define SEMBLANTE_RIGID_LEFT_IRIS 3 /* turns with its eye, and makes way for the pupil before */
+#define SEMBLANTE_RIGID_LEFT_IRIS 3 /* rotates with its eye, after the motion of the iris */
 #define SEMBLANTE_RIGID_RIGHT_IRIS 4
 #define SEMBLANTE_RIGID_COUNT 5
 #define SEMBLANTE_RIGID_TONGUE \
-  128 /* 128..255: takes (value - 127) / 128 of the tongue's roll; 255 is the tongue itself */
+  128 /* 128..255: has (value - 127) / 128 of the tongue's roll; 255 is the tongue itself */
 
 /* One frame of face parameters: the complete state. All zero is the neutral face. 284 bytes. */
 typedef struct semblante_frame {
@@ -47,18 +47,18 @@ typedef struct semblante_frame {
 /* The iris of one eye on the neutral face. 24 bytes. */
 typedef struct semblante_iris {
   float axis[3];      /* unit vector from the eye's pivot through the middle of the pupil */
-  float pupil_radius; /* 0: this eye has no iris that could move */
+  float pupil_radius; /* 0: this eye has no movable iris */
   float iris_radius;  /* more than pupil_radius */
-  float bend; /* of its surface, 1 / length: at distance r from the axis it lies bend * r * r farther along it */
+  float bend;         /* 1 / length: at distance r from the axis the surface is bend * r * r farther along it */
 } semblante_iris;
 
 /* The tongue on the neutral face. 44 bytes. */
 typedef struct semblante_tongue {
-  float origin[3];  /* on its middle line, half way through its thickness */
-  float left[3];    /* unit vector across it, to the face's left */
-  float up[3];      /* unit vector at right angles to `left` and to the tongue's length */
-  float half_width; /* from the middle line to a border (6.3, 6.4); 0: there is no tongue that could roll */
-  float roll_limit; /* radians: it rolls no farther, lest it run through itself */
+  float origin[3];  /* a point of the middle line, at half of the tongue's thickness */
+  float left[3];    /* unit vector across the tongue, to the face's left */
+  float up[3];      /* unit vector perpendicular to `left` and to the tongue's length */
+  float half_width; /* from the middle line to a border (6.3, 6.4); 0: the head has no tongue that can roll */
+  float roll_limit; /* radians: the roll is clamped to it, because the tongue would intersect itself beyond */
 } semblante_tongue;
 
 /* The data of one model for evaluating frames. The caller owns the two arrays, which must outlive the calls. */
@@ -68,7 +68,7 @@ typedef struct semblante_rig {
   float fapu[SEMBLANTE_FAPU_COUNT]; /* already divided by 1024; 0: unknown, and FAPs in that unit do nothing */
   float eye_pivot[2][3];            /* left, right */
   float head_pivot[3];
-  float viseme_share;     /* share of the viseme at an FP that an expression moves too (Eq. 5): 0.85 */
+  float viseme_share;     /* share of the viseme at an FP that an expression also moves (Eq. 5): 0.85 */
   semblante_iris iris[2]; /* left, right */
   semblante_tongue tongue;
 } semblante_rig;
@@ -82,8 +82,8 @@ typedef struct semblante_pose {
   float head_rotation[4];
   float eye_pivot[2][3];
   float head_pivot[3];
-  float pupil_growth[2]; /* left, right: of the radius */
-  float tongue_roll;     /* radians that a border of the tongue turns upwards */
+  float pupil_growth[2]; /* left, right: change of the pupil's radius */
+  float tongue_roll;     /* radians by which a border of the tongue rotates upwards */
   semblante_iris iris[2];
   semblante_tongue tongue;
 } semblante_pose;

@@ -39,12 +39,13 @@ inline constexpr std::uint32_t least_budget = 100, most_budget = 4'000'000;
 /// that positions, UVs, normals, weights, feature points and parts stay valid.
 struct LevelOfDetail {
   std::uint32_t budget = 0;
-  std::uint32_t vertex_count = 0;          ///< as the budget counts; more than the budget where nothing more may go
+  std::uint32_t vertex_count =
+      0;  ///< counted like the budget; more than the budget if no further vertex may be removed
   std::vector<Triangle> triangles;         ///< #T by 3, into Model::positions
   std::vector<Triangle> uv_triangles;      ///< #T by 3 or empty, as in Model
-  std::vector<Triangle> normal_triangles;  ///< likewise; empty too where the model is shaded flat
+  std::vector<Triangle> normal_triangles;  ///< likewise; also empty if the model is shaded flat
   std::vector<std::uint32_t>
-      source_triangles;  ///< #T, rises: the model's triangle each one was; its look is that one's
+      source_triangles;  ///< #T, increasing: the original triangle in the model, which defines the look
 };
 
 /// Decimates `model` to each of the budgets, every level from the previous one, with the parts of each role in

@@ -14,16 +14,17 @@
 
 namespace semblante {
 
-/// Matches marked points with a model. The result rises by id.
+/// Matches marked points with a model. The result is sorted by id.
 ///
 /// - A vertex: that file vertex. If positions are given too and some disagree (more than 1e-3 of the box diagonal away)
 ///   while every disagreeing point has a vertex at its position (within 1e-4), the file's vertices were renumbered and
 /// the positions win. Otherwise the vertices win. Both cases give a warning in `warnings`.
 /// - A position alone: a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
-///   then the lowest file vertex). Failing that 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
+///   then the lowest file vertex). Otherwise 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
 ///   nearest vertex within 5 % of the diagonal, with a warning.
-/// - A point of a lip or lid by position, where the rims touch: of the vertices at its position one on its own side,
-///   and it does not snap to the other side, as far as the other points tell the sides (RimSides).
+/// - The position of a point of a lip or lid where the rims touch: of the vertices at its position one on its own side.
+/// Nor
+///   does it snap to a vertex on the other side. Both only if the other points determine the sides (RimSides).
 ///
 /// Errors carry `where` = "/points/<id>" (or below it): `out_of_range` vertex, `not_finite` position, `missing` both,
 /// `invalid_argument` for a point given twice, too far from the surface, or on a part it cannot be on (a skin point on

@@ -5,7 +5,7 @@
 
 namespace semblante {
 
-/// How long a cue comes and goes, ms.
+/// Times in which a cue reaches its full strength and ends again, ms.
 struct Ramps {
   double attack, release;
 };
@@ -15,8 +15,8 @@ struct UsualRamps {
   Ramps ramps;
 };
 
-/// Of a cue that says neither, in the order of CueTarget. A test holds protocol/SPEC.md and the TypeScript reader to
-/// it.
+/// Defaults of a cue without ramps of its own, in the order of CueTarget. A test compares them with protocol/SPEC.md
+/// and the TypeScript reader.
 inline constexpr auto usual_ramps = std::to_array<UsualRamps>({
     {"fap", {100.0, 100.0}},
     {"viseme", {70.0, 70.0}},
@@ -25,13 +25,13 @@ inline constexpr auto usual_ramps = std::to_array<UsualRamps>({
     {"blink", {80.0, 160.0}},
     {"head", {400.0, 400.0}},
 });
-/// The head's part of a look takes at least as long.
+/// Minimum ramps of the head's part of a look.
 inline constexpr Ramps head_ramps = usual_ramps.back().ramps;
-/// Duration of a blink that says none, ms.
+/// Default duration of a blink, ms.
 inline constexpr double blink_ms = usual_ramps[4].ramps.attack + usual_ramps[4].ramps.release;
 
-/// How far performances shut the lids: lids of a neutral face are one iris apart, 1024 units, of which the upper (FAPs
-/// 19 and 20) and the lower (21 and 22) take these.
+/// Values of the lid FAPs with which performances close the eyes: the lids of a neutral face are one iris apart, 1024
+/// units, of which the upper lid (FAPs 19 and 20) and the lower lid (21 and 22) move these.
 inline constexpr double upper_lid_units = 940.0;
 inline constexpr double lower_lid_units = 84.0;
 

@@ -20,8 +20,8 @@ struct ImportedHead {
 };
 
 struct ImportRequest {
-  std::string file_name;              ///< as the user knows it: a hint of the format
-  std::optional<ModelFormat> format;  ///< said by the user; otherwise by content and name
+  std::string file_name;              ///< the name of the uploaded file: a hint of the format
+  std::optional<ModelFormat> format;  ///< set by the user; if empty, detected by content and name
   ImportLimits limits;
 };
 

@@ -14,8 +14,8 @@ namespace semblante {
 /// Stage 5: the head with its materials and its levels of detail: the input of a face package.
 struct LevelledHead : RiggedHead {
   MaterialAssignment materials;
-  std::vector<LevelOfDetail> levels;  ///< falling; none without budgets
-  std::vector<LodPose> poses;         ///< the faces in which the error of a level counts; none without budgets
+  std::vector<LevelOfDetail> levels;  ///< by decreasing size; none without budgets
+  std::vector<LodPose> poses;         ///< the faces in which the error of a level is measured; none without budgets
   std::vector<MissedBudget> missed;
 };
 

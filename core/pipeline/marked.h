@@ -14,12 +14,13 @@ namespace semblante {
 struct MarkedHead : StandingHead {
   FeaturePointSet points;
   std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId
-  std::vector<Finding> refused;                        ///< points left out, see MarkRequest::leaves_out_refused
-  std::optional<glm::dmat3> turn;  ///< from the StandingHead to this one; empty: the points did not turn it
+  std::vector<Finding> refused;                        ///< omitted points, see MarkRequest::leaves_out_refused
+  std::optional<glm::dmat3>
+      turn;  ///< rotation from the StandingHead to this head; empty: the points did not change the axes
 };
 
 struct MarkRequest {
-  std::vector<MarkedPoint> points;                     ///< positions as the StandingHead stands
+  std::vector<MarkedPoint> points;                     ///< positions in the axes of the StandingHead
   std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId; empty entries leave the role to the guess
   /// A point that cannot be placed becomes a finding instead of an error.
   bool leaves_out_refused = false;

@@ -8,7 +8,7 @@ Result<MarkedHead> mark_by_file(ImportedHead head, FeaturePointsFile file, const
                                 bool leaves_out_refused, const Progress& progress) {
   if (file.to_mpeg4_axes && wish.has_axes()) {
     return Error{ErrorCode::invalid_argument, "/to_mpeg4_axes",
-                 "says how the model stands, so up and front cannot be given as well"};
+                 "sets the axes of the model, so up and front cannot be set as well"};
   }
   auto standing = stand_head(std::move(head), {wish, {}, file.to_mpeg4_axes}, progress);
   if (!standing) return standing.error();

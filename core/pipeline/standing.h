@@ -14,15 +14,15 @@ namespace semblante {
 
 /// Stage 2: the head rotated to MPEG-4 axes, if its shape or the user determines its axes.
 struct StandingHead : ImportedHead {
-  Surface surface;           ///< of `model` as it stands now
-  ModelFrame frame;          ///< how it stands in its file
-  FrameWish frame_wish;      ///< what the user says of that
-  glm::dmat3 to_mpeg4{1.0};  ///< the turn from the file to `model`
+  Surface surface;           ///< of `model` after the rotation
+  ModelFrame frame;          ///< its axes and unit in the file
+  FrameWish frame_wish;      ///< the axes and unit set by the user
+  glm::dmat3 to_mpeg4{1.0};  ///< the rotation from the file to `model`
 };
 
 struct StandingRequest {
-  FrameWish wish;                   ///< replaces the guess where it says something
-  std::optional<ModelFrame> known;  ///< the result of an earlier run on this file: taken as it is, nothing is guessed
+  FrameWish wish;                   ///< its set members replace the guess
+  std::optional<ModelFrame> known;  ///< the result of an earlier run on this file, used without a new guess
   /// "to_mpeg4_axes" of a feature point file: rotates (or mirrors) the file's axes to MPEG-4's, so that only the unit
   /// is guessed. Excludes axes in `wish`, and `known`.
   std::optional<glm::dmat3> to_mpeg4_axes;

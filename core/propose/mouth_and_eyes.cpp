@@ -12,9 +12,9 @@
 namespace semblante {
 namespace {
 
-constexpr double beside = 0.03;     ///< a vertex this near to the axis of an eye is at its pupil
-constexpr double believable = 0.2;  ///< from where proportions have the pupil
-constexpr double cornea = 0.12;     ///< its radius, about
+constexpr double beside = 0.03;     ///< maximum distance from the axis of an eye for a vertex at its pupil
+constexpr double believable = 0.2;  ///< maximum distance from the pupil expected by proportions
+constexpr double cornea = 0.12;     ///< approximate radius of the cornea
 
 /// The eyeball's sphere, fitted to the largest part with the role.
 std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
@@ -62,7 +62,7 @@ Spot find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole e
 }
 
 bool is_tongue_alone(const FaceSurface& face) {
-  constexpr double tallest = 0.55;  // in one piece with both gums it is about 0.7
+  constexpr double tallest = 0.55;  // a tongue in one piece with both gums is about 0.7 high
   const auto& tongue = face.with_role(PartRole::tongue);
   if (tongue.empty()) return false;
   const auto [low, high] = std::minmax_element(

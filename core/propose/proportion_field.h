@@ -18,7 +18,7 @@ class ProportionField {
   };
   struct Guess {
     glm::dvec3 place;
-    double deviation;  ///< standard deviation of each coordinate, as the field's model has it
+    double deviation;  ///< standard deviation of each coordinate by the model of the field
   };
 
   explicit ProportionField(std::vector<Sample> samples);

@@ -21,7 +21,7 @@ struct KnownPlace {
 
 struct Guess {
   glm::dvec3 place{0.0};
-  double error = 0.0;  ///< expected, in ES0: what the known points leave open, and how much heads differ
+  double error = 0.0;  ///< expected error in ES0: the field's uncertainty and the differences between heads
 };
 
 /// Guesses every point by the proportions of the references, each deformed to the known places (ProportionField); the

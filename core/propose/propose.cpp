@@ -23,10 +23,10 @@ namespace semblante {
 namespace {
 
 // All in ES0.
-constexpr double marking_noise = 0.015;  ///< of a point a person marked
-constexpr double mirror_noise = 0.02;    ///< of the mirror image of one
-constexpr double surely = 0.07;          ///< an expected error of `high` confidence
-constexpr double about = 0.15;           ///< of `medium`
+constexpr double marking_noise = 0.015;  ///< standard deviation of a marked point
+constexpr double mirror_noise = 0.02;    ///< standard deviation of the mirror image of a marked point
+constexpr double surely = 0.07;          ///< largest expected error of `high` confidence
+constexpr double about = 0.15;           ///< largest expected error of `medium` confidence
 
 std::uint8_t mirror_of(std::size_t id) { return mpeg4::feature_points[id].mirror; }
 bool is_middle(std::size_t id) { return mirror_of(id) == id; }
@@ -133,8 +133,9 @@ class Proposer {
   }
 
   void propose(std::size_t id) {
-    if (!guesses_[id]) return refuse(id, "no head it could be compared with has this point");
-    if (id_of(id) == parse_feature_point("11.5")) return refuse(id, "the thickness of hair cannot be told from a face");
+    if (!guesses_[id]) return refuse(id, "no reference head has this point");
+    if (id_of(id) == parse_feature_point("11.5"))
+      return refuse(id, "the thickness of the hair cannot be derived from the face");
     const double error = guesses_[id]->error;
     const glm::dvec3 place = images_[id] ? *images_[id] : related(id, guesses_[id]->place);
     if (id == index_of("7.1")) return settle(id, {place, std::nullopt}, ProposalMethod::proportion, error);
@@ -150,12 +151,12 @@ class Proposer {
     }
     const auto [vertex, doubt] = nearest_vertex(id, role, place, error);
     const double off = glm::distance(face_.at(vertex), place);
-    if (off > 0.15 + error) return refuse(id, "the model has no surface where it would be");
+    if (off > 0.15 + error) return refuse(id, "the model has no surface at the expected position");
     settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
            std::max(error, 0.5 * off), doubt);
   }
 
-  /// Of a role that has vertices.
+  /// `role` must have vertices.
   RimVertex nearest_vertex(std::size_t id, PartRole role, const glm::dvec3& place, double error) {
     const MirrorPlane* const on = is_middle(id) ? &plane_ : nullptr;
     const RimOfPoint rim = rim_of_point(id_of(id));
@@ -190,7 +191,7 @@ class Proposer {
   void settle(std::size_t id, const Spot& spot, ProposalMethod method, double error, std::string doubt = {}) {
     if (spot.vertex) {
       const auto [other, is_free] = taken_.try_emplace(*spot.vertex, id_of(id));
-      if (!is_free) return refuse(id, "the vertex nearest to it is point " + to_string(other->second) + " already");
+      if (!is_free) return refuse(id, "the nearest vertex already has point " + to_string(other->second));
     }
     settled_[id] = spot.place;
     // A vertex of a lip or lid that was chosen by its side is not evidence for sides.
@@ -234,7 +235,7 @@ std::string missing_of_quick_set(const FeaturePointSet& known) {
   for (const std::string_view name : quick_set) {
     if (find_point(known, name) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(name);
   }
-  return missing.empty() ? "" : "; of the quick set these are missing: " + missing;
+  return missing.empty() ? "" : "; missing from the quick set: " + missing;
 }
 
 }  // namespace
@@ -242,7 +243,7 @@ std::string missing_of_quick_set(const FeaturePointSet& known) {
 std::optional<Error> find_too_few_known(const FeaturePointSet& known) {
   if (known.size() >= least_known_points) return std::nullopt;
   return Error{ErrorCode::missing, "/points",
-               "proposals need at least " + std::to_string(least_known_points) + " placed points, here are " +
+               "proposals need at least " + std::to_string(least_known_points) + " placed points, but there are " +
                    std::to_string(known.size()) + missing_of_quick_set(known)};
 }
 
@@ -253,9 +254,10 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
   for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
   std::optional<Similarity> frame = fit_to_references(places, references);
   if (!frame) {
-    return Error{ErrorCode::missing, "/points",
-                 "the placed points lie on one line or in one place, which does not tell how the head stands" +
-                     missing_of_quick_set(known)};
+    return Error{
+        ErrorCode::missing, "/points",
+        "the placed points are on one line or at one place, so the orientation of the head cannot be determined" +
+            missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
   return Proposer(surface, parts, *frame, known, references).run();

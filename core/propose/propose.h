@@ -19,8 +19,8 @@ namespace semblante {
 /// The method of a proposal.
 enum class ProposalMethod : std::uint8_t {
   mirror,      ///< the mirror image of the point on the other side
-  proportion,  ///< the proportions of heads, bent to the known points, met with the surface
-  shape,       ///< from there, a feature of the shape: the highest, the most forward, an edge
+  proportion,  ///< the proportions of reference heads, deformed to the known points, then the nearest surface vertex
+  shape,       ///< an extreme of the shape near that position: the highest, the most forward, an edge
 };
 inline constexpr std::array<std::string_view, 3> proposal_method_names = {"mirror", "proportion", "shape"};
 
@@ -32,7 +32,7 @@ struct Proposal {
   FeaturePoint point;  ///< in the model's frame
   ProposalMethod method = ProposalMethod::proportion;
   Confidence confidence = Confidence::low;
-  double expected_error = 0.0;  ///< in ES0: what the distance to a carefully placed point is expected to be
+  double expected_error = 0.0;  ///< expected distance to a carefully placed point, in ES0
   /// A further reason for doubt, as text; may be empty. A point of a lip or lid whose side is uncertain has a remark,
   /// and never `high` confidence.
   std::string remark;
@@ -40,7 +40,7 @@ struct Proposal {
 
 struct NotProposed {
   FeaturePointId id;
-  std::string reason;  ///< in words
+  std::string reason;  ///< as text
 };
 
 struct Proposals {

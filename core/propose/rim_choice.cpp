@@ -17,18 +17,18 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
   const auto apart = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) == 0.0; });
   // A separate piece of unknown side, such as a lid behind the fold, is treated like the nearest vertex.
   if (apart && (!own || off(*apart) < off(*own)) && (!other || own || off(*apart) < off(*other)))
-    return RimVertex{*apart, sides.have_anchors() ? "no placed point on this piece tells " + both
-                                                  : "too few points are placed to tell " + both};
+    return RimVertex{*apart, sides.have_anchors() ? "no placed point on this piece distinguishes " + both
+                                                  : "too few points are placed to distinguish " + both};
   if (!own) {
     if (!other) return std::nullopt;
-    return RimVertex{*other, "no surface was found on the side of it that tells " + both};
+    return RimVertex{*other, "the surface has no vertex on the side of this point that distinguishes " + both};
   }
   if (side(*own) >= RimSides::clear) return RimVertex{*own, {}};
   // If the other side is about as near, prefer a slightly farther vertex whose side is certain.
   const bool is_contested = other && off(*other) < off(*own) + error;
   const auto clear = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) >= RimSides::clear; });
   if (is_contested && clear && off(*clear) < off(*own) + error) return RimVertex{*clear, {}};
-  return RimVertex{*own, "the surface leads straight across from one to the other here, and does not tell " + both};
+  return RimVertex{*own, "the surface connects both directly here and does not distinguish " + both};
 }
 
 const RimSides& RimChoice::sides_of(const mpeg4::Opening& opening) {

@@ -15,7 +15,7 @@ namespace semblante {
 
 struct RimVertex {
   std::uint32_t vertex;
-  std::string doubt;  ///< why its side may be wrong, in words; empty: the side is beyond doubt
+  std::string doubt;  ///< why its side may be wrong, as text; empty: its side is certain
 };
 
 /// Chooses vertices for points of lips and lids: the nearest vertex on the point's own side along the surface

@@ -12,14 +12,14 @@ namespace semblante {
 namespace {
 
 enum class Search : std::uint8_t {
-  climb,     ///< from the nearest vertex along rising edges: what stands beyond a dip is something else
-  farthest,  ///< of all vertices about the place
+  climb,     ///< from the nearest vertex along ascending edges: does not cross a dip to another maximum
+  farthest,  ///< of all vertices near the place
 };
 
 struct Extreme {
-  std::string_view id;  ///< of a point in the middle or on the left
+  std::string_view id;  ///< id of a point in the middle or on the left
   glm::dvec3 direction;
-  double within;  ///< of the place, in ES0
+  double within;  ///< maximum distance from the place, in ES0
   Search search;
 };
 

@@ -10,8 +10,8 @@
 namespace semblante {
 
 /// A shape of a model beside its neutral one (a glTF morph target): the displacement of each file vertex at full
-/// strength. Contains only vertices that move. Displacement sets can be extracted from
-/// it.
+/// strength. Contains only vertices that move. core/extract makes displacement sets
+/// from it.
 struct Example {
   std::string name;                      ///< as the file calls it, printable
   std::vector<std::uint32_t> vertices;   ///< #E file vertices that move, rising

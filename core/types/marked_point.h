@@ -15,7 +15,7 @@ struct MarkedPoint {
   FeaturePointId id;
   std::optional<std::uint32_t> vertex;  ///< file vertex, not checked against the model
   std::optional<glm::dvec3> position;   ///< model units, MPEG-4 frame
-  bool proposed = false;                ///< nobody has placed or confirmed it
+  bool proposed = false;                ///< a proposal that no person has confirmed
 };
 
 }  // namespace semblante

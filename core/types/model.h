@@ -66,7 +66,7 @@ struct Model {
   /// Transforms positions to the axes and unit of the file. Identity if the file has MPEG-4 axes.
   glm::mat4 to_file_frame{1.0F};
   std::string format;                 ///< "glb", "gltf", "obj", "ply", "stl"
-  std::vector<std::string> warnings;  ///< what was repaired or left out on import, in words
+  std::vector<std::string> warnings;  ///< what the import repaired or omitted, as text
 
   static constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 };

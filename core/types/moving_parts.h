@@ -12,10 +12,10 @@ enum class RigidMotion : std::uint8_t {
   none,
   left_eye,
   right_eye,
-  left_iris,   ///< of the eye, and makes way for the pupil
+  left_iris,   ///< rotates with the eye, and moves outwards when the pupil grows
   right_iris,  ///< likewise
   tongue_least = 128,
-  tongue = 255,  ///< all of the roll
+  tongue = 255,  ///< the whole roll
 };
 
 /// False for the unused byte values in between.
@@ -45,16 +45,16 @@ struct Iris {
   glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit vector from the eye's pivot through the middle of the pupil
   float pupil_radius = 0.0F;
   float iris_radius = 0.0F;  ///< more than pupil_radius
-  float bend = 0.0F;         ///< 1 / length: at distance r from the axis the surface lies bend * r * r farther along it
+  float bend = 0.0F;         ///< 1 / length: at distance r from the axis the surface is bend * r * r farther along it
 };
 
 /// The tongue on the neutral face, in model units.
 struct Tongue {
-  glm::vec3 origin{0.0F};            ///< on its middle line, half way through its thickness
-  glm::vec3 left{1.0F, 0.0F, 0.0F};  ///< unit vector across it, to the face's left
-  glm::vec3 up{0.0F, 1.0F, 0.0F};    ///< unit vector at right angles to `left` and to the tongue's length
+  glm::vec3 origin{0.0F};            ///< a point of the middle line, at half of the tongue's thickness
+  glm::vec3 left{1.0F, 0.0F, 0.0F};  ///< unit vector across the tongue, to the face's left
+  glm::vec3 up{0.0F, 1.0F, 0.0F};    ///< unit vector perpendicular to `left` and to the tongue's length
   float half_width = 0.0F;           ///< from the middle line to a border
-  float roll_limit = 0.0F;           ///< radians that a border can turn before the tongue runs through itself
+  float roll_limit = 0.0F;           ///< radians: the largest roll at which the tongue does not intersect itself
 };
 
 }  // namespace semblante

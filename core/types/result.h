@@ -9,19 +9,19 @@ namespace semblante {
 
 /// The kind of error, independent of the place of its detection. The REST layer maps each to a stable problem `type`.
 enum class ErrorCode {
-  malformed,         ///< the bytes are not of the format they claim
-  truncated,         ///< the data ends before what it announced
+  malformed,         ///< the bytes do not follow their format
+  truncated,         ///< the data ends before its declared end
   out_of_range,      ///< an index or a number outside its bounds
-  not_finite,        ///< NaN or infinity where a number belongs
+  not_finite,        ///< NaN or infinity in place of a finite number
   too_large,         ///< over a documented limit
   empty,             ///< nothing to work on (no triangles, no points)
-  unsupported,       ///< a valid file that needs something we do not read
-  mismatch,          ///< two things that must belong together do not
+  unsupported,       ///< valid, but needs a feature that is not implemented
+  mismatch,          ///< two inputs that must belong together do not
   missing,           ///< something required is absent
-  invalid_argument,  ///< a value that cannot mean anything here
+  invalid_argument,  ///< a value that is not valid here
   cancelled,         ///< stopped on request
-  io,                ///< the file system or the network said no
-  internal,          ///< a fault of ours that was caught
+  io,                ///< the file system or the network failed
+  internal,          ///< an error of this program
 };
 
 /// `code` for programs; `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for display.

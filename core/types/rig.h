@@ -24,9 +24,9 @@ inline constexpr std::array<std::string_view, 8> part_role_names = {
 
 /// A part in reports and for clients.
 struct Part {
-  std::string name;  ///< of the primitive most of its triangles belong to; may be empty
+  std::string name;  ///< of the primitive with most of its triangles; may be empty
   PartRole role = PartRole::skin;
-  bool role_by_user = false;       ///< set by hand: a later guess leaves it alone
+  bool role_by_user = false;       ///< set by the user: a later guess does not change it
   std::uint32_t vertex_count = 0;  ///< file vertices
   std::uint32_t triangle_count = 0;
   glm::vec3 box_min{0.0F}, box_max{0.0F};
@@ -43,15 +43,15 @@ struct Rig {
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
   std::vector<PartId> part_of_vertex;        ///< #V
   std::vector<Part> parts;                   ///< by PartId
-  /// The lip gaps of the closing mouth; empty if unknown: points are missing, or by the weights the lips move
-  /// each other.
+  /// The lip gaps of the closing mouth; empty if unknown, because points are missing or because the weights make each
+  /// lip move the other.
   std::optional<LipGaps> lip_gaps;
   glm::vec3 left_eye_pivot{0.0F};
   glm::vec3 right_eye_pivot{0.0F};
-  std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: the eye has none that could move
-  std::optional<Tongue> tongue;               ///< empty: there is none that could roll
+  std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: the eye has no movable iris
+  std::optional<Tongue> tongue;               ///< empty: the head has no tongue that can roll
   glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
-  std::vector<std::string> warnings;          ///< in words: what is missing and what it stops
+  std::vector<std::string> warnings;          ///< texts: what is missing, and what does not move without it
 };
 
 }  // namespace semblante

@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// The ear's own frame: `up` along its length, `back` across it, `out` away from the head. It leans back by about 15
-/// degrees and stands off the head by about 25.
+/// The ear's own frame: `up` along its length, `back` across it, `out` away from the head. The ear is tilted back by
+/// about 15 degrees and away from the head by about 25.
 struct Frame {
   Vec3 origin, up, back, out;
   [[nodiscard]] Vec3 at(double u, double b, double o) const { return origin + up * u + back * b + out * o; }
@@ -33,7 +33,7 @@ Frame ear_frame() {
 /// sign(v) |v|^e: e < 1 makes a circle squarer, so that top and lobe are round instead of pointed.
 double rounded(double v, double e) { return std::copysign(std::pow(std::abs(v), e), v); }
 
-/// Outline of the ear at angle a: 0 front, pi/2 top, pi back, 3 pi/2 the lobe. An egg, broad above, narrow below.
+/// Outline of the ear at angle a: 0 front, pi/2 top, pi back, 3 pi/2 the lobe. Egg-shaped, broad above, narrow below.
 Vec2 outline(double a) {
   const double up = std::sin(a);
   const double back = -std::cos(a);
@@ -44,7 +44,7 @@ Vec2 outline(double a) {
 }
 
 /// A ring of the ear: outline scaled by `size` about a centre that shifts by (up, back), at height `out` (cm). `front`
-/// is the height at the front instead, where helix and tragus join the cheek.
+/// is the height at the front, where helix and tragus join the cheek.
 struct EarRing {
   double size, up, back, out, front;
 };
@@ -66,7 +66,7 @@ constexpr EarRing ring_table[] = {
     {0.14, -0.20, -0.20, 0.15, 0.12},
 };
 
-/// Where the back edge passes the height half way between top and lobe; the vertex is moved to that height exactly.
+/// The vertex of the back edge nearest to the height half way between top and lobe, moved to exactly that height.
 int back_of_ear(HalfMesh& mesh, const Loop& edge, int top, int lobe) {
   const auto at = [&](int v) -> Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
   const double height = 0.5 * (at(top).y + at(lobe).y);
@@ -84,7 +84,7 @@ int back_of_ear(HalfMesh& mesh, const Loop& edge, int top, int lobe) {
 void add_ear(Skin& skin, const Loop& hole) {
   HalfMesh& mesh = skin.mesh;
   const Frame frame = ear_frame();
-  const std::size_t count = 2 * hole.size();  // an ear's outline needs more corners than the cheek beside it
+  const std::size_t count = 2 * hole.size();  // the outline of the ear needs more vertices than its hole in the cheek
   Loop outer = hole;
   Loop edge;
   std::size_t index = 0;
@@ -97,7 +97,7 @@ void add_ear(Skin& skin, const Loop& hole) {
       const double to_front = glm::smoothstep(0.35, 0.95, std::cos(a));
       const double lobe = glm::smoothstep(-0.45, -0.95, up);
       double out = glm::mix(ring.out, ring.front, to_front);
-      // The lobe is a soft pad: the rings of groove and antihelix level out there.
+      // The lobe is a soft pad: the rings of groove and antihelix flatten there.
       if (index >= 5 && index <= 10) out = glm::mix(out, 1.12, 0.85 * lobe);
       out -= 0.45 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
       Paint paint;

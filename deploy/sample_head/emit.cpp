@@ -41,7 +41,7 @@ std::vector<Vec3> normals_of(const HalfMesh& half) {
 Vec2 outer_uv(const Vec3& p) {
   const double turn = std::atan2(std::abs(p.x), p.z + 1.0) / 3.14159265358979;  // 0 front .. 1 back
   const double u = 0.5 + 0.5 * (1.35 * turn - 0.35 * turn * turn);
-  // A little depth in v keeps level ground (under chin and nose) from collapsing to a line.
+  // Adds some depth to v, so that horizontal surfaces (under chin and nose) do not collapse to a line.
   const double v = (11.9 - p.y + 0.25 * (p.z - 2.0)) / 32.0;
   return {std::clamp(u, 0.5, 1.0), 0.01 + 0.92 * std::clamp(v, 0.0, 1.0)};
 }
@@ -67,7 +67,7 @@ EmittedMesh emit_symmetric(const std::string& name, std::size_t material, const 
       const auto i = static_cast<std::size_t>(v);
       const Vec3 p = half.positions[i];
       Vec2 uv = uv_of(p, half.paint[i], chart);
-      // A vertex of the mirror plane is shared by both halves but at the seam down the back of the head.
+      // Both halves share the vertices of the mirror plane, except at the seam down the back of the head.
       const bool shared = half.on_mirror(v) && (chart == Chart::inner || uv.x < 0.5 + 1e-9);
       const auto [place, fresh] = numbers.try_emplace({v, chart, right && !shared}, mesh.positions.size());
       if (fresh) {
@@ -87,7 +87,7 @@ EmittedMesh emit_symmetric(const std::string& name, std::size_t material, const 
       std::array<std::uint32_t, 4> n{};
       const std::size_t count = face.corner[3] < 0 ? 3 : 4;
       for (std::size_t i = 0; i < count; ++i) n[i] = number_of(face.corner[i], face.chart);
-      // The mirror image runs the other way round.
+      // The mirror image has the opposite winding.
       const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         mesh.triangles.push_back(right ? std::array{a, c, b} : std::array{a, b, c});
       };

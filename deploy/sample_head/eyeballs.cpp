@@ -23,12 +23,12 @@ Eyeball make_eyeball(bool right, std::size_t material) {
   mesh.material = material;
   const double side = right ? -1.0 : 1.0;
   const auto add = [&](double polar, double azimuth) {
-    // Exact zeros and mirror pairs: the ball itself is symmetric about its own vertical plane.
+    // Exact zeros and mirror pairs, because the ball is symmetric about its own vertical plane.
     const Vec3 n(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
     const Vec3 p = eye_centre + n * eye_radius;
     mesh.positions.emplace_back(Vec3(side * p.x, p.y, p.z) * 0.01);
     mesh.normals.emplace_back(Vec3(side * n.x, n.y, n.z));
-    // The texture is the ball seen from the front, the back half drawn out to its corners.
+    // The texture shows the ball from the front; its back half is stretched to the corners.
     const double r = polar / pi;
     mesh.uvs.emplace_back(0.5 + side * 0.5 * r * std::cos(azimuth), 0.5 - 0.5 * r * std::sin(azimuth));
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);

@@ -18,14 +18,14 @@ using std::numbers::pi;
 // The opening, relative to the centre of the eye, in cm.
 constexpr double inner_corner_y = -0.10;
 constexpr double outer_corner_y = 0.08;
-constexpr double inner_corner_z = 0.80;  ///< the inner corner leaves the ball towards the nose
+constexpr double inner_corner_z = 0.80;  ///< the inner corner is off the ball, towards the nose
 constexpr double outer_corner_z = 0.62;
 
 /// Height of the lid edges over the middle of the slit: tangent to the iris on both sides.
 constexpr double lid_height = iris_radius;
 /// Height of the fold under which the upper lid slides, at the middle.
 constexpr double fold_height = 0.96;
-/// How far the skin lies in front of the ball's surface at the lower edge and at the fold.
+/// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
 constexpr double lower_thickness = 0.17;
 constexpr double fold_front = 1.60;
 
@@ -43,8 +43,8 @@ LidPlace lid_place(int k) {
   return {along, upper};
 }
 
-/// A ring of the lids: how far out it lies between the edge (0) and the orbit (1), and how much it sinks (cm) at the
-/// middle of upper and lower lid.
+/// A ring of the lids: its position between the edge (0) and the orbit (1), and its depth (cm) at the middle of upper
+/// and lower lid.
 struct LidRing {
   double upper, lower;
   double upper_sink, lower_sink;
@@ -101,7 +101,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
       const double out = glm::mix(0.5 * (ring.upper + ring.lower), side, middle);
       Vec3 p = glm::mix(edge, orbit_at(k), out);
       const double z = front_z(p.x, p.y) - middle * (place.upper ? ring.upper_sink : ring.lower_sink);
-      // The fold hangs in front of what the sculpt has there; the lower lid lies on it.
+      // The fold is in front of the sculpt; the lower lid is on it.
       const double trust =
           place.upper ? glm::smoothstep(0.1, 1.0, out) : std::max(middle, glm::smoothstep(0.05, 0.6, out));
       p.z = glm::mix(p.z, z, trust);
@@ -112,7 +112,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
     loops.push_back(loop);
   }
 
-  // Edge: front rim, then a rim behind it: on the ball below, with room for the upper lid above.
+  // Edge: front rim, then a rim behind it, which is on the ball below, and leaves room for the upper lid above.
   Loop rim;
   Loop rest;
   for (int k = 0; k < lid_steps; ++k) {
@@ -134,7 +134,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
   bridge(mesh, outer, rim, true, Chart::outer);
   bridge(mesh, rim, rest, true, Chart::outer);
 
-  // Socket: round the back of the ball, far enough off it for the upper lid to turn in.
+  // Socket: around the back of the ball, with enough distance for the upper lid to move.
   Loop front = rest;
   for (int j = 0; j <= 5; ++j) {
     Loop loop;

@@ -34,8 +34,8 @@ class Marker {
     for (const auto& [id, v] : skin.marks) open_[static_cast<std::size_t>(v)] = false;
   }
 
-  /// Moves the nearest vertex of the open skin to `place` and marks it. A place in the mirror plane gets a vertex of
-  /// it.
+  /// Moves the nearest vertex of the open skin to `place` and marks it. For a place in the mirror plane, uses only
+  /// vertices in that plane.
   void at(const std::string& id, const Vec3& place) {
     const auto& p = skin_.mesh.positions;
     int best = -1;
@@ -50,7 +50,7 @@ class Marker {
     take(id, best);
   }
 
-  /// Marks the vertex of the middle line within `low`..`high` that lies furthest along `direction`.
+  /// Marks the vertex of the middle line within `low`..`high` that is farthest along `direction`.
   void furthest_of_middle(const std::string& id, const Vec3& direction, double low, double high, double min_z) {
     const auto& p = skin_.mesh.positions;
     int best = -1;

@@ -35,7 +35,7 @@ constexpr std::array<BorderPoint, 14> border_points = {{{0, 34},
                                                         {140, -38},
                                                         {180, -43}}};
 
-/// Strands run from front to back: lines of equal angle about the long axis of the head.
+/// Strands from front to back: lines of equal angle about the long axis of the head.
 double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
 
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
@@ -95,7 +95,7 @@ Hair make_hair() {
   const Vec3 crown = cast_from_inside(hair_centre, {0.0, 1.0, 0.0});
   hair.top = mesh.add(crown + Vec3(0.0, thickness(0.0, 1.0, crown), 0.0));
   close_with_fan(mesh, rings.back(), false, hair.top, Chart::outer);
-  // The first face is the tuck at the forehead, which looks inwards and down.
+  // The first face is the tucked ring at the forehead, whose normal points inwards and down.
   orient(mesh, {0.0, -1.0, -0.2});
   return hair;
 }

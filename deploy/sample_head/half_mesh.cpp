@@ -68,7 +68,7 @@ void orient(HalfMesh& mesh, const Vec3& first_looks) {
       for (const std::size_t other : sharing) {
         if (seen[other]) continue;
         seen[other] = true;
-        // Two faces agree when they run along their common edge in opposite ways.
+        // Two faces have the same winding if they traverse their common edge in opposite directions.
         for (std::size_t j = 0; j < sides(other); ++j) {
           if (edge_of(other, j) == edge) {
             flip(other);

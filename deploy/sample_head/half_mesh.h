@@ -9,12 +9,12 @@
 
 namespace semblante::sample_head_detail {
 
-/// Work happens in centimetres and double: eye line at y = 0, ear canals near z = 0, +X the face's own left.
+/// Positions are in centimetres and double precision: eye line at y = 0, ear canals near z = 0, +X the face's own left.
 using Vec3 = glm::dvec3;
 using Vec2 = glm::dvec2;
 
 /// Which part of the texture a face uses. `inner` is the lining of mouth, nostrils and eye sockets, which a
-/// projection from outside would lay on top of the face.
+/// projection from outside would map onto the face.
 enum class Chart : std::uint8_t { outer, inner };
 
 /// Properties of a vertex for painting the texture, each 0..1.
@@ -46,7 +46,7 @@ struct HalfMesh {
   [[nodiscard]] bool on_mirror(int v) const { return positions[static_cast<std::size_t>(v)].x == 0.0; }
 };
 
-/// A run of vertices that belong together, in order: a ring round the eye, half a ring round the mouth.
+/// Connected vertices in order: a ring around the eye, half a ring around the mouth.
 using Loop = std::vector<int>;
 
 /// Joins two loops of equal length by quads; `closed` also joins last and first. `outside` is the loop on whose left
@@ -59,7 +59,7 @@ void bridge_doubling(HalfMesh& mesh, const Loop& outside, const Loop& inside, Ch
 /// Closes a loop by a fan to one vertex.
 void close_with_fan(HalfMesh& mesh, const Loop& loop, bool closed, int centre, Chart chart);
 
-/// Turns faces so that all connected ones agree with the first, which must look along `first_looks`.
+/// Flips faces so that all connected ones have the winding of the first, whose normal must point along `first_looks`.
 void orient(HalfMesh& mesh, const Vec3& first_looks);
 
 /// Unique neighbours by edges of faces (diagonals excluded), #V rows.

@@ -16,15 +16,15 @@ using std::numbers::pi;
 constexpr double mouth_y = -6.72;
 constexpr double corner_x = 2.52;        ///< of the border of the red, 8.3
 constexpr double inner_corner_x = 2.38;  ///< of the line where the lips meet, 2.4
-constexpr double gap = 0.012;            ///< between the lips: touching to the eye, apart for the mesh
+constexpr double gap = 0.012;            ///< between the lips: invisible, but keeps the surfaces separate
 
 struct LipPlace {
   double along;  ///< 0 middle .. 1 corner
   bool upper;
 };
 
-/// Steps are wide beside the feature points, at 0, 1/2 and 1, and close between them: a point that moves alone then
-/// makes a slope and not a spike.
+/// Steps are wide beside the feature points, at 0, 1/2 and 1, and close between them, so that a point that moves alone
+/// makes a slope instead of a spike.
 double spread(double along) {
   const double half = along < 0.5 ? 0.0 : 0.5;
   const double t = 4.0 * (along - half) - 1.0;  // -1 .. 1 from one point to the next
@@ -73,13 +73,13 @@ Vec3 red(const LipPlace& place, double t) {
   return p;
 }
 
-/// A section of the mouth bag across: an ellipse of half width x, from `up` above to `down` below the mouth line, at
+/// A cross-section of the mouth bag: an ellipse of half width x, from `up` above to `down` below the mouth line, at
 /// depth z in the middle and z - bend at its sides.
 struct BagSection {
   double x, up, down, z, bend;
 };
 
-// The first sections part the lips' backs quickly, so that the teeth stand inside the bag.
+// The first sections widen quickly behind the lips, so that the teeth are inside the bag.
 constexpr BagSection bag[] = {
     {2.42, 0.06, 0.06, 9.42, 1.45}, {2.50, 0.55, 0.55, 9.18, 1.55}, {2.66, 1.35, 1.35, 9.12, 1.7},
     {2.85, 1.95, 1.95, 8.85, 1.8},  {2.95, 2.25, 2.2, 7.9, 1.4},    {2.95, 2.3, 2.2, 6.6, 0.7},

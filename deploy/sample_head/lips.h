@@ -4,8 +4,8 @@
 
 namespace semblante::sample_head_detail {
 
-/// Fills the hole round the mouth: rings to the border of the red, over the lips to where they meet, and on into a bag
-/// that holds teeth and tongue. `around` runs from the middle above the mouth by the left corner to the middle below.
+/// Fills the hole of the mouth: rings to the border of the red, over the lips to their meeting line, and further into a
+/// bag for teeth and tongue. `around` runs from the middle above the mouth by the left corner to the middle below.
 void add_lips(Skin& skin, const Loop& around);
 
 /// Steps of half a ring: 0 upper middle, half way the corner, last the lower middle.

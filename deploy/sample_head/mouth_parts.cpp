@@ -18,7 +18,7 @@ constexpr double upper_widths[] = {0.60, 0.46, 0.54, 0.48, 0.48, 0.70, 0.66};
 constexpr double lower_widths[] = {0.38, 0.40, 0.50, 0.48, 0.50, 0.74, 0.70};
 constexpr int steps_per_tooth = 4;
 
-/// A row of teeth on its gum. Sections across run from the gum's front edge over the biting edge to its back edge.
+/// A row of teeth on its gum. Cross-sections run from the gum's front edge over the biting edge to the gum's back edge.
 struct Arch {
   double front_z;  ///< of the incisors' faces
   double width;    ///< half width at the last molar
@@ -27,7 +27,7 @@ struct Arch {
   double bite_y;   ///< biting edge
 };
 
-/// Point of the arch at length s (cm) from the middle and its outward direction: a parabola-like curve, walked in
+/// Point of the arch at length s (cm) from the middle and its outward direction: a parabola-like curve, integrated in
 /// small steps.
 struct ArchPoint {
   Vec2 place;    ///< x, z
@@ -58,7 +58,7 @@ MouthPart make_teeth(const Arch& arch, std::span<const double> widths) {
   struct Section {
     double height;   ///< 0 gum edge .. 1 biting edge
     double outward;  ///< cm from the face of the tooth
-    double tooth;    ///< how far it follows the tooth's rounding
+    double tooth;    ///< how much of the tooth's rounding applies
     double gum;      ///< paint: 1 gum
   };
   constexpr Section sections[] = {

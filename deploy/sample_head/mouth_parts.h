@@ -7,7 +7,7 @@
 
 namespace semblante::sample_head_detail {
 
-/// A loose part of the mouth as a half mesh, with the FPs that lie on it.
+/// A separate part of the mouth as a half mesh, with the FPs on it.
 struct MouthPart {
   HalfMesh mesh;
   std::map<std::string, int, std::less<>> marks;

@@ -20,7 +20,7 @@ using namespace sample_head_detail;
 
 namespace {
 
-/// sRGB 0..1 to the linear factor that glTF wants.
+/// Converts sRGB 0..1 to the linear factor of glTF.
 glm::vec4 linear(double r, double g, double b) {
   const auto one = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
   return {one(r), one(g), one(b), 1.0};
@@ -28,7 +28,7 @@ glm::vec4 linear(double r, double g, double b) {
 
 enum Material : std::size_t { skin_material, eye_material, teeth_material, tongue_material, hair_material };
 
-/// Adds parts to a head and counts vertices as a reader of the file will.
+/// Adds parts to a head and numbers vertices as a reader of the file does.
 class Assembly {
  public:
   explicit Assembly(SampleHead& head) : head_(head) {}

@@ -52,7 +52,7 @@ struct SampleHead {
   std::vector<SampleHeadPoint> points;  ///< all 84, rising ids
 };
 
-/// Builds it from tables and formulas: no input, the same result every time, exactly symmetric in x.
+/// Builds the head from tables and formulas. Deterministic; exactly symmetric in x.
 SampleHead make_sample_head();
 
 }  // namespace semblante

@@ -15,7 +15,7 @@ double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
   return k1 > 0.0 ? k0 * (k0 - 1.0) / k1 : -std::min({radii.x, radii.y, radii.z});
 }
 
-/// A capsule whose radius runs from ra at a to rb at b.
+/// A capsule whose radius changes from ra at a to rb at b.
 double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
   const Vec3 ab = b - a;
   const double t = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
@@ -28,7 +28,7 @@ double join(double a, double b, double k) {
   return std::min(a, b) - h * h * h * k / 6.0;
 }
 
-/// a without b, with a rounded rim of size k.
+/// `a` minus `b`, with a rounded rim of size k.
 double carve(double a, double b, double k) { return -join(-a, b, k); }
 
 double nose_distance(const Vec3& q) {
@@ -85,7 +85,7 @@ Vec3 project_to_head(const Vec3& p) {
 
 double front_z(double x, double y) {
   double z = 14.0;
-  // Sphere tracing with short steps: smooth unions of ellipsoids bend the distance, but never by half.
+  // Sphere tracing with short steps: smooth unions of ellipsoids distort the distance, but by less than half.
   for (int i = 0; i < 400; ++i) {
     const double d = head_distance({x, y, z});
     if (d < 1e-9) break;

@@ -20,7 +20,7 @@ double front_z(double x, double y);
 /// The surface point in direction `direction` from `origin` inside the head.
 Vec3 cast_from_inside(const Vec3& origin, const Vec3& direction);
 
-/// Skull alone, for the hair to sit on.
+/// The skull without face and neck, as the base of the hair.
 double skull_distance(const Vec3& p);
 
 /// Left eyeball.

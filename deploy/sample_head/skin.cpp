@@ -15,8 +15,8 @@
 namespace semblante::sample_head_detail {
 namespace {
 
-/// Evens out the mesh along the surface: every free vertex goes part of the way to the mean of its neighbours, then
-/// back onto the sculpt. Border loops stay.
+/// Relaxes the mesh along the surface: every free vertex moves towards the mean of its neighbours and is then projected
+/// onto the sculpt. Border loops do not move.
 void relax(HalfMesh& mesh, int rounds) {
   const auto neighbours = neighbours_of(mesh);
   std::vector<int> uses(mesh.positions.size(), 0);
@@ -28,7 +28,7 @@ void relax(HalfMesh& mesh, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vec3> next = mesh.positions;
     for (std::size_t v = 0; v < next.size(); ++v) {
-      // Around an inner vertex there are as many faces as edges; around a border vertex one fewer.
+      // An inner vertex has as many faces as edges; a border vertex has one face fewer.
       const bool mirror = mesh.on_mirror(static_cast<int>(v));
       const int edges = static_cast<int>(neighbours[v].size());
       if (uses[v] < (mirror ? edges - 1 : edges)) continue;
@@ -40,7 +40,7 @@ void relax(HalfMesh& mesh, int rounds) {
         sum += (mirror ? Vec3(0.0, p.y, p.z) : p) * w;
         weight += w;
       }
-      // The nose keeps its lines: its cage follows the crease of the wing.
+      // The nose is not relaxed: its cage follows the crease of the wing.
       const Vec3 p = mesh.positions[v];
       const double near_nose = glm::smoothstep(1.9, 0.9, glm::length(p - Vec3(0.7, -3.9, 10.0)));
       next[v] = p + (sum / weight - p) * (0.5 * (1.0 - near_nose));
@@ -49,7 +49,7 @@ void relax(HalfMesh& mesh, int rounds) {
   }
 }
 
-/// The edge of the bust: level, and rolled in under the neck.
+/// The edge of the bust: horizontal, and rolled in under the neck.
 void finish_bust(HalfMesh& mesh, const Loop& border) {
   constexpr double level = -15.5;
   const auto at = [&](int v) -> Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
@@ -80,11 +80,11 @@ Skin make_skin() {
   Skin skin;
   skin.mesh = subdivide(cage.mesh);
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
-  // Jaw and neck make the outline and hold no point that moves: there, more vertices only help.
+  // Jaw and neck form the outline and have no moving point, so more vertices there do no harm.
   skin.mesh = refine(skin.mesh, [](const Vec3& p) { return p.y < -4.6 && p.z < 5.2; });
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   relax(skin.mesh, 6);
-  // Holes first, then their fillings: a filling must not change another hole's border.
+  // Finds all holes before filling any: a filling must not change another hole's border.
   const Loop orbit = boundary_loop(skin.mesh, cage["E0"], {0.0, 1.0, 0.0});
   const Loop around_mouth = boundary_loop(skin.mesh, cage["M5_0"], {1.0, 0.0, 0.0});
   const Loop nostril = boundary_loop(skin.mesh, cage["h0"], {1.0, 0.0, 0.0});

@@ -11,7 +11,7 @@ namespace semblante::sample_head_detail {
 /// bag, nostrils, ear, neck.
 struct Skin {
   HalfMesh mesh;
-  std::map<std::string, int, std::less<>> marks;  ///< vertices that features know by construction, by FP id
+  std::map<std::string, int, std::less<>> marks;  ///< FPs that are known by construction, by FP id
 };
 
 Skin make_skin();

@@ -17,7 +17,7 @@ namespace {
 
 struct NamedVertex {
   const char* name;
-  double x, y, z;  ///< cm; rough, the sculpt decides the depth
+  double x, y, z;  ///< cm; rough, the sculpt determines the depth
 };
 
 // clang-format off
@@ -155,7 +155,7 @@ void add_cranium(SkinCage& cage) {
   }
 }
 
-/// Rings down the neck. Each tilts forward less than the one above and the last is level: the edge of the bust.
+/// Rings down the neck. Each tilts forward less than the one above; the last, the edge of the bust, is horizontal.
 void add_neck(SkinCage& cage) {
   struct Ring {
     double front_y, back_y;

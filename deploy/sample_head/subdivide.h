@@ -11,11 +11,11 @@ namespace semblante::sample_head_detail {
 HalfMesh subdivide(const HalfMesh& mesh);
 
 /// Splits into four the quads whose centre `where` accepts; their neighbours become fans of triangles about a centre of
-/// their own. New vertices lie on edges and in centres, for the caller to lay on the surface.
+/// their own. New vertices are at the middles of edges and at centres; the caller projects them onto the surface.
 HalfMesh refine(const HalfMesh& mesh, const std::function<bool(const Vec3& centre)>& where);
 
-/// The boundary loop that starts at `start`, runs through `via` (a neighbour on the boundary) and ends back at `start`
-/// or where it meets the mirror plane.
+/// The boundary loop from `start`, first to its boundary neighbour farthest along `towards`, and then on until it
+/// returns to `start` or meets the mirror plane.
 Loop boundary_loop(const HalfMesh& mesh, int start, const Vec3& towards);
 
 }  // namespace semblante::sample_head_detail

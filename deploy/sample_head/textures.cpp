@@ -36,7 +36,7 @@ double spot(const Vec3& p, const Vec3& centre, const Vec3& size) {
   return std::exp(-glm::dot(q, q));
 }
 
-/// How much of the skin the brow hides at (x, y): full along its line, frayed by slanted hairs at its edges.
+/// Coverage of the skin by the brow at (x, y): full along its line, frayed by slanted hairs at its edges.
 double brow_cover(const Vec2& p) {
   double best = 1e9;
   double at = 0.0;
@@ -49,7 +49,7 @@ double brow_cover(const Vec2& p) {
       at = t;
     }
   }
-  // Hairs lean outwards; three waves that share no period look like none.
+  // Hairs are slanted outwards; three waves without a common period look irregular.
   const double lean = p.x - 0.9 * p.y;
   const double hair =
       0.5 + 0.17 * std::sin(31.0 * lean) + 0.17 * std::sin(53.0 * lean + 1.0) + 0.16 * std::sin(19.0 * lean + 2.0);
@@ -103,8 +103,8 @@ SampleHeadImage blank(const char* name, int width, int height) {
           std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 0)};
 }
 
-/// Colours of the right half of the image (the left of the face), by texel; `reach` says how far out of the head the
-/// painted surface lay, so that the ear's front wins over the scalp behind it.
+/// Colours of the right half of the image (the left of the face), by texel; `reach` is the distance of the
+/// painted surface from the axis of the head, so that the ear's front takes precedence over the scalp behind it.
 struct Canvas {
   std::vector<Colour> colour;
   std::vector<double> reach;
@@ -144,7 +144,7 @@ void paint_triangle(Canvas& canvas, const std::array<Vec2, 3>& uv, const std::ar
   }
 }
 
-/// Fills texels that no triangle covers from painted neighbours, so that filtering finds no black rims.
+/// Fills texels that no triangle covers from painted neighbours, so that filtering causes no black rims.
 void bleed(Canvas& canvas) {
   for (int round = 0; round < 12; ++round) {
     const Canvas before = canvas;
@@ -203,7 +203,7 @@ SampleHeadImage paint_skin(const HalfMesh& skin) {
       put(image, x, y, c);
       put(image, skin_size - 1 - x, y, c);
       if (v < 0.95) continue;
-      // The lining's strip is not mirrored: four ramps from the opening to the deep, side by side.
+      // The strip of the lining is not mirrored: four gradients from the opening inwards, side by side.
       for (const int column : {x, skin_size - 1 - x}) {
         const double u = 4.0 * (column + 0.5) / skin_size;
         const int kind = std::min(static_cast<int>(u), 3);
@@ -230,12 +230,12 @@ SampleHeadImage paint_eye() {
       Colour blue = glm::mix(Colour(0.20, 0.36, 0.44), Colour(0.45, 0.62, 0.66), fibre * glm::smoothstep(1.0, 0.45, r));
       blue = glm::mix(blue, Colour(0.62, 0.52, 0.34), 0.55 * glm::smoothstep(0.62, 0.36, r) * (0.5 + fibre * 0.5));
       blue = glm::mix(blue, Colour(0.08, 0.14, 0.18), glm::smoothstep(0.80, 0.98, r));
-      // The lid's shade on the upper part.
+      // The shadow of the lid on the upper part.
       blue *= 1.0 - 0.30 * glm::smoothstep(0.1, -0.9, q.y / iris);
       c *= 1.0 - 0.16 * glm::smoothstep(0.2, -1.2, q.y / iris) * (r < 2.5 ? 1.0 : 0.0);
       c = glm::mix(blue, c, glm::smoothstep(0.96, 1.06, r));
       c = glm::mix(Colour(0.02, 0.02, 0.025), c, glm::smoothstep(0.30, 0.36, r));
-      // A painted glint keeps the eye alive under any light.
+      // A painted glint makes the eye look alive under any light.
       const Vec2 glint = q / iris - Vec2(0.0, -0.42);
       c = glm::mix(Colour(1.0), c, glm::smoothstep(0.09, 0.16, glm::length(glint)));
       put(image, x, y, c);
@@ -248,7 +248,7 @@ SampleHeadImage paint_hair() {
   SampleHeadImage image = blank("hair", 256, 64);
   for (int x = 0; x < 256; ++x) {
     for (int y = 0; y < 64; ++y) {
-      // Strands run down the image; each wanders a little on its way.
+      // Strands run down the image, each with a small sideways variation.
       const double u = x / 256.0 + 0.004 * std::sin(0.35 * y + 0.7 * x);
       double tone = 0.0;
       double size = 0.5;

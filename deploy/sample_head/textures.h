@@ -12,10 +12,10 @@ SampleHeadImage paint_skin(const HalfMesh& skin);
 /// An eyeball seen from the front: sclera, iris with fibres and a dark rim, pupil a third of the iris' diameter.
 SampleHeadImage paint_eye();
 
-/// Strands that run from top to bottom, for hair combed along v.
+/// Strands from top to bottom, for hair combed along v.
 SampleHeadImage paint_hair();
 
-/// A column from gum (top) to tooth (bottom).
+/// A gradient from gum (top) to tooth (bottom).
 SampleHeadImage paint_teeth();
 
 }  // namespace semblante::sample_head_detail

@@ -14,11 +14,11 @@ namespace {
 
 constexpr int columns = 20;  // even: a column runs down the middle
 constexpr double half_width = 1.38;
-/// The lid's front stands on a sphere this large at its edge and goes straight up from there: when the edge passes the
-/// middle of the ball on its straight way down, it must not touch it.
+/// Radius of the sphere on which the edge of the lid is; the lid's front is vertical above it. The edge moves straight
+/// down and must not touch the ball when it passes the ball's middle.
 constexpr double front_radius = eye_radius + 0.14;
 
-/// A row of the shell: `rise` over the edge, `back` from the edge's depth; both in cm.
+/// A row of the shell: `rise` above the edge, `back` behind the edge; both in cm.
 struct Row {
   double rise, back;
   double lash;   ///< 1 on the lashes' tips
@@ -46,14 +46,14 @@ UpperLid make_upper_lid() {
       const double x = t * half_width;
       const double edge_y = upper_edge_y(x);
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
-      const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // a point at 3.1: everything else lies behind it
+      const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // pointed at 3.1: everything else is behind it
       const double end = t * t * t * t;
       const double drawn_back = (t > 0.0 ? 0.33 : 0.24) * end * (1.0 - 0.6 * std::min(row.rise / 0.6, 1.0)) +
                                 0.05 * t * t * std::min(row.rise, 1.1);
       Paint paint;
-      // No lashes in the corners, where the shell only tucks in.
+      // No lashes in the corners, where the shell is tucked in.
       paint.inner_uv = {std::max(row.shade, 0.4 * glm::smoothstep(0.80, 0.92, std::abs(t))), 3.0};
-      // The ends draw back under the corners of the skin.
+      // The ends recede under the corners of the skin.
       const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise,
                    edge_z - row.back * (1.0 - 0.55 * t * t) + row.lash * lash - drawn_back);
       loop.push_back(mesh.add(eye_centre + p, paint));

@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-/// Grows the one buffer of the file; every view starts at a multiple of four bytes.
+/// Appends to the only buffer of the file; every view starts at a multiple of four bytes.
 class Buffer {
  public:
   explicit Buffer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }

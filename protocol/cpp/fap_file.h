@@ -29,8 +29,8 @@ struct FapFileExpression {
 };
 
 struct FapFileFrame {
-  std::uint32_t number = 0;  ///< from 0, rising; numbers may be left out
-  std::bitset<69> present;   ///< by FAP number: which the frame speaks of; bit 0 unused
+  std::uint32_t number = 0;  ///< from 0, rising; gaps are allowed
+  std::bitset<69> present;   ///< by FAP number: the FAPs that the frame has; bit 0 unused
   FapFileViseme viseme;      ///< neutral unless FAP 1 is present
   FapFileExpression expression;
   std::array<double, 69> value{};  ///< by FAP number 3..68, FAP units, within +-1e9; 0 unless present
@@ -41,7 +41,7 @@ struct FapFileFrame {
 /// The content of a file, independent of its deviations from the usual form.
 struct FapFile {
   double rate = 25;                  ///< frames a second, 0.001..1000
-  std::string name;                  ///< printable ASCII without blanks; of no meaning
+  std::string name;                  ///< printable ASCII without blanks; has no effect
   std::vector<FapFileFrame> frames;  ///< by rising number, the first is 0; at least one
 
   friend bool operator==(const FapFile&, const FapFile&) = default;
@@ -49,29 +49,29 @@ struct FapFile {
 
 /// Deviations from the usual form that the reader accepts, and how they were read.
 enum class FapFileOddity : std::uint8_t {
-  other_version,             ///< neither 2.0, 2.1 nor 2.2: read all the same
+  other_version,             ///< neither 2.0, 2.1 nor 2.2: read like these
   blank_in_name,             ///< joined by _
-  count_differs,             ///< the header's number of frames is not the file's: the file's counts
+  count_differs,             ///< the number of frames in the header is wrong: all frames of the file are used
   extra_flag,                ///< 69 flags: the last is dropped
   few_values,                ///< flags without a value: absent
   more_values,               ///< values without a flag: dropped
   not_finite,                ///< inf or nan: zero
-  first_number_not_zero,     ///< counts from 1, or begins later: the first frame is 0
-  numbers_not_rising,        ///< sorted; of two frames with one number the later in the file stays
+  first_number_not_zero,     ///< the first number is not 0: it is changed to 0
+  numbers_not_rising,        ///< sorted; of two frames with the same number the later one is used
   numbers_left_out,          ///< there are gaps
   single_number_viseme,      ///< FAP 1 as one number 0..14: that viseme in full
   packed_viseme,             ///< FAP 1 as one number of six digits: unpacked
   single_number_expression,  ///< FAP 2 as one number 0..6: that expression in full
-  unknown_select,            ///< FAP 1 or 2 means nothing (no such viseme, a weight of lips): absent
-  strength_out_of_range,     ///< blend or intensity beyond 0..63: clamped
+  unknown_select,            ///< FAP 1 or 2 is not a viseme or expression: absent
+  strength_out_of_range,     ///< blend or intensity outside 0..63: clamped
   strength_not_whole,        ///< blend or intensity with a fraction: rounded
 };
 std::string_view to_string(FapFileOddity oddity);
 
 struct FapFileWarning {
   FapFileOddity oddity{};
-  std::uint32_t line = 0;   ///< the first such line, from 1
-  std::uint32_t count = 0;  ///< of such lines or values
+  std::uint32_t line = 0;   ///< the first line with the deviation, from 1
+  std::uint32_t count = 0;  ///< number of such lines or values
   friend bool operator==(const FapFileWarning&, const FapFileWarning&) = default;
 };
 
@@ -80,7 +80,7 @@ std::string to_sentence(const FapFileWarning& warning);
 
 struct FapFileReading {
   FapFile file;
-  std::vector<FapFileWarning> warnings;  ///< one of each oddity at most, in the order of the enumeration
+  std::vector<FapFileWarning> warnings;  ///< at most one per kind, in the order of the enumeration
 };
 
 struct FapFileLimits {

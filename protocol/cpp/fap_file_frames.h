@@ -16,7 +16,7 @@ namespace semblante {
 /// faces would freeze.
 enum class AbsentFap : std::uint8_t {
   zero,
-  keep,  ///< its last value, as an encoder's bitstream means it
+  keep,  ///< its last value, as in the bitstream of an encoder
 };
 
 /// Motion in gaps of the frame numbers. Hold is the default, because writers omit repeated frames.
@@ -37,8 +37,8 @@ Result<std::vector<TimedValues>> frames_of(const FapFile& file, const FapFileMea
 FaceValues between(const FaceValues& a, const FaceValues& b, double t);
 
 struct FapFileStyle {
-  double rate = 0;           ///< frames a second, 0.001..1000; 0: told from the times, see rate_of
-  bool whole_values = true;  ///< rounded, as most readers of .fap files want them
+  double rate = 0;           ///< frames per second, 0.001..1000; 0: derived from the times, see rate_of
+  bool whole_values = true;  ///< rounded, because most readers of .fap files expect integers
   std::string name = "semblante";
 };
 

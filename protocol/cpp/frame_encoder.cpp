@@ -84,7 +84,7 @@ class BinaryFieldWriter {
 
   std::vector<std::uint8_t>& to_;
   const FaceFrame& last_;
-  std::size_t left_out_ = 0;  ///< appended fields since the last that was written
+  std::size_t left_out_ = 0;  ///< number of appended fields omitted since the last written one
 };
 
 }  // namespace

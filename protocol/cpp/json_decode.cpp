@@ -169,7 +169,7 @@ class JsonFieldReader {
 
   const JsonCursor& at_;
   const QuantizerSteps& steps_;
-  std::size_t clamped_ = 0;  ///< a message on a socket has no answer that would say so
+  std::size_t clamped_ = 0;  ///< not reported: a message on a WebSocket has no response
 };
 
 template <class... M>

@@ -45,8 +45,8 @@ std::vector<std::uint8_t> PackedEncoder::keyframe() const {
   byte_io::append_varint(bytes, state_.sequence);
   byte_io::append_varint(bytes, state_.media_time);
   RangeEncoder coder(bytes);
-  PackedState said;
-  PackedModel model(coder, *table_, said);
+  PackedState initial;
+  PackedModel model(coder, *table_, initial);
   model.history(state_);
   coder.finish();
   return bytes;

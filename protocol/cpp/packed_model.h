@@ -46,12 +46,12 @@ class PackedModel {
 
  private:
   static constexpr int limit = static_cast<int>(max_level);
-  static constexpr unsigned level_bits = 15;  ///< of a difference of levels, the leading one left out
+  static constexpr unsigned level_bits = 15;  ///< bits of a difference of levels, without its leading one
   static constexpr unsigned blend_bits = 5;
   enum Kind : std::uint8_t { line, shared, hold };
   struct Guess {
     int level;
-    int cost;  ///< how far such guesses were off in the two frames before
+    int cost;  ///< the error of such predictions in the previous two frames
     Kind kind;
   };
 
@@ -83,7 +83,7 @@ class PackedModel {
   Coder& coder_;
   const PackedTable& table_;
   PackedState& state_;
-  std::array<int, 69> off_{};  ///< by FAP: how far the guess was off in this frame
+  std::array<int, 69> off_{};  ///< by FAP: the error of the prediction in this frame
   std::string fault_;
 };
 

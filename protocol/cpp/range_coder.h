@@ -68,7 +68,7 @@ class RangeEncoder {
   }
 
   std::vector<std::uint8_t>& to_;
-  std::uint64_t low_ = 0;  ///< within the interval of 2^32 that the bytes so far leave; bit 32 is a carry
+  std::uint64_t low_ = 0;  ///< lower end of the current interval, relative to the written bytes; bit 32 is a carry
   std::uint32_t range_ = 0xFFFFFFFFU;
 };
 
@@ -79,7 +79,7 @@ class RangeDecoder {
 
   explicit RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
     for (int i = 0; i < 4; ++i) code_ = code_ << 8U | next();
-    valid_ = code_ < range_;  // and stays so
+    valid_ = code_ < range_;  // then true for all later steps
   }
 
   /// The second argument exists for the interface of the encoder only.

@@ -40,7 +40,7 @@ struct RigDocument {
     int bits = 12;
     std::uint32_t max_influences = 0;
     double mean_influences = 0.0;
-    double max_error = 0.0;  ///< of one weight, by quantization
+    double max_error = 0.0;  ///< largest quantization error of a weight
   };
   struct Point {
     FeaturePointId id;
@@ -82,12 +82,12 @@ struct RigDocument {
   struct Level {
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
-    std::uint64_t bytes = 0;  ///< of mesh.drc and weights together
+    std::uint64_t bytes = 0;  ///< total size of mesh.drc and weights
   };
 
   std::string name;
-  std::uint32_t lod = 0;      ///< which of the levels this package is
-  std::vector<Level> levels;  ///< by lod; empty: the package has no siblings
+  std::uint32_t lod = 0;      ///< the level of this package
+  std::vector<Level> levels;  ///< by lod; empty: the face has only this package
   Mesh mesh;
   Weights weights;
   Fapu fapu;  ///< already divided by 1024

@@ -7,7 +7,7 @@
 
 namespace semblante {
 
-/// A material of rig.json as a Model has it: images by their place in `images`, -1 where none has the hash.
+/// Converts a material of rig.json to that of a Model: an image is an index into `images`, -1 if none has its hash.
 Material material_of(const RigDocument::MaterialInfo& info, const std::vector<RigDocument::ImageInfo>& images);
 
 }  // namespace semblante

@@ -25,7 +25,7 @@ struct FaceParts {
 
 /// A decoded face package: the data of a client before the first frame. Vertices are those of mesh.drc.
 struct PackedFace {
-  RenderMesh mesh;  ///< file_vertex is empty: a package does not know
+  RenderMesh mesh;  ///< file_vertex is empty: a package does not contain it
   InfluenceTable table;
   RigDocument rig;
   std::vector<Material> materials;  ///< at least one

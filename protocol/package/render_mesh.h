@@ -16,15 +16,15 @@ namespace semblante {
 struct RenderMesh {
   std::vector<std::uint32_t> file_vertex;        ///< #R, the model file's number of each vertex
   std::vector<glm::vec3> positions;              ///< #R
-  std::vector<glm::vec3> normals;                ///< #R, the file's, or smooth ones where it has none
+  std::vector<glm::vec3> normals;                ///< #R, those of the file, else smooth ones
   std::vector<glm::vec2> uvs;                    ///< #R, or empty when the model has none
-  std::vector<std::uint8_t> materials;           ///< #R, as MaterialAssignment numbers them
+  std::vector<std::uint8_t> materials;           ///< #R, numbers of MaterialAssignment
   std::vector<Triangle> triangles;               ///< #T by 3, in the model's order
   std::vector<std::uint8_t> triangle_materials;  ///< #T
 };
 
-/// Merges equal corners. `smooth` (#S) are the normals used if the file has none: for a level of detail also those of
-/// the full model, so that its shading is as fine. `triangle_materials` has one entry per triangle.
+/// Merges equal corners. `smooth` (#S) are the normals used if the file has none: a level of detail can use those of
+/// the full model for equally detailed shading. `triangle_materials` has one entry per triangle.
 RenderMesh make_render_mesh(const Model& model, const Surface& surface,
                             std::span<const std::uint8_t> triangle_materials, std::span<const glm::vec3> smooth);
 

@@ -72,7 +72,7 @@ export class JsonCursor {
   }
 
   text(mostBytes: number): string {
-    if (typeof this.value !== 'string') this.fail('malformed', `must be a text, not ${this.kind()}`);
+    if (typeof this.value !== 'string') this.fail('malformed', `must be a string, not ${this.kind()}`);
     const bytes = this.value.length > mostBytes ? this.value.length : toUtf8.encode(this.value).length;
     if (bytes > mostBytes) this.fail('too_large', `must not exceed ${mostBytes} bytes`);
     return this.value;

@@ -13,7 +13,7 @@ namespace semblante::api {
 
 struct Context;
 
-/// A set of the library by its name, which is its id too: the ids of others are longer.
+/// Finds a set of the library by its name, which is also its id: the ids of other sets are longer.
 std::optional<NamedSet> find_built_in(std::string_view name);
 
 /// Parses a stored set, which was checked before it was stored.
@@ -27,10 +27,10 @@ NamedSet set_from_body(const http::Request& request);
 http::Response new_set_response(const store::SetRecord& set, int status);
 
 /// Reads "expressions" of a PATCH of a model: {"joy": "<id of a set>", "a": null}, null for the library's set. Refuses,
-/// with the pointer, an unknown slot (or one at rest), an unknown set, and a set of the other kind.
+/// with the pointer, an unknown slot (or that of silence or "none"), an unknown set, and a set of the other kind.
 std::vector<store::WornSet> worn_from_json(Context& context, const JsonBody& changes);
 
-/// A parametrization that makes a model's package again with the options of the existing package, or of the running
+/// A parametrization job that makes a model's package again, with the options of the existing package or of the running
 /// job; nullopt without a package and a running job.
 std::optional<store::JobRecord> make_package_again(Context& context, const store::ModelRecord& model);
 

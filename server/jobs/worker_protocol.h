@@ -14,11 +14,11 @@ namespace semblante::jobs {
 
 /// The request to a worker process on its standard input, as one JSON text.
 struct WorkerRequest {
-  std::string output_directory;  ///< exists and is empty; for artefacts, by their names
+  std::string output_directory;  ///< an existing empty directory; artefacts are written there under their names
   JobRequest job;
 };
 
-/// The limits that a worker sets for itself before it reads a byte of the model. 0: none.
+/// The limits that a worker sets for itself before it reads the model. 0: no limit.
 struct WorkerLimits {
   std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
   std::uint64_t cpu_seconds = 300;
@@ -28,7 +28,7 @@ struct WorkerLimits {
 /// The outcome of a worker.
 struct WorkerResult {
   JobOutcome outcome;
-  std::vector<store::ArtefactRecord> artefacts;  ///< files in the output directory; sha256 still empty
+  std::vector<store::ArtefactRecord> artefacts;  ///< files in the output directory; their sha256 is not set yet
 };
 
 struct WorkerProgress {

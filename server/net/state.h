@@ -28,7 +28,7 @@ struct SharedState {
       busy{0}, websockets_open{0}, upload_number{0};
 };
 
-/// One open connection, counted for as long as this lives.
+/// Counts one open connection during its lifetime.
 class ConnectionCount {
  public:
   explicit ConnectionCount(std::shared_ptr<SharedState> state) : state_(std::move(state)) {

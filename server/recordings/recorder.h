@@ -21,12 +21,12 @@
 namespace semblante::recordings {
 
 struct RecorderLimits {
-  std::size_t max_recordings = 1000;                         ///< stored
-  std::size_t max_running = 64;                              ///< at the same time
-  std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< of one
-  std::uint64_t max_total_bytes = std::uint64_t{16} << 30U;  ///< of all together
+  std::size_t max_recordings = 1000;                         ///< number of stored recordings
+  std::size_t max_running = 64;                              ///< number of recordings running at the same time
+  std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< per recording
+  std::uint64_t max_total_bytes = std::uint64_t{16} << 30U;  ///< of all recordings together
   std::uint64_t disk_reserve = std::uint64_t{256} << 20U;    ///< bytes that recordings leave free on the disk
-  std::size_t queued_frames = 8192;                          ///< of one recording, waiting to be written
+  std::size_t queued_frames = 8192;                          ///< per recording, waiting to be written
   std::chrono::milliseconds flush_interval{500};             ///< time until received frames are durable
 };
 
@@ -34,10 +34,10 @@ struct RecorderLimits {
 namespace ended {
 inline constexpr std::string_view stopped = "stopped";  ///< by a request
 inline constexpr std::string_view stream_ended = "stream-ended";
-inline constexpr std::string_view max_duration = "max-duration";  ///< the requested one, or a day
+inline constexpr std::string_view max_duration = "max-duration";  ///< the requested duration, or one day
 inline constexpr std::string_view max_bytes = "max-bytes";
 inline constexpr std::string_view max_total_bytes = "max-total-bytes";
-inline constexpr std::string_view disk_full = "disk-full";  ///< or nearly full, or it failed
+inline constexpr std::string_view disk_full = "disk-full";  ///< the disk is full, nearly full, or failed
 inline constexpr std::string_view server_stopped = "server-stopped";
 inline constexpr std::string_view server_killed = "server-killed";  ///< the durable part is kept
 inline constexpr std::string_view damaged = "damaged";              ///< found damaged at a start
@@ -45,8 +45,8 @@ inline constexpr std::string_view damaged = "damaged";              ///< found d
 
 /// The current state of a recording.
 struct RecordingStatus {
-  store::RecordingRecord record;  ///< while it runs: with the counts of its durable part
-  std::uint64_t dropped = 0;      ///< frames that came faster than the disk could store them
+  store::RecordingRecord record;  ///< while the recording runs, with the counts of its durable part
+  std::uint64_t dropped = 0;      ///< frames dropped because the disk was too slow
 };
 
 /// The parameters of a new recording.
@@ -81,7 +81,7 @@ class Recorder : public streams::BatchListener {
   std::optional<store::RecordingRecord> stop(std::string_view id);
   /// Ends all recordings and refuses new ones; does not wait.
   void stop_all(std::string_view reason);
-  /// The same, and waits; streams may still call the listener.
+  /// Ends all recordings like stop_all() and waits; streams may still call the listener.
   void close();
 
   [[nodiscard]] std::optional<RecordingStatus> find(std::string_view id) const;
@@ -100,7 +100,7 @@ class Recorder : public streams::BatchListener {
   using Clock = std::chrono::steady_clock;
   struct Running {
     store::RecordingRecord record;
-    std::unique_ptr<RecordingWriter> writer;         ///< the thread's own
+    std::unique_ptr<RecordingWriter> writer;         ///< used only by the recorder's thread
     std::optional<Clock::time_point> waiting_since;  ///< thread only: since when frames are not durable
     std::optional<Clock::time_point> ends;
     // Guarded by the mutex:

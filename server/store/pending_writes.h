@@ -21,7 +21,7 @@ namespace semblante::store {
 /// Whether the store can be written, and the writes that are pending.
 struct PendingStatus {
   bool writable = true;    ///< false from a failed write until all pending writes are done and a small write succeeds
-  bool disk_full = false;  ///< the reason why it is not writable; false: another fault of the disk
+  bool disk_full = false;  ///< the disk is full; false with `writable` false: another fault of the disk
   std::size_t count = 0;   ///< pending writes
   std::vector<std::string> what;  ///< descriptions of the first few: "the end of job 4f..."
 };
@@ -49,12 +49,12 @@ class PendingWrites {
   /// `write` must change nothing when it throws. True when it is done. `what` describes it in log and /readyz.
   bool write(const void* owner, std::string resource, std::string what, Write write);
 
-  /// Tries the writes of `owner` once more and drops those that fail again: the next start repairs what they were for.
+  /// Tries the writes of `owner` once more and drops those that fail again: the next start repairs their effects.
   /// None of them is called after this returns.
   void release(const void* owner);
 
-  /// Calls a change that a client asked for and that frees space or ends something; the reserve is released for it if
-  /// the disk is full. Throws what `change` throws.
+  /// Calls a change that a client requested and that frees space or ends something. If the disk is full, releases the
+  /// reserve and calls the change again. Throws what `change` throws.
   template <class Change>
   auto with_reserve(Change&& change) {
     try {
@@ -77,7 +77,7 @@ class PendingWrites {
     const void* owner;
     std::string resource, what;
     Write write;
-    std::uint64_t number = 0;  ///< rises
+    std::uint64_t number = 0;  ///< increases
     bool busy = false;         ///< an attempt is running
   };
   struct Fault {
@@ -92,7 +92,7 @@ class PendingWrites {
   void probe(Lock& lock);
   void note(const Lock& lock, const std::exception& fault);
   bool release_reserve(const DiskFull& fault);
-  /// Neither running nor preceded by another write of its resource.
+  /// Whether the item is neither running nor preceded by another write of its resource.
   [[nodiscard]] bool is_ready(const Item& item) const;
 
   const Options options_;
@@ -101,7 +101,7 @@ class PendingWrites {
   std::list<Item> items_;
   std::uint64_t next_number_ = 1;
   std::optional<Fault> fault_;
-  std::size_t recorded_ = 0;  ///< since the fault began
+  std::size_t recorded_ = 0;  ///< number of completed writes since the fault began
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -7,14 +7,14 @@
 
 namespace semblante::streams {
 
-/// Receives all frames of a stream as its subscribers do. The recorder implements it.
+/// Receives all frames of the streams, like a subscriber of each. The recorder implements it.
 class BatchListener {
  public:
   virtual ~BatchListener() = default;
   /// Frames were accepted and are not sent yet. Called with the stream's mutex held, so it must only queue them.
   /// `epoch` identifies this instance of the stream; `batch` has the sequence number and media time of its first frame.
   virtual void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) = 0;
-  /// The stream has ended: no frames of this epoch follow. Called as above.
+  /// The stream has ended: no frames of this epoch follow. Also called with the stream's mutex held.
   virtual void ended(std::string_view stream) = 0;
 };
 

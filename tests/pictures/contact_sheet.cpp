@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// The header is code; its unused functions are not our mistake.
+// The header defines functions; those unused here would be warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_easy_font.h>
@@ -18,7 +18,7 @@ constexpr int gap = 12;
 constexpr int label_height = 24;
 constexpr int title_height = 44;
 
-/// stb_easy_font writes four of these a quad.
+/// stb_easy_font writes four of these vertices per quad.
 struct FontVertex {
   float x, y, z;
   std::uint8_t color[4];

@@ -1,4 +1,4 @@
-// semblante-contact-sheet: every viseme and expression of a head on sheets, to look at.
+// semblante-contact-sheet: draws every viseme and expression of a head on sheets.
 
 #include <algorithm>
 #include <iostream>
@@ -42,7 +42,7 @@ struct Sheet {
   std::vector<NamedFrame> frames;
 };
 
-/// A viseme over an expression, both in full, as Eq. 5 mixes them; 0 of either moves nothing.
+/// A viseme and an expression, both at full strength, blended by Eq. 5; 0 of either has no effect.
 semblante_frame frame_of(std::uint8_t viseme, std::uint8_t expression) {
   semblante_frame frame{};
   frame.viseme1 = viseme;
@@ -58,12 +58,12 @@ std::string name_of(std::uint8_t viseme, std::uint8_t expression) {
   return expression == 0 ? speech : viseme == 0 ? mood : speech + " + " + mood;
 }
 
-/// Expressions in columns, visemes in rows; `sil` is the row of the expressions alone, and "none" their column.
+/// Expressions in columns, visemes in rows; the row `sil` has only the expressions, the column "none" only the visemes.
 Sheet matrix() {
   Sheet sheet{"matrix", static_cast<int>(expression_library().size()), {}};
   for (std::uint8_t v = 0; v < viseme_library().size(); ++v) {
     for (std::uint8_t x = 0; x < expression_library().size(); ++x) {
-      // The first column names the viseme: a cell has no room for both.
+      // Only the first column has the name of the viseme: a cell has no room for both names.
       const std::string name = x == 0 || v == 0 ? name_of(v, x) : "+ " + name_of(0, x);
       sheet.frames.push_back({name, frame_of(v, x)});
     }
@@ -102,10 +102,10 @@ Result<std::vector<Sheet>> sheets(const Arguments& arguments) {
   return list;
 }
 
-/// Faces beside each other on a sheet that compares methods, each with every method.
+/// Number of faces per row of a sheet that compares methods; each face is drawn with every method.
 constexpr int side_by_side = 2;
 
-/// A head with the weights of one method, and what draws it.
+/// A head with the weights of one method, and its renderer.
 struct Posed {
   std::string method;
   PosedHead head;
@@ -201,22 +201,23 @@ int main(int argc, char** argv) {
   CLI::App app{"Parametrizes a head and draws its 15 visemes and 6 expressions on sheets.", "semblante-contact-sheet"};
   app.add_option("model", arguments.model, semblante::model_file_titles())->required();
   app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
-  app.add_option("-o,--out", arguments.out, "folder for the sheets, one a shot")->required();
+  app.add_option("-o,--out", arguments.out, "folder for the sheets, one per shot")->required();
   app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();
-  app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
-  app.add_option("--frame", arguments.faps, "a face of one's own, NUMBER=VALUE,... in FAP units; repeatable");
+  app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
+  app.add_option("--frame", arguments.faps, "an additional face, NUMBER=VALUE,... in FAP units; repeatable");
   const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
                                                                   {"smooth", semblante::WeightMethod::smooth}};
   app.add_option("--weights", arguments.weights,
-                 "how weights are computed: paper, smooth; both for a sheet that compares them")
+                 "method of the weights: paper, smooth; both for a sheet that compares them")
       ->expected(1, 2)
       ->transform(CLI::CheckedTransformer(methods));
-  app.add_option("--max-vertices", arguments.max_vertices, "draw the level of detail of that many vertices; 0: all");
+  app.add_option("--max-vertices", arguments.max_vertices,
+                 "draw the level of detail with at most this many vertices; 0: the full mesh");
   app.add_flag("--matrix", arguments.matrix,
-               "one sheet of all combinations: the visemes down, the expressions across; instead of the two sheets");
+               "one sheet of all combinations, visemes in rows, expressions in columns, instead of the two sheets");
   app.add_option("--jpeg", arguments.jpeg_quality, "JPEG of this quality, 1 to 100, instead of PNG")
       ->check(CLI::Range(1, 100));
-  app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
+  app.add_flag("--only-frames", arguments.only_faps, "draw only the faces of --frame, no visemes and expressions");
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::pictures::run(arguments); !done) {
     std::cerr << "semblante-contact-sheet: " << semblante::tools::to_text(done.error()) << '\n';

@@ -1,4 +1,4 @@
-// semblante-perform: draws a performance on a head, without a server: a picture a frame, or a sheet of moments.
+// semblante-perform: draws a performance on a head, without a server: one image per frame, or a sheet of given times.
 
 #include <algorithm>
 #include <cmath>
@@ -54,18 +54,18 @@ Result<Performance> load_performance(const std::filesystem::path& path) {
   return performance;
 }
 
-/// The moments to draw, ms.
+/// The times to draw, ms.
 Result<std::vector<double>> moments(const Arguments& arguments, const Performance& performance) {
   if (!arguments.times.empty()) {
     return arguments.times;
   }
   const double end = arguments.to > 0.0 ? arguments.to : performance.duration();
   if (end <= arguments.from) {
-    return Error{ErrorCode::missing, "--to", "where to stop: the performance has no end, or ends before --from"};
+    return Error{ErrorCode::missing, "--to", "required: the performance has no end, or ends before --from"};
   }
   const double count = std::ceil((end - arguments.from) * arguments.fps / 1000.0);
   if (count > most_pictures) {
-    return Error{ErrorCode::too_large, "--to", "that is more than 100000 pictures"};
+    return Error{ErrorCode::too_large, "--to", "more than 100000 images"};
   }
   std::vector<double> times;
   for (double k = 0.0; k < count; k += 1.0) {
@@ -140,24 +140,25 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   semblante::pictures::Arguments arguments;
-  CLI::App app{"Draws a performance on a head: a picture a frame, or a sheet of moments.", "semblante-perform"};
+  CLI::App app{"Draws a performance on a head: one image per frame, or a sheet of given times.", "semblante-perform"};
   app.add_option("model", arguments.model, semblante::model_file_titles())->required();
   app.add_option("performance", arguments.performance, "JSON of a performance")->required();
   app.add_option("-f,--feature-points", arguments.feature_points, "JSON with the marked points")->required();
   app.add_option("-o,--out", arguments.out, "folder for frame-00000.png and so on; a path that ends in .png: one sheet")
       ->required();
-  app.add_option("--fps", arguments.fps, "pictures a second")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
-  app.add_option("--from", arguments.from, "ms")->check(CLI::Range(0.0, 86'400'000.0));
-  app.add_option("--to", arguments.to, "ms; left out: the end")->check(CLI::Range(0.0, 86'400'000.0));
-  app.add_option("--times", arguments.times, "in place of a rate: these moments, ms, with commas")
+  app.add_option("--fps", arguments.fps, "images per second")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
+  app.add_option("--from", arguments.from, "start of the drawn time, ms")->check(CLI::Range(0.0, 86'400'000.0));
+  app.add_option("--to", arguments.to, "end of the drawn time, ms; default: the end of the performance")
+      ->check(CLI::Range(0.0, 86'400'000.0));
+  app.add_option("--times", arguments.times, "times to draw instead of a rate, ms, separated by commas")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 86'400'000.0));
   app.add_option("--shot", arguments.shot, "VIEW or VIEW:SUBJECT")->capture_default_str();
-  app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
-  app.add_option("--columns", arguments.columns, "of the sheet; 0: about as wide as high");
+  app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
+  app.add_option("--columns", arguments.columns, "columns of the sheet; 0: about as wide as high");
   const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
                                                                   {"smooth", semblante::WeightMethod::smooth}};
-  app.add_option("--weights", arguments.weights, "how weights are computed: paper or smooth")
+  app.add_option("--weights", arguments.weights, "method of the weights: paper or smooth")
       ->transform(CLI::CheckedTransformer(methods));
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::pictures::run(arguments); !done) {

@@ -11,7 +11,7 @@
 
 namespace semblante::pictures {
 
-static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "positions are handed to the kernel as packed floats");
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "the kernel gets positions as packed floats");
 
 std::vector<glm::vec3> PosedHead::pose(const semblante_frame& frame) const {
   const semblante_rig view = kernel_rig.view();
@@ -109,7 +109,7 @@ Result<semblante_frame> parse_faps(const std::string& text) {
     };
     if (equals == std::string::npos || !whole(std::string_view(entry).substr(0, equals), number) ||
         !whole(std::string_view(entry).substr(equals + 1), value) || number < 3 || number > SEMBLANTE_FAP_COUNT) {
-      return Error{ErrorCode::invalid_argument, entry, "FAPs are written NUMBER=VALUE,... with numbers 3 to 68"};
+      return Error{ErrorCode::invalid_argument, entry, "FAPs must be NUMBER=VALUE,... with numbers from 3 to 68"};
     }
     frame.fap[number] = value;
   }

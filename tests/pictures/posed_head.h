@@ -14,12 +14,13 @@
 
 namespace semblante::pictures {
 
-/// A parametrized model that takes poses in this process: what a client should see, without the package between.
+/// A parametrized model that is posed in this process. Shows what a client should show, without the losses of a
+/// package.
 struct PosedHead {
   Model model;
   Rig rig;
   KernelRig kernel_rig;
-  std::vector<std::string> warnings;  ///< of all stages, in their order
+  std::vector<std::string> warnings;  ///< of all pipeline stages, in their order
 
   /// #V by 3 in the MPEG-4 frame.
   [[nodiscard]] std::vector<glm::vec3> pose(const semblante_frame& frame) const;
@@ -30,12 +31,12 @@ struct PosedHead {
 /// Reads and imports a model file.
 Result<ImportedHead> load_model(const std::filesystem::path& path);
 
-/// Takes a model file and its feature points through core/pipeline. `max_vertices`: makes it the level of detail of
-/// that many vertices, 0: as it is; a warning says when no such level can be made. Errors name the file.
+/// Processes a model file and its feature points by core/pipeline. `max_vertices`: uses the level of detail with at
+/// most that many vertices, 0: the full mesh; a warning reports that no such level is possible. Errors name the file.
 Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
                                   WeightMethod weights = WeightMethod::paper, std::uint32_t max_vertices = 0);
 
-/// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
+/// Parses "3=200,19=512" to a frame. Errors: invalid_argument, with the entry.
 Result<semblante_frame> parse_faps(const std::string& text);
 
 }  // namespace semblante::pictures

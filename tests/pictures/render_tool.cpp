@@ -1,4 +1,4 @@
-// semblante-render: looks at a model file from several sides.
+// semblante-render: draws a model file from several sides.
 
 #include <algorithm>
 #include <iostream>
@@ -92,12 +92,12 @@ int main(int argc, char** argv) {
   app.add_option("-o,--out", arguments.out, "PNG to write: one shot, or a sheet of all; with --separate a folder")
       ->required();
   app.add_option("-s,--shot", arguments.shots,
-                 "VIEW or VIEW:SUBJECT, repeatable; front three-quarter left below "
-                 "right above back, of all face eyes mouth")
+                 "VIEW or VIEW:SUBJECT, repeatable; views front three-quarter left below "
+                 "right above back, subjects all face eyes mouth")
       ->capture_default_str();
-  app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
-  app.add_option("--columns", arguments.columns, "of the sheet")->capture_default_str();
-  app.add_flag("--separate", arguments.separate, "one file a shot");
+  app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
+  app.add_option("--columns", arguments.columns, "columns of the sheet")->capture_default_str();
+  app.add_flag("--separate", arguments.separate, "write one file per shot");
   CLI11_PARSE(app, argc, argv);
   if (const auto done = semblante::pictures::run(arguments); !done) {
     std::cerr << "semblante-render: " << semblante::tools::to_text(done.error()) << '\n';

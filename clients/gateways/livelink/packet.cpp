@@ -44,14 +44,14 @@ class Reader {
   std::int32_t i32() { return std::bit_cast<std::int32_t>(u32()); }
   float f32() {
     const auto value = std::bit_cast<float>(u32());
-    if (!error_ && !std::isfinite(value)) fail(ErrorCode::not_finite, "not a finite number");
+    if (!error_ && !std::isfinite(value)) fail(ErrorCode::not_finite, "a value is not a finite number");
     return value;
   }
   std::string text() {
     const std::uint32_t length = u32();
-    if (length > max_name_bytes) fail(ErrorCode::too_large, "a name of more than 256 bytes");
+    if (length > max_name_bytes) fail(ErrorCode::too_large, "a name is longer than 256 bytes");
     const auto bytes = take(error_ ? 0 : length);
-    if (!is_utf8(bytes)) fail(ErrorCode::malformed, "a name that is not UTF-8");
+    if (!is_utf8(bytes)) fail(ErrorCode::malformed, "a name is not valid UTF-8");
     return {bytes.begin(), bytes.end()};
   }
 
@@ -68,8 +68,10 @@ void read_time(Reader& reader, Packet& packet) {
   const std::int32_t denominator = reader.i32();
   if (reader.error()) return;
   const double rate = denominator > 0 ? static_cast<double>(numerator) / denominator : 0.0;
-  if (!(rate > 0.0 && rate <= max_rate)) return reader.fail(ErrorCode::out_of_range, "frames a second: 0 to 1000");
-  if (fraction < 0.0F || fraction > 1.0F) return reader.fail(ErrorCode::out_of_range, "a fraction beyond 0 to 1");
+  if (!(rate > 0.0 && rate <= max_rate))
+    return reader.fail(ErrorCode::out_of_range, "the frame rate must be above 0 and at most 1000");
+  if (fraction < 0.0F || fraction > 1.0F)
+    return reader.fail(ErrorCode::out_of_range, "the fraction of a frame must be 0 to 1");
   packet.rate = rate;
   packet.seconds = (static_cast<double>(frame) + static_cast<double>(fraction)) / rate;
 }
@@ -88,8 +90,9 @@ SeenFace read_face(Reader& reader) {
 Result<Packet> read_packet(std::span<const std::uint8_t> bytes) {
   Reader reader(bytes);
   if (const std::uint8_t spoken = reader.u8(); !reader.error() && spoken != version) {
-    return Error{ErrorCode::unsupported, "byte 0",
-                 "version " + std::to_string(spoken) + " of Live Link Face; only 6 is known"};
+    return Error{
+        ErrorCode::unsupported, "byte 0",
+        "version " + std::to_string(spoken) + " of the Live Link Face protocol is not supported, only version 6"};
   }
   Packet packet;
   packet.device = reader.text();
@@ -98,7 +101,7 @@ Result<Packet> read_packet(std::span<const std::uint8_t> bytes) {
   if (!reader.error() && !reader.at_end()) {
     const std::uint8_t count = reader.u8();
     if (count == value_count) packet.face = read_face(reader);
-    if (count != value_count && count != 0) reader.fail(ErrorCode::malformed, "counts other than 61 values");
+    if (count != value_count && count != 0) reader.fail(ErrorCode::malformed, "the number of values must be 0 or 61");
   }
   if (!reader.error() && !reader.at_end()) reader.fail(ErrorCode::malformed, "bytes after the last value");
   if (reader.error()) return *reader.error();

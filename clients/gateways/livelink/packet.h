@@ -18,10 +18,11 @@ struct SeenFace {
 };
 
 struct Packet {
-  std::string device, subject;    ///< UTF-8
-  std::optional<double> seconds;  ///< of the device's clock (its timecode): frames and their fraction by the rate
-  double rate = 0.0;              ///< frames per second; 0: not stated
-  std::optional<SeenFace> face;   ///< empty: the device sees no face
+  std::string device, subject;  ///< UTF-8
+  std::optional<double>
+      seconds;                   ///< of the device's clock: its timecode, frames and their fraction divided by the rate
+  double rate = 0.0;             ///< frames per second; 0: not stated
+  std::optional<SeenFace> face;  ///< empty: the device sees no face
 };
 
 inline constexpr std::size_t max_name_bytes = 256;  ///< of device and subject, each
@@ -33,9 +34,9 @@ inline constexpr std::size_t max_packet_bytes = 1 + 2 * (4 + max_name_bytes) + 1
 /// i32 frame, f32 fraction of a frame, i32 and i32 frames per second (numerator, denominator);
 ///     u8 61; 61 f32: ARKit's coefficients in the order of arkit.h, then yaw, pitch, roll of head, left eye, right eye
 ///
-/// A packet that ends after the subject or after the rate, or counts 0, is of a device that sees no face. Errors name
-/// the byte: unsupported (another version), truncated, too_large (a name), malformed (text that is not UTF-8, another
-/// count, bytes after the last value), out_of_range (an invalid rate), not_finite.
+/// If a packet ends after the subject or after the rate, or has 0 values, the device sees no face. Errors name the
+/// byte: unsupported (another version), truncated, too_large (a name), malformed (text that is not UTF-8, another
+/// number of values, bytes after the last value), out_of_range (an invalid rate), not_finite.
 Result<Packet> read_packet(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::livelink

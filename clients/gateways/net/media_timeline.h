@@ -18,7 +18,7 @@ class MediaTimeline {
 
  private:
   std::optional<double> begin_;        ///< arrival of the first frame, seconds
-  std::optional<double> last_source_;  ///< a clock that stands still is ignored
+  std::optional<double> last_source_;  ///< a clock that has stopped is ignored
   std::optional<double> offset_;       ///< ms, from the sender's clock to the timeline
   std::uint64_t last_ = 0;
 };

@@ -68,7 +68,7 @@ Result<Endpoint> parse_endpoint(const std::string& text, const std::string& usua
   const char* end = endpoint.port.data() + endpoint.port.size();
   const auto [stop, problem] = std::from_chars(endpoint.port.data(), end, port);
   if (endpoint.host.empty() || problem != std::errc{} || stop != end || port > 65535) {
-    return Error{ErrorCode::invalid_argument, text, "an address is HOST:PORT with a port of 0 to 65535"};
+    return Error{ErrorCode::invalid_argument, text, "an address must be HOST:PORT with a port from 0 to 65535"};
   }
   return endpoint;
 }
@@ -93,11 +93,12 @@ Result<UdpSocket> UdpSocket::listen(const Endpoint& at) {
   if (!addresses) return addresses.error();
   const addrinfo& address = **addresses;
   const int handle = ::socket(address.ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (handle < 0) return system_error(at, "no socket");
+  if (handle < 0) return system_error(at, "cannot create a socket");
   UdpSocket socket(handle);
   // The system may give less; packets over the limit are lost, as in the network.
   static_cast<void>(::setsockopt(handle, SOL_SOCKET, SO_RCVBUF, &queue_bytes, sizeof(queue_bytes)));
-  if (::bind(handle, address.ai_addr, address.ai_addrlen) != 0) return system_error(at, "cannot listen");
+  if (::bind(handle, address.ai_addr, address.ai_addrlen) != 0)
+    return system_error(at, "cannot listen at this address");
   return socket;
 }
 
@@ -106,12 +107,14 @@ Result<UdpSocket> UdpSocket::send_to(const Endpoint& to, bool anywhere) {
   if (!addresses) return addresses.error();
   const addrinfo& address = **addresses;
   if (!anywhere && !is_loopback(*address.ai_addr)) {
-    return Error{ErrorCode::invalid_argument, to.host, "is another machine; say --anywhere if its owner wants packets"};
+    return Error{ErrorCode::invalid_argument, to.host,
+                 "is another machine; use --anywhere if its owner agrees to receive packets"};
   }
   const int handle = ::socket(address.ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (handle < 0) return system_error(to, "no socket");
+  if (handle < 0) return system_error(to, "cannot create a socket");
   UdpSocket socket(handle);
-  if (::connect(handle, address.ai_addr, address.ai_addrlen) != 0) return system_error(to, "cannot send there");
+  if (::connect(handle, address.ai_addr, address.ai_addrlen) != 0)
+    return system_error(to, "cannot send to this address");
   return socket;
 }
 

@@ -11,7 +11,7 @@
 
 namespace semblante::gateways {
 
-/// "host:port" with a number for a port, an IPv6 address in brackets; the port may be omitted if there is a default.
+/// "host:port" with a number for a port, an IPv6 address in brackets; without a port the default port is used.
 struct Endpoint {
   std::string host;
   std::string port;
@@ -21,7 +21,7 @@ Result<Endpoint> parse_endpoint(const std::string& text, const std::string& usua
 /// One UDP socket, for one thread.
 class UdpSocket {
  public:
-  /// Receives at an address of this machine (numbers, no name). Port 0: any free one.
+  /// Receives at an address of this machine (numeric, not a name). Port 0: any free port.
   static Result<UdpSocket> listen(const Endpoint& at);
   /// Sends to one address. Unless `anywhere`, only loopback addresses are accepted: with UDP the receiver does not
   /// consent to the packets.

@@ -8,8 +8,8 @@
 
 namespace semblante::osc {
 
-/// Messages -> bundles, each of which fits a UDP packet of `max_bytes`; a full one starts another. Time tag:
-/// immediately.
+/// Writes messages into bundles of at most `max_bytes`, the size of a UDP packet; a message that does not fit starts a
+/// new bundle. Their time tag is "immediately".
 class BundleWriter {
  public:
   using Value = std::variant<std::int32_t, float, std::string_view>;

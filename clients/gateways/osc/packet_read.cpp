@@ -50,7 +50,7 @@ class Reader {
     const auto rest = bytes_.subspan(at_);
     const auto end = std::find(rest.begin(), rest.end(), std::uint8_t{0});
     if (error_ || end == rest.end()) {
-      fail(ErrorCode::truncated, "a text without its end");
+      fail(ErrorCode::truncated, "a string has no terminating zero");
       return {};
     }
     const auto length = static_cast<std::size_t>(end - rest.begin());
@@ -69,7 +69,7 @@ class Reader {
  private:
   void pad(std::size_t length) {
     for (const std::uint8_t byte : take((4 - length % 4) % 4)) {
-      if (byte != 0) return fail(ErrorCode::malformed, "padding that is not zero");
+      if (byte != 0) return fail(ErrorCode::malformed, "the padding is not zero");
     }
   }
 
@@ -113,7 +113,7 @@ std::optional<Argument> read_argument(char tag, Reader& reader) {
     case ']':
       return std::nullopt;
     default:
-      reader.fail(ErrorCode::malformed, "a type tag that is none");
+      reader.fail(ErrorCode::malformed, "unknown type tag");
       return std::nullopt;
   }
 }
@@ -123,12 +123,12 @@ Result<Message> read_message(std::span<const std::uint8_t> bytes, std::size_t or
   Message message;
   message.address = reader.text();
   if (!reader.error() && !message.address.starts_with('/')) {
-    return Error{ErrorCode::malformed, "byte " + std::to_string(origin), "an address begins with a slash"};
+    return Error{ErrorCode::malformed, "byte " + std::to_string(origin), "an address must begin with a slash"};
   }
   if (reader.error() || reader.at_end()) {
     return reader.error() ? Result<Message>(*reader.error()) : Result<Message>(std::move(message));
   }
-  if (reader.peek() != ',') reader.fail(ErrorCode::malformed, "type tags begin with a comma");
+  if (reader.peek() != ',') reader.fail(ErrorCode::malformed, "type tags must begin with a comma");
   std::string_view tags = reader.text();
   if (tags.size() > max_arguments + 1) reader.fail(ErrorCode::too_large, "more than 64 arguments");
   tags.remove_prefix(std::min<std::size_t>(tags.size(), 1));
@@ -136,7 +136,7 @@ Result<Message> read_message(std::span<const std::uint8_t> bytes, std::size_t or
     if (reader.error()) break;
     if (auto argument = read_argument(tag, reader)) message.arguments.push_back(*argument);
   }
-  if (!reader.at_end()) reader.fail(ErrorCode::malformed, "more bytes than the type tags announce");
+  if (!reader.at_end()) reader.fail(ErrorCode::malformed, "more bytes than the type tags declare");
   if (reader.error()) return *reader.error();
   return message;
 }
@@ -150,7 +150,7 @@ Status read_into(Packet& packet, std::span<const std::uint8_t> bytes, std::size_
     return Unit{};
   }
   if (depth == max_bundle_depth) {
-    return Error{ErrorCode::too_large, "byte " + std::to_string(origin), "bundles within bundles, more than 8 deep"};
+    return Error{ErrorCode::too_large, "byte " + std::to_string(origin), "bundles are nested more than 8 deep"};
   }
   Reader reader(bytes, origin);
   reader.take(bundle_begin.size() + time_tag_bytes);
@@ -158,7 +158,7 @@ Status read_into(Packet& packet, std::span<const std::uint8_t> bytes, std::size_
     const std::uint32_t size = reader.u32();
     const std::size_t at = reader.position();
     if (!reader.error() && (size == 0 || size % 4 != 0)) {
-      reader.fail(ErrorCode::malformed, "a bundle's element of a size that is no multiple of four");
+      reader.fail(ErrorCode::malformed, "the size of a bundle's element must be a positive multiple of four");
     }
     const auto element = reader.take(size);
     if (reader.error()) break;
@@ -171,10 +171,11 @@ Status read_into(Packet& packet, std::span<const std::uint8_t> bytes, std::size_
 
 Result<Packet> read_packet(std::span<const std::uint8_t> bytes) {
   if (bytes.size() > max_packet_bytes) {
-    return Error{ErrorCode::too_large, "", "more than a UDP packet can carry"};
+    return Error{ErrorCode::too_large, "", "the packet is larger than a UDP packet can be"};
   }
   if (bytes.empty() || bytes.size() % 4 != 0) {
-    return Error{ErrorCode::truncated, "byte " + std::to_string(bytes.size()), "not a multiple of four bytes"};
+    return Error{ErrorCode::truncated, "byte " + std::to_string(bytes.size()),
+                 "the size of a packet must be a positive multiple of four bytes"};
   }
   Packet packet;
   packet.is_bundle = bytes[0] == '#';

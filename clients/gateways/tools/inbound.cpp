@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int packets_at_once = 256;
 
 struct Counts {
-  std::uint64_t packets = 0;    ///< that came
+  std::uint64_t packets = 0;    ///< received
   std::uint64_t refused = 0;    ///< invalid packets
   std::uint64_t throttled = 0;  ///< packets over the limit
   std::uint64_t frames = 0;     ///< published
@@ -92,7 +92,7 @@ class Inbound {
   void refused(std::string_view where, std::string_view why) {
     // Logged once: packets of a stranger must not fill the log.
     if (counts_.refused++ > 0) return;
-    std::cerr << options_.program << ": a packet was refused: " << where << ": " << why << '\n';
+    std::cerr << options_.program << ": invalid packet: " << where << ": " << why << '\n';
   }
 
   void publish_waiting() {
@@ -117,17 +117,19 @@ class Inbound {
 void add_inbound_options(CLI::App& app, InboundOptions& options) {
   app.add_option("--server", options.server, "http://HOST:PORT of the server")->capture_default_str();
   app.add_option("--stream", options.stream, "id of the stream to publish to")->required();
-  app.add_flag("--create", options.publisher.create, "make the stream where there is none");
+  app.add_flag("--create", options.publisher.create, "create the stream if it does not exist");
   app.add_option("--model", options.publisher.model, "with --create: the model that the stream suggests");
-  app.add_flag("--take-over", options.publisher.take_over, "publish though somebody else does");
+  app.add_flag("--take-over", options.publisher.take_over, "publish even if another client publishes");
   app.add_option("--listen", options.listen,
-                 "HOST[:PORT] of this machine to receive at; 0.0.0.0 for packets of other machines, port " +
-                     options.usual_port + " where none is said")
+                 "HOST[:PORT] of this machine to receive at; 0.0.0.0 for packets of other machines; default port " +
+                     options.usual_port)
       ->capture_default_str();
-  app.add_option("--max-packets", options.max_packets, "a second; what is more is not read")
+  app.add_option("--max-packets", options.max_packets,
+                 "maximum number of packets per second; further packets are not read")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
-  app.add_option("--max-fps", options.max_fps, "faces a second; of more the newest are taken")
+  app.add_option("--max-fps", options.max_fps,
+                 "maximum number of frames per second; only the newest of more are published")
       ->check(CLI::Range(1.0, 400.0))
       ->capture_default_str();
 }

@@ -1,4 +1,4 @@
-// semblante-livelink: the packets of the app Live Link Face into a stream.
+// semblante-livelink: publishes the packets of the app Live Link Face to a stream.
 
 #include <iostream>
 
@@ -14,11 +14,11 @@ int main(int argc, char** argv) {
   options.usual_port = "11111";
   std::string subject;
 
-  CLI::App app{"Publishes what the app Live Link Face sends (ARKit, UDP) to a stream of a Semblante server.",
+  CLI::App app{"Publishes the packets of the app Live Link Face (ARKit, UDP) to a stream of a Semblante server.",
                "semblante-livelink"};
   gateways::add_inbound_options(app, options);
-  app.add_option("--subject", subject, "subject name of the device to follow; without it the first that sends a face");
-  app.footer("Ends at SIGINT and SIGTERM, and then prints what it counted.");
+  app.add_option("--subject", subject, "subject name of the device to follow; default: the first that sends a face");
+  app.footer("Stops at SIGINT and SIGTERM, and then prints its counters.");
   CLI11_PARSE(app, argc, argv);
 
   livelink::Receiver receiver(subject);

@@ -107,7 +107,7 @@ class Outbound {
       sequence_ = batch->sequence + batch->frames.size() - 1;
       while (waiting_.size() > most_waiting) waiting_.pop_front();
     } else if (const auto* error = std::get_if<StreamError>(&message)) {
-      std::cerr << options_.program << ": the server says: " << error->message << '\n';
+      std::cerr << options_.program << ": error of the server: " << error->message << '\n';
     }
     return !std::holds_alternative<End>(message);
   }

@@ -13,13 +13,13 @@ struct OutboundOptions {
   std::string stream;
   std::string to = "127.0.0.1";
   std::string usual_port;
-  bool anywhere = false;  ///< also to other machines
+  bool anywhere = false;  ///< also allow other machines
   vmc::SenderOptions sender;
 };
 
-/// Stream in, VMC out, until SIGINT or SIGTERM; reconnects when the connection is lost, prints the counts at the end.
-/// An unchanged face is repeated four times per second, because UDP loses packets and receivers expect some. Errors:
-/// cannot send, or the server has no such stream.
+/// Follows a stream and sends its faces by VMC until SIGINT or SIGTERM. Reconnects when the connection is lost, and
+/// prints its counters at the end. An unchanged face is repeated four times per second, because UDP loses packets and
+/// receivers expect packets continuously. Errors: cannot send, or the server has no such stream.
 Status run_outbound(const OutboundOptions& options);
 
 }  // namespace semblante::gateways

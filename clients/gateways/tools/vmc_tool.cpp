@@ -36,24 +36,22 @@ int main(int argc, char** argv) {
   std::vector<std::string> blends = {"perfect-sync", "vrm0"};
   bool no_bones = false;
 
-  CLI::App app{"Carries faces between the VMC protocol (OSC over UDP) and a stream of a Semblante server.",
-               "semblante-vmc"};
+  CLI::App app{"Converts between the VMC protocol (OSC over UDP) and a stream of a Semblante server.", "semblante-vmc"};
   app.require_subcommand(1);
   auto* in_command = app.add_subcommand("in", "VMC -> stream: receives from a performer and publishes");
   gateways::add_inbound_options(*in_command, in);
   auto* out_command = app.add_subcommand("out", "stream -> VMC: follows a stream and sends to a marionette");
   out_command->add_option("--server", out.server, "http://HOST:PORT of the server")->capture_default_str();
   out_command->add_option("--stream", out.stream, "id of the stream to follow")->required();
-  out_command->add_option("--to", out.to, "HOST[:PORT] to send to; port 39539 where none is said")
-      ->capture_default_str();
-  out_command->add_flag("--anywhere", out.anywhere, "--to may be another machine");
+  out_command->add_option("--to", out.to, "HOST[:PORT] to send to; default port 39539")->capture_default_str();
+  out_command->add_flag("--anywhere", out.anywhere, "allow another machine in --to");
   out_command
       ->add_option("--blends", blends, "blend values to send: perfect-sync (ARKit's names), vrm0, vrm1; repeatable")
       ->check(CLI::IsMember({"perfect-sync", "vrm0", "vrm1"}))
       ->delimiter(',')
       ->capture_default_str();
-  out_command->add_flag("--no-bones", no_bones, "send no Neck, Head, LeftEye and RightEye");
-  app.footer("Ends at SIGINT and SIGTERM, and then prints what it counted.");
+  out_command->add_flag("--no-bones", no_bones, "do not send the bones Neck, Head, LeftEye and RightEye");
+  app.footer("Stops at SIGINT and SIGTERM, and then prints its counters.");
   CLI11_PARSE(app, argc, argv);
 
   const auto sends = [&blends](const char* set) {

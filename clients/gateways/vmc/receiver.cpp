@@ -50,11 +50,11 @@ Result<std::optional<ReceivedFace>> Receiver::take(std::span<const std::uint8_t>
   bool applied = false;
   bool timed = false;
   for (const osc::Message& message : packet->messages) {
-    const Said said = read(message);
-    applied = applied || said == Said::apply;
-    timed = timed || said == Said::time;
-    changed_ = changed_ || said == Said::value;
-    skipped_ += said == Said::wrong ? 1 : 0;
+    const Effect effect = read(message);
+    applied = applied || effect == Effect::apply;
+    timed = timed || effect == Effect::time;
+    changed_ = changed_ || effect == Effect::value;
+    skipped_ += effect == Effect::wrong ? 1 : 0;
   }
   if (applied) last_apply_ = arrival;
   const bool applies = arrival - last_apply_ < apply_seconds;
@@ -68,49 +68,49 @@ Result<std::optional<ReceivedFace>> Receiver::take(std::span<const std::uint8_t>
   return std::optional<ReceivedFace>(face);
 }
 
-Receiver::Said Receiver::read(const osc::Message& message) {
+Receiver::Effect Receiver::read(const osc::Message& message) {
   if (message.address == "/VMC/Ext/Blend/Val") return read_blend(message);
-  if (message.address == "/VMC/Ext/Blend/Apply") return Said::apply;
+  if (message.address == "/VMC/Ext/Blend/Apply") return Effect::apply;
   if (message.address == "/VMC/Ext/Bone/Pos") return read_bone(message);
-  if (message.address != "/VMC/Ext/T") return Said::nothing;
+  if (message.address != "/VMC/Ext/T") return Effect::nothing;
   const float* seconds = value<float>(message, 0);
-  if (seconds == nullptr || !std::isfinite(*seconds)) return Said::wrong;
+  if (seconds == nullptr || !std::isfinite(*seconds)) return Effect::wrong;
   // After nine hours the resolution of a float is 4 ms: the packets' arrival is more precise.
   constexpr float coarse = 32'768.0F;
   if (std::abs(*seconds) < coarse) time_ = static_cast<double>(*seconds);
-  return Said::time;
+  return Effect::time;
 }
 
-Receiver::Said Receiver::read_blend(const osc::Message& message) {
+Receiver::Effect Receiver::read_blend(const osc::Message& message) {
   const auto* name = value<std::string_view>(message, 0);
   const float* amount = value<float>(message, 1);
-  if (name == nullptr || amount == nullptr || !std::isfinite(*amount)) return Said::wrong;
+  if (name == nullptr || amount == nullptr || !std::isfinite(*amount)) return Effect::wrong;
   if (const auto shape = find_perfect_sync(*name)) {
     values_.perfect_sync[*shape] = *amount;
     values_.has_perfect_sync = values_.has_perfect_sync || *amount > is_driven;
   } else if (const auto preset = find_vrm_preset(*name)) {
     values_.presets[*preset] = *amount;
   } else {
-    return Said::nothing;
+    return Effect::nothing;
   }
-  return Said::value;
+  return Effect::value;
 }
 
-Receiver::Said Receiver::read_bone(const osc::Message& message) {
+Receiver::Effect Receiver::read_bone(const osc::Message& message) {
   const auto* name = value<std::string_view>(message, 0);
-  if (name == nullptr) return Said::wrong;
+  if (name == nullptr) return Effect::wrong;
   glm::dquat* bone = *name == "Head"       ? &values_.head
                      : *name == "Neck"     ? &values_.neck
                      : *name == "LeftEye"  ? &values_.eyes[0]
                      : *name == "RightEye" ? &values_.eyes[1]
                                            : nullptr;
-  if (bone == nullptr) return Said::nothing;
+  if (bone == nullptr) return Effect::nothing;
   const auto rotation = rotation_at(message, 4);
-  if (!rotation) return Said::wrong;
+  if (!rotation) return Effect::wrong;
   *bone = mirror_x(*rotation);
   const bool is_eye = bone == &values_.eyes[0] || bone == &values_.eyes[1];
   values_.eye_bones = values_.eye_bones || (is_eye && std::abs(rotation->w) < is_turned);
-  return Said::value;
+  return Effect::value;
 }
 
 }  // namespace semblante::vmc

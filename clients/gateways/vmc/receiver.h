@@ -25,8 +25,8 @@ struct ReceivedFace {
 /// protocol requires, messages with too few values or wrong types; and those with a number that is not finite or an
 /// invalid rotation.
 ///
-/// A face is finished by a packet that has /VMC/Ext/Blend/Apply. If a sender sends no Apply for `apply_seconds`, each
-/// bundle that changes something completes a face, or each single message /VMC/Ext/T after a change.
+/// A packet with /VMC/Ext/Blend/Apply completes a face. If a sender sends no Apply for `apply_seconds`, each bundle
+/// with a changed value completes a face, and so does each single message /VMC/Ext/T after a change.
 class Receiver {
  public:
   static constexpr double forget_seconds = 5.0;
@@ -41,15 +41,16 @@ class Receiver {
   [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
  private:
-  enum class Said { nothing, value, time, apply, wrong };
-  Said read(const osc::Message& message);
-  Said read_blend(const osc::Message& message);
-  Said read_bone(const osc::Message& message);
+  /// The effect of a message on the values.
+  enum class Effect { nothing, value, time, apply, wrong };
+  Effect read(const osc::Message& message);
+  Effect read_blend(const osc::Message& message);
+  Effect read_bone(const osc::Message& message);
 
   Values values_;
   std::optional<double> time_;
   std::optional<double> last_packet_;
-  double last_apply_ = 0.0;  ///< or the first packet
+  double last_apply_ = 0.0;  ///< time of the last Apply, else of the first packet
   bool changed_ = false;     ///< since the last face
   std::uint64_t skipped_ = 0;
 };

@@ -15,7 +15,7 @@ struct Turn {
 
 /// Roll, then pitch, then yaw: the kernel's order.
 glm::dquat to_rotation(const Turn& turn);
-/// The reverse; pitch within a quarter turn. `rotation` must be a unit quaternion.
+/// The inverse; pitch within a quarter turn. `rotation` must be a unit quaternion.
 Turn to_turn(const glm::dquat& rotation);
 
 /// Unity's axes are left-handed, +X to the right of an avatar that looks along +Z: those of MPEG-4 with x mirrored. A

@@ -14,22 +14,22 @@ namespace semblante::vmc {
 
 /// One preset blend value of VRM avatars and its meaning: data/vrm_blends.json.
 struct VrmPreset {
-  std::string vrm0, vrm1;          ///< its names
-  std::vector<std::size_t> arkit;  ///< coefficients (arkit.h)
+  std::string vrm0, vrm1;          ///< names of the preset
+  std::vector<std::size_t> arkit;  ///< ARKit coefficients that it sets (arkit.h)
   std::optional<std::size_t> viseme;
-  std::uint8_t expression = 0;  ///< of FAP 2; 0: none
-  float amount = 0.0F;          ///< of the expression, at a value of 1
+  std::uint8_t expression = 0;  ///< expression of FAP 2; 0: none
+  float amount = 0.0F;          ///< intensity of the expression at a value of 1
   bool send = true;
-  std::array<float, oculus_count> shown{};  ///< share of it that a mouth of each viseme shows
+  std::array<float, oculus_count> shown{};  ///< by viseme: how much of the preset a mouth with this viseme shows
 };
 
 /// The file data/vrm_blends.json, embedded at compile time.
 std::string_view vrm_blends_document();
 /// The parsed file; asserts that it is valid.
 const std::vector<VrmPreset>& vrm_presets();
-/// By its VRM 0 or VRM 1 name, in any case.
+/// Finds a preset by its VRM 0 or VRM 1 name, case-insensitive.
 std::optional<std::size_t> find_vrm_preset(std::string_view name);
-/// An ARKit coefficient by its name in any case ("EyeBlinkLeft", "eyeblinkleft").
+/// Finds an ARKit coefficient by name, case-insensitive ("EyeBlinkLeft", "eyeblinkleft").
 std::optional<std::size_t> find_perfect_sync(std::string_view name);
 
 }  // namespace semblante::vmc

@@ -7,7 +7,7 @@
 namespace semblante::client {
 
 /// A client's estimate of the stream's clock: its offset from the client's own clock, from the round trips of hello and
-/// header and of ping and pong. Times in ms; the client's clock may have any origin but must not be set by hand.
+/// header and of ping and pong. Times in ms; the client's clock may have any origin but must be steady.
 /// protocol/SPEC.md, 7.1; clients/js/clock_estimate.ts is the same algorithm; both are tested with
 /// protocol/vectors/clock.
 class ClockEstimate {
@@ -31,7 +31,7 @@ class ClockEstimate {
   void answered(double sent, double received, double media_time);
   /// The newest frame of a message received at `received` has `media_time`. Used until the first answer.
   void heard(double received, double media_time);
-  /// Forgets everything: another stream or epoch.
+  /// Discards all measurements, for another stream or epoch.
   void clear();
 
   /// The stream's clock when the local one is at `local`; nullopt before the first message.
@@ -40,7 +40,7 @@ class ClockEstimate {
   [[nodiscard]] std::optional<double> uncertainty() const;
   /// Drift of the stream's clock relative to the local one, ms per ms; 0 until it is known.
   [[nodiscard]] double drift() const { return drift_; }
-  /// Of the newest answer; nullopt before the first.
+  /// Round trip of the newest answer, ms; nullopt before the first.
   [[nodiscard]] std::optional<double> round_trip() const { return round_trip_; }
   /// Number of detected steps: a clock was set or suspended.
   [[nodiscard]] std::size_t steps() const { return steps_; }
@@ -65,8 +65,8 @@ class ClockEstimate {
   std::size_t steps_ = 0;
 };
 
-/// ms from one ping to the next: short at first, when the clock is hardly known, and shorter when answers jitter.
-/// `sent`: pings sent since the header. `steady`: the longest.
+/// Time from one ping to the next, ms: short at first, while the estimate is uncertain, and shorter if the round trips
+/// vary. `sent`: number of pings since the header. `steady`: the longest pause.
 constexpr double ping_pause(std::size_t sent, double uncertainty, double steady = 5000) {
   return sent < 5 ? 200 : sent < 15 ? 1000 : uncertainty > 10 ? 0.4 * steady : steady;
 }

@@ -17,20 +17,20 @@ std::vector<T> value_or_empty(Result<std::vector<T>> values) {
 
 Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh) {
   if (mesh.vertices == 0 || mesh.triangles == 0) {
-    return refused(ErrorCode::empty, "rig.json announces no vertices or no triangles");
+    return refused(ErrorCode::empty, "rig.json declares no vertices or no triangles");
   }
   if (mesh.vertices > max_weights_vertices || mesh.triangles > 2U * max_weights_vertices) {
-    return refused(ErrorCode::too_large, "more than 4 million vertices or 8 million triangles");
+    return refused(ErrorCode::too_large, "rig.json declares more than 4 million vertices or 8 million triangles");
   }
   const auto draco = DracoMesh::decode(bytes, {mesh.vertices, mesh.triangles});
   if (!draco) {
     return refused(draco.error().code, draco.error().message);
   }
   if (draco->point_count() != mesh.vertices || draco->triangle_count() != mesh.triangles) {
-    return refused(ErrorCode::mismatch, "another number of vertices or triangles than rig.json says");
+    return refused(ErrorCode::mismatch, "the number of vertices or triangles differs from rig.json");
   }
   if (!mesh.attributes.position) {
-    return refused(ErrorCode::missing, "rig.json names no positions");
+    return refused(ErrorCode::missing, "rig.json has no attribute for positions");
   }
   auto positions = draco->vectors3(*mesh.attributes.position);
   if (!positions) {

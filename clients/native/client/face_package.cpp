@@ -35,7 +35,7 @@ Result<Model> to_model(DecodedMesh&& mesh, const RigDocument& rig) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint8_t material = material_of(mesh.triangles[t]);
     if (material >= model.materials.size() && !model.materials.empty()) {
-      return Error{ErrorCode::out_of_range, "mesh.drc", "a vertex names a material that rig.json does not have"};
+      return Error{ErrorCode::out_of_range, "mesh.drc", "a vertex refers to a material that rig.json does not have"};
     }
     const int index = model.materials.empty() ? -1 : int{material};
     if (model.primitives.empty() || model.primitives.back().material != index) {
@@ -80,10 +80,10 @@ Result<Face> Face::create(const PackageBytes& bytes) {
   }
   const Sha256 mesh_hash = sha256(as_bytes(bytes.mesh_drc));
   if (mesh_hash != rig->mesh.sha256) {
-    return Error{ErrorCode::mismatch, "mesh.drc", "its SHA-256 is not the one in rig.json"};
+    return Error{ErrorCode::mismatch, "mesh.drc", "the SHA-256 differs from the one in rig.json"};
   }
   if (sha256(as_bytes(bytes.weights)) != rig->weights.sha256) {
-    return Error{ErrorCode::mismatch, "weights", "its SHA-256 is not the one in rig.json"};
+    return Error{ErrorCode::mismatch, "weights", "the SHA-256 differs from the one in rig.json"};
   }
   auto mesh = decode_mesh(as_bytes(bytes.mesh_drc), rig->mesh);
   if (!mesh) {
@@ -165,7 +165,7 @@ Result<PackageBytes> fetch_package(const HttpClient& http, std::string_view mode
     return Error{rig.error().code, "rig.json" + rig.error().where, rig.error().message};
   }
   if (rig->mesh.bytes > max_mesh_bytes || rig->weights.bytes > max_mesh_bytes) {
-    return Error{ErrorCode::too_large, "rig.json", "it announces a mesh or weights of more than 128 MiB"};
+    return Error{ErrorCode::too_large, "rig.json", "declares a mesh or weights of more than 128 MiB"};
   }
   auto mesh_drc = http.fetch(base + "/mesh.drc" + query, rig->mesh.bytes);
   if (!mesh_drc) {
@@ -188,7 +188,7 @@ std::vector<std::string> fetch_images(const HttpClient& http, Face& face) {
     if (!bytes) {
       warnings.push_back("image " + std::to_string(i) + ": " + bytes.error().message);
     } else if (sha256(as_bytes(*bytes)) != info.sha256) {
-      warnings.push_back("image " + std::to_string(i) + ": its SHA-256 is not the one in rig.json");
+      warnings.push_back("image " + std::to_string(i) + ": the SHA-256 differs from the one in rig.json");
     } else {
       face.model().images[i] = {info.mime_type, {bytes->begin(), bytes->end()}};
     }
@@ -204,7 +204,7 @@ Result<Face> load_face(const HttpClient& http, std::string_view model, const Lev
       return face;
     }
   }
-  return Error{ErrorCode::mismatch, std::string(model), "the package does not hold together"};
+  return Error{ErrorCode::mismatch, std::string(model), "the files of the package do not belong together"};
 }
 
 }  // namespace semblante::client

@@ -16,7 +16,7 @@ Result<bool> FramePlayer::pump() {
     return std::move(received).error();
   }
   if (!*received) {
-    return Error{ErrorCode::io, "stream", "nothing came for " + std::to_string(patience_.count()) + " ms"};
+    return Error{ErrorCode::io, "stream", "no message for " + std::to_string(patience_.count()) + " ms"};
   }
   const Message& message = **received;
   if (const auto* header = std::get_if<Header>(&message)) {
@@ -31,7 +31,7 @@ Result<bool> FramePlayer::pump() {
     }
   } else if (const auto* error = std::get_if<StreamError>(&message)) {
     return Error{error->code == StreamErrorCode::not_found ? ErrorCode::missing : ErrorCode::io,
-                 "stream" + error->where, "the server says: " + error->message};
+                 "stream" + error->where, "error of the server: " + error->message};
   } else if (std::holds_alternative<End>(message)) {
     return false;
   }
@@ -45,7 +45,7 @@ Status FramePlayer::wait_for_header() {
       return std::move(more).error();
     }
     if (!*more) {
-      return Error{ErrorCode::io, "stream", "it ended before its header"};
+      return Error{ErrorCode::io, "stream", "the stream ended before its header"};
     }
   }
   return Unit{};

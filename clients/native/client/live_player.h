@@ -19,7 +19,7 @@ class LivePlayer {
  public:
   LivePlayer(Url url, std::string stream, LiveStreamOptions options = {}, const PlayoutOptions& playout = {});
 
-  /// Receives for this time; call it with the time until the next display frame. Errors like LiveStream::next.
+  /// Receives messages for `time`; call it with the time until the next display frame. Errors like LiveStream::next.
   Status receive(std::chrono::milliseconds time);
   /// The frame to show now; nullopt before the first frame.
   std::optional<DisplayedFrame> show();

@@ -39,7 +39,7 @@ Status LiveStream::connect() {
     return code == ErrorCode::missing || code == ErrorCode::mismatch ? Status(std::move(client).error()) : Unit{};
   }
   client_.emplace(*std::move(client));
-  said_resume_ = resume_;
+  sent_resume_ = resume_;
   return Unit{};
 }
 

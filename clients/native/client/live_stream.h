@@ -15,9 +15,9 @@
 namespace semblante::client {
 
 struct LiveStreamOptions {
-  /// For every connection; its `resume` is for the first one.
+  /// Options of every connection; `resume` applies to the first connection only.
   StreamOptions stream;
-  /// First and longest pause before reconnecting; each attempt doubles it, half of it is random.
+  /// First and longest pause before reconnecting. Each attempt doubles the pause; half of it is random.
   std::chrono::milliseconds first_pause{250}, longest_pause{10'000};
   std::uint64_t seed = std::random_device{}();
 };
@@ -34,16 +34,17 @@ class LiveStream {
   /// The next message; nullopt at the timeout, and without a connection. Errors: missing (no such stream), mismatch
   /// (another subprotocol), for which reconnecting does not help. No messages follow the stream's final `end`.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
-  /// The stream's clock against now().
+  /// The estimate of the stream's clock relative to now().
   ClockEstimate& clock() { return clock_; }
-  /// ms of the clock for all timestamps, with any origin.
+  /// The current time of the clock of all timestamps, ms; its origin is arbitrary.
   static double now();
 
   [[nodiscard]] bool connected() const { return client_.has_value() && greeted_; }
   [[nodiscard]] const std::optional<Header>& header() const { return header_; }
-  /// The resume point of the next hello.
+  /// The resume point for the next hello.
   [[nodiscard]] const std::optional<ResumePoint>& resume() const { return resume_; }
-  [[nodiscard]] const std::optional<ResumePoint>& said_resume() const { return said_resume_; }
+  /// The resume point that the last hello sent.
+  [[nodiscard]] const std::optional<ResumePoint>& sent_resume() const { return sent_resume_; }
   [[nodiscard]] std::uint64_t connections() const { return connections_; }
 
  private:
@@ -59,7 +60,7 @@ class LiveStream {
   std::mt19937_64 random_;
   std::optional<StreamClient> client_;
   std::optional<Header> header_;
-  std::optional<ResumePoint> resume_, said_resume_;
+  std::optional<ResumePoint> resume_, sent_resume_;
   ClockEstimate clock_;
   Clock::time_point next_try_{}, next_ping_{};
   std::uint64_t tries_ = 0, connections_ = 0;

@@ -10,7 +10,7 @@
 namespace semblante::client {
 
 /// Wavefront OBJ: `v` lines in vertex order, `vt` if the model has UVs, one group per primitive. Numbers are the
-/// shortest that read back as the same float32.
+/// shortest decimals that parse to the same float32.
 std::string write_obj(const Model& model, std::span<const glm::vec3> positions);
 
 /// Binary little-endian PLY with float x, y, z and uchar-counted uint triangles.

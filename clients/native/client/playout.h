@@ -27,13 +27,14 @@ struct PlayoutStats {
   double starved_time = 0;
 };
 
-/// Computes the media time to show: the stream's clock minus a delay with which frames arrive in time, at a nearly
-/// constant speed, never backwards. Uses only times. Times in ms, "now" is of the client's clock. protocol/SPEC.md,
-/// 7.2; clients/js/playout.ts is the same algorithm; both are tested with protocol/vectors/clock.
+/// Computes the media time to show: the stream's clock minus a delay that is long enough for frames to arrive in time.
+/// The shown time advances at a nearly constant speed and never backwards. Uses only times, in ms; `now` is the
+/// client's clock. protocol/SPEC.md, 7.2; clients/js/playout.ts is the same algorithm; both are tested with
+/// protocol/vectors/clock.
 class Playout {
  public:
   static constexpr double max_speed_change = 0.05;
-  /// Of that, for the delay's sake.
+  /// Part of max_speed_change that may be used to change the delay.
   static constexpr double delay_rate = 0.04;
   /// Time in which an error is corrected, within the limits of the speed.
   static constexpr double correction_time = 1000;
@@ -41,13 +42,13 @@ class Playout {
   static constexpr double snap_threshold = 500;
   static constexpr double least_delay = 60;
   static constexpr double greatest_delay = 2000;
-  /// Added to the expected lateness.
+  /// Margin added to the expected lateness.
   static constexpr double margin = 15;
   /// The maximum lateness of each second is kept for this many seconds; the second largest is used, in the first few
   /// seconds the largest.
   static constexpr std::int64_t seconds_kept = 60;
   static constexpr std::size_t seconds_for_second_worst = 5;
-  /// Frames farther apart than this, or than 2.5 frames of a slow stream, have a rest between them.
+  /// Frames farther apart than this, or than 2.5 frames of a slow stream, have a rest (no motion) between them.
   static constexpr double least_rest = 250;
   /// After a rest the motion towards the next frame takes this long, if it arrives in time.
   static constexpr double motion_after_rest = 100;

@@ -112,7 +112,7 @@ struct StreamClient::Impl {
     }
     const auto agreed = response[http::field::sec_websocket_protocol];
     if (std::string_view(agreed.data(), agreed.size()) != protocol) {
-      return Error{ErrorCode::mismatch, where, "the server does not speak " + std::string(protocol)};
+      return Error{ErrorCode::mismatch, where, "the server does not support the subprotocol " + std::string(protocol)};
     }
     return Unit{};
   }

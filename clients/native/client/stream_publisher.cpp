@@ -45,7 +45,7 @@ Status StreamPublisher::connect() {
   while (client_ && !has_header_ && Clock::now() < deadline) {
     static_cast<void>(listen(std::chrono::milliseconds(50)));
   }
-  if (client_ && !has_header_) lose("the server says nothing");
+  if (client_ && !has_header_) lose("the server sends no header");
   if (client_) {
     wait_ = options_.retry_first;
     last_trouble_.clear();
@@ -68,7 +68,7 @@ Status StreamPublisher::make_stream() {
   if (answer->status == 201 || answer->status == 409) return Unit{};
   return Error{
       ErrorCode::invalid_argument, stream_,
-      "the server does not make this stream: " + std::to_string(answer->status) + " " + answer->body.substr(0, 500)};
+      "the server does not create this stream: " + std::to_string(answer->status) + " " + answer->body.substr(0, 500)};
 }
 
 bool StreamPublisher::listen(std::chrono::milliseconds patience) {
@@ -85,7 +85,7 @@ bool StreamPublisher::listen(std::chrono::milliseconds patience) {
   } else if (const auto* error = std::get_if<StreamError>(&**message)) {
     // The server's state is that before the refused message.
     needs_keyframe_ = true;
-    if (last_trouble_ != error->message) news_ = "the server says: " + error->message;
+    if (last_trouble_ != error->message) news_ = "error of the server: " + error->message;
     last_trouble_ = error->message;
   } else if (std::holds_alternative<End>(**message)) {
     lose("the server ended the stream");

@@ -13,10 +13,10 @@
 namespace semblante::client {
 
 struct PublisherOptions {
-  bool create = false;  ///< create the stream if it does not exist
-  std::string model;    ///< the model of a stream created so; may be empty
-  bool take_over = false;
-  std::chrono::milliseconds timeout{3000};     ///< of connecting, and of one send
+  bool create = false;                         ///< create the stream if it does not exist
+  std::string model;                           ///< the model of the created stream; may be empty
+  bool take_over = false;                      ///< replace another publisher
+  std::chrono::milliseconds timeout{3000};     ///< for connecting, and for sending one message
   std::chrono::milliseconds retry_first{250};  ///< after a loss; doubled with each failure
   std::chrono::milliseconds retry_most{5000};
 };

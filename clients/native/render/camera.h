@@ -24,12 +24,13 @@ struct Box {
   void add(glm::vec3 point);
 };
 
-/// From where. Sides are the face's own: `left` looks at its left ear, with the nose to the picture's left.
+/// The direction of the camera. Sides are the face's own: `left` looks at its left ear, with the nose on the left of
+/// the image.
 enum class View { front, left, right, three_quarter, three_quarter_right, below, above, back };
-/// At what.
+/// The part of the head in the image.
 enum class Subject { all, face, eyes, mouth };
 
-/// Where a head keeps what a picture can close up on.
+/// The bounding boxes of the subjects of one head.
 struct Subjects {
   Box all, face, eyes, mouth;
   [[nodiscard]] const Box& operator[](Subject subject) const;
@@ -46,11 +47,11 @@ struct Camera {
   [[nodiscard]] glm::mat4 projection(float aspect) const;
 };
 
-/// Camera that sees all of `subject` from `view` with a margin; near and far hold `scene` whole.
+/// A camera that shows all of `subject` from `view` with a margin; the near and far planes enclose all of `scene`.
 Camera frame_box(const Box& subject, const Box& scene, View view, float aspect);
 
-/// By the feature points when there are enough of them, else from the eyeballs (a box each), else by the proportions of
-/// a head that fills `all`.
+/// Finds the subjects by the feature points if there are enough of them, else by the eyeballs (a box each), else by the
+/// proportions of a head that fills `all`.
 Subjects find_subjects(const Box& all, std::span<const FeaturePoint> points,
                        const std::optional<std::array<Box, 2>>& eyes);
 

@@ -9,8 +9,8 @@ Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Tri
                        const std::vector<bool>& is_eye) {
   Eyeballs eyeballs;
   eyeballs.place.assign(positions.size(), glm::vec4(0.0F));
-  // Shells of one eye (sclera, cornea) need not be joined by edges, so the two eyes are told apart by side: of the
-  // middle between the outermost eye vertices, which also holds for a head that does not stand at x = 0.
+  // Shells of one eye (sclera, cornea) may have no common edges, so the two eyes are distinguished by side: relative to
+  // the middle between the outermost eye vertices, which also works for a head that is not at x = 0.
   Box both;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (is_eye[t]) {
@@ -36,7 +36,7 @@ Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Tri
     }
   }
   if (boxes[0].empty() || boxes[1].empty() || boxes[0].min.x <= boxes[1].max.x) {
-    return eyeballs;  // one eye, or something that is no pair of eyes
+    return eyeballs;  // one eye, or not a pair of eyes
   }
   eyeballs.pair = boxes;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -45,7 +45,7 @@ Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Tri
     }
     const Box& box = boxes[side_of(triangles[t])];
     const float radius = std::max(box.size().x, box.size().y) / 2;
-    // From the front: many eyeballs are only the half that shows.
+    // Measured from the front, because many eyeballs are only the visible half.
     const glm::vec3 centre(box.centre().x, box.centre().y, box.max.z - radius);
     for (const std::uint32_t v : triangles[t]) {
       eyeballs.place[v] = glm::vec4((positions[v] - centre) / std::max(radius, 1e-20F), 1.0F);

@@ -14,16 +14,16 @@
 
 namespace semblante::render {
 
-/// The eyeballs of a head as far as drawing needs them.
+/// The data of a head's eyeballs for drawing.
 struct Eyeballs {
-  /// #V: the vertex from its eyeball's centre in units of its radius, w = 1; all 0 elsewhere. Where an eye has no
-  /// texture and no iris of its own, the shader paints one around +Z of this.
+  /// #V: position relative to the centre of the eyeball in units of its radius, w = 1; all 0 elsewhere, and without a
+  /// pair of eyes. If an eye has neither a texture nor an iris part, the shader paints an iris around +Z of this frame.
   std::vector<glm::vec4> place;
-  /// Boxes of the two largest, the face's left first; empty when there are not two.
+  /// Bounding boxes of the left and the right eye; empty unless there are two eyes side by side.
   std::optional<std::array<Box, 2>> pair;
 };
 
-/// `is_eye`: one value a triangle.
+/// `is_eye`: one value per triangle.
 Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
                        const std::vector<bool>& is_eye);
 

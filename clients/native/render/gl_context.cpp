@@ -8,7 +8,7 @@ namespace {
 
 Error refused(const char* step) {
   return {ErrorCode::unsupported, "egl",
-          std::string(step) + " failed: drawing needs Mesa's EGL and OpenGL ES (libegl1, libgles2, libgl1-mesa-dri)"};
+          std::string(step) + " failed: rendering needs Mesa's EGL and OpenGL ES (libegl1, libgles2, libgl1-mesa-dri)"};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace semblante::render {
 /// that last called make_current; not thread-safe.
 class GlContext {
  public:
-  /// Errors: unsupported, saying which step of EGL refused.
+  /// Errors: unsupported, with the step of EGL that failed.
   static Result<std::unique_ptr<GlContext>> create();
   ~GlContext();
   GlContext(const GlContext&) = delete;

@@ -25,7 +25,7 @@ struct Look {
   float alpha_cutoff = 0.5F;
 };
 
-/// Guesses from a name of a material or group ("M_EyeLashes", "teeth-upper"); empty when the name says nothing.
+/// Guesses from a name of a material or group ("M_EyeLashes", "teeth-upper"); empty for an unknown name.
 std::optional<Substance> substance_by_name(std::string_view name);
 
 /// The look of a primitive. A material with a texture or a colour keeps it; one without (or plain white or grey) gets

@@ -12,7 +12,7 @@ namespace semblante::render {
 /// One colour, sRGB encoded.
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// A finished picture: rows from the top, three sRGB bytes a pixel.
+/// A finished picture: rows from the top, three sRGB bytes per pixel.
 struct Picture {
   int width = 0;
   int height = 0;
@@ -21,7 +21,7 @@ struct Picture {
   Picture() = default;
   Picture(int w, int h, Rgb fill);
 
-  /// Copies `other` so that its top left corner is at (x, y); what falls outside is cut off.
+  /// Copies `other` with its top left corner at (x, y); clips the parts outside of this picture.
   void paste(const Picture& other, int x, int y);
 };
 
@@ -36,7 +36,7 @@ Status write_png(const Picture& picture, const std::filesystem::path& path);
 /// Writes a JPEG. Errors: io, with the path in `where`.
 Status write_jpeg(const Picture& picture, const std::filesystem::path& path, int quality);
 
-/// Mean absolute difference of two pictures of the same size, 0..255 a channel.
+/// Mean absolute difference of two pictures of the same size, 0..255 per channel.
 double mean_difference(const Picture& a, const Picture& b);
 
 }  // namespace semblante::render

@@ -330,14 +330,14 @@ Status Renderer::set_positions(std::span<const glm::vec3> positions) {
 
 Result<Picture> Renderer::draw(const Camera& camera, PictureSize size) {
   if (std::min(size.width, size.height) < min_side || std::max(size.width, size.height) > max_side) {
-    return Error{ErrorCode::invalid_argument, "size", "a picture is 16 to 4096 pixels wide and high"};
+    return Error{ErrorCode::invalid_argument, "size", "width and height must be 16 to 4096 pixels"};
   }
   Impl& impl = *impl_;
   impl.context->make_current();
   const int factor = std::max(size.width, size.height) > fine_side ? 2 : 3;
   impl.target.resize(size.width * factor, size.height * factor);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    return Error{ErrorCode::internal, "framebuffer", "the driver refuses a framebuffer of this size"};
+    return Error{ErrorCode::internal, "framebuffer", "the driver does not support a framebuffer of this size"};
   }
   glBindVertexArray(impl.vertex_array);
   glEnable(GL_DEPTH_TEST);

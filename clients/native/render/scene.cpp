@@ -16,7 +16,7 @@ constexpr int max_texture_side = 8192;
 
 Result<Unit> check(const Model& model) {
   if (model.triangles.empty() || model.positions.empty()) {
-    return Error{ErrorCode::empty, "triangles", "there is nothing to draw"};
+    return Error{ErrorCode::empty, "triangles", "the model has no triangles or no vertices"};
   }
   for (const glm::vec3& p : model.positions) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -25,7 +25,7 @@ Result<Unit> check(const Model& model) {
   }
   for (const Triangle& triangle : model.triangles) {
     if (std::max({triangle[0], triangle[1], triangle[2]}) >= model.positions.size()) {
-      return Error{ErrorCode::out_of_range, "triangles", "a triangle names a vertex that is not there"};
+      return Error{ErrorCode::out_of_range, "triangles", "a triangle refers to a vertex that does not exist"};
     }
   }
   for (const Primitive& primitive : model.primitives) {
@@ -33,11 +33,11 @@ Result<Unit> check(const Model& model) {
         primitive.triangle_count > model.triangles.size() - primitive.first_triangle ||
         primitive.material >= static_cast<int>(model.materials.size())) {
       return Error{ErrorCode::out_of_range, "primitives",
-                   "a primitive names triangles or a material that is not there"};
+                   "a primitive refers to triangles or a material that do not exist"};
     }
   }
   if (!model.uv_triangles.empty() && model.uv_triangles.size() != model.triangles.size()) {
-    return Error{ErrorCode::mismatch, "uv_triangles", "not one for each triangle"};
+    return Error{ErrorCode::mismatch, "uv_triangles", "must have one entry for each triangle"};
   }
   return Unit{};
 }
@@ -109,7 +109,8 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
               textures.push_back(std::move(*decoded));
             } else {
               texture = -1;
-              warnings.push_back("image " + std::to_string(image) + " could not be decoded; drawn without it");
+              warnings.push_back("image " + std::to_string(image) +
+                                 " could not be decoded; the surface is drawn without it");
             }
           }
           run.texture = texture;

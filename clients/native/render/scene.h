@@ -19,7 +19,7 @@
 
 namespace semblante::render {
 
-/// A decoded image: rows from the top, four bytes a pixel, sRGB and straight alpha.
+/// A decoded image: rows from the top, four bytes per pixel, sRGB and straight alpha.
 struct Texture {
   int width = 0;
   int height = 0;
@@ -37,7 +37,7 @@ struct Run {
 /// A model laid out for drawing: one vertex for each (file vertex, uv) pair.
 struct Scene {
   std::vector<glm::vec3> rest;             ///< #V: file vertices of the neutral head
-  std::vector<std::uint32_t> file_vertex;  ///< #R: where a drawn vertex takes position and normal from
+  std::vector<std::uint32_t> file_vertex;  ///< #R: the file vertex with the position and normal of a drawn vertex
   std::vector<glm::vec2> uvs;              ///< #R
   std::vector<glm::vec4> eye;              ///< #R: Eyeballs::place
   std::vector<Triangle> triangles;         ///< #T, drawn vertices
@@ -45,12 +45,12 @@ struct Scene {
   std::vector<Texture> textures;
   SmoothNormals normals;
   Subjects subjects;
-  std::vector<std::string> warnings;  ///< pictures that could not be decoded
+  std::vector<std::string> warnings;  ///< images that could not be decoded
 };
 
 struct SceneOptions {
   std::span<const FeaturePoint> points;      ///< for the close-ups; may be empty
-  std::span<const PartRole> role_of_vertex;  ///< #V or empty: tells eyes and teeth of a nameless model
+  std::span<const PartRole> role_of_vertex;  ///< #V or empty: identifies eyes and teeth of a model without names
 };
 
 /// Errors: empty (no triangles), out_of_range (an index beyond its array), not_finite (a position).

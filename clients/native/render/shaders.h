@@ -2,7 +2,7 @@
 
 namespace semblante::render::shaders {
 
-/// Depth of the key light's view, for its shadow.
+/// Renders depth from the key light, for its shadow map.
 inline constexpr const char* shadow_vertex = R"(#version 300 es
 layout(location = 0) in vec3 position;
 uniform mat4 to_light;
@@ -33,7 +33,7 @@ void main() {
   across = normal;
   texture_at = uv;
   eye_at = eye;
-  // A little off the surface, so that the flat triangles of a coarse head do not shade each other.
+  // Offset from the surface, so that the flat triangles of a coarse head do not shadow each other.
   vec4 above = vec4(position + normal * shadow_offset, 1.0);
   in_light = to_light * above;
   in_front_light = to_front_light * above;
@@ -79,7 +79,7 @@ float lit(sampler2DShadow map, vec4 place, float slope) {
   return sum / 9.0;
 }
 
-// A dark ring, a coloured iris with a lighter inner part, a pupil: by the sine of the angle from the eye's axis.
+// Paints a dark ring, an iris with a lighter inner part, and a pupil, by the sine of the angle from the eye's axis.
 vec3 paint_eye(vec3 white, vec3 place) {
   float r = length(place.xy) / max(length(place), 1e-4);
   if (place.z <= 0.0) return white;
@@ -93,7 +93,7 @@ vec3 paint_eye(vec3 white, vec3 place) {
 }
 
 vec3 shade(vec3 n, vec3 v, vec3 l, vec3 light, vec3 albedo, float shadow) {
-  // Skin scatters: light leaks past the edge of the shade, red the farthest.
+  // Subsurface scattering of skin: light extends beyond the edge of the shadow, red the farthest.
   vec3 wrap = is_skin == 1 ? vec3(0.30, 0.16, 0.11) : vec3(0.04);
   vec3 diffuse = max((vec3(dot(n, l)) + wrap) / (1.0 + wrap), 0.0);
   vec3 soft_shadow = is_skin == 1 ? mix(vec3(0.10, 0.03, 0.02), vec3(1.0), shadow) : vec3(shadow);
@@ -115,7 +115,7 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   vec3 albedo = base.rgb;
   if (is_eye == 1 && eye_at.w > 0.5) albedo = paint_eye(albedo, eye_at.xyz);
-  // Inside a mouth little light arrives from anywhere: what the front light cannot see gets less of the ambient too.
+  // Little light enters a mouth: surfaces in the shadow of the front light also get less ambient light.
   float key = lit(key_shadow, in_light, 1.0 - max(dot(n, key_direction), 0.0));
   float open = lit(front_shadow, in_front_light, 1.0 - max(dot(n, fill_direction), 0.0));
   float sky = n.y * 0.5 + 0.5;
@@ -125,7 +125,7 @@ void main() {
   sum += shade(n, v, fill_direction, vec3(0.40, 0.43, 0.48), albedo, open);
   float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0) * max(dot(n, rim_direction), 0.0);
   sum += vec3(0.42, 0.46, 0.54) * rim * open;
-  // Keeps highlights from clipping without greying the rest.
+  // Prevents clipped highlights without greying the rest.
   sum = sum / (1.0 + 0.16 * max(max(sum.r, sum.g), sum.b)) * 1.08;
   color = vec4(sum, base.a);
 }

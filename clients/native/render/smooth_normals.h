@@ -10,16 +10,17 @@
 
 namespace semblante::render {
 
-/// Normals for shading that do not show where a file splits its vertices. Built once on the neutral head, since a
-/// deformed one may bring two vertices to one place that are no seam (closed lips).
+/// Normals for shading without visible seams where a file splits its vertices. Built once on the neutral head, because
+/// in a deformed one two vertices without a seam may have the same position (closed lips).
 class SmoothNormals {
  public:
-  /// `group_of_triangle`: vertices at one place are joined within a group only, so that lashes leave a lid's shading
-  /// alone. One value a triangle.
+  /// `group_of_triangle`: one value per triangle. Vertices at one place are joined only within a group, so that lashes
+  /// do not affect the shading of a lid.
   SmoothNormals(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> group_of_triangle);
 
-  /// Unit normals of `positions` (deformed, same numbering), one a vertex; +Z where no triangle has an area.
+  /// Unit normals of `positions` (deformed, same numbering), one per vertex; +Z for a vertex without a triangle with an
+  /// area.
   [[nodiscard]] std::vector<glm::vec3> compute(std::span<const glm::vec3> positions) const;
 
  private:

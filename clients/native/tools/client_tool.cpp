@@ -87,7 +87,7 @@ Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player,
       }
     }
     if (!shown) {
-      return Error{ErrorCode::io, "stream", "it ended after " + std::to_string(collected.size()) + " frames"};
+      return Error{ErrorCode::io, "stream", "the stream ended after " + std::to_string(collected.size()) + " frames"};
     }
     collected.push_back(*shown);
   }
@@ -97,7 +97,7 @@ Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player,
 Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face& face, FrameOutput& output) {
   for (const client::DisplayedFrame& frame : frames) {
     if (semblante_head_set_interpolated(face.head(), &frame.from.frame, &frame.to.frame, frame.t) != SEMBLANTE_OK) {
-      return Error{ErrorCode::not_finite, "stream", "a frame holds a number that is not finite"};
+      return Error{ErrorCode::not_finite, "stream", "a frame has a value that is not a finite number"};
     }
     if (auto written = output.write(frame.from.sequence, frame.media_time); !written) {
       return written;
@@ -151,7 +151,7 @@ Status subscribe(const client::Url& url, const Arguments& arguments) {
   }
   const std::string model = arguments.model.empty() ? player.header()->model : arguments.model;
   if (model.empty()) {
-    return Error{ErrorCode::missing, arguments.stream, "the stream suggests no model; name one with --model"};
+    return Error{ErrorCode::missing, arguments.stream, "the stream suggests no model; set one with --model"};
   }
   auto face = client::load_face(http, model, {.lod = std::nullopt, .max_vertices = arguments.max_vertices});
   if (!face) {
@@ -194,32 +194,34 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   semblante::tools::Arguments arguments;
-  CLI::App app{"Follows a stream with a face of a Semblante server and writes what it sees, or publishes to a stream.",
-               "semblante-client"};
+  CLI::App app{
+      "Follows a stream of a Semblante server and writes the frames of a face, or publishes frames to a stream.",
+      "semblante-client"};
   app.add_option("url", arguments.url, "http://HOST:PORT of the server")->required();
   app.add_option("-s,--stream", arguments.stream, "id of the stream")->capture_default_str();
-  app.add_option("-m,--model", arguments.model, "id of the model; without it the one the stream suggests");
-  app.add_option("--max-vertices", arguments.max_vertices, "take the level of detail of at most that many vertices")
+  app.add_option("-m,--model", arguments.model, "id of the model; default: the one the stream suggests");
+  app.add_option("--max-vertices", arguments.max_vertices, "use the level of detail with at most this many vertices")
       ->check(CLI::PositiveNumber);
-  app.add_option("-n,--frames", arguments.frames, "how many frames to write")
+  app.add_option("-n,--frames", arguments.frames, "number of frames to write")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  app.add_option("--fps", arguments.fps, "frames a second of stream time, interpolated; 0: each frame as it comes")
+  app.add_option("--fps", arguments.fps, "frames per second of stream time, interpolated; 0: each received frame")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   app.add_option("-o,--out", arguments.output.folder, "folder for frame-00000.* and frames.csv");
-  app.add_option("--record", arguments.record, "in place of --out: JSON {\"frames\": [...]} of what the stream sends");
+  app.add_option("--record", arguments.record,
+                 "file for the received frames as JSON {\"frames\": [...]}, instead of --out");
   app.add_option("-f,--format", arguments.output.formats, "obj, ply, png, table; repeatable")->capture_default_str();
-  app.add_option("--shot", arguments.output.shot, "VIEW or VIEW:SUBJECT of the png")->capture_default_str();
-  app.add_option("--size", arguments.output.size, "of the png, pixels")->capture_default_str();
+  app.add_option("--shot", arguments.output.shot, "VIEW or VIEW:SUBJECT of the PNG")->capture_default_str();
+  app.add_option("--size", arguments.output.size, "size of the PNG in pixels")->capture_default_str();
   app.add_option("--role", arguments.role, "subscribe or publish")
       ->check(CLI::IsMember({"subscribe", "publish"}))
       ->capture_default_str();
-  app.add_option("--frames-file", arguments.frames_file, "with --role publish: JSON {\"frames\": [...]}");
+  app.add_option("--frames-file", arguments.frames_file, "frames for --role publish, as JSON {\"frames\": [...]}");
   app.add_option("--timeout", arguments.timeout, "seconds to wait for the server")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
-  app.add_flag("--json", arguments.json, "speak the JSON subprotocol instead of the binary one");
+  app.add_flag("--json", arguments.json, "use the JSON subprotocol instead of the binary one");
   app.callback([&] {
     if (arguments.role == "publish" && arguments.frames_file.empty()) {
       throw CLI::RequiredError("--frames-file");

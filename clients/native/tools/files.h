@@ -13,10 +13,10 @@ namespace semblante::tools {
 Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path);
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// The error with the file in front of the place in it.
+/// The error with the path of the file prepended to `where`.
 Error in_file(const std::filesystem::path& path, Error error);
 
-/// "where: message" for a terminal.
+/// Formats an error as "where: message" for a terminal.
 std::string to_text(const Error& error);
 
 }  // namespace semblante::tools

@@ -39,7 +39,7 @@ FrameOutput::~FrameOutput() = default;
 Result<FrameOutput> FrameOutput::create(const client::Face& face, const OutputOptions& options) {
   for (const std::string& format : options.formats) {
     if (format != "obj" && format != "ply" && format != "png" && format != "table") {
-      return Error{ErrorCode::invalid_argument, format, "a format is obj, ply, png or table"};
+      return Error{ErrorCode::invalid_argument, format, "the format must be obj, ply, png or table"};
     }
   }
   auto shot = parse_shot(options.shot);

@@ -14,15 +14,15 @@ namespace semblante::tools {
 
 struct OutputOptions {
   std::filesystem::path folder;
-  std::vector<std::string> formats = {"obj"};  ///< of obj, ply, png, table
-  std::string shot = "front:face";             ///< of the png
-  std::string size = "512x512";                ///< of the png
+  std::vector<std::string> formats = {"obj"};  ///< any of obj, ply, png, table
+  std::string shot = "front:face";             ///< for png
+  std::string size = "512x512";                ///< for png
 };
 
 /// Writes the current face, one numbered file per frame and format, and an index of them.
 class FrameOutput {
  public:
-  /// Makes the folder, and the renderer when pictures are asked for. `face` must outlive the output. Errors:
+  /// Creates the folder, and the renderer if "png" is requested. `face` must outlive the output. Errors:
   /// invalid_argument (an unknown format, shot or size), io, unsupported (no EGL).
   static Result<FrameOutput> create(const client::Face& face, const OutputOptions& options);
   FrameOutput(FrameOutput&&) noexcept;

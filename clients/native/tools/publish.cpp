@@ -22,7 +22,7 @@ Status listen(client::StreamClient& stream, Clock::time_point until) {
       return Unit{};
     }
     if (const auto* error = std::get_if<StreamError>(&**message)) {
-      return Error{ErrorCode::invalid_argument, "stream" + error->where, "the server says: " + error->message};
+      return Error{ErrorCode::invalid_argument, "stream" + error->where, "error of the server: " + error->message};
     }
     if (std::holds_alternative<End>(**message)) {
       return Error{ErrorCode::io, "stream", "the server ended the stream"};

@@ -10,9 +10,10 @@ Result<Shot> parse_shot(const std::string& text) {
   const auto subject =
       colon == std::string::npos ? render::Subject::all : render::parse_subject(text.substr(colon + 1));
   if (!view || !subject) {
-    return Error{ErrorCode::invalid_argument, text,
-                 "a shot is VIEW or VIEW:SUBJECT with views front, left, right, three-quarter, three-quarter-right, "
-                 "below, above, back and subjects all, face, eyes, mouth"};
+    return Error{
+        ErrorCode::invalid_argument, text,
+        "a shot must be VIEW or VIEW:SUBJECT with views front, left, right, three-quarter, three-quarter-right, "
+        "below, above, back and subjects all, face, eyes, mouth"};
   }
   return Shot{text, *view, *subject};
 }
@@ -40,7 +41,7 @@ Result<render::PictureSize> parse_size(const std::string& text) {
                         ? read(text, size.width) && read(text, size.height)
                         : read(text.substr(0, cross), size.width) && read(text.substr(cross + 1), size.height);
   if (!good) {
-    return Error{ErrorCode::invalid_argument, text, "a size is WIDTHxHEIGHT or one number, 16 to 4096"};
+    return Error{ErrorCode::invalid_argument, text, "a size must be WIDTHxHEIGHT or one number, each 16 to 4096"};
   }
   return size;
 }

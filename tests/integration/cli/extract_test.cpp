@@ -55,7 +55,7 @@ TEST_F(Extract, WritesTheDifferenceInUnits_AndSaysWhatIsMissing) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   // 1 / (4 / 1024), -0.5 / (2 / 1024)
   EXPECT_EQ(set(), json::parse(R"({"name": "smile", "kind": "expression", "displacements": {"8.3": [256, -256, 0]}})"));
-  EXPECT_NE(outcome.err.find("they lie at no vertex: 7.1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("they have no vertex: 7.1"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("not marked on this head: "), std::string::npos) << outcome.err;
 }
 
@@ -82,7 +82,8 @@ TEST_F(Extract, RefusesInOneLine_NamingWhatIsWrong) {
     EXPECT_EQ(line_count(outcome.err), 1U) << outcome.err;
   };
   refused(extract({}), "give the file of the expression, or --target");
-  refused(extract({"--target", "smile"}), "--target smile: the model has no morph target of this name; it has none");
+  refused(extract({"--target", "smile"}),
+          "--target smile: the model has no morph target of this name; it has no morph targets");
   refused(extract({neutral}), "moves none of the marked feature points");
   refused(extract({work.write("fewer.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}),
           "has 3 vertices, the neutral head 81");

@@ -144,14 +144,14 @@ TEST_F(SameAsWorker, BodyAlongZ) {
 
 TEST_F(SameAsWorker, PointsThatShowAnotherStance) {
   const Warnings warnings = compare(head_obj(true), head_points());
-  EXPECT_THAT(warnings.import, Contains(HasSubstr("cannot be told for certain")));
+  EXPECT_THAT(warnings.import, Contains(HasSubstr("axes of the head are uncertain")));
   EXPECT_THAT(warnings.package, Contains(HasSubstr("the feature points show that the head stands along +Z")));
 }
 
 TEST_F(SameAsWorker, UnsureStance) {
   const json points = {{"2.1", {{"vertex", 13}}}, {"7.1", {{"position", {4, 4, -3}}}}};
   const Warnings warnings = compare(torn_sheet_obj(), points);
-  EXPECT_THAT(warnings.package, Contains(HasSubstr("cannot be told for certain")));
+  EXPECT_THAT(warnings.package, Contains(HasSubstr("axes of the head are uncertain")));
 }
 
 }  // namespace

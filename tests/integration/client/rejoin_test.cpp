@@ -70,7 +70,7 @@ class Told {
 
   void take(const Message& message, const LiveStream& stream) {
     if (const auto* header = std::get_if<Header>(&message)) {
-      joins.push_back({stream.said_resume(), *header, {}, {}});
+      joins.push_back({stream.sent_resume(), *header, {}, {}});
     } else if (const auto* keyframe = std::get_if<Keyframe>(&message)) {
       if (!joins.back().keyframe) {
         joins.back().keyframe = keyframe->sequence;

@@ -60,7 +60,7 @@ TEST_F(BadInput, ZipWithoutModel_IsAMalformedModel) {
       json_of(request(port(), "POST", "/v1/models?filename=a.zip", zip, {{"Content-Type", "application/zip"}}));
   const auto problem = wait_for_job(port(), made["job"]["id"])["problem"];
   EXPECT_EQ(problem["type"], "/problems/malformed-model") << problem;
-  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb or .obj"));
+  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb, .vrm or .obj file"));
 }
 
 TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {

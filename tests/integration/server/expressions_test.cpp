@@ -230,14 +230,14 @@ TEST_F(ExpressionRoutes, BadExamples_AreRefusedAtOnceOrFailTheirJob) {
   expect_failed(with(grid_obj(9)), "invalid-field", "/expression", "moves none of the marked");
   expect_failed(with(smile_obj("nan 0 0")), "malformed-model", "line 35", "not a finite number");
   expect_failed(with(smile_obj("1e30 0 0")), "malformed-model", "vertex 33", "larger than 1e15");
-  expect_failed(with(smile_obj("1e9 0 0")), "invalid-field", "/expression", "in one unit");
+  expect_failed(with(smile_obj("1e9 0 0")), "invalid-field", "/expression", "the same unit");
   // The same vertices, but faces of another order: numbered otherwise.
   std::string other = smile_obj();
   for (int i = 1; i <= 64; ++i) {
     const auto v = [&](int k) { return std::to_string((i * 37 + k * 29) % 81 + 1); };
     other += "f " + v(0) + " " + v(1) + " " + v(2) + "\n";
   }
-  expect_failed(with(other), "invalid-field", "/expression", "numbered otherwise");
+  expect_failed(with(other), "invalid-field", "/expression", "another order");
 
   expect_problem(post_form({{"options", options}}), 422, "invalid-field", "/expression");
   expect_problem(post_form({{"expression", smile_obj(), "a.obj"}}), 422, "invalid-field", "/neutral");

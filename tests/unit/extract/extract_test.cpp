@@ -93,7 +93,7 @@ TEST_F(PointHead, APointWhoseUnitIsMissingIsLeftOutByName_OnlyIfItMovesAlongThat
   EXPECT_EQ(result->skipped[0].unit, FapuUnit::mw);
   ASSERT_EQ(result->displacements.size(), 1U);
   EXPECT_EQ(to_string(result->displacements[0].point), "8.4");
-  EXPECT_EQ(explain(*result)[0], "left out, since MW of this head is not known: 8.3");
+  EXPECT_EQ(explain(*result)[0], "omitted, because MW of this head is unknown: 8.3");
 }
 
 TEST_F(PointHead, BarePositionsAreLeftOutByName) {
@@ -105,7 +105,7 @@ TEST_F(PointHead, BarePositionsAreLeftOutByName) {
   ASSERT_EQ(result->bare.size(), 1U);
   EXPECT_EQ(to_string(result->bare[0]), "3.5");
   EXPECT_EQ(result->displacements.size(), 1U);
-  EXPECT_EQ(explain(*result)[0], "left out, since they lie at no vertex: 3.5");
+  EXPECT_EQ(explain(*result)[0], "omitted, because they have no vertex: 3.5");
 }
 
 TEST_F(PointHead, RefusesWhatCannotBeAnExampleOfThisHead) {
@@ -131,7 +131,7 @@ TEST_F(PointHead, RefusesWhatCannotBeAnExampleOfThisHead) {
   const auto other_unit = extract();
   ASSERT_FALSE(other_unit);
   EXPECT_EQ(other_unit.error().code, ErrorCode::out_of_range);
-  EXPECT_THAT(other_unit.error().message, HasSubstr("in one unit"));
+  EXPECT_THAT(other_unit.error().message, HasSubstr("the same unit"));
 
   expression.pop_back();
   const auto other_mesh = extract();

@@ -33,7 +33,7 @@ TEST(ShapeOfTarget, ListsTheNamesThereAre) {
   EXPECT_EQ(unknown.error().message, "the model has no morph target of this name; it has up, aside");
   const auto none = shape_of_target(testing::make_grid(1, 1), "down");
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().message, "the model has no morph target of this name; it has none");
+  EXPECT_EQ(none.error().message, "the model has no morph target of this name; it has no morph targets");
 }
 
 TEST(ShapeOfFile, TakesVerticesAlone) {

@@ -149,7 +149,7 @@ TEST(VertexColors, AreSaidToBeLeftOut) {
   const auto model = writer.import();
   ASSERT_TRUE(model) << model.error().message;
   ASSERT_EQ(model->warnings.size(), 1U);
-  EXPECT_NE(model->warnings[0].find("colours of vertices"), std::string::npos);
+  EXPECT_NE(model->warnings[0].find("vertex colours"), std::string::npos);
 }
 
 }  // namespace

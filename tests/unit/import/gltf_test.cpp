@@ -186,7 +186,7 @@ TEST(Gltf, Index_OutOfRange_IsRefused_WithItsPlace) {
   ASSERT_FALSE(model);
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::out_of_range));
   EXPECT_EQ(model.error().where, "/accessors/2");
-  EXPECT_NE(model.error().message.find("element 4 is vertex 4, there are 4"), std::string::npos)
+  EXPECT_NE(model.error().message.find("element 4 refers to vertex 4, but there are 4"), std::string::npos)
       << model.error().message;
 }
 
@@ -395,7 +395,7 @@ TEST(Draco, HeaderThatAnnouncesMoreThanItsBytesHold_IsRefused_BeforeDecoding) {
     data.insert(data.begin() + static_cast<std::ptrdiff_t>(at), huge.begin(), huge.end());
     const auto model = import_model(make_glb(quad_draco_json(data.size()), data), ModelFormat::glb);
     ASSERT_FALSE(model);
-    EXPECT_NE(model.error().message.find("announces"), std::string::npos) << model.error().message;
+    EXPECT_NE(model.error().message.find("declares"), std::string::npos) << model.error().message;
     EXPECT_EQ(model.error().where, "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression");
   }
 }

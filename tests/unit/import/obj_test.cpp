@@ -107,7 +107,7 @@ TEST(Obj, EverythingWeRead_ComesOutAsWritten) {
   EXPECT_EQ(model->primitives[2].material, 0);
   ASSERT_EQ(model->warnings.size(), 2U);
   EXPECT_NE(model->warnings[0].find("none.mtl"), std::string::npos);
-  EXPECT_NE(model->warnings[1].find("colours of vertices"), std::string::npos);
+  EXPECT_NE(model->warnings[1].find("vertex colours"), std::string::npos);
 }
 
 TEST(Obj, Face_BeforeItsVertices_IsRead) {

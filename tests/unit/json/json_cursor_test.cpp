@@ -44,7 +44,7 @@ TEST(JsonCursor, FirstFault_IsKept_WithItsPointer) {
     (void)root.member("a").element(1).number();
     (void)root.member("b").text();
   };
-  EXPECT_EQ(fault(R"({"a": [1, "x"], "b": 1})", twice), "/a/1: must be a number, not a text");
+  EXPECT_EQ(fault(R"({"a": [1, "x"], "b": 1})", twice), "/a/1: must be a number, not a string");
   EXPECT_EQ(fault(R"({"a": [1, 2]})", twice), "/b: is missing");
   EXPECT_EQ(fault(R"({"a": [1]})", twice), "/a/1: is missing");
   EXPECT_EQ(fault(R"({"a": {}})", twice), "/a: must be an array, not an object");
@@ -71,7 +71,8 @@ TEST(JsonCursor, Indices_ArePlacesInAnArray) {
   EXPECT_EQ(fault(R"({"i": 2})", read), "");
   EXPECT_EQ(fault(R"({"i": null})", read), "");
   EXPECT_EQ(fault(R"({"i": 3})", read), "/i: must be between 0 and 2, not 3");
-  EXPECT_EQ(fault(R"({"i": 0})", [](const JsonCursor& root) { (void)root.index("i", 0); }), "/i: there are none");
+  EXPECT_EQ(fault(R"({"i": 0})", [](const JsonCursor& root) { (void)root.index("i", 0); }),
+            "/i: refers to an empty list");
   EXPECT_EQ(fault("{}", [](const JsonCursor& root) { (void)root.required_index("i", 3); }), "/i: is missing");
 }
 

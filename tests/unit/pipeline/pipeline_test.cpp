@@ -90,7 +90,7 @@ TEST(StandHead, UnsureStance_IsLeft_WithAWarning) {
   const auto head = stand_head({testing::make_grid(4, 4), {}}, {});
   ASSERT_TRUE(head);
   EXPECT_EQ(head->to_mpeg4, glm::dmat3(1.0));
-  EXPECT_THAT(head->warnings.all(), ElementsAre(HasSubstr("cannot be told for certain")));
+  EXPECT_THAT(head->warnings.all(), ElementsAre(HasSubstr("axes of the head are uncertain")));
 }
 
 TEST(StandHead, AxesOfThePointsFile_AreNotGuessedAgain) {
@@ -122,7 +122,7 @@ TEST(MarkHead, PointsThatShowAnotherStance_TurnHeadAndPoints) {
 TEST(MarkHead, PointsThatAreSure_TakeTheDoubtAway) {
   auto standing = stand_head(sample_standing({}), {{}, ModelFrame{}, {}});
   ASSERT_TRUE(standing);
-  ASSERT_THAT(standing->warnings.stance, ElementsAre(HasSubstr("cannot be told")));
+  ASSERT_THAT(standing->warnings.stance, ElementsAre(HasSubstr("axes of the head are uncertain")));
   const auto head = mark_head(std::move(*standing), {sample_marks({}), {}});
   ASSERT_TRUE(head);
   EXPECT_FALSE(head->turn);
