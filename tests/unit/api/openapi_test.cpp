@@ -1,7 +1,5 @@
 // The API document against the table of routes, and every JSON file that is published: what needs no server to be seen.
 
-#include "server/api/openapi.h"
-
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +13,7 @@
 
 #include "core/import/model_formats.h"
 #include "core/json/read_json.h"
+#include "server/api/documents.h"
 #include "server/api/routes.h"
 
 namespace semblante::api {
