@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <iostream>
-#include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/native/render/renderer.h"
-#include "clients/native/tools/files.h"
+#include "clients/native/tools/run_tool.h"
 #include "clients/native/tools/shots.h"
 #include "core/expressions/library.h"
 #include "core/import/model_formats.h"
@@ -205,22 +204,15 @@ int main(int argc, char** argv) {
   app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();
   app.add_option("--size", arguments.size, "of one picture, pixels")->capture_default_str();
   app.add_option("--frame", arguments.faps, "a face of one's own, NUMBER=VALUE,... in FAP units; repeatable");
-  const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
-                                                                  {"smooth", semblante::WeightMethod::smooth}};
   app.add_option("--weights", arguments.weights,
                  "how weights are computed: paper, smooth; both for a sheet that compares them")
       ->expected(1, 2)
-      ->transform(CLI::CheckedTransformer(methods));
+      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()));
   app.add_option("--max-vertices", arguments.max_vertices, "draw the level of detail of that many vertices; 0: all");
   app.add_flag("--matrix", arguments.matrix,
                "one sheet of all combinations: the visemes down, the expressions across; instead of the two sheets");
   app.add_option("--jpeg", arguments.jpeg_quality, "JPEG of this quality, 1 to 100, instead of PNG")
       ->check(CLI::Range(1, 100));
   app.add_flag("--only-frames", arguments.only_faps, "no visemes and expressions, only the --frame faces");
-  CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::pictures::run(arguments); !done) {
-    std::cerr << "semblante-contact-sheet: " << semblante::tools::to_text(done.error()) << '\n';
-    return 1;
-  }
-  return 0;
+  return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::pictures::run(arguments); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ Result<ImportedHead> load_model(const std::filesystem::path& path);
 /// that many vertices, 0: as it is; a warning says when no such level can be made. Errors name the file.
 Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
                                   WeightMethod weights = WeightMethod::paper, std::uint32_t max_vertices = 0);
+
+/// The methods by the names that --weights takes.
+std::map<std::string, WeightMethod> weight_methods();
 
 /// "3=200,19=512" -> a frame. Errors: invalid_argument, naming the entry.
 Result<semblante_frame> parse_faps(const std::string& text);
