@@ -1,4 +1,5 @@
 import {
+  largestEyeTurnDegrees,
   shutLidUnits,
   usualRamps,
   type Cue,
@@ -18,8 +19,7 @@ export interface PerformedFace {
 }
 
 const unitsPerDegree = 1745.3292519943296; // AU: 1e-5 rad
-const largestEyeYaw = 45;
-const largestEyePitch = 35;
+const { yaw: largestEyeYaw, pitch: largestEyePitch } = largestEyeTurnDegrees;
 const upperLidUnits = shutLidUnits.upper;
 const lowerLidUnits = shutLidUnits.lower;
 const headRamp = usualRamps.head[0];

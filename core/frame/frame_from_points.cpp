@@ -43,7 +43,7 @@ class Evidence {
 glm::dvec3 left_of(std::span<const PlacedPoint> points) {
   Evidence evidence;
   for (const PlacedPoint& point : points) {
-    const mpeg4::FeaturePoint& info = mpeg4::feature_points[point.id.value()];
+    const mpeg4::FeaturePointInfo& info = mpeg4::feature_points[point.id.value()];
     if (info.side != mpeg4::Side::left) continue;
     for (const PlacedPoint& other : points) {
       if (other.id.value() == info.mirror) evidence.add(other.position, point.position);

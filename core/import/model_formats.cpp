@@ -14,26 +14,15 @@ bool has_ending(std::string_view name, std::string_view ending) {
 }  // namespace
 
 std::string_view to_string(ModelFormat format) {
-  switch (format) {
-    case ModelFormat::glb:
-      return "glb";
-    case ModelFormat::gltf:
-      return "gltf";
-    case ModelFormat::gltf_zip:
-      return "gltf_zip";
-    case ModelFormat::obj:
-      return "obj";
-    case ModelFormat::ply:
-      return "ply";
-    case ModelFormat::stl:
-      return "stl";
+  for (const auto& row : model_formats) {
+    if (row.format == format) return row.name;
   }
   return "";
 }
 
 std::optional<ModelFormat> parse_model_format(std::string_view name) {
-  for (const ModelFormat format : all_model_formats) {
-    if (to_string(format) == name) return format;
+  for (const auto& row : model_formats) {
+    if (row.name == name) return row.format;
   }
   return std::nullopt;
 }

@@ -36,10 +36,21 @@ inline constexpr auto other_model_media_types =
     std::to_array<std::string_view>({"application/octet-stream", "application/ply", "application/sla",
                                      "application/x-zip-compressed", "model/vnd.ply", "text/plain"});
 
-inline constexpr std::array all_model_formats = {ModelFormat::glb, ModelFormat::gltf, ModelFormat::gltf_zip,
-                                                 ModelFormat::obj, ModelFormat::ply,  ModelFormat::stl};
+/// A format as options and reports name it.
+struct ModelFormatName {
+  ModelFormat format;
+  std::string_view name;
+};
 
-/// "glb", "gltf", "gltf_zip", "obj", "ply", "stl".
+/// Every format once.
+inline constexpr auto model_formats = std::to_array<ModelFormatName>({{ModelFormat::glb, "glb"},
+                                                                      {ModelFormat::gltf, "gltf"},
+                                                                      {ModelFormat::gltf_zip, "gltf_zip"},
+                                                                      {ModelFormat::obj, "obj"},
+                                                                      {ModelFormat::ply, "ply"},
+                                                                      {ModelFormat::stl, "stl"}});
+
+/// Its name in the table.
 std::string_view to_string(ModelFormat format);
 
 /// The reverse; nullopt for any other text.

@@ -10,8 +10,6 @@ namespace semblante {
 namespace {
 
 constexpr double units_per_degree = 1745.3292519943296;  ///< AU: 1e-5 rad
-constexpr double largest_eye_yaw = 45.0;                 ///< degrees
-constexpr double largest_eye_pitch = 35.0;
 
 double over(double below, double weight, double value) { return below + weight * (value - below); }
 
@@ -163,8 +161,9 @@ semblante_frame Performance::frame_at(double ms, double idle_ms) const {
   }
   std::array<double, SEMBLANTE_FAP_COUNT + 1> fap{};
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    fap[23 + eye] = units_per_degree * std::clamp(gaze.eye_yaw[eye], -largest_eye_yaw, largest_eye_yaw);
-    fap[25 + eye] = units_per_degree * std::clamp(gaze.eye_pitch[eye], -largest_eye_pitch, largest_eye_pitch);
+    fap[23 + eye] = units_per_degree * std::clamp(gaze.eye_yaw[eye], -largest_eye_yaw_degrees, largest_eye_yaw_degrees);
+    fap[25 + eye] =
+        units_per_degree * std::clamp(gaze.eye_pitch[eye], -largest_eye_pitch_degrees, largest_eye_pitch_degrees);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) fap[48 + axis] = units_per_degree * gaze.head[axis];
 

@@ -35,4 +35,8 @@ inline constexpr double blink_ms = usual_ramps[4].ramps.attack + usual_ramps[4].
 inline constexpr double upper_lid_units = 940.0;
 inline constexpr double lower_lid_units = 84.0;
 
+/// How far performances turn an eye, sideways and up or down.
+inline constexpr double largest_eye_yaw_degrees = 45.0;
+inline constexpr double largest_eye_pitch_degrees = 35.0;
+
 }  // namespace semblante

@@ -62,7 +62,7 @@ PartRole role_of_point(FeaturePointId id) {
 
 std::optional<std::uint32_t> find_extreme(const FaceSurface& face, const MirrorPlane& plane, FeaturePointId id,
                                           const glm::dvec3& place) {
-  const mpeg4::FeaturePoint& info = mpeg4::feature_points[id.value()];
+  const mpeg4::FeaturePointInfo& info = mpeg4::feature_points[id.value()];
   const bool on_right = info.side == mpeg4::Side::right;
   const std::string_view name = on_right ? mpeg4::feature_points[info.mirror].id : info.id;
   const auto* const extreme =

@@ -46,7 +46,7 @@ struct Fap {
   [[nodiscard]] constexpr std::int32_t max() const { return max_level * quantizer_step; }  ///< FAP units
 };
 
-struct FeaturePoint {
+struct FeaturePointInfo {
   std::string_view id;  ///< "2.1"
   std::string_view name;
   Side side;

@@ -116,7 +116,7 @@ std::string feature_point_group_table() {
 std::string feature_point_table() {
   std::string out = header({"index", "FP", "side", "mirror", "FAPs", "place"});
   for (std::size_t i = 0; i < mpeg4::feature_points.size(); ++i) {
-    const mpeg4::FeaturePoint& point = mpeg4::feature_points[i];
+    const mpeg4::FeaturePointInfo& point = mpeg4::feature_points[i];
     const char* const side = point.side == mpeg4::Side::left    ? "left"
                              : point.side == mpeg4::Side::right ? "right"
                                                                 : "middle";

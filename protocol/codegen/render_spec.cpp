@@ -12,16 +12,12 @@ std::string bounds(const Json& field) {
   return field.contains("min") ? ", " + field.at("min").dump() + " to " + field.at("max").dump() : std::string();
 }
 
-std::string wire_form(const Json& field) {
-  if (appended(field)) {
-    Json plain = field;
-    plain.erase("appended");
-    return "appended: nothing, or " + wire_form(plain);
-  }
+/// The binary form of a field that is there.
+std::string value_form(const Json& field) {
   const std::string type = text(field, "type");
   if (type == "uint") return "varint, at most " + field.at("max").dump();
   if (type == "real") return "f64" + bounds(field);
-  if (type == "optional_real") return "appended: nothing, or u8, 0 or 1; if 1, an f64" + bounds(field);
+  if (type == "optional_real") return "u8, 0 or 1; if 1, an f64" + bounds(field);
   if (type == "bool") return "u8, 0 or 1";
   if (type == "text") return "text of at most " + field.at("max").dump() + " bytes";
   if (type == "reals") {
@@ -31,6 +27,10 @@ std::string wire_form(const Json& field) {
   if (type == "enum") return "u8, `" + text(field, "enum") + "`";
   if (type == "optional") return "u8, 0 or 1; if 1, a `" + text(field, "struct") + "`";
   return "see \"" + std::string(type == "state" ? "State" : "Batches") + "\"";
+}
+
+std::string wire_form(const Json& field) {
+  return (appended(field) ? "appended: nothing, or " : "") + value_form(field);
 }
 
 std::string field_table(const Json& record) {

@@ -115,13 +115,13 @@ export type Field =
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
-  | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
+  | { name: string; type: 'optional_real'; min: number; max: number; appended: true; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
 
 /** A field that was not there at first: where a message has its default, it is left out or the message ends before it. */
 export function isAppended(field: Field): field is Field & { fallback: unknown } {
-  return field.type === 'optional_real' || ((field.type === 'bool' || field.type === 'enum') && field.appended === true);
+  return 'appended' in field && field.appended === true;
 }
 
 /** A message: the first byte of its binary form, `type` of its JSON form, its fields. */

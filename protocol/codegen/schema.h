@@ -14,8 +14,10 @@ using Json = nlohmann::ordered_json;
 
 inline std::string text(const Json& node, const char* key) { return node.value(key, std::string()); }
 inline bool required(const Json& field) { return field.value("required", false); }
-/// Of an enumeration or a bool: it was not there at first (an `optional_real` is appended by its nature).
-inline bool appended(const Json& field) { return field.value("appended", false); }
+/// A field that was not there at first: every `optional_real`, and an enumeration or a bool marked as such.
+inline bool appended(const Json& field) {
+  return text(field, "type") == "optional_real" || field.value("appended", false);
+}
 /// A field's documentation with its unit in front: "ms, since 1970".
 std::string documentation(const Json& field);
 

@@ -60,6 +60,8 @@ export const usualRamps = {
 } as const;
 /** Where performances shut the lids, FAP units: FAPs 19 and 20, 21 and 22. */
 export const shutLidUnits = { upper: 940, lower: 84 } as const;
+/** How far performances turn an eye: sideways, and up or down. */
+export const largestEyeTurnDegrees = { yaw: 45, pitch: 35 } as const;
 const blinkMs = usualRamps.blink[0] + usualRamps.blink[1];
 
 /**

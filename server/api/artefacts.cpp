@@ -55,7 +55,7 @@ http::Response get_artefact(Context& context, http::Request& request) {
   const auto& hash = request.params.at("sha256");
   const auto artefact = context.store.public_artefact(hash);
   if (!artefact) refuse("not-found", "there is no artefact " + hash);
-  return file_response(context, request, *artefact, "public, max-age=31536000, immutable");
+  return file_response(context, request, *artefact, http::cache_forever);
 }
 
 }  // namespace semblante::api

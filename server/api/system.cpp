@@ -2,12 +2,33 @@
 
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
+#include "server/api/documents.h"
 #include "server/api/generated/handlers.h"
-#include "server/api/openapi.h"
 #include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
 
 namespace semblante::api {
+namespace {
+
+/// A document of documents.h with its header fields.
+class Document {
+ public:
+  Document(std::string_view text, std::string_view content_type, std::string_view cache_control) {
+    response_.headers["Content-Type"] = content_type;
+    response_.headers["Cache-Control"] = cache_control;
+    response_.headers["ETag"] = "\"sha256-" + sha256_hex(text) + "\"";
+    response_.body = std::string(text);
+  }
+
+  [[nodiscard]] http::Response answer(const http::Request& request) const {
+    return http::apply_conditions(request, response_);
+  }
+
+ private:
+  http::Response response_;
+};
+
+}  // namespace
 
 http::Response get_health(Context&, http::Request&) { return json_response(200, answer::Status{}); }
 
@@ -26,13 +47,18 @@ http::Response get_version(Context& context, http::Request&) {
 }
 
 http::Response get_openapi(Context&, http::Request& request) {
-  static const std::string etag = "\"sha256-" + sha256_hex(openapi_document()) + "\"";
-  http::Response response;
-  response.headers["Content-Type"] = "application/json";
-  response.headers["Cache-Control"] = "no-cache";
-  response.headers["ETag"] = etag;
-  response.body = std::string(openapi_document());
-  return http::apply_conditions(request, std::move(response));
+  static const Document document(openapi_document(), "application/json", "no-cache");
+  return document.answer(request);
+}
+
+http::Response get_protocol_specification(Context&, http::Request& request) {
+  static const Document document(protocol_specification(), "text/markdown; charset=utf-8", "no-cache");
+  return document.answer(request);
+}
+
+http::Response get_packed_tables(Context&, http::Request& request) {
+  static const Document document(packed_tables_document(), "application/json", http::cache_forever);
+  return document.answer(request);
 }
 
 http::Response get_problem(Context&, http::Request& request) {

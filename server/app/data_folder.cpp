@@ -117,9 +117,8 @@ void keep_log_of_lost_database(const std::filesystem::path& data, store::Trash& 
 
 void bring_files_in_line(const std::filesystem::path& data, store::Store& store, store::Trash& trash) {
   const auto strange = strangeness(store.identity(), store::read_last_database(data));
-  const auto bring = [&](DataFileKind kind) { return reconcile(data, trash, kind, known_names(store, kind)); };
-  const auto blobs = bring(DataFileKind::blob);
-  const auto recordings = bring(DataFileKind::recording);
+  const auto blobs = reconcile(data, trash, DataFileKind::blob, known_blobs(store));
+  const auto recordings = reconcile(data, trash, DataFileKind::recording, known_recordings(store));
   if (const auto synced = trash.sync(); !synced) log::warning("the trash: " + synced.error().message);
   report_moved(data, trash, strange, blobs, recordings);
   if (blobs.put_back + recordings.put_back > 0)

@@ -37,9 +37,9 @@ std::vector<store::FeaturePointRecord> read_points(const std::filesystem::path& 
 
 }  // namespace
 
-SampleInstaller::SampleInstaller(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending,
-                                 jobs::JobQueue& queue, std::filesystem::path file)
-    : store_(store), blobs_(blobs), pending_(pending), queue_(queue), file_(std::move(file)) {
+SampleInstaller::SampleInstaller(store::ModelStore& models, store::JobStore& jobs, store::BlobStore& blobs,
+                                 store::PendingWrites& pending, jobs::JobQueue& queue, std::filesystem::path file)
+    : models_(models), jobs_(jobs), blobs_(blobs), pending_(pending), queue_(queue), file_(std::move(file)) {
   if (file_.empty()) return;
   hash_ = sha256_hex(read_text(file_));
   points_ = read_points(std::filesystem::path(file_).replace_extension(".fps.json"));
@@ -53,27 +53,27 @@ void SampleInstaller::begin() {
 }
 
 void SampleInstaller::take_next_step() {
-  const auto model = store_.model(sample_model_id);
+  const auto model = models_.model(sample_model_id);
   if (!model || model->source_sha256 != hash_ || model->state == store::ModelState::failed) {
     import();
   } else if (model->state == store::ModelState::ready) {
-    const auto job = store_.latest_job(sample_model_id, jobs::ParametrizeJob::kind_name);
+    const auto job = jobs_.latest_job(sample_model_id, jobs::ParametrizeJob::kind_name);
     if (!job || store::is_final(job->state)) parametrize();
   }
 }
 
 void SampleInstaller::import() {
-  if (store_.model(sample_model_id)) {  // another version of the program has another head
+  if (models_.model(sample_model_id)) {  // another version of the program has another head
     queue_.cancel_all_of(sample_model_id);
     const std::unique_lock alone(blobs_.references());
-    if (const auto orphans = store_.remove_model(sample_model_id))
+    if (const auto orphans = models_.remove_model(sample_model_id))
       for (const auto& hash : *orphans) blobs_.remove(hash);
   }
   const auto copy = blobs_.temporary() / "sample";
   std::error_code error;
   std::filesystem::copy_file(file_, copy, std::filesystem::copy_options::overwrite_existing, error);
   store::throw_if_disk_full(copy, error.value());
-  auto made = api::add_model(store_, blobs_, copy, std::string(sample_model_id), "Sample head",
+  auto made = api::add_model(models_, blobs_, copy, std::string(sample_model_id), "Sample head",
                              file_.filename().string(), std::nullopt);
   if (!made) {
     log::error("the sample head cannot be installed: " + made.error().message);
@@ -83,7 +83,7 @@ void SampleInstaller::import() {
 }
 
 void SampleInstaller::parametrize() {
-  const auto model = store_.model(sample_model_id);
+  const auto model = models_.model(sample_model_id);
   if (!model) return;
   if (model->feature_point_count == 0) {
     for (const auto& point : points_) {
@@ -91,12 +91,12 @@ void SampleInstaller::parametrize() {
       log::error("the sample head has no vertex for its feature point " + point.id);
       return;
     }
-    store_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
+    models_.put_feature_points(sample_model_id, points_, model->feature_points_revision);
   }
   jobs::ParametrizeJob options;
   options.weights = "smooth";  // better weights for the first face that users see
   options.lods = default_budgets(model->vertices);
-  queue_.enqueue(api::add_parametrization(store_, std::string(sample_model_id), options, std::nullopt));
+  queue_.enqueue(api::add_parametrization(jobs_, std::string(sample_model_id), options, std::nullopt));
 }
 
 void SampleInstaller::job_finished(const store::JobRecord& job) {

@@ -18,8 +18,8 @@ class SampleInstaller {
  public:
   /// `file`: the model, with its feature points beside it in <stem>.fps.json; empty: no sample. Throws CommandFailure
   /// when a file is missing or cannot be read.
-  SampleInstaller(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending, jobs::JobQueue& queue,
-                  std::filesystem::path file);
+  SampleInstaller(store::ModelStore& models, store::JobStore& jobs, store::BlobStore& blobs,
+                  store::PendingWrites& pending, jobs::JobQueue& queue, std::filesystem::path file);
   ~SampleInstaller();
   SampleInstaller(const SampleInstaller&) = delete;
   SampleInstaller& operator=(const SampleInstaller&) = delete;
@@ -34,7 +34,8 @@ class SampleInstaller {
   void import();
   void parametrize();
 
-  store::Store& store_;
+  store::ModelStore& models_;
+  store::JobStore& jobs_;
   store::BlobStore& blobs_;
   store::PendingWrites& pending_;
   jobs::JobQueue& queue_;

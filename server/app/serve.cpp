@@ -174,14 +174,14 @@ void run_serve(const ServeOptions& options) {
   job_config.limits.memory_bytes = options.worker_memory;
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;
-  jobs::JobQueue queue(**store, *blobs, pending, job_config);
+  jobs::JobQueue queue({**store, **store, **store}, *blobs, pending, job_config);
   recordings::RecorderLimits recorder_limits;
   recorder_limits.max_recordings = options.max_recordings;
   recorder_limits.max_bytes = options.max_recording_bytes;
   recorder_limits.max_total_bytes = options.max_recordings_bytes;
   recorder_limits.disk_reserve = options.disk_reserve;
-  auto recorder =
-      recordings::Recorder::open(**store, pending, options.data / store::recordings_folder_name, recorder_limits);
+  auto recorder = recordings::Recorder::open(**store, **store, pending, options.data / store::recordings_folder_name,
+                                             recorder_limits);
   if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
@@ -213,7 +213,7 @@ void run_serve(const ServeOptions& options) {
   if (!port) fail("serve", port.error());
   server.stop_on_signals();
 
-  SampleInstaller sample(**store, *blobs, pending, queue, options.sample);
+  SampleInstaller sample(**store, **store, *blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
   queue.start();
   sample.begin();

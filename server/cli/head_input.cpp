@@ -52,7 +52,7 @@ std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
 
 std::vector<std::string> model_format_names() {
   std::vector<std::string> names;
-  for (const ModelFormat format : all_model_formats) names.emplace_back(to_string(format));
+  for (const auto& format : model_formats) names.emplace_back(format.name);
   return names;
 }
 

@@ -6,6 +6,9 @@
 
 namespace semblante::http {
 
+/// The value of Cache-Control for content that never changes at its address.
+inline constexpr std::string_view cache_forever = "public, max-age=31536000, immutable";
+
 /// Whether a list of entity tags (`If-Match`, `If-None-Match`) contains this one. `weak`: W/"x" matches "x" too.
 bool etag_matches(std::string_view list, std::string_view etag, bool weak);
 

@@ -42,7 +42,7 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
 
   Response response;
   response.headers["Content-Type"] = std::string(media_type_of_file(file.filename().string()));
-  response.headers["Cache-Control"] = has_hashed_name(path) ? "public, max-age=31536000, immutable" : "no-cache";
+  response.headers["Cache-Control"] = has_hashed_name(path) ? std::string(cache_forever) : "no-cache";
   response.headers["ETag"] = "\"" + std::to_string(info.st_size) + "-" + std::to_string(info.st_mtim.tv_sec) + "." +
                              std::to_string(info.st_mtim.tv_nsec) + "\"";
   response.headers["X-Content-Type-Options"] = "nosniff";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <shared_mutex>
 #include <utility>
 
 #include "server/log/guard.h"
@@ -12,13 +13,13 @@ namespace semblante::jobs {
 using store::JobRecord;
 using store::JobState;
 
-JobQueue::JobQueue(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending, JobConfig config)
-    : store_(store), blobs_(blobs), pending_(pending), config_(std::move(config)) {}
+JobQueue::JobQueue(JobStores stores, store::BlobStore& blobs, store::PendingWrites& pending, JobConfig config)
+    : stores_(stores), blobs_(blobs), pending_(pending), config_(std::move(config)) {}
 
 JobQueue::~JobQueue() { stop(); }
 
 void JobQueue::start() {
-  for (auto& job : store_.unfinished_jobs()) {
+  for (auto& job : stores_.jobs.unfinished_jobs()) {
     if (job.stage == store::cancelling_stage) {
       record(ending(job, JobState::cancelled, http::make_problem("cancelled", "it was cancelled while it ran")));
       continue;
@@ -100,7 +101,8 @@ Cancelled JobQueue::cancel(std::string_view id) {
     return record(ending(job, JobState::cancelled, problem)) ? Cancelled::recorded : Cancelled::pending;
   }
   try {
-    return pending_.with_reserve([&] { return store_.request_cancel(id); }) ? Cancelled::recorded : Cancelled::none;
+    return pending_.with_reserve([&] { return stores_.jobs.request_cancel(id); }) ? Cancelled::recorded
+                                                                                  : Cancelled::none;
   } catch (const store::StoreError& fault) {
     pending_.note(fault);  // its end is stored when its worker has ended and the store can be written
     return Cancelled::pending;
@@ -136,24 +138,7 @@ std::optional<JobRecord> JobQueue::find(std::string_view id) const {
     if (const auto found = running_.find(id); found != running_.end()) return found->second->job;
     if (const auto found = unrecorded_.find(id); found != unrecorded_.end()) return found->second.shown;
   }
-  return store_.job(id);
-}
-
-std::uint64_t JobQueue::watch(std::string_view id, Watcher watcher) {
-  const std::lock_guard lock(watch_mutex_);
-  watchers_.emplace(next_watch_, std::make_pair(std::string(id), std::move(watcher)));
-  return next_watch_++;
-}
-
-void JobQueue::unwatch(std::uint64_t watch) {
-  const std::lock_guard lock(watch_mutex_);
-  watchers_.erase(watch);
-}
-
-void JobQueue::publish(const JobRecord& job) {
-  const std::lock_guard lock(watch_mutex_);
-  for (const auto& [number, entry] : watchers_)
-    if (entry.first == job.id) entry.second(job);
+  return stores_.jobs.job(id);
 }
 
 void JobQueue::conclude(const JobRecord& job) {
@@ -165,7 +150,7 @@ void JobQueue::conclude(const JobRecord& job) {
     const std::lock_guard lock(mutex_);
     shortages_.erase(job.id);
   }
-  publish(job);
+  watchers_.tell(job);
   if (!on_finished_) return;
   log::guarded("after the end of job " + job.id, [&] { on_finished_(job); });
 }
@@ -208,14 +193,14 @@ void JobQueue::work() {
   }
 }
 
-std::optional<JobQueue::Unrecorded> JobQueue::attempt(Running& running) {
-  JobRun attempt(store_, blobs_, config_);
+std::optional<NextState> JobQueue::attempt(Running& running) {
+  JobRun attempt(stores_, blobs_, config_);
   try {
     auto ended = run_once(running, attempt);
     if (!ended) return std::nullopt;
     auto shown = running.job;
     shown.stage = "saving";
-    return Unrecorded{shown, std::move(*ended)};
+    return NextState{shown, std::move(*ended)};
   } catch (const store::StoreError& fault) {
     return after_store_error(running, attempt, fault);
   } catch (...) {
@@ -232,8 +217,8 @@ std::optional<JobRecord> JobQueue::run_once(Running& running, JobRun& attempt) {
     running.job.updated = store::timestamp_now();
     ++running.job.attempts;
   }
-  store_.update_job(running.job);
-  publish(running.job);
+  stores_.jobs.update_job(running.job);
+  watchers_.tell(running.job);
   const auto on_progress = [&](const WorkerProgress& line) {
     JobRecord copy;
     {
@@ -243,13 +228,91 @@ std::optional<JobRecord> JobQueue::run_once(Running& running, JobRun& attempt) {
       running.job.updated = store::timestamp_now();
       copy = running.job;
     }
-    publish(copy);
+    watchers_.tell(copy);
   };
   const auto wish = [&] {
     const std::lock_guard lock(mutex_);
     return stopping_ ? Wish::stop : running.cancel ? Wish::cancel : Wish::go_on;
   };
   return attempt.run(running.job, on_progress, wish);
+}
+
+NextState JobQueue::after_store_error(const Running& running, const JobRun& attempt, const store::StoreError& fault) {
+  const JobRecord& job = running.job;
+  if (running.cancel)
+    return ending(job, JobState::cancelled, http::make_problem("cancelled", "it was cancelled while it ran"));
+  std::uint32_t shortages = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    shortages = shortages_[job.id] += attempt.has_begun() ? 1 : 0;
+  }
+  log::warning("job " + job.id + " waits for the disk: " + fault.what());
+  const bool disk_full = dynamic_cast<const store::DiskFull*>(&fault) != nullptr;
+  if (shortages >= config_.max_attempts) return failed_by_disk(job, disk_full, shortages);
+  return waiting_for_disk(job, disk_full, attempt.room_needed());
+}
+
+bool JobQueue::record(NextState unrecorded) {
+  const auto id = unrecorded.next.id;
+  const auto shown = unrecorded.shown;
+  const std::string what = (store::is_final(unrecorded.next.state) ? "the end of job " : "that it waits, of job ") + id;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = running_.find(id); found != running_.end()) {
+      unrecorded.cancel = unrecorded.cancel || found->second->cancel;
+      running_.erase(found);
+    }
+    unrecorded_[id] = std::move(unrecorded);
+  }
+  changed_.notify_all();
+  if (pending_.write(this, "job " + id, what, [this, id] { settle(id); })) return true;
+  watchers_.tell(shown);
+  return false;
+}
+
+void JobQueue::write_next(const JobRecord& next, std::uint64_t room_needed) {
+  if (store::is_final(next.state)) {
+    const std::unique_lock alone(blobs_.references());
+    for (const auto& hash : finish_without_outcome(next, stores_.jobs)) blobs_.remove(hash);
+    return;
+  }
+  if (store::free_bytes(blobs_.temporary()) < room_needed)
+    throw store::NotEnoughRoom("job " + next.id + " needs about " + std::to_string(room_needed) + " bytes");
+  stores_.jobs.update_job(next);
+}
+
+void JobQueue::settle(const std::string& id) {
+  JobRecord next;
+  bool is_recorded = false;
+  while (!is_recorded) {
+    std::uint64_t room_needed = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      auto& unrecorded = unrecorded_.at(id);
+      if (unrecorded.cancel && !store::is_final(unrecorded.next.state))
+        unrecorded.next = ended_job(unrecorded.next, JobState::cancelled,
+                                    http::make_problem("cancelled", "it was cancelled while it waited for the disk"));
+      next = unrecorded.next;
+      room_needed = unrecorded.room_needed;
+    }
+    write_next(next, room_needed);
+    const std::lock_guard lock(mutex_);
+    const auto found = unrecorded_.find(id);
+    if (found->second.cancel && !store::is_final(next.state)) continue;  // cancelled meanwhile
+    if (!store::is_final(next.state)) {
+      if (found->second.first_in_line)
+        queue_.push_front(next);
+      else
+        queue_.push_back(next);
+    }
+    unrecorded_.erase(found);
+    is_recorded = true;
+  }
+  changed_.notify_all();
+  if (store::is_final(next.state))
+    conclude(next);
+  else
+    watchers_.tell(next);
 }
 
 }  // namespace semblante::jobs

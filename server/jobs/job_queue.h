@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "server/jobs/job_run.h"
+#include "server/jobs/job_watchers.h"
+#include "server/jobs/next_state.h"
 #include "server/store/pending_writes.h"
 
 namespace semblante::jobs {
@@ -33,9 +35,9 @@ enum class Cancelled {
 /// outlive it. All calls from any thread except I/O threads.
 class JobQueue {
  public:
-  using Watcher = std::function<void(const store::JobRecord&)>;
+  using Watcher = JobWatchers::Watcher;
 
-  JobQueue(store::Store& store, store::BlobStore& blobs, store::PendingWrites& pending, JobConfig config);
+  JobQueue(JobStores stores, store::BlobStore& blobs, store::PendingWrites& pending, JobConfig config);
   ~JobQueue();
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
@@ -57,9 +59,9 @@ class JobQueue {
   /// The current job; its progress is newer than in the store.
   [[nodiscard]] std::optional<store::JobRecord> find(std::string_view id) const;
   /// Calls `watcher` at every change of the job from now on, from the queue's threads. Pair with unwatch().
-  std::uint64_t watch(std::string_view id, Watcher watcher);
+  std::uint64_t watch(std::string_view id, Watcher watcher) { return watchers_.add(id, std::move(watcher)); }
   /// The watcher is not called after this returns.
-  void unwatch(std::uint64_t watch);
+  void unwatch(std::uint64_t watch) { watchers_.remove(watch); }
   /// Called after the end of every job is durable, from the queue's threads or that of the pending writes. Before
   /// start().
   void on_finished(Watcher watcher) { on_finished_ = std::move(watcher); }
@@ -75,37 +77,28 @@ class JobQueue {
     store::JobRecord job;
     std::atomic<bool> cancel{false};
   };
-  /// A job whose next state is not stored yet.
-  struct Unrecorded {
-    store::JobRecord shown, next;
-    std::uint64_t room_needed = 0;  ///< free bytes before it is queued again
-    bool first_in_line = false;     ///< when it is queued again
-    bool cancel = false;            ///< requested after `next` was set
-  };
-
   void work();
   /// The first job that may start: jobs of one model run one after another, each on the results of the one before.
   std::deque<store::JobRecord>::iterator next();
   [[nodiscard]] bool is_busy(const std::string& model) const;
   /// Runs an attempt and returns the job's next state: ended, or queued again. nullopt when the server is shutting
   /// down.
-  std::optional<Unrecorded> attempt(Running& running);
+  std::optional<NextState> attempt(Running& running);
   std::optional<store::JobRecord> run_once(Running& running, JobRun& attempt);
-  Unrecorded after_store_error(const Running& running, const JobRun& attempt, const store::StoreError& fault);
-  static Unrecorded ending(const store::JobRecord& job, store::JobState state, const http::Problem& problem);
+  NextState after_store_error(const Running& running, const JobRun& attempt, const store::StoreError& fault);
   /// Stores the next state, now or later; true when it is durable.
-  bool record(Unrecorded unrecorded);
+  bool record(NextState next);
   /// The write behind record(); throws.
   void settle(const std::string& id);
   void write_next(const store::JobRecord& next, std::uint64_t room_needed);
-  void publish(const store::JobRecord& job);
-  /// publish(), count and on_finished_: after the last change of a job.
+  /// Tells the watchers, counts, and calls on_finished_: after the last change of a job.
   void conclude(const store::JobRecord& job);
 
-  store::Store& store_;
+  const JobStores stores_;
   store::BlobStore& blobs_;
   store::PendingWrites& pending_;
   const JobConfig config_;
+  JobWatchers watchers_;
   Watcher on_finished_;
   std::array<std::array<std::atomic<std::uint64_t>, store::job_state_count>, job_kinds.size()> ended_{};
 
@@ -113,14 +106,10 @@ class JobQueue {
   std::condition_variable changed_;
   std::deque<store::JobRecord> queue_;
   std::map<std::string, std::shared_ptr<Running>, std::less<>> running_;
-  std::map<std::string, Unrecorded, std::less<>> unrecorded_;
+  std::map<std::string, NextState, std::less<>> unrecorded_;     ///< of jobs whose next state is not stored yet
   std::map<std::string, std::uint32_t, std::less<>> shortages_;  ///< attempts of a job that failed because of the disk
   bool stopping_ = false;
   std::vector<std::thread> threads_;
-
-  std::mutex watch_mutex_;  ///< held while watchers are called
-  std::uint64_t next_watch_ = 1;
-  std::map<std::uint64_t, std::pair<std::string, Watcher>> watchers_;
 };
 
 }  // namespace semblante::jobs

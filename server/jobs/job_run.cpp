@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "server/jobs/next_state.h"
 #include "server/log/log.h"
 
 namespace semblante::jobs {
@@ -57,17 +58,10 @@ void set_done(JobRecord& job) {
 
 }  // namespace
 
-JobRecord ended_job(JobRecord job, JobState state, const http::Problem& problem) {
-  job.state = state;
-  job.problem = http::to_json(problem);
-  job.updated = store::timestamp_now();
-  return job;
-}
-
 std::optional<JobRecord> JobRun::run(const JobRecord& job, const OnProgress& on_progress,
                                      const std::function<Wish()>& wish) {
   has_begun_ = true;
-  auto asked = make_request(job, {store_, blobs_});
+  auto asked = make_request(job, {stores_.models, blobs_});
   if (!asked) return ended_job(job, JobState::failed, http::problem_from(asked.error()));
   const WorkerRequest request{(blobs_.temporary() / ("job-" + job.id)).string(), std::move(*asked)};
   const OutputFolder folder(request.output_directory);
@@ -146,7 +140,7 @@ JobRecord JobRun::keep_result(JobRecord job, const WorkerRequest& request, Worke
     if (const auto problem = adopt_artefacts(request, result)) return ended_job(job, JobState::failed, *problem);
     JobRecord done = job;
     set_done(done);
-    const auto hashes = finish(done, std::move(result.outcome), result.artefacts, store_);
+    const auto hashes = finish(done, std::move(result.outcome), result.artefacts, stores_.jobs);
     if (!hashes) return ended_job(job, JobState::failed, http::problem_from(hashes.error()));
     for (const auto& hash : *hashes) blobs_.remove(hash);
     return done;
@@ -174,7 +168,7 @@ void JobRun::discard(const WorkerResult& result) const {
   if (result.artefacts.empty()) return;
   const std::unique_lock alone(blobs_.references());
   try {
-    const auto list = store_.referenced_hashes();
+    const auto list = stores_.artefacts.referenced_hashes();
     const std::unordered_set<std::string> used(list.begin(), list.end());
     for (const auto& artefact : result.artefacts)
       if (!artefact.sha256.empty() && !used.contains(artefact.sha256)) blobs_.remove(artefact.sha256);

@@ -9,8 +9,10 @@
 
 #include "server/jobs/worker_process.h"
 #include "server/jobs/worker_protocol.h"
+#include "server/store/artefact_store.h"
 #include "server/store/blob_store.h"
-#include "server/store/store.h"
+#include "server/store/job_store.h"
+#include "server/store/model_store.h"
 
 namespace semblante::jobs {
 
@@ -23,16 +25,20 @@ struct JobConfig {
   std::uint32_t max_attempts = 3;
 };
 
-/// A job with this end; not stored yet.
-store::JobRecord ended_job(store::JobRecord job, store::JobState state, const http::Problem& problem);
+/// The parts of the store that jobs read and change.
+struct JobStores {
+  store::JobStore& jobs;
+  store::ModelStore& models;
+  store::ArtefactStore& artefacts;
+};
 
 /// One attempt at a job: its worker process, and the commit of its result. Used by one thread.
 class JobRun {
  public:
   using OnProgress = std::function<void(const WorkerProgress&)>;
 
-  JobRun(store::Store& store, store::BlobStore& blobs, const JobConfig& config)
-      : store_(store), blobs_(blobs), config_(config) {}
+  JobRun(JobStores stores, store::BlobStore& blobs, const JobConfig& config)
+      : stores_(stores), blobs_(blobs), config_(config) {}
 
   /// The ended job: `done` is durable with its result, another end is not stored yet. nullopt when it was stopped with
   /// the server. Throws StoreError when its files or its result could not be written: then nothing of the attempt
@@ -54,7 +60,7 @@ class JobRun {
   /// Removes the artefacts' blobs that no record refers to.
   void discard(const WorkerResult& result) const;
 
-  store::Store& store_;
+  const JobStores stores_;
   store::BlobStore& blobs_;
   const JobConfig& config_;
   static constexpr std::uint64_t least_room = std::uint64_t{1} << 20U;

@@ -66,7 +66,7 @@ Status ResultFiles::write_package(std::size_t lod, const FacePackage& package) {
   const File files[] = {{"mesh.drc", "application/octet-stream", package.mesh_drc},
                         {"weights", "application/vnd.semblante.weights", package.weights},
                         {"rig.json", "application/json", package.rig_json},
-                        {"face.glb", "model/gltf-binary", package.face_glb}};
+                        {"face.glb", glb_media_type, package.face_glb}};
   for (const auto& file : files) {
     auto written = write(store::artefact_name(lod, file.name), std::string(file.content_type), file.artefact.bytes);
     if (!written) return written;

@@ -23,16 +23,17 @@ void take_over(store::RecordingRecord& record, const RecordingProgress& progress
 
 }  // namespace
 
-Recorder::Recorder(store::Store& store, store::PendingWrites& pending, std::filesystem::path folder,
-                   RecorderLimits limits)
-    : store_(store), pending_(pending), folder_(std::move(folder)), limits_(limits) {}
+Recorder::Recorder(store::RecordingStore& store, store::DatabaseFacts& facts, store::PendingWrites& pending,
+                   std::filesystem::path folder, RecorderLimits limits)
+    : store_(store), facts_(facts), pending_(pending), folder_(std::move(folder)), limits_(limits) {}
 
-Result<std::shared_ptr<Recorder>> Recorder::open(store::Store& store, store::PendingWrites& pending,
-                                                 std::filesystem::path folder, RecorderLimits limits) {
+Result<std::shared_ptr<Recorder>> Recorder::open(store::RecordingStore& store, store::DatabaseFacts& facts,
+                                                 store::PendingWrites& pending, std::filesystem::path folder,
+                                                 RecorderLimits limits) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error{ErrorCode::io, folder.string(), error.message()};
-  std::shared_ptr<Recorder> recorder(new Recorder(store, pending, std::move(folder), limits));
+  std::shared_ptr<Recorder> recorder(new Recorder(store, facts, pending, std::move(folder), limits));
   if (auto status = recorder->repair(); !status) return status.error();
   recorder->thread_ = std::thread([&self = *recorder] { log::keep_running("the recorder", [&self] { self.run(); }); });
   return recorder;
@@ -205,7 +206,7 @@ std::optional<RecordingStatus> Recorder::find(std::string_view id) const {
 
 bool Recorder::remove(std::string_view id) {
   if (!find(id)) return false;
-  pending_.with_reserve([&] { store_.check_writable(); });  // checks the disk before the recording is ended
+  pending_.with_reserve([&] { facts_.check_writable(); });  // checks the disk before the recording is ended
   const auto record = stop(id);
   if (!record || !pending_.with_reserve([&] { return store_.remove_recording(id); })) return false;
   forget_shown(std::string(id));

@@ -14,8 +14,9 @@
 #include <vector>
 
 #include "server/recordings/recording_writer.h"
+#include "server/store/database_facts.h"
 #include "server/store/pending_writes.h"
-#include "server/store/store.h"
+#include "server/store/recording_store.h"
 #include "server/streams/batch_listener.h"
 
 namespace semblante::recordings {
@@ -66,9 +67,10 @@ struct RecorderCounts {
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that an earlier process left running are truncated after their last
-  /// complete chunk and finished; on a full disk, later. Errors: io. `store` and `pending` outlive it.
-  static Result<std::shared_ptr<Recorder>> open(store::Store& store, store::PendingWrites& pending,
-                                                std::filesystem::path folder, RecorderLimits limits = {});
+  /// complete chunk and finished; on a full disk, later. Errors: io. `store`, `facts` and `pending` outlive it.
+  static Result<std::shared_ptr<Recorder>> open(store::RecordingStore& store, store::DatabaseFacts& facts,
+                                                store::PendingWrites& pending, std::filesystem::path folder,
+                                                RecorderLimits limits = {});
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -111,7 +113,8 @@ class Recorder : public streams::BatchListener {
     bool done = false;
   };
 
-  Recorder(store::Store& store, store::PendingWrites& pending, std::filesystem::path folder, RecorderLimits limits);
+  Recorder(store::RecordingStore& store, store::DatabaseFacts& facts, store::PendingWrites& pending,
+           std::filesystem::path folder, RecorderLimits limits);
   Status repair();
   void repair(const std::string& id);
   void run();
@@ -125,7 +128,8 @@ class Recorder : public streams::BatchListener {
   [[nodiscard]] std::optional<Error> refusal() const;
   void publish_progress(Running& running);
 
-  store::Store& store_;
+  store::RecordingStore& store_;
+  store::DatabaseFacts& facts_;
   store::PendingWrites& pending_;
   const std::filesystem::path folder_;
   const RecorderLimits limits_;

@@ -45,13 +45,13 @@ Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKi
   return result;
 }
 
-std::unordered_set<std::string> known_names(Store& store, DataFileKind kind) {
+std::unordered_set<std::string> known_blobs(ArtefactStore& store) {
+  auto hashes = store.referenced_hashes();
+  return {std::make_move_iterator(hashes.begin()), std::make_move_iterator(hashes.end())};
+}
+
+std::unordered_set<std::string> known_recordings(RecordingStore& store) {
   std::unordered_set<std::string> names;
-  if (kind == DataFileKind::blob) {
-    auto hashes = store.referenced_hashes();
-    names.insert(std::make_move_iterator(hashes.begin()), std::make_move_iterator(hashes.end()));
-  }
-  if (kind != DataFileKind::recording) return names;
   std::string after;
   while (true) {
     const auto records = store.recordings("", after, page);

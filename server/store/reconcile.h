@@ -5,7 +5,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "server/store/store.h"
+#include "server/store/artefact_store.h"
+#include "server/store/recording_store.h"
 #include "server/store/trash.h"
 
 namespace semblante::store {
@@ -24,7 +25,9 @@ struct Reconciled {
 Reconciled reconcile(const std::filesystem::path& data, Trash& trash, DataFileKind kind,
                      const std::unordered_set<std::string>& known);
 
-/// The names a database knows of a kind: every hash it refers to, or the ids of all recordings.
-std::unordered_set<std::string> known_names(Store& store, DataFileKind kind);
+/// The names of the blobs that a database knows: every hash it refers to.
+std::unordered_set<std::string> known_blobs(ArtefactStore& store);
+/// The names of the recordings that a database knows.
+std::unordered_set<std::string> known_recordings(RecordingStore& store);
 
 }  // namespace semblante::store

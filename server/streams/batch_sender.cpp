@@ -22,7 +22,7 @@ void BatchSender::wake(std::weak_ptr<Stream> stream, Clock::time_point when) {
   {
     const std::lock_guard lock(mutex_);
     is_next = turns_.empty() || when < turns_.top().when;
-    turns_.push({when, std::move(stream)});
+    turns_.push({when, when, std::move(stream)});
   }
   if (is_next) changed_.notify_one();
 }
@@ -57,8 +57,9 @@ void BatchSender::run() {
     lock.unlock();
     const bool worked = log::guarded("sending a batch", [&turn] {
       const auto stream = turn.stream.lock();
-      turn.when = stream ? stream->work(turn.when) : Clock::time_point::max();
+      turn.when = turn.asked = stream ? stream->work(turn.asked) : Clock::time_point::max();
     });
+    // `asked` stays: the stream still waits for the call that it asked for.
     if (!worked) turn.when = now + retry_interval;
     lock.lock();
     if (turn.when == Clock::time_point::max()) continue;

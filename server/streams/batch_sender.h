@@ -30,6 +30,7 @@ class BatchSender {
  private:
   struct Turn {
     Stream::Clock::time_point when;
+    Stream::Clock::time_point asked;  ///< the stream asked for this time: `when`, or earlier after a fault
     std::weak_ptr<Stream> stream;
     bool operator<(const Turn& other) const { return when > other.when; }  ///< so that the earliest is on top
   };

@@ -95,7 +95,7 @@ bool FanOut::next_slice(Slice& slice, BatchLog& log) {
     }
     auto& wire = slice.wires_[static_cast<std::size_t>(subscriber.coding)];
     if (!wire) wire = log.wire(batch, subscriber.coding);
-    slice.targets_.push_back({subscriber.sink, subscriber.client, subscriber.coding, http::Sent::handed});
+    slice.targets_.push_back({subscriber.sink, subscriber.client, subscriber.coding, http::Sent::refused});
   }
   return true;
 }

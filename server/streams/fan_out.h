@@ -29,7 +29,7 @@ class Slice {
     http::WebSocketSink* sink;
     StreamPeer* client;
     Coding coding;
-    http::Sent sent;
+    http::Sent sent;  ///< `refused` until it is sent
   };
   std::vector<Target> targets_;
   std::array<http::SharedWire, coding_count> wires_;

@@ -1,5 +1,6 @@
 #include "server/streams/stream.h"
 
+#include <exception>
 #include <utility>
 
 #include "protocol/cpp/fap_ranges.h"
@@ -337,11 +338,18 @@ Clock::time_point Stream::advance(Clock::time_point now) {
     if (!fan_out_.next_slice(slice_, log_)) return wanted_ = next_work(now);
     clients_.begin_slice();
   }
-  slice_.send(*lateness_);
+  // After a fault the slice is finished all the same: targets that were not reached get the newest state.
+  std::exception_ptr fault;
+  try {
+    slice_.send(*lateness_);
+  } catch (...) {
+    fault = std::current_exception();
+  }
   std::vector<std::shared_ptr<StreamPeer>> left;  // let go of after the mutex
   const std::lock_guard lock(mutex_);
   left = clients_.end_slice();
   fan_out_.finish_slice(slice_, log_);
+  if (fault) std::rethrow_exception(fault);
   return wanted_ = next_work(now);
 }
 

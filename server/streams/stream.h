@@ -90,7 +90,8 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   /// Closes the batch that is due at `now`, and sends one slice. Returns when it is to be called again: immediately
   /// (not after `now`), later, or never (time_point::max()).
   Clock::time_point advance(Clock::time_point now);
-  /// advance() for the sender. Does nothing if the stream has scheduled another time than `asked` meanwhile.
+  /// advance() for the sender. Does nothing if the stream has scheduled another time than `asked` meanwhile. After an
+  /// exception the stream still waits for a call with `asked`.
   Clock::time_point work(Clock::time_point asked);
 
  private:

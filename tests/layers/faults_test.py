@@ -1,9 +1,6 @@
 """layers_test.py finds each kind of fault: a small tree with one fault at a time."""
 
-import pathlib
-import sys
-import tempfile
-
+from checker import end, tree
 from layers_test import check
 
 TABLE = "| folder | what | may depend on |\n|---|---|---|\n"
@@ -39,15 +36,10 @@ FAULTS = [  # what is added or replaced, what the message must say
 ]
 failures = 0
 for changes, words in FAULTS:
-    with tempfile.TemporaryDirectory() as top:
-        for name, text in {**SOUND, **changes}.items():
-            path = pathlib.Path(top, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        faults = check(pathlib.Path(top))[0]
+    with tree({**SOUND, **changes}) as top:
+        faults = check(top)[0]
     found = all(any(word in fault for fault in faults) for word in words) and bool(faults) == bool(words)
     if not found:
         failures += 1
         print(f"FAILED: {changes}: {faults}, not {words}")
-print(f"{len(FAULTS)} trees, {failures} failed")
-sys.exit(1 if failures else 0)
+end(len(FAULTS), failures)

@@ -11,7 +11,8 @@ import os
 import pathlib
 import posixpath
 import re
-import sys
+
+from checker import run
 
 # What each top folder may name at all. The order of the READMEs' tables cannot turn an arrow round.
 ARROWS = {
@@ -170,9 +171,4 @@ def check(top):
 
 
 if __name__ == "__main__":
-    top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    faults, seen, rooms = check(top)
-    for fault in faults:
-        print("FAILED:", fault)
-    print(f"{seen} includes and imports of ours, {rooms} rooms, {len(faults)} faults")
-    sys.exit(1 if faults or seen < 1000 or rooms < 40 else 0)
+    run(check, {"includes and imports of ours": 1000, "rooms": 40})

@@ -1,9 +1,6 @@
 """recipes_test.py finds each kind of fault: a small tree and a text with one fault at a time."""
 
-import pathlib
-import sys
-import tempfile
-
+from checker import end, tree
 from recipes_test import check
 
 TREE = {
@@ -25,14 +22,9 @@ CASES = [  # text, what the message must say
 ]
 failures = 0
 for text, message in CASES:
-    with tempfile.TemporaryDirectory() as top:
-        for name, content in {**TREE, "core/a/README.md": text}.items():
-            path = pathlib.Path(top, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(content)
-        faults = check(pathlib.Path(top), {"core/a/README.md": "core/a"})[0]
+    with tree({**TREE, "core/a/README.md": text}) as top:
+        faults = check(top, {"core/a/README.md": "core/a"})[0]
     if faults != [] if message is None else len(faults) != 1 or message not in faults[0]:
         failures += 1
         print(f"FAILED: {text!r} gives {faults}, not {message!r}")
-print(f"{len(CASES)} texts, {failures} failures")
-sys.exit(1 if failures else 0)
+end(len(CASES), failures)

@@ -7,10 +7,10 @@ must exist. A relative link must lead somewhere. Python 3, standard library.
 
     recipes_test.py [TOP_OF_THE_TREE]"""
 
-import pathlib
 import posixpath
 import re
-import sys
+
+from checker import run
 
 # Text, and the folder besides the top of the tree that its paths are relative to.
 TEXTS = {
@@ -83,9 +83,4 @@ def check(top, texts=TEXTS):
 
 
 if __name__ == "__main__":
-    top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    faults, paths, names = check(top)
-    for fault in faults:
-        print("FAILED:", fault)
-    print(f"{paths} paths, {names} names within files, {len(faults)} faults")
-    sys.exit(1 if faults or paths < 100 or names < 40 else 0)
+    run(check, {"paths": 100, "names within files": 40})

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <iostream>
-#include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/native/render/renderer.h"
-#include "clients/native/tools/files.h"
+#include "clients/native/tools/run_tool.h"
 #include "clients/native/tools/shots.h"
 #include "core/expressions/library.h"
 #include "core/import/model_formats.h"
@@ -205,12 +204,10 @@ int main(int argc, char** argv) {
   app.add_option("-s,--shot", arguments.shots, "VIEW or VIEW:SUBJECT, repeatable")->capture_default_str();
   app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
   app.add_option("--frame", arguments.faps, "an additional face, NUMBER=VALUE,... in FAP units; repeatable");
-  const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
-                                                                  {"smooth", semblante::WeightMethod::smooth}};
   app.add_option("--weights", arguments.weights,
                  "method of the weights: paper, smooth; both for a sheet that compares them")
       ->expected(1, 2)
-      ->transform(CLI::CheckedTransformer(methods));
+      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()));
   app.add_option("--max-vertices", arguments.max_vertices,
                  "draw the level of detail with at most this many vertices; 0: the full mesh");
   app.add_flag("--matrix", arguments.matrix,
@@ -218,10 +215,5 @@ int main(int argc, char** argv) {
   app.add_option("--jpeg", arguments.jpeg_quality, "JPEG of this quality, 1 to 100, instead of PNG")
       ->check(CLI::Range(1, 100));
   app.add_flag("--only-frames", arguments.only_faps, "draw only the faces of --frame, no visemes and expressions");
-  CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::pictures::run(arguments); !done) {
-    std::cerr << "semblante-contact-sheet: " << semblante::tools::to_text(done.error()) << '\n';
-    return 1;
-  }
-  return 0;
+  return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::pictures::run(arguments); });
 }

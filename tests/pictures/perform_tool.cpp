@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/files.h"
+#include "clients/native/tools/run_tool.h"
 #include "clients/native/tools/shots.h"
 #include "core/import/model_formats.h"
 #include "core/performance/performance.h"
@@ -156,14 +156,7 @@ int main(int argc, char** argv) {
   app.add_option("--shot", arguments.shot, "VIEW or VIEW:SUBJECT")->capture_default_str();
   app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
   app.add_option("--columns", arguments.columns, "columns of the sheet; 0: about as wide as high");
-  const std::map<std::string, semblante::WeightMethod> methods = {{"paper", semblante::WeightMethod::paper},
-                                                                  {"smooth", semblante::WeightMethod::smooth}};
   app.add_option("--weights", arguments.weights, "method of the weights: paper or smooth")
-      ->transform(CLI::CheckedTransformer(methods));
-  CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::pictures::run(arguments); !done) {
-    std::cerr << "semblante-perform: " << semblante::tools::to_text(done.error()) << '\n';
-    return 1;
-  }
-  return 0;
+      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()));
+  return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::pictures::run(arguments); });
 }

@@ -96,6 +96,12 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model_path, const
   return head;
 }
 
+std::map<std::string, WeightMethod> weight_methods() {
+  std::map<std::string, WeightMethod> methods;
+  for (const std::string_view name : weight_method_names) methods.emplace(name, parse_weight_method(name).value());
+  return methods;
+}
+
 Result<semblante_frame> parse_faps(const std::string& text) {
   semblante_frame frame{};
   std::istringstream entries(text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ Result<ImportedHead> load_model(const std::filesystem::path& path);
 /// most that many vertices, 0: the full mesh; a warning reports that no such level is possible. Errors name the file.
 Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std::filesystem::path& feature_points,
                                   WeightMethod weights = WeightMethod::paper, std::uint32_t max_vertices = 0);
+
+/// The methods by the names that --weights takes.
+std::map<std::string, WeightMethod> weight_methods();
 
 /// Parses "3=200,19=512" to a frame. Errors: invalid_argument, with the entry.
 Result<semblante_frame> parse_faps(const std::string& text);

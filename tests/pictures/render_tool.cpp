@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/native/render/renderer.h"
-#include "clients/native/tools/files.h"
+#include "clients/native/tools/run_tool.h"
 #include "clients/native/tools/shots.h"
 #include "core/import/model_formats.h"
 #include "core/pipeline/standing.h"
@@ -98,10 +98,5 @@ int main(int argc, char** argv) {
   app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
   app.add_option("--columns", arguments.columns, "columns of the sheet")->capture_default_str();
   app.add_flag("--separate", arguments.separate, "write one file per shot");
-  CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::pictures::run(arguments); !done) {
-    std::cerr << "semblante-render: " << semblante::tools::to_text(done.error()) << '\n';
-    return 1;
-  }
-  return 0;
+  return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::pictures::run(arguments); });
 }

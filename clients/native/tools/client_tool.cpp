@@ -12,6 +12,7 @@
 #include "clients/native/tools/files.h"
 #include "clients/native/tools/frame_output.h"
 #include "clients/native/tools/publish.h"
+#include "clients/native/tools/run_tool.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/kernel_values.h"
 
@@ -230,10 +231,5 @@ int main(int argc, char** argv) {
       throw CLI::RequiredError("--out");
     }
   });
-  CLI11_PARSE(app, argc, argv);
-  if (const auto done = semblante::tools::run(arguments); !done) {
-    std::cerr << "semblante-client: " << semblante::tools::to_text(done.error()) << '\n';
-    return 1;
-  }
-  return 0;
+  return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::tools::run(arguments); });
 }

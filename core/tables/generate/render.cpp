@@ -130,7 +130,7 @@ std::string render_cpp_header(const TableData& data) {
         << usual[1] << "},\n";
   }
   out << "}};\n\n";
-  array("FeaturePoint", "feature_points", data.feature_points["feature_points"].size());
+  array("FeaturePointInfo", "feature_points", data.feature_points["feature_points"].size());
   for (const json& point : data.feature_points["feature_points"]) {
     out << "    {" << quoted(point["id"]) << ", " << quoted(point["name"])
         << ", Side::" << point["side"].get<std::string>() << ", " << index_of(data, point["mirror"]) << "},\n";

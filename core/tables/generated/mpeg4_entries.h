@@ -226,7 +226,7 @@ inline constexpr std::array<Fap, 68> faps = {{
      10, FapKind::translation, Unit::ens, true, 0, -1, {71}, 1, 67, 1, 1, -900, 900, -200, 200},
 }};
 
-inline constexpr std::array<FeaturePoint, 84> feature_points = {{
+inline constexpr std::array<FeaturePointInfo, 84> feature_points = {{
     {"2.1", "bottom of the chin", Side::center, 0},
     {"2.2", "middle of the inner contour of the upper lip", Side::center, 1},
     {"2.3", "middle of the inner contour of the lower lip", Side::center, 2},

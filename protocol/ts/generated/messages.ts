@@ -161,13 +161,13 @@ export type Field =
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
   | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
-  | { name: string; type: 'optional_real'; min: number; max: number; required: boolean; fallback: null }
+  | { name: string; type: 'optional_real'; min: number; max: number; appended: true; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
 
 /** A field that was not there at first: where a message has its default, it is left out or the message ends before it. */
 export function isAppended(field: Field): field is Field & { fallback: unknown } {
-  return field.type === 'optional_real' || ((field.type === 'bool' || field.type === 'enum') && field.appended === true);
+  return 'appended' in field && field.appended === true;
 }
 
 /** A message: the first byte of its binary form, `type` of its JSON form, its fields. */
@@ -215,7 +215,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'batch_interval', type: 'uint', max: 60000, required: false, fallback: 0 },
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
       { name: 'recovered', type: 'bool', required: false, fallback: false },
-      { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, required: false, fallback: null },
+      { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, appended: true, required: false, fallback: null },
       { name: 'coding', type: 'enum', values: stream_coding_values, appended: true, required: false, fallback: 'plain' },
     ],
   },

@@ -1,4 +1,5 @@
-// semblante-codegen-api SOURCE_FOLDER OUTPUT_FOLDER: writes the files that are generated from server/api/openapi.json.
+// semblante-codegen-api SOURCE_FOLDER OUTPUT_FOLDER: writes the files that are generated from server/api/openapi.json,
+// and the documents that the server sends.
 #include "core/codegen/generator.h"
 #include "server/api/codegen/render.h"
 
@@ -14,7 +15,11 @@ std::vector<GeneratedFile> api_files(const std::string& source_folder) {
           {folder + "answers.h", render_answers_header(document)},
           {folder + "answers.cpp", render_answers_source(document)},
           {folder + "body_members.h", render_body_members(document)},
-          {folder + "openapi.cpp", render_document(read_text(path))}};
+          {folder + "documents.cpp",
+           render_documents(
+               {{"openapi_document", read_text(path)},
+                {"protocol_specification", read_text(source_folder + "/protocol/SPEC.md")},
+                {"packed_tables_document", read_text(source_folder + "/protocol/schema/packed_tables.json")}})}};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "server/api/codegen/api_document.h"
 
@@ -13,7 +14,12 @@ std::string render_route_table(const Json& document);
 std::string render_answers_header(const Json& document);
 std::string render_answers_source(const Json& document);
 std::string render_body_members(const Json& document);
-/// `text`: the document byte for byte.
-std::string render_document(const std::string& text);
+
+/// A file that the server sends.
+struct EmbeddedDocument {
+  std::string function;  ///< of server/api/documents.h, that returns it
+  std::string text;      ///< byte for byte
+};
+std::string render_documents(const std::vector<EmbeddedDocument>& documents);
 
 }  // namespace semblante::codegen

@@ -128,7 +128,7 @@ std::optional<std::pair<Head, std::vector<std::uint32_t>>> symmetric_head() {
       file, file_surface, oracle::read_trusted_points(*faces / "ict-facekit" / "ict-facekit.fps.json"), nullptr);
   if (!placed) return std::nullopt;
   for (const FeaturePoint& point : *placed) {
-    const mpeg4::FeaturePoint& about = mpeg4::feature_points[point.id.value()];
+    const mpeg4::FeaturePointInfo& about = mpeg4::feature_points[point.id.value()];
     if (about.side == mpeg4::Side::right) continue;
     FeaturePoint on_left = point;
     if (about.side == mpeg4::Side::center) on_left.position.x = 0.0F;

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "protocol/hash/sha256.h"
 #include "tests/integration/server/model_flow.h"
 
 namespace semblante::test {
@@ -171,6 +172,31 @@ TEST_F(Routes, Package_IsServedByTagRangeAndHash) {
     EXPECT_THAT(by_hash.headers.at("cache-control"), HasSubstr("immutable"));
   }
   EXPECT_EQ(request(port(), "GET", "/v1/models/" + model + "/preview.glb").body.substr(0, 4), "glTF");
+}
+
+TEST_F(Routes, Protocol_IsServedWithTheBytesOfItsFiles) {
+  const auto file = [](const char* path) {
+    std::ifstream stream(std::string(SEMBLANTE_SOURCE_DIR) + path, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  };
+  const auto specification = request(port(), "GET", "/v1/protocol/SPEC.md");
+  EXPECT_EQ(specification.headers.at("content-type"), "text/markdown; charset=utf-8");
+  EXPECT_EQ(specification.headers.at("cache-control"), "no-cache") << "another version may say more";
+  EXPECT_EQ(specification.body, file("/protocol/SPEC.md"));
+
+  const std::string target = "/v1/protocol/packed_tables.json";
+  const auto tables = request(port(), "GET", target);
+  ASSERT_EQ(tables.status, 200);
+  EXPECT_EQ(tables.headers.at("content-type"), "application/json");
+  EXPECT_EQ(tables.body, file("/protocol/schema/packed_tables.json"));
+  EXPECT_THAT(tables.headers.at("cache-control"), HasSubstr("immutable"));
+  EXPECT_EQ(request(port(), "GET", target, {}, {{"If-None-Match", tables.headers.at("etag")}}).status, 304);
+
+  // The sentence of the specification that states length and hash, and where the file is.
+  const std::string stated = "UTF-8 JSON, " + std::to_string(tables.body.size()) + " bytes, with the SHA-256 `" +
+                             sha256_hex(tables.body) + "`";
+  EXPECT_THAT(specification.body, HasSubstr(stated));
+  EXPECT_THAT(specification.body, HasSubstr("`GET " + target + "`"));
 }
 
 TEST_F(Routes, Report_IsThereFromTheImportOn) {

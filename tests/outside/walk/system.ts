@@ -7,6 +7,9 @@ export async function walkSystem(client: Client): Promise<void> {
   assert.equal(good(await client.GET('/readyz')).status, 'ok');
   assert.equal(good(await client.GET('/version')).name, 'semblante');
   good(await client.GET('/openapi.json'));
+  const specification: string = good(await client.GET('/v1/protocol/SPEC.md', { parseAs: 'text' }));
+  assert.match(specification, /^# Semblante protocol, version 1$/m);
+  assert.equal(good(await client.GET('/v1/protocol/packed_tables.json')).references.length, 69);
   const metrics: string = good(await client.GET('/metrics', { parseAs: 'text' }));
   assert.match(metrics, /^# TYPE \S+ (counter|gauge|histogram)$/m);
 

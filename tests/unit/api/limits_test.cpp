@@ -12,7 +12,7 @@
 #include "core/performance/cue.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/api/api.h"
-#include "server/api/openapi.h"
+#include "server/api/documents.h"
 #include "server/api/play_options.h"
 #include "server/jobs/job_run.h"
 #include "server/net/server.h"

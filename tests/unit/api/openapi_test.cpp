@@ -1,7 +1,5 @@
 // The API document against the table of routes, and every JSON file that is published: what needs no server to be seen.
 
-#include "server/api/openapi.h"
-
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +13,9 @@
 
 #include "core/import/model_formats.h"
 #include "core/json/read_json.h"
+#include "server/api/documents.h"
 #include "server/api/routes.h"
+#include "server/http/media_type.h"
 
 namespace semblante::api {
 namespace {
@@ -65,6 +65,17 @@ TEST(OpenApi, UploadOfAHead_NamesTheFormatsThereAre) {
   std::set<std::string_view> media_types(other_model_media_types.begin(), other_model_media_types.end());
   for (const ModelFile& file : model_files) media_types.insert(file.media_type);
   EXPECT_EQ(body.at("content").size(), media_types.size() + 1);
+}
+
+/// The files of a folder of pages have their types from a table of server/http, which does not depend on core/import.
+TEST(OpenApi, ModelFilesAmongPages_HaveTheTypesOfUploads) {
+  EXPECT_EQ(http::media_type_of_file("face.glb"), glb_media_type);
+  for (const ModelFile& file : model_files) {
+    const auto served = http::media_type_of_file("head" + std::string(file.ending));
+    if (served != "application/octet-stream") {
+      EXPECT_EQ(served, file.media_type) << file.ending;
+    }
+  }
 }
 
 TEST(OpenApi, NoObject_NamesAMemberTwice) {

@@ -47,7 +47,7 @@ class FullDiskQueueTest : public ::testing::Test {
 
   void begin() {
     pending_ = std::make_unique<store::PendingWrites>(options_);
-    queue_ = std::make_unique<JobQueue>(*store_, *blobs_, *pending_, config_);
+    queue_ = std::make_unique<JobQueue>(JobStores{*store_, *store_, *store_}, *blobs_, *pending_, config_);
     queue_->on_finished([this](const store::JobRecord& job) {
       const std::lock_guard lock(mutex_);
       ended_.push_back({job, store_->job(job.id)});

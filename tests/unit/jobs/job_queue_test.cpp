@@ -63,7 +63,7 @@ echo $lock >> done)";
     for (const std::string model : {"a", "b"}) jobs.push_back(add_job(model + std::to_string(round), model));
   }
   store::PendingWrites pending{{}};
-  JobQueue queue(*store_, *blobs_, pending, config);
+  JobQueue queue({*store_, *store_, *store_}, *blobs_, pending, config);
   std::mutex mutex;
   std::condition_variable ended;
   std::size_t count = 0;

@@ -64,7 +64,7 @@ TEST(SaidTwice, LimitsOfPerformances) {
   EXPECT_NE(spec.find("At most " + std::to_string(max_overlapping_cues) + " at once."), std::string::npos);
 }
 
-TEST(SaidTwice, UsualTimesOfCues) {
+TEST(SaidTwice, UsualTimesOfCues_AndHowFarLidsAndEyesGo) {
   const std::string reader = source("protocol/ts/performance_document.ts");
   const std::string spec = source("protocol/SPEC.md");
   for (const auto& [target, ramps] : usual_ramps) {
@@ -79,6 +79,13 @@ TEST(SaidTwice, UsualTimesOfCues) {
   blink << "(`duration` " << blink_ms << ")";
   lids << "towards " << upper_lid_units << " (upper) and " << lower_lid_units << " (lower) units";
   lids_of_the_reader << "{ upper: " << upper_lid_units << ", lower: " << lower_lid_units << " }";
+  std::ostringstream eyes, eyes_of_the_reader;
+  eyes << "An eye turns at most " << largest_eye_yaw_degrees << " degrees sideways, " << largest_eye_pitch_degrees
+       << " up or down.";
+  eyes_of_the_reader << "largestEyeTurnDegrees = { yaw: " << largest_eye_yaw_degrees
+                     << ", pitch: " << largest_eye_pitch_degrees << " }";
+  EXPECT_NE(spec.find(eyes.str()), std::string::npos);
+  EXPECT_NE(reader.find(eyes_of_the_reader.str()), std::string::npos);
   EXPECT_NE(spec.find(blink.str()), std::string::npos);
   EXPECT_NE(spec.find(lids.str()), std::string::npos);
   EXPECT_NE(reader.find(lids_of_the_reader.str()), std::string::npos);

@@ -32,7 +32,7 @@ class RecorderTest : public ::testing::Test {
   }
   void begin() {
     recorder_.reset();
-    auto opened = Recorder::open(*store_, pending_, folder_.file("recordings"), limits_);
+    auto opened = Recorder::open(*store_, *store_, pending_, folder_.file("recordings"), limits_);
     ASSERT_TRUE(opened) << opened.error().message;
     recorder_ = std::move(*opened);
   }

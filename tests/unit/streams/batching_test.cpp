@@ -1,5 +1,6 @@
 // Frames become batches, and batches reach those who listen.
 
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -212,6 +213,45 @@ void expect_unbroken(const std::vector<std::string>& payloads) {
       ASSERT_EQ(key->state.level[48], static_cast<std::int16_t>(key->sequence % 1000));
     }
   }
+}
+
+TEST_F(BatchingTest, FaultWhileSending_IsRetried_AndNobodyMissesABatch) {
+  const auto sender = std::make_shared<BatchSender>();
+  stream_ = make_stream(0, sender);
+  std::array<std::unique_ptr<FakeClient>, 3> clients;
+  for (auto& client : clients) {
+    client = std::make_unique<FakeClient>(stream_, StreamRole::subscribe);
+    client->take_all();
+  }
+  clients[1]->socket->throw_once();
+  std::array<std::vector<Message>, 3> rows;
+  // Whether each client has the state after this many frames, either from a batch or as a keyframe.
+  const auto all_have = [&](std::uint64_t sequence) {
+    return testing::eventually([&] {
+      bool all = true;
+      for (std::size_t i = 0; i < clients.size(); ++i) {
+        for (auto& message : clients[i]->take_all()) rows[i].push_back(std::move(message));
+        std::uint64_t seen = 0;
+        for (const auto& message : rows[i]) {
+          if (const auto* frames = std::get_if<Frames>(&message)) seen = frames->sequence;
+          if (const auto* key = std::get_if<Keyframe>(&message)) seen = key->sequence;
+        }
+        all = all && seen == sequence;
+      }
+      return all;
+    });
+  };
+  publish(1);
+  EXPECT_TRUE(all_have(1)) << "the slice with the fault is finished";
+  publish(2);
+  EXPECT_TRUE(all_have(2)) << "the stream is sent again after a fault";
+  for (const auto& row : rows) {
+    ASSERT_EQ(row.size(), 2U);
+    EXPECT_TRUE(std::holds_alternative<Frames>(row[1]));
+  }
+  EXPECT_TRUE(std::holds_alternative<Frames>(rows[0][0])) << "sent before the fault";
+  EXPECT_TRUE(std::holds_alternative<Keyframe>(rows[2][0])) << "not reached: gets the newest state";
+  sender->stop();
 }
 
 TEST_F(BatchingTest, ComingGoingAndFallingBehind_WhileTheSenderSends_BreaksNobodysRow) {

@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <mutex>
+#include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +33,7 @@ class FakeSocket : public http::WebSocketSink {
   http::Sent send(const http::SharedWire& message, http::Purpose purpose) override {
     const std::lock_guard lock(mutex_);
     if (closed_) return http::Sent::closed;
+    if (purpose == http::Purpose::state && std::exchange(throws_, false)) throw std::runtime_error("a fault of ours");
     if (reads_) {
       arrive(*message);
       return http::Sent::handed;
@@ -67,6 +70,11 @@ class FakeSocket : public http::WebSocketSink {
     const std::lock_guard lock(mutex_);
     reads_ = false;
     since_ = std::chrono::steady_clock::now();
+  }
+  /// The next send of a batch or a state throws, once.
+  void throw_once() {
+    const std::lock_guard lock(mutex_);
+    throws_ = true;
   }
   /// Takes all that waits, as a client would that comes back to its socket.
   void read_again(http::WebSocketPeer& peer) {
@@ -112,6 +120,7 @@ class FakeSocket : public http::WebSocketSink {
   const http::OutboxLimits limits_;
   mutable std::mutex mutex_;
   bool reads_ = true;
+  bool throws_ = false;
   std::chrono::steady_clock::time_point since_;
   std::deque<std::pair<http::SharedWire, http::Purpose>> waiting_;
   std::vector<std::string> arrived_;

@@ -76,8 +76,8 @@ TEST(Tables_Faps, NoTwoMoveOnePointAlongOneAxis) {
 
 TEST(Tables_Mirror, IsSymmetricInFapsAndPoints) {
   for (std::size_t i = 0; i < mpeg4::feature_points.size(); ++i) {
-    const mpeg4::FeaturePoint& p = mpeg4::feature_points[i];
-    const mpeg4::FeaturePoint& q = mpeg4::feature_points[p.mirror];
+    const mpeg4::FeaturePointInfo& p = mpeg4::feature_points[i];
+    const mpeg4::FeaturePointInfo& q = mpeg4::feature_points[p.mirror];
     EXPECT_EQ(q.mirror, i) << p.id;
     EXPECT_EQ(p.side == mpeg4::Side::center, p.mirror == i) << p.id;
     if (p.side != mpeg4::Side::center) {

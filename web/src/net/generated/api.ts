@@ -89,6 +89,40 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/protocol/SPEC.md": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The specification of the face package, the stream and the file formats */
+        get: operations["getProtocolSpecification"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/protocol/packed_tables.json": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** References and probabilities of the packed form of streams: bytes that never change, with the SHA-256 in the specification */
+        get: operations["getPackedTables"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/problems/{slug}": {
         parameters: {
             query?: never;
@@ -754,6 +788,18 @@ export interface components {
             errors?: {
                 pointer: string;
                 detail: string;
+            }[];
+        };
+        PackedTables: {
+            about: string;
+            /** @description By FAP number: the FAP that predicts it, 0 for none */
+            references: number[];
+            tables: {
+                name: string;
+                /** @description What the index means */
+                doc: string;
+                /** @description By index: the probability of a 1 in 4096ths */
+                values: number[];
             }[];
         };
         /** @enum {unknown} */
@@ -1801,6 +1847,70 @@ export interface operations {
                 };
                 content: {
                     "application/json": Record<string, never>;
+                };
+            };
+            /** @description Unchanged */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            421: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getProtocolSpecification: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description protocol/SPEC.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/markdown": string;
+                };
+            };
+            /** @description Unchanged */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            421: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getPackedTables: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description protocol/schema/packed_tables.json */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PackedTables"];
                 };
             };
             /** @description Unchanged */

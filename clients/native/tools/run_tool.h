@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/native/tools/files.h"
+#include "core/types/result.h"
+
+namespace semblante::tools {
+
+/// The end of a program's main: reads the command line, calls `run` and returns the exit status. An error is printed to
+/// standard error after the name of `app`.
+inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<Status()>& run) {
+  CLI11_PARSE(app, argc, argv);
+  if (const auto done = run(); !done) {
+    std::cerr << app.get_name() << ": " << to_text(done.error()) << '\n';
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace semblante::tools
