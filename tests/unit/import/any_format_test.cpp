@@ -86,9 +86,7 @@ TEST(ModelFormats, EveryFormat_HasAnEnding_AndItsName) {
   for (const auto& [format, name] : model_formats) {
     EXPECT_EQ(to_string(format), name);
     EXPECT_EQ(parse_model_format(name), format);
-    EXPECT_TRUE(std::any_of(model_files.begin(), model_files.end(), [&](const ModelFile& file) {
-      return file.format == format;
-    })) << name;
+    EXPECT_NE(std::ranges::count(model_files, format, &ModelFile::format), 0) << name;
   }
   EXPECT_EQ(parse_model_format(""), std::nullopt);
   EXPECT_EQ(format_of_name("Ana.of.1.VRM"), ModelFormat::glb);
