@@ -78,7 +78,7 @@ install_packages() {
   local plan
   # --download-only: apt-get asks nothing, and installs, where it is asked for one package that needs no other.
   plan=$(LC_ALL=C as_root apt-get install --no-install-recommends --assume-no --download-only "${missing[@]}" 2>&1) || true
-  grep -q '^E: ' <<<"$plan" && fail "apt-get cannot install these: $(grep -m3 -B5 '^E: ' <<<"$plan")"
+  grep -q '^E: ' <<<"$plan" && fail "apt-get cannot install these: $(grep -vE '^(Reading|Building) ' <<<"$plan" | tail -n 12)"
   sed -nE '/newly installed|Need to get|After this operation/s/^/   /p' <<<"$plan"
   # Removing other people's software to make room for ours must be their decision, never a side effect.
   if grep -qE '[1-9][0-9]* to remove' <<<"$plan"; then
