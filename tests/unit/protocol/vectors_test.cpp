@@ -133,8 +133,9 @@ TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
     const auto result = decoder.decode(from_hex(vector.at("binary")));
     ASSERT_FALSE(result.ok()) << name;
     const StreamError error = to_stream_error(result.error());
-    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
-    EXPECT_EQ(error.where, vector.at("where")) << name;
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code").get<std::string>())
+        << name;
+    EXPECT_EQ(error.where, vector.at("where").get<std::string>()) << name;
   }
 }
 
@@ -149,8 +150,9 @@ TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
                                                   : decode_json(vector.at("json").get<std::string>());
     ASSERT_FALSE(result.ok()) << name;
     const StreamError error = to_stream_error(result.error());
-    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
-    EXPECT_EQ(error.where, vector.at("where")) << name;
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code").get<std::string>())
+        << name;
+    EXPECT_EQ(error.where, vector.at("where").get<std::string>()) << name;
   }
 }
 
