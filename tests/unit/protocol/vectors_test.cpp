@@ -162,7 +162,7 @@ TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
     const json meaning = json::parse(read(std::string(name) + ".json"));
     const auto table = decode_weights(Bytes(file.begin(), file.end()));
     ASSERT_TRUE(table.ok()) << name << ": " << table.error().message;
-    EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256"));
+    EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256").get<std::string>());
     EXPECT_EQ(json(table->rigid), meaning.at("rigid"));
     const double total = std::pow(2.0, meaning.at("bits").get<int>()) - 1;
     json rows = json::array();
