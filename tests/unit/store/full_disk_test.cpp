@@ -36,7 +36,7 @@ class FullDiskStoreTest : public ::testing::Test {
     store_.reset();
     store_ = *open_sqlite_store(folder_ / "facts.sqlite");
   }
-  static StreamRecord stream(const std::string& id) { return {id, id, "", timestamp_now(), std::nullopt, {}}; }
+  static StreamRecord stream(const std::string& id) { return {id, timestamp_now(), {}}; }
 
   std::filesystem::path folder_;
   std::unique_ptr<Store> store_;
