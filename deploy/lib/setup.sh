@@ -6,17 +6,21 @@ fail() {
   exit 1
 }
 
-# What the server and the studio are built with and run on.
+# What the server and the studio are built with and run on. Why each is needed: deploy/README.md.
 product_packages=(build-essential cmake ninja-build pkg-config
   'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
-  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenmesh-dev libstb-dev nlohmann-json3-dev libglm-dev
+  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev
   libcli11-dev
   'clang|clang-14' 'lld|lld-14' curl ca-certificates)
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
   g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
   libeigen3-dev libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
-  'chromium|chromium-browser' fonts-dejavu-core git ccache)
+  'chromium|chromium-browser' fonts-dejavu-core python3 git ccache)
+
+# Unpacked beside the build where it is not installed: it depends on OpenSceneGraph, 162 packages of 414 MB, for headers that
+# nothing here includes.
+openmesh=libopenmesh-dev
 
 as_root() {
   if [ "$(id -u)" = 0 ]; then
@@ -47,6 +51,13 @@ first_available() {
   echo "${1%%|*}" # apt-get says that there is none
 }
 
+# Asks the mirrors what they have, once in a run.
+refresh_package_lists() {
+  [ -n "${lists_are_fresh:-}" ] && return
+  as_root apt-get -qq update || fail "apt-get update failed: is a mirror of packages reachable?"
+  lists_are_fresh=yes
+}
+
 # install_packages NAME...: installs what is missing, after saying what and how much. Silent when nothing is.
 install_packages() {
   local wanted=("$@") missing=() package
@@ -61,16 +72,17 @@ install_packages() {
   grep -qE '^VERSION_ID="(12|13|24.04)"' /etc/os-release 2>/dev/null ||
     printf 'Note: made for Debian 12 and 13 and Ubuntu 24.04; this is %s\n' "$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}")" >&2
 
-  as_root apt-get -qq update || fail "apt-get update failed: is a mirror of packages reachable?"
+  refresh_package_lists
   mapfile -t missing < <(for package in "${missing[@]}"; do first_available "$package"; done)
   say "Packages to install: ${missing[*]}"
   local plan
-  plan=$(LC_ALL=C as_root apt-get install --no-install-recommends --assume-no "${missing[@]}" 2>&1) || true
-  grep -q 'Unable to locate package' <<<"$plan" && fail "$(grep -m3 'Unable to locate' <<<"$plan")"
-  grep -E 'newly installed|Need to get|After this operation' <<<"$plan" | sed 's/^/   /'
+  # --download-only: apt-get asks nothing, and installs, where it is asked for one package that needs no other.
+  plan=$(LC_ALL=C as_root apt-get install --no-install-recommends --assume-no --download-only "${missing[@]}" 2>&1) || true
+  grep -q '^E: ' <<<"$plan" && fail "apt-get cannot install these: $(grep -vE '^(Reading|Building) ' <<<"$plan" | tail -n 12)"
+  sed -nE '/newly installed|Need to get|After this operation/s/^/   /p' <<<"$plan"
   # Removing other people's software to make room for ours must be their decision, never a side effect.
   if grep -qE '[1-9][0-9]* to remove' <<<"$plan"; then
-    grep -A3 'will be REMOVED' <<<"$plan" >&2
+    sed -n '/will be REMOVED/,+3p' <<<"$plan" >&2
     fail "installing these would remove the packages above; resolve that by hand, then run this again"
   fi
   local log
@@ -81,6 +93,28 @@ install_packages() {
     fail "apt-get install failed (the end of its output is above; the whole of it: $log)"
   }
   rm -f "$log"
+}
+
+# unpack_openmesh: its headers and libraries into build/packages, where CMakeLists.txt looks when the package is not
+# installed. Silent when there is nothing to do.
+unpack_openmesh() {
+  local tree=$root/build/packages work libraries
+  if is_installed "$openmesh" || [ -d "$tree" ]; then return; fi
+  refresh_package_lists
+  # The libraries are named after their version: libopenmesh1 in Debian 12, libopenmesh11.0 in 13.
+  libraries=$(LC_ALL=C apt-cache depends --important "$openmesh" | sed -n 's/^ *Depends: \(libopenmesh[^ ]*\)$/\1/p')
+  say "Unpacking $openmesh and $libraries into build/packages"
+  work=$tree.partial # renamed when it is complete: an interrupted run leaves nothing that looks like a result
+  rm -rf "$work"
+  mkdir -p "$work"
+  # apt-get checks the signatures, as it does when it installs.
+  (cd "$work" && apt-get -qq download "$openmesh" $libraries && for archive in *.deb; do dpkg-deb -x "$archive" . && rm "$archive" || exit; done) \
+    >"$work.log" 2>&1 || {
+    tail -n 15 "$work.log" >&2
+    fail "$openmesh could not be fetched and unpacked (see above); installing it serves as well"
+  }
+  mv -T "$work" "$tree"
+  rm -f "$work.log"
 }
 
 # configure DIR PRESET [cmake options]: configures once; again only if an option changed. The presets: CMakePresets.json.

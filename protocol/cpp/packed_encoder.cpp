@@ -18,9 +18,8 @@ std::vector<std::uint8_t> PackedEncoder::encode(const Frames& frames) {
   assert(frames.sequence == 0 || frames.sequence == state_.sequence + 1);
   assert(!frames.frames.empty() && frames.frames.size() <= max_frames_per_message);
   assert(frames.media_time <= max_media_time);
-  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU))};
   bytes.reserve(16 * frames.frames.size());
-  bytes.push_back(static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU)));
   RangeEncoder coder(bytes);
   PackedModel model(coder, *table_, state_);
   model.count(frames.frames.size());

@@ -85,9 +85,10 @@ std::string render_c_header(const TableData& data) {
       out << "    {SEMBLANTE_FAP_HIGH_LEVEL, 0, 0, 0, 0}";
     } else {
       const auto [axis, sign] = axis_and_sign(fap.value("axis", json()));
+      const std::string unit_name = fap["unit"];
       std::size_t unit = 0;
-      while (unit < units.size() && units[unit] != fap["unit"]) ++unit;
-      if (unit == units.size()) throw std::runtime_error("no unit is called " + fap["unit"].dump());
+      while (unit < units.size() && units[unit] != unit_name) ++unit;
+      if (unit == units.size()) throw std::runtime_error("no unit is called " + unit_name);
       const char* const motion = kind == "translation" ? "TRANSLATION"
                                  : kind == "scale"     ? "PUPIL"
                                  : axis < 0            ? "ROLL"

@@ -40,7 +40,7 @@ TEST(PerformanceVectors, Documents_AreTakenOrRefusedAtThePlace) {
     const auto made = load(refused["document"].dump());
     ASSERT_FALSE(made) << refused.dump();
     if (refused["where"] != "") {
-      EXPECT_EQ(made.error().where, refused["where"]) << refused.dump();
+      EXPECT_EQ(made.error().where, refused["where"].get<std::string>()) << refused.dump();
     }
   }
 }

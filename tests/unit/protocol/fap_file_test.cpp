@@ -90,8 +90,8 @@ TEST(FapFile, GoldenFiles_OfNoFapFile_AreRefusedByLineAndWord) {
                                                     {ErrorCode::truncated, "truncated"},
                                                     {ErrorCode::out_of_range, "out_of_range"},
                                                     {ErrorCode::too_large, "too_large"}};
-    EXPECT_EQ(names.at(reading.error().code), refused.at("code")) << name;
-    EXPECT_EQ(reading.error().where, refused.at("where")) << name;
+    EXPECT_EQ(names.at(reading.error().code), refused.at("code").get<std::string>()) << name;
+    EXPECT_EQ(reading.error().where, refused.at("where").get<std::string>()) << name;
     EXPECT_FALSE(reading.error().message.empty());
   }
 }

@@ -133,8 +133,9 @@ TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
     const auto result = decoder.decode(from_hex(vector.at("binary")));
     ASSERT_FALSE(result.ok()) << name;
     const StreamError error = to_stream_error(result.error());
-    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
-    EXPECT_EQ(error.where, vector.at("where")) << name;
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code").get<std::string>())
+        << name;
+    EXPECT_EQ(error.where, vector.at("where").get<std::string>()) << name;
   }
 }
 
@@ -149,8 +150,9 @@ TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
                                                   : decode_json(vector.at("json").get<std::string>());
     ASSERT_FALSE(result.ok()) << name;
     const StreamError error = to_stream_error(result.error());
-    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code")) << name;
-    EXPECT_EQ(error.where, vector.at("where")) << name;
+    EXPECT_EQ(stream_error_code_names.names[static_cast<std::size_t>(error.code)], vector.at("code").get<std::string>())
+        << name;
+    EXPECT_EQ(error.where, vector.at("where").get<std::string>()) << name;
   }
 }
 
@@ -160,7 +162,7 @@ TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
     const json meaning = json::parse(read(std::string(name) + ".json"));
     const auto table = decode_weights(Bytes(file.begin(), file.end()));
     ASSERT_TRUE(table.ok()) << name << ": " << table.error().message;
-    EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256"));
+    EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256").get<std::string>());
     EXPECT_EQ(json(table->rigid), meaning.at("rigid"));
     const double total = std::pow(2.0, meaning.at("bits").get<int>()) - 1;
     json rows = json::array();
