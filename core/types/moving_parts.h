@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -25,9 +27,9 @@ constexpr bool is_rigid_motion(std::uint8_t value) {
 }
 
 /// The motion for a share of the tongue's roll, 0..1, rounded to 128ths; none below half of a 128th.
-constexpr RigidMotion tongue_motion(double share) {
-  const int steps = static_cast<int>(share * 128.0 + 0.5);
-  return steps < 1 ? RigidMotion::none : static_cast<RigidMotion>(127 + (steps < 128 ? steps : 128));
+inline RigidMotion tongue_motion(double share) {
+  const auto steps = std::lround(share * 128.0);
+  return steps < 1 ? RigidMotion::none : static_cast<RigidMotion>(127 + std::min(steps, 128L));
 }
 
 constexpr double tongue_share(RigidMotion motion) {

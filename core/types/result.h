@@ -50,10 +50,13 @@ class [[nodiscard]] Result {
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  const Error& error() const& { return assert(!ok()), *std::get_if<1>(&state_); }
-  Error&& error() && { return assert(!ok()), std::move(*std::get_if<1>(&state_)); }
+  const Error& error() const& { return assert(failed()), *std::get_if<1>(&state_); }
+  Error&& error() && { return assert(failed()), std::move(*std::get_if<1>(&state_)); }
 
  private:
+  /// Not `!ok()`: a variant may also be without any value, after a move that threw.
+  [[nodiscard]] bool failed() const { return state_.index() == 1; }
+
   std::variant<T, Error> state_;
 };
 
