@@ -1,10 +1,12 @@
 #include "core/import/gltf_scene.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "core/import/gltf_skin.h"
 
@@ -27,9 +29,7 @@ glm::dmat4 local_transform(const JsonCursor& node) {
   glm::dmat4 transform(1.0);
   if (node.has("matrix")) {
     const auto m = numbers<16>(node.member("matrix"));
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) transform[column][row] = m[static_cast<std::size_t>(column * 4 + row)];
-    }
+    std::copy(m.begin(), m.end(), glm::value_ptr(transform));  // both by columns
     return transform;
   }
   if (node.has("translation")) {

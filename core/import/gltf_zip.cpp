@@ -35,7 +35,7 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
 /// does not exist, the only entry with its file name is used.
 std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
                                       std::string_view path) {
-  const auto resolved = resolve_in_zip(folder, path);
+  auto resolved = resolve_in_zip(folder, path);
   if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
   const std::string name = lower_case(std::string(path.substr(path.find_last_of("/\\") + 1)));  // npos + 1 is 0
   if (name.empty()) return std::nullopt;

@@ -200,8 +200,8 @@ class PlyReader {
     const double announced = source_.next(*property.list_size);
     if (source_.fault()) return *source_.fault();
     const std::size_t item = header_.is_text ? 2 : size_of(property.type);
-    if (announced < 0 || announced != std::floor(announced) ||
-        announced > static_cast<double>((source_.left() + 1) / item)) {
+    const std::size_t most = (source_.left() + 1) / item;
+    if (announced < 0 || announced != std::floor(announced) || announced > static_cast<double>(most)) {
       return Error{ErrorCode::out_of_range, source_.where(),
                    "list " + shown(property.name) + " has a number of items that is invalid or exceeds the data"};
     }
