@@ -43,6 +43,15 @@ Place between(const Place& a, const Place& b, double t) {
   return {std::lerp(a.y, b.y, t), std::lerp(a.z, b.z, t), glm::mix(a.moves, b.moves, t)};
 }
 
+/// The first and the last k of 0..count-1 with `from` + k `step` in [low, high]; none if the first is greater.
+std::pair<int, int> lines_within(double low, double high, double from, double step, std::size_t count) {
+  const auto most = static_cast<double>(count);
+  // In this order of arguments a NaN, from a step of 0, gives no line.
+  const double first = std::min(most, std::max(0.0, std::ceil((low - from) / step)));
+  const double last = std::max(-1.0, std::min(std::floor((high - from) / step), most - 1.0));
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
+
 /// A lip cut by a plane of equal x.
 using Section = std::vector<std::array<Place, 2>>;
 
@@ -97,8 +106,8 @@ class Lips {
       }
     }
     const auto [least, greatest] = std::minmax_element(x.begin(), x.end());
-    const double last = std::min(std::floor((*greatest - from_x_) / step_), static_cast<double>(columns) - 1.0);
-    for (double k = std::max(0.0, std::ceil((*least - from_x_) / step_)); k <= last; ++k) {
+    const auto [first, last] = lines_within(*least, *greatest, from_x_, step_, columns);
+    for (int k = first; k <= last; ++k) {
       const double at = from_x_ + k * step_;
       std::array<Place, 2> segment;
       std::size_t found = 0;
@@ -128,8 +137,8 @@ std::vector<std::optional<Place>> edge_by_depth(const Section& section, double s
   std::vector<std::optional<Place>> edge(depths);
   for (auto [a, b] : section) {
     if (a.z > b.z) std::swap(a, b);
-    const double last = std::min(std::floor((b.z - from) / step), static_cast<double>(depths) - 1.0);
-    for (double k = std::max(0.0, std::ceil((a.z - from) / step)); k <= last; ++k) {
+    const auto [first, last] = lines_within(a.z, b.z, from, step, depths);
+    for (int k = first; k <= last; ++k) {
       const Place place = between(a, b, b.z > a.z ? (from + k * step - a.z) / (b.z - a.z) : 0.0);
       auto& known = edge[static_cast<std::size_t>(k)];
       if (!known || sign * place.y < sign * known->y) known = place;
