@@ -141,6 +141,7 @@ std::vector<Loop> loops_of(std::span<const Edge> border, const Surface& surface)
     }
   }
   std::vector<Loop> list;
+  list.reserve(loops.size());
   for (const auto& [v, loop] : loops) list.push_back(loop);
   return list;
 }
