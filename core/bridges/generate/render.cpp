@@ -20,10 +20,12 @@ std::map<int, double> read_faps(const std::string& shape, const json& source) {
   std::map<int, double> faps;
   for (const auto& [key, value] : source.items()) {
     const int number = std::stoi(key);
-    if (number < 3 || number > 68) throw std::runtime_error(shape + ": no low-level FAP " + key);
-    if (mpeg4::fap(static_cast<std::size_t>(number)).kind != mpeg4::FapKind::translation) {
-      throw std::runtime_error(shape + ": FAP " + key + " moves no point; eyes and head turn by rule");
-    }
+    const auto refuse = [&](const char* before, const char* after) {
+      throw std::runtime_error(std::string(shape).append(before).append(key).append(after));
+    };
+    if (number < 3 || number > 68) refuse(": no low-level FAP ", "");
+    if (mpeg4::fap(static_cast<std::size_t>(number)).kind != mpeg4::FapKind::translation)
+      refuse(": FAP ", " moves no point; eyes and head turn by rule");
     faps[number] = value.get<double>();
   }
   return faps;
