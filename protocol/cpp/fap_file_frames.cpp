@@ -106,7 +106,7 @@ double rate_of(std::span<const TimedValues> frames) {
     const double since = frame.time - frames.front().time;
     return std::abs(std::round(since * rate / ms_per_s) * ms_per_s / rate - since) <= 0.5;
   };
-  for (double rate = 1; rate < ms_per_s; ++rate) {
+  for (int rate = 1; rate < ms_per_s; ++rate) {
     if (std::all_of(frames.begin(), frames.end(), [&](const TimedValues& f) { return on_a_frame(f, rate); }))
       return rate;
   }

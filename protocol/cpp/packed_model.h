@@ -314,7 +314,7 @@ void PackedModel<Coder>::group(const mpeg4::FapGroup& group, FaceFrame& now) {
   }
   if (still != 0) {
     const bool all = still == (1U << (group.last_fap - group.first_fap + 1U)) - 1U;
-    moves = flag(packed_tables::group_moves + 2U * (group.number - 2U) + (all ? 1U : 0U), moves);
+    moves = flag(packed_tables::group_moves + std::size_t{2} * (group.number - 2U) + (all ? 1U : 0U), moves);
   }
   for (std::size_t fap = group.first_fap; fap <= group.last_fap; ++fap) {
     if (!moves && (still >> (fap - group.first_fap) & 1U) != 0) {
@@ -339,7 +339,7 @@ int PackedModel<Coder>::level(std::size_t fap, const FaceFrame& now, int value) 
 
   if (best.kind == shared && best.cost == 0) {  // the FAP has followed its reference exactly
     const auto reach = static_cast<unsigned>(std::min(length(std::abs(reference_step)), 7));
-    value = best.level + residual(packed_tables::follower_differs + 2U * reach + off_flag,
+    value = best.level + residual(packed_tables::follower_differs + std::size_t{2} * reach + off_flag,
                                   packed_tables::follower_sign + reference_off, 10U + std::min(reach, 4U),
                                   value - best.level);
   } else if (slow(0) && slow(1) && slow(2) && (best.kind != shared || reference_step == 0)) {
@@ -374,7 +374,7 @@ int PackedModel<Coder>::slow_level(std::size_t fap, std::size_t reference, int r
   int size = std::abs(step);
   if (flag(packed_tables::slow_more + 2U * moves + (pattern != 0 ? 1U : 0U), size > 1)) {
     const std::size_t set = moves == 2 ? 16U : 15U;
-    size = static_cast<int>(number(packed_tables::level_length + level_bits * set, level_bits,
+    size = static_cast<int>(number(packed_tables::level_length + std::size_t{level_bits} * set, level_bits,
                                    static_cast<std::uint64_t>(size) - 2U)) +
            2;
   } else {
@@ -386,7 +386,7 @@ int PackedModel<Coder>::slow_level(std::size_t fap, std::size_t reference, int r
 template <class Coder>
 int PackedModel<Coder>::residual(std::size_t differs, std::size_t sign, unsigned set, int value) {
   if (!flag(differs, value != 0)) return 0;
-  return signed_number(sign, packed_tables::level_length + level_bits * set, level_bits, value);
+  return signed_number(sign, packed_tables::level_length + std::size_t{level_bits} * set, level_bits, value);
 }
 
 /// Predicts `now` as before * reference_now / reference_before, rounded to the nearest, halves away from zero; if that
