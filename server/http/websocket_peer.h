@@ -20,10 +20,10 @@ struct CloseReason {
 
 /// Limits of the messages that wait for one connection whose client does not read.
 struct OutboxLimits {
-  std::size_t messages = 16;           ///< of state
-  std::size_t bytes = 256 * 1024;      ///< of state; one message may be longer
-  std::size_t answers = 256;           ///< of all messages
-  std::size_t answer_bytes = 1 << 20;  ///< of all
+  std::size_t messages = 16;                    ///< of state
+  std::size_t bytes = std::size_t{256} * 1024;  ///< of state; one message may be longer
+  std::size_t answers = 256;                    ///< of all messages
+  std::size_t answer_bytes = 1 << 20;           ///< of all
 };
 
 enum class Sent : std::uint8_t {

@@ -32,7 +32,7 @@ namespace {
 using boost::system::error_code;
 
 /// Maximum bytes of one read.
-constexpr std::size_t piece_bytes = 16 * 1024;
+constexpr std::size_t piece_bytes = std::size_t{16} * 1024;
 
 /// The result of `ask`, or a 500 when it throws: an internal error ends only its own request.
 template <class Ask>

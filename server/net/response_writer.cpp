@@ -20,7 +20,7 @@ namespace beast = boost::beast;
 
 namespace {
 
-constexpr std::size_t sent_piece_bytes = 64 * 1024;
+constexpr std::size_t sent_piece_bytes = std::size_t{64} * 1024;
 constexpr std::chrono::seconds heartbeat{15};
 constexpr std::chrono::milliseconds look_for_stop{500};
 

@@ -33,7 +33,7 @@ constexpr std::size_t longest_reason = 123;
 /// Size of the first piece of a message: most messages of clients (hello, ping) fit into it. An idle connection keeps
 /// no larger buffer.
 constexpr std::size_t first_piece_bytes = 128;
-constexpr std::size_t largest_piece_bytes = 64 * 1024;
+constexpr std::size_t largest_piece_bytes = std::size_t{64} * 1024;
 
 /// One WebSocket. Owned by its pending operations; guarded by the strand of its socket.
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
