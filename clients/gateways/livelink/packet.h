@@ -26,7 +26,7 @@ struct Packet {
 };
 
 inline constexpr std::size_t max_name_bytes = 256;  ///< of device and subject, each
-inline constexpr std::size_t max_packet_bytes = 1 + 2 * (4 + max_name_bytes) + 16 + 1 + 61 * 4;
+inline constexpr std::size_t max_packet_bytes = 1 + 2 * (4 + max_name_bytes) + 16 + 1 + std::size_t{61} * 4;
 
 /// One UDP packet of Live Link Face, version 6. All numbers are big-endian:
 ///
