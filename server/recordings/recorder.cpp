@@ -47,7 +47,7 @@ Status Recorder::repair() {
     const auto records = store_.recordings("", after, page);
     if (!records || records->empty()) break;
     after = records->back().id;
-    for (auto record : *records) {
+    for (const auto& record : *records) {
       if (record.state == store::RecordingState::recording) {
         keep_shown(record);
         pending_.write(this, "recording " + record.id, "the repair of recording " + record.id,
