@@ -154,7 +154,7 @@ Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, ResultFiles&
   return Outcome{std::move(*extraction)};
 }
 
-std::vector<std::string> ExtractJob::finish(store::JobRecord& job, Outcome outcome,
+std::vector<std::string> ExtractJob::finish(store::JobRecord& job, const Outcome& outcome,
                                             const std::vector<store::ArtefactRecord>& /*artefacts*/,
                                             store::JobStore& store) const {
   const Json taken = describe(outcome.extraction);

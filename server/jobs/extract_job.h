@@ -39,7 +39,7 @@ struct ExtractJob {
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
   static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
-  std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
+  std::vector<std::string> finish(store::JobRecord& job, const Outcome& outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
   bool operator==(const ExtractJob&) const = default;

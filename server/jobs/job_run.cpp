@@ -133,7 +133,7 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
                             "its worker ended with code " + std::to_string(exit.code) + " and without a result");
 }
 
-JobRecord JobRun::keep_result(JobRecord job, const WorkerRequest& request, WorkerResult result) {
+JobRecord JobRun::keep_result(const JobRecord& job, const WorkerRequest& request, WorkerResult result) {
   try {
     // Blobs that only the earlier result refers to are removed after this commit.
     const std::unique_lock alone(blobs_.references());

@@ -54,7 +54,7 @@ class JobRun {
   std::optional<store::JobRecord> work(const store::JobRecord& job, const WorkerRequest& request,
                                        const OnProgress& on_progress, const std::function<Wish()>& wish);
   http::Problem problem_of(const WorkerExit& exit) const;
-  store::JobRecord keep_result(store::JobRecord job, const WorkerRequest& request, WorkerResult result);
+  store::JobRecord keep_result(const store::JobRecord& job, const WorkerRequest& request, WorkerResult result);
   /// Returns a problem when an artefact cannot be stored for another reason than a full disk.
   std::optional<http::Problem> adopt_artefacts(const WorkerRequest& request, WorkerResult& result);
   /// Removes the artefacts' blobs that no record refers to.

@@ -61,7 +61,7 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, ResultFiles&
 }
 
 /// The points of the model are merged, not replaced: see JobStore::finish_proposal.
-std::vector<std::string> ProposeJob::finish(store::JobRecord& job, Outcome outcome,
+std::vector<std::string> ProposeJob::finish(store::JobRecord& job, const Outcome& outcome,
                                             const std::vector<store::ArtefactRecord>& /*artefacts*/,
                                             store::JobStore& store) const {
   nlohmann::json result = {{"proposed", outcome.proposals.size()}, {"not_proposed", nlohmann::json::object()}};

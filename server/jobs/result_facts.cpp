@@ -1,9 +1,12 @@
 #include "server/jobs/result_facts.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
 
 namespace semblante::jobs {
 
@@ -36,9 +39,8 @@ std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
 
 store::Turn rows_of(const glm::dmat3& turn) {
   store::Turn rows{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) rows[static_cast<std::size_t>(3 * row + column)] = turn[column][row];
-  }
+  const glm::dmat3 by_rows = glm::transpose(turn);
+  std::copy_n(glm::value_ptr(by_rows), rows.size(), rows.begin());
   return rows;
 }
 
