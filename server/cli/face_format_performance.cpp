@@ -32,7 +32,7 @@ Result<FaceSequence> read_performance_faces(std::string_view text, const FaceRea
     return Error{
         ErrorCode::too_large, "/duration",
         "gives more than " + std::to_string(static_cast<int>(max_performance_frames)) + " frames at this rate"};
-  for (double k = 0.0; k < frames; k += 1.0) {
+  for (int k = 0; k < frames; ++k) {
     const double ms = k * 1000.0 / sequence.rate;
     sequence.frames.push_back({static_cast<std::uint32_t>(std::lround(ms)), to_values(performance->frame_at(ms))});
   }

@@ -84,7 +84,7 @@ FaceSequence read_faces(const std::string& path, const std::string& format, cons
   }
   auto sequence = chosen->read(text, reading);
   if (!sequence) fail(path, sequence.error());
-  for (auto& warning : sequence->warnings) warning = path + ": " + warning;
+  for (auto& warning : sequence->warnings) warning.insert(0, path + ": ");
   return *std::move(sequence);
 }
 

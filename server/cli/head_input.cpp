@@ -52,6 +52,7 @@ std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
 
 std::vector<std::string> model_format_names() {
   std::vector<std::string> names;
+  names.reserve(model_formats.size());
   for (const auto& format : model_formats) names.emplace_back(format.name);
   return names;
 }

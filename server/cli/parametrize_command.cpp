@@ -76,7 +76,9 @@ void write_packages(Head& head, const ParametrizeCommand& options) {
   const ProgressLine line(options.head.quiet);
   const Progress progress = line.progress();
   auto budgets = budgets_of(options, head.model);
-  auto levelled = level_head(std::move(head), std::move(budgets), part_of(progress, 0.0, 0.5));
+  // What the stages made is moved; the command's remarks stay.
+  auto levelled =
+      level_head(std::move(static_cast<RiggedHead&>(head)), std::move(budgets), part_of(progress, 0.0, 0.5));
   if (!levelled) fail(options.head.model_path, levelled.error());
   const std::filesystem::path folder(options.out);
   const auto packages = pack(*levelled, options, part_of(progress, 0.5, 1.0));
