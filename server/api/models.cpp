@@ -100,7 +100,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
 /// import will remove it.
 std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord& model,
                                      const std::vector<store::WornSet>& worn, bool package_goes) {
-  const auto job = package_goes ? std::nullopt : make_package_again(context, model);
+  auto job = package_goes ? std::nullopt : make_package_again(context, model);
   if (job) refuse_unless_room(context.jobs);
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
     refuse("conflict", "another request changed the model at the same time: read it and try again");

@@ -80,7 +80,7 @@ class Answers {
     if (const auto name = component_name(schema); !name.empty()) return component(name);
     const auto fault = [&](const std::string& what) { return std::runtime_error(scope + "." + member + ": " + what); };
     if (schema.contains("enum") && schema["enum"][0].is_string()) {
-      const auto name = pascal_case(member);
+      auto name = pascal_case(member);
       nested += words(name, schema["enum"]);
       return name;
     }

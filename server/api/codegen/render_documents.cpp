@@ -10,8 +10,8 @@ std::string render_documents(const std::vector<EmbeddedDocument>& documents) {
   for (const auto& [function, text] : documents) {
     if (text.find(")" + delimiter + "\"") != std::string::npos)
       throw std::runtime_error("the text of " + function + " has the end of a raw string in it");
-    out +=
-        "\nstd::string_view " + function + "() {\n  return R\"" + delimiter + "(" + text + ")" + delimiter + "\";\n}\n";
+    out.append("\nstd::string_view ").append(function).append("() {\n  return R\"").append(delimiter).append("(");
+    out.append(text).append(")").append(delimiter).append("\";\n}\n");
   }
   return out + "\n}  // namespace semblante::api\n";
 }
