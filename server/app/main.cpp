@@ -7,7 +7,8 @@
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 
-int main(int argc, char** argv) {
+// Only a mistake in the options themselves throws outside a try: it may end the program.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace semblante;
   CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
   app.require_subcommand(1);

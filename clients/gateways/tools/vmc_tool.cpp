@@ -28,7 +28,8 @@ Status receive(const gateways::InboundOptions& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+// Only a mistake in the options themselves throws outside a try: it may end the program.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   gateways::InboundOptions in;
   gateways::OutboundOptions out;
   in.program = out.program = "semblante-vmc";

@@ -54,7 +54,7 @@ Picture downsample(std::span<const std::uint8_t> rgba, int width, int height, in
       for (std::size_t c = 0; c < 3; ++c) {
         const float behind = backdrop_top[c] + (backdrop_bottom[c] - backdrop_top[c]) * down;
         const float light = sum[c] * share + behind * (1.0F - alpha * share);
-        const int step = std::clamp(static_cast<int>(light * encode_steps + 0.5F), 0, encode_steps);
+        const auto step = std::clamp(std::lround(light * encode_steps), 0L, static_cast<long>(encode_steps));
         picture.rgb[(static_cast<std::size_t>(y) * width + x) * 3 + c] = tables.encoded[static_cast<std::size_t>(step)];
       }
     }

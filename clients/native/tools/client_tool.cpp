@@ -193,7 +193,8 @@ Status run(const Arguments& arguments) {
 }  // namespace
 }  // namespace semblante::tools
 
-int main(int argc, char** argv) {
+// Only a mistake in the options themselves throws outside a try: it may end the program.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   semblante::tools::Arguments arguments;
   CLI::App app{
       "Follows a stream of a Semblante server and writes the frames of a face, or publishes frames to a stream.",
