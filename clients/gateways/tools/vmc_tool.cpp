@@ -28,7 +28,7 @@ Status receive(const gateways::InboundOptions& options) {
 
 }  // namespace
 
-// Only a mistake in the options themselves throws outside a try: it may end the program.
+// Only a mistake in the options themselves, or a lack of memory, throws here: both may end the program.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   gateways::InboundOptions in;
   gateways::OutboundOptions out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <iostream>
 
@@ -14,11 +15,14 @@ namespace semblante::tools {
 /// standard error after the name of `app`.
 inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<Status()>& run) {
   CLI11_PARSE(app, argc, argv);
-  if (const auto done = run(); !done) {
+  try {
+    const auto done = run();
+    if (done) return 0;
     std::cerr << app.get_name() << ": " << to_text(done.error()) << '\n';
-    return 1;
+  } catch (const std::exception& fault) {
+    std::cerr << app.get_name() << ": internal error: " << fault.what() << '\n';
   }
-  return 0;
+  return 1;
 }
 
 }  // namespace semblante::tools
