@@ -48,7 +48,10 @@ Model shaken_grid(std::uint32_t side) {
   std::uniform_real_distribution<float> shake(-0.25F, 0.25F);
   for (glm::vec3& p : model.positions) {
     if (p.x == 0.0F || p.y == 0.0F || p.x == static_cast<float>(side) || p.y == static_cast<float>(side)) continue;
-    p += glm::vec3(shake(random), shake(random), 0.0F);
+    // One statement each: compilers evaluate the arguments of a call in different orders.
+    const float y = shake(random);
+    const float x = shake(random);
+    p += glm::vec3(x, y, 0.0F);
   }
   return model;
 }
