@@ -81,7 +81,8 @@ TEST(FapFile, GoldenFiles_WrittenAndReadAgain_AreExact) {
 }
 
 TEST(FapFile, GoldenFiles_OfNoFapFile_AreRefusedByLineAndWord) {
-  for (const json& refused : json::parse(read(vectors() / "refused.json")).at("refused")) {
+  const json file = json::parse(read(vectors() / "refused.json"));
+  for (const json& refused : file.at("refused")) {
     const std::string name = refused.at("name");
     const auto reading = read_fap_file(refused.at("text").get<std::string>());
     ASSERT_FALSE(reading) << name;
