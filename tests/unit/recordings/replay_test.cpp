@@ -63,10 +63,13 @@ class Replay : public ::testing::Test {
   /// Plays to the end with a thread that is now and then late by up to `late` ms.
   void play_out(Player& playing, double late) {
     std::mt19937 random(3);
-    for (auto now = begin_; !playing.finished();
-         now = std::max(now, playing.next()) +
-               std::chrono::microseconds(static_cast<std::int64_t>(random() % 1000 * late)))
+    auto now = begin_;
+    playing.play(now);
+    while (!playing.finished()) {  // a finished player has no next time
+      now =
+          std::max(now, playing.next()) + std::chrono::microseconds(static_cast<std::int64_t>(random() % 1000 * late));
       playing.play(now);
+    }
   }
 
   std::shared_ptr<Listener> listener_ = std::make_shared<Listener>();
