@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -14,6 +15,14 @@ namespace semblante::test {
 namespace {
 
 using nlohmann::json;
+
+/// std::regex_search for an expression from a document. libstdc++ compiles expressions with a cache of the locale that
+/// all threads share without a lock.
+bool is_found(const std::string& expression, const std::string& text) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  return std::regex_search(text, std::regex(expression));
+}
 
 constexpr auto known_keywords = std::to_array<std::string_view>({"$ref",
                                                                  "additionalProperties",
@@ -143,12 +152,11 @@ class Validator {
     };
     if (schema.contains("minLength") && code_points(text) < schema["minLength"].get<std::size_t>()) fault("minLength");
     if (schema.contains("maxLength") && code_points(text) > schema["maxLength"].get<std::size_t>()) fault("maxLength");
-    if (schema.contains("pattern") && !std::regex_search(text, std::regex(schema["pattern"].get<std::string>())))
-      fault("pattern");
+    if (schema.contains("pattern") && !is_found(schema["pattern"].get<std::string>(), text)) fault("pattern");
     if (schema.contains("format")) {
       if (schema["format"] != "date-time") throw std::logic_error("the validator does not know this format");
-      static const std::regex date_time(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?(Z|[+-]\d\d:\d\d))");
-      if (!std::regex_match(text, date_time)) fault("format date-time");
+      constexpr const char* date_time = R"(^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?(Z|[+-]\d\d:\d\d)$)";
+      if (!is_found(date_time, text)) fault("format date-time");
     }
   }
 
