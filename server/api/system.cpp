@@ -11,22 +11,14 @@ namespace semblante::api {
 namespace {
 
 /// A document of documents.h with its header fields.
-class Document {
- public:
-  Document(std::string_view text, std::string_view content_type, std::string_view cache_control) {
-    response_.headers["Content-Type"] = content_type;
-    response_.headers["Cache-Control"] = cache_control;
-    response_.headers["ETag"] = "\"sha256-" + sha256_hex(text) + "\"";
-    response_.body = std::string(text);
-  }
-
-  [[nodiscard]] http::Response answer(const http::Request& request) const {
-    return http::apply_conditions(request, response_);
-  }
-
- private:
-  http::Response response_;
-};
+http::Response document(std::string_view text, std::string_view content_type, std::string_view cache_control) {
+  http::Response response;
+  response.headers["Content-Type"] = content_type;
+  response.headers["Cache-Control"] = cache_control;
+  response.headers["ETag"] = "\"sha256-" + sha256_hex(text) + "\"";
+  response.body = std::string(text);
+  return response;
+}
 
 }  // namespace
 
@@ -47,18 +39,18 @@ http::Response get_version(Context& context, http::Request&) {
 }
 
 http::Response get_openapi(Context&, http::Request& request) {
-  static const Document document(openapi_document(), "application/json", "no-cache");
-  return document.answer(request);
+  static const auto response = document(openapi_document(), "application/json", "no-cache");
+  return http::apply_conditions(request, response);
 }
 
 http::Response get_protocol_specification(Context&, http::Request& request) {
-  static const Document document(protocol_specification(), "text/markdown; charset=utf-8", "no-cache");
-  return document.answer(request);
+  static const auto response = document(protocol_specification(), "text/markdown; charset=utf-8", "no-cache");
+  return http::apply_conditions(request, response);
 }
 
 http::Response get_packed_tables(Context&, http::Request& request) {
-  static const Document document(packed_tables_document(), "application/json", http::cache_forever);
-  return document.answer(request);
+  static const auto response = document(packed_tables_document(), "application/json", http::cache_forever);
+  return http::apply_conditions(request, response);
 }
 
 http::Response get_problem(Context&, http::Request& request) {
