@@ -120,7 +120,7 @@ semblante_result semblante_head_set_pose(semblante_head* head, const semblante_p
 semblante_result semblante_head_positions(const semblante_head* head, float* positions, size_t capacity);
 
 /* Like semblante_head_positions, if `positions` still has the result of this head in the pose `before`: writes only
- * vertices that may have changed. A talking face without head motion moves half of them. */
+ * vertices that may differ between the two poses. For speech without head motion these are about half of all. */
 semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
                                                  float* positions, size_t capacity);
 

@@ -18,10 +18,10 @@ struct MouthShare {
 /// #S shares; zero outside the parts with a tooth's or the tongue's role.
 ///
 /// Lower teeth and tongue follow the jaw fully, upper teeth not at all. On many heads, though, both gums and the tongue
-/// are one part, joined at the throat; with the role of a tongue, it would pull the upper gum off its teeth. Such a
-/// part is recognized by both rows of teeth in it. The shares of its vertices depend on distances along the surface:
-/// they follow the upper teeth where those are nearer, the jaw where lower teeth or tongue points are nearer, with a
-/// smooth transition; and the tongue's own points do not move the gums.
+/// are one part, joined at the throat. If all of it moved as the tongue does, it would pull the upper gum off its
+/// teeth. Such a part is recognized by both rows of teeth in it. The shares of its vertices depend on distances along
+/// the surface: they follow the upper teeth where those are nearer, the jaw where lower teeth or tongue points are
+/// nearer, with a smooth transition; and the tongue's own points do not move the gums.
 std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
                                      std::span<const SurfacePoint> points);
 

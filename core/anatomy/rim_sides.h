@@ -9,8 +9,8 @@
 
 namespace semblante {
 
-/// The opening to whose upper or lower lip (or lid) the point belongs, and to which of the two; null for all other
-/// points (corners belong to both sides).
+/// Which lip or lid a feature point lies on: the opening (mouth or eye), and whether the point is on its upper or its
+/// lower side. `opening` is null for all other points, among them the corners, which lie on both sides.
 struct RimOfPoint {
   const mpeg4::Opening* opening = nullptr;
   bool is_upper = false;

@@ -12,9 +12,10 @@
 namespace semblante {
 namespace {
 
+// In ES0, as the coordinates of FaceSurface.
 constexpr double beside = 0.03;     ///< maximum distance from the axis of an eye for a vertex at its pupil
 constexpr double believable = 0.2;  ///< maximum distance from the pupil expected by proportions
-constexpr double cornea = 0.12;     ///< approximate radius of the cornea
+constexpr double cornea = 0.12;     ///< radius of the cornea seen from the front
 
 /// The eyeball's sphere, fitted to the largest part with the role.
 std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {

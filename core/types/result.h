@@ -15,7 +15,7 @@ enum class ErrorCode {
   not_finite,        ///< NaN or infinity in place of a finite number
   too_large,         ///< over a documented limit
   empty,             ///< nothing to work on (no triangles, no points)
-  unsupported,       ///< valid, but needs a feature that is not implemented
+  unsupported,       ///< valid, but outside what this program supports
   mismatch,          ///< two inputs that must belong together do not
   missing,           ///< something required is absent
   invalid_argument,  ///< a value that is not valid here

@@ -8,7 +8,8 @@
 namespace semblante::sample_head_detail {
 
 /// The control cage of the left half of the skin: about 170 quads with holes for eye, mouth, nostril and ear, and a
-/// border at the neck. `names` has the vertices to which other parts are attached; subdivision keeps their numbers.
+/// border at the neck. `names` gives the vertices to which other parts are attached, by name; subdivision does
+/// not renumber them.
 struct SkinCage {
   HalfMesh mesh;
   std::map<std::string, int, std::less<>> names;

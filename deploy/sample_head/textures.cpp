@@ -103,8 +103,9 @@ SampleHeadImage blank(const char* name, int width, int height) {
           std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 0)};
 }
 
-/// Colours of the right half of the image (the left of the face), by texel; `reach` is the distance of the
-/// painted surface from the axis of the head, so that the ear's front takes precedence over the scalp behind it.
+/// The right half of the image, which is the left half of the face: for each texel its colour, and in `reach` the
+/// distance of the painted surface from the head's axis. The farthest surface is kept: an ear covers the scalp behind
+/// it.
 struct Canvas {
   std::vector<Colour> colour;
   std::vector<double> reach;

@@ -91,7 +91,7 @@ class JobQueue {
   /// The write behind record(); throws.
   void settle(const std::string& id);
   void write_next(const store::JobRecord& next, std::uint64_t room_needed);
-  /// Tells the watchers, counts, and calls on_finished_: after the last change of a job.
+  /// To be called after the last change of a job: notifies its watchers, updates the counters and calls on_finished_.
   void conclude(const store::JobRecord& job);
 
   const JobStores stores_;

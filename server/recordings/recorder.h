@@ -24,7 +24,7 @@ namespace semblante::recordings {
 struct RecorderLimits {
   std::size_t max_recordings = 1000;                         ///< number of stored recordings
   std::size_t max_running = 64;                              ///< number of recordings running at the same time
-  std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< per recording
+  std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< size of one recording
   std::uint64_t max_total_bytes = std::uint64_t{16} << 30U;  ///< of all recordings together
   std::uint64_t disk_reserve = std::uint64_t{256} << 20U;    ///< bytes that recordings leave free on the disk
   std::size_t queued_frames = 8192;                          ///< per recording, waiting to be written
