@@ -20,8 +20,9 @@ std::map<int, double> read_faps(const std::string& shape, const json& source) {
   std::map<int, double> faps;
   for (const auto& [key, value] : source.items()) {
     const int number = std::stoi(key);
-    const auto refuse = [&](const char* before, const char* after) {
-      throw std::runtime_error(std::string(shape).append(before).append(key).append(after));
+    // clang 14 does not let a lambda use the names of a structured binding.
+    const auto refuse = [&shape, &name = key](const char* before, const char* after) {
+      throw std::runtime_error(std::string(shape).append(before).append(name).append(after));
     };
     if (number < 3 || number > 68) refuse(": no low-level FAP ", "");
     if (mpeg4::fap(static_cast<std::size_t>(number)).kind != mpeg4::FapKind::translation)
