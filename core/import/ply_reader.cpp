@@ -1,109 +1,18 @@
 #include "core/import/ply_reader.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "core/import/byte_reader.h"
 #include "core/import/model_builder.h"
 #include "core/import/ply_header.h"
+#include "core/import/ply_values.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
 
 namespace semblante::import {
 namespace {
-
-/// Sequential values of a text or of binary data. The first error is kept; later values are zero.
-class ValueSource {
- public:
-  ValueSource(std::span<const std::uint8_t> bytes, const PlyHeader& header)
-      : is_text_(header.is_text),
-        offset_(header.data_offset),
-        data_(bytes.subspan(header.data_offset), header.order),
-        lines_(as_text(bytes.subspan(header.data_offset))),
-        header_lines_(header.line_count) {}
-
-  double next(PlyType type) {
-    if (fault_) return 0.0;
-    return is_text_ ? next_of_text() : next_of_bytes(type);
-  }
-
-  /// A lower bound of the unread bytes; limits every declared count.
-  [[nodiscard]] std::size_t left() const { return is_text_ ? line_.size() + 1 + lines_.rest().size() : data_.left(); }
-  [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
-  [[nodiscard]] std::string where() const {
-    return is_text_ ? "line " + std::to_string(header_lines_ + lines_.line())
-                    : "byte " + std::to_string(offset_ + data_.position());
-  }
-
- private:
-  double next_of_bytes(PlyType type) {
-    const std::string place = data_.left() < size_of(type) ? where() : std::string();
-    double value = 0.0;
-    switch (type) {
-      case PlyType::i8:
-        value = data_.read<std::int8_t>();
-        break;
-      case PlyType::u8:
-        value = data_.read<std::uint8_t>();
-        break;
-      case PlyType::i16:
-        value = data_.read<std::int16_t>();
-        break;
-      case PlyType::u16:
-        value = data_.read<std::uint16_t>();
-        break;
-      case PlyType::i32:
-        value = data_.read<std::int32_t>();
-        break;
-      case PlyType::u32:
-        value = data_.read<std::uint32_t>();
-        break;
-      case PlyType::f32:
-        value = data_.read<float>();
-        break;
-      case PlyType::f64:
-        value = data_.read<double>();
-        break;
-    }
-    if (!data_.ok())
-      fault_ = Error{ErrorCode::truncated, place, "the data ends before the last element that the header declares"};
-    return value;
-  }
-
-  double next_of_text() {
-    std::string_view token = next_token(line_);
-    while (token.empty()) {
-      const auto line = lines_.next();
-      if (!line) {
-        fault_ = Error{ErrorCode::truncated, where(), "the data ends before the last element that the header declares"};
-        return 0.0;
-      }
-      line_ = *line;
-      token = next_token(line_);
-    }
-    double value = 0.0;
-    if (token.size() > 1 && token.front() == '+' && token[1] != '-') token.remove_prefix(1);
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (error == std::errc::result_out_of_range) {
-      // Underflow of a double gives zero; overflow is refused where the value is used.
-      float small = 0.0F;
-      value = parse_number(token, small) == NumberFault::none ? 0.0 : std::numeric_limits<double>::infinity();
-    } else if (error != std::errc{} || end != token.data() + token.size()) {
-      fault_ = Error{ErrorCode::malformed, where(), shown(token) + " is not a number"};
-    }
-    return value;
-  }
-
-  bool is_text_;
-  std::size_t offset_;
-  ByteReader data_;
-  LineReader lines_;
-  std::string_view line_;
-  std::size_t header_lines_;
-  std::optional<Error> fault_;
-};
 
 class PlyReader {
  public:
@@ -123,9 +32,10 @@ class PlyReader {
       if (element.name == "vertex") {
         status = read_vertices(element);
       } else if (element.name == "face") {
-        status = read_faces(element);
+        status = read_lists(element, &PlyReader::read_face);
+      } else if (element.name == "tristrips") {
+        status = read_lists(element, &PlyReader::read_strips);
       } else {
-        if (element.name == "tristrips") builder_.warn("triangle strips are not supported and are omitted");
         status = skip(element);
       }
       if (!status) return status.error();
@@ -195,19 +105,6 @@ class PlyReader {
     return Unit{};
   }
 
-  /// Number of items of a list, checked against the unread bytes.
-  Result<std::size_t> list_size(const PlyProperty& property) {
-    const double announced = source_.next(*property.list_size);
-    if (source_.fault()) return *source_.fault();
-    const std::size_t item = header_.is_text ? 2 : size_of(property.type);
-    const std::size_t most = (source_.left() + 1) / item;
-    if (announced < 0 || announced != std::floor(announced) || announced > static_cast<double>(most)) {
-      return Error{ErrorCode::out_of_range, source_.where(),
-                   "list " + shown(property.name) + " has a number of items that is invalid or exceeds the data"};
-    }
-    return static_cast<std::size_t>(announced);
-  }
-
   /// One element's scalars; its lists are skipped.
   Status read_properties(const PlyElement& element, std::vector<double>& values) {
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -216,7 +113,7 @@ class PlyReader {
         values[p] = source_.next(property.type);
         continue;
       }
-      const auto size = list_size(property);
+      const auto size = source_.list_size(property);
       if (!size) return size.error();
       for (std::size_t i = 0; i < *size && !source_.fault(); ++i) source_.next(property.type);
     }
@@ -231,40 +128,51 @@ class PlyReader {
     return Unit{};
   }
 
-  Status read_faces(const PlyElement& element) {
+  using ListReader = Status (PlyReader::*)(std::size_t size, PlyType type);
+
+  /// Reads the list of vertex indices of each of these elements by `read`, and skips their other properties.
+  Status read_lists(const PlyElement& element, ListReader read) {
     auto list = element.find("vertex_indices");
     if (!list) list = element.find("vertex_index");
     if (!list || !element.properties[*list].list_size) {
-      return Error{ErrorCode::missing, "", "element 'face' has no list 'vertex_indices'"};
+      return Error{ErrorCode::missing, "", "element " + shown(element.name) + " has no list 'vertex_indices'"};
     }
-    for (std::uint64_t face = 0; face < element.count && !source_.fault(); ++face) {
+    for (std::uint64_t i = 0; i < element.count && !source_.fault(); ++i) {
       for (std::size_t p = 0; p < element.properties.size() && !source_.fault(); ++p) {
         const PlyProperty& property = element.properties[p];
         std::size_t size = 1;
         if (property.list_size) {
-          const auto announced = list_size(property);
+          const auto announced = source_.list_size(property);
           if (!announced) return announced.error();
           size = *announced;
         }
         if (p != *list) {
-          for (std::size_t i = 0; i < size && !source_.fault(); ++i) source_.next(property.type);
+          for (std::size_t k = 0; k < size && !source_.fault(); ++k) source_.next(property.type);
           continue;
         }
-        if (Status status = read_face(size, property.type); !status) return status;
+        if (Status status = (this->*read)(size, property.type); !status) return status;
       }
     }
     return Unit{};
   }
 
+  Error too_many_triangles(std::string where) const {
+    return Error{ErrorCode::too_large, std::move(where),
+                 "more than " + std::to_string(limits_.max_triangles) + " triangles"};
+  }
+
+  /// Whether it can be the index of a vertex; their number may still be unknown.
+  [[nodiscard]] bool is_index(double value) const {
+    return value >= 0.0 && value < static_cast<double>(limits_.max_vertices) && value == std::floor(value);
+  }
+
   Status read_face(std::size_t size, PlyType type) {
     const std::size_t first = corners_.size();
     const std::string where = source_.where();
-    if (size >= 3 && size - 2 > limits_.max_triangles - triangles_) {
-      return Error{ErrorCode::too_large, where, "more than " + std::to_string(limits_.max_triangles) + " triangles"};
-    }
+    if (size >= 3 && size - 2 > limits_.max_triangles - triangles_) return too_many_triangles(where);
     for (std::size_t i = 0; i < size && !source_.fault(); ++i) {
       const double index = source_.next(type);
-      if (!(index >= 0.0 && index < static_cast<double>(limits_.max_vertices)) || index != std::floor(index)) {
+      if (!is_index(index)) {
         return Error{ErrorCode::out_of_range, where,
                      "a face has a vertex index that is negative, not an integer or too large"};
       }
@@ -280,9 +188,45 @@ class PlyReader {
     return Unit{};
   }
 
+  /// Strips of triangles in one list: -1 ends a strip. Each vertex after the second of its strip makes a triangle with
+  /// the two before it; every second triangle has its first two corners exchanged, so that all face the same way. A
+  /// triangle with a repeated vertex only joins two strips and is no fault of the file.
+  Status read_strips(std::size_t size, PlyType type) {
+    std::array<std::uint32_t, 2> before{};
+    std::size_t length = 0;  // vertices of the strip so far
+    for (std::size_t i = 0; i < size && !source_.fault(); ++i) {
+      const double index = source_.next(type);
+      if (index == -1.0) {
+        length = 0;
+        continue;
+      }
+      if (!is_index(index)) {
+        return Error{ErrorCode::out_of_range, source_.where(),
+                     "a triangle strip has an item that is neither -1 nor the index of a vertex"};
+      }
+      const auto vertex = static_cast<std::uint32_t>(index);
+      last_of_strips_ = std::max(last_of_strips_, vertex);
+      if (length >= 2 && before[0] != before[1] && before[1] != vertex && vertex != before[0]) {
+        if (triangles_ == limits_.max_triangles) return too_many_triangles(source_.where());
+        ++triangles_;
+        polygons_.push_back(static_cast<std::uint32_t>(corners_.size()));
+        const bool exchanged = length % 2 == 1;
+        corners_.insert(corners_.end(), {before[exchanged ? 1 : 0], before[exchanged ? 0 : 1], vertex});
+      }
+      before = {before[1], vertex};
+      ++length;
+    }
+    return Unit{};
+  }
+
   /// Called after everything has been read: a file may have its faces before its vertices.
   Status add_triangles() {
     if (!has_vertices_) return Error{ErrorCode::missing, "", "the header has no element 'vertex'"};
+    if (last_of_strips_ > 0 && last_of_strips_ >= builder_.model.positions.size()) {
+      return Error{ErrorCode::out_of_range, "element 'tristrips'",
+                   "refers to vertex " + std::to_string(last_of_strips_) + ", but there are " +
+                       std::to_string(builder_.model.positions.size())};
+    }
     if (short_faces_ > 0) builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were omitted");
     Triangulator triangulator;
     std::vector<glm::vec3> positions;
@@ -310,13 +254,14 @@ class PlyReader {
   }
 
   const PlyHeader& header_;
-  ValueSource source_;
+  PlyValues source_;
   ModelBuilder builder_;
   const ImportLimits& limits_;
   bool has_vertices_ = false, has_normals_ = false, has_uvs_ = false;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> polygons_;  ///< first corner of each
   std::size_t triangles_ = 0;
+  std::uint32_t last_of_strips_ = 0;  ///< greatest vertex index in a strip; it may be in no triangle
   std::size_t short_faces_ = 0;
 };
 

@@ -134,6 +134,13 @@ TEST(ImportGrowth, Ply) {
   text("one face", [](std::size_t n) {
     return lines(ply_header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n" + std::to_string(n), " 1")(n);
   });
+  const auto strips = [](std::size_t items) {
+    return replaced(ply_header("ascii", 3, 1), "element face", "element tristrips") + "0 0 0\n1 0 0\n0 1 0\n" +
+           std::to_string(items);
+  };
+  text("one strip", [&](std::size_t n) { return lines(strips(3 * n), " 0 1 2", "\n")(n); });
+  text("short strips", [&](std::size_t n) { return lines(strips(4 * n), " 0 1 2 -1", "\n")(n); });
+  text("restarts only", [&](std::size_t n) { return lines(strips(3 + n) + " 0 1 2", " -1", "\n")(n); });
   text("faces without corners",
        [](std::size_t n) { return lines(ply_header("ascii", 3, n + 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "0\n")(n); });
   text("numbers on lines of their own",

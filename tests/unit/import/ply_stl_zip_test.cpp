@@ -95,6 +95,89 @@ TEST(Ply, EverythingWeRead_ComesOutAsWritten) {
   EXPECT_EQ(model->warnings.size(), 2U);  // the colours, and the face of two corners
 }
 
+// ---- Triangle strips: element tristrips, one list, -1 between strips
+
+constexpr std::string_view strip_vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 0 0\n6 0 0\n5 1 0\n";
+// A strip of three triangles, one of a single triangle, one that is too short, one in which 7 7 turns the strip.
+const std::vector<std::int32_t> strips = {0, 1, 2, 3, 4, -1, 5, 6, 7, -1, -1, 0, 1, -1, 5, 6, 7, 7, 5};
+const std::vector<Triangle> strip_triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {5, 6, 7}, {5, 6, 7}};
+
+std::string strips_header(std::string_view format) {
+  return "ply\nformat " + std::string(format) +
+         " 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+}
+
+std::string strips_ply_text() {
+  std::string text = strips_header("ascii") + std::string(strip_vertices) + std::to_string(strips.size());
+  for (const std::int32_t item : strips) text += " " + std::to_string(item);
+  return text + "\n";
+}
+
+Bytes strips_ply_binary(std::endian order) {
+  const std::string header = strips_header(order == std::endian::little ? "binary_little_endian" : "binary_big_endian");
+  Packer data(order);
+  for (const std::array<float, 2> at : {std::array{0.F, 0.F}, {1, 0}, {0, 1}, {1, 1}, {0, 2}, {5, 0}, {6, 0}, {5, 1}}) {
+    data.put(at[0]).put(at[1]).put(0.0F);
+  }
+  data.put(static_cast<std::int32_t>(strips.size()));
+  for (const std::int32_t item : strips) data.put(item);
+  Bytes bytes = to_bytes(header);
+  bytes.insert(bytes.end(), data.bytes.begin(), data.bytes.end());
+  return bytes;
+}
+
+TEST(PlyStrips, InTextAndBothByteOrders_AreTheTrianglesOfEachStrip_AllFacingOneWay) {
+  for (const Bytes& bytes :
+       {to_bytes(strips_ply_text()), strips_ply_binary(std::endian::little), strips_ply_binary(std::endian::big)}) {
+    const auto model = import_model(bytes, ModelFormat::ply);
+    ASSERT_TRUE(model) << model.error().where << ": " << model.error().message;
+    EXPECT_EQ(model->triangles, strip_triangles);
+    EXPECT_TRUE(model->warnings.empty()) << model->warnings.front();
+  }
+}
+
+TEST(PlyStrips, BesideFaces_AreAddedInTheOrderOfTheFile) {
+  const std::string text = replaced(
+      replaced(strips_ply_text(), "end_header", "element face 1\nproperty list uchar int vertex_indices\nend_header"),
+      "7 7 5\n", "7 7 5\n3 4 3 7\n");
+  const auto model = import_model(to_bytes(text), ModelFormat::ply);
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_EQ(model->triangles.size(), strip_triangles.size() + 1);
+  EXPECT_EQ(model->triangles.back(), (Triangle{4, 3, 7}));
+}
+
+class InvalidStrips : public ::testing::TestWithParam<InvalidPlyOrStl> {};
+
+TEST_P(InvalidStrips, AreRefused_NamingThePlace) {
+  const std::string text = replaced(strips_ply_text(), GetParam().what, GetParam().with);
+  expect_refused(import_model(to_bytes(text), ModelFormat::ply), GetParam());
+}
+
+const InvalidPlyOrStl invalid_strips[] = {
+    {"MinusTwo", "7 7 5", "7 7 -2", ErrorCode::out_of_range, "line 18"},
+    {"Fraction", "7 7 5", "7 7 0.5", ErrorCode::out_of_range, "line 18"},
+    {"BeyondTheVertices", "7 7 5", "7 7 8", ErrorCode::out_of_range, "element 'tristrips'"},
+    {"Huge", "7 7 5", "7 7 1e300", ErrorCode::out_of_range, "line 18"},
+    {"NotANumber", "7 7 5", "7 7 nan", ErrorCode::out_of_range, "line 18"},
+    {"TooLong", "19 0", "400 0", ErrorCode::out_of_range, "line 18"},
+    {"NoList", "property list int int vertex_indices", "property int vertex_indices", ErrorCode::missing, ""},
+    {"OnlyRestarts", "19 0 1 2 3 4 -1 5 6 7 -1 -1 0 1 -1 5 6 7 7 5", "3 -1 -1 -1", ErrorCode::empty, ""},
+};
+
+INSTANTIATE_TEST_SUITE_P(Ply, InvalidStrips, ::testing::ValuesIn(invalid_strips),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(PlyStrips, MoreTrianglesThanTheLimit_AreRefused) {
+  ImportLimits limits;
+  limits.max_triangles = strip_triangles.size();
+  EXPECT_TRUE(import_model(to_bytes(strips_ply_text()), ModelFormat::ply, limits));
+  --limits.max_triangles;
+  const auto model = import_model(to_bytes(strips_ply_text()), ModelFormat::ply, limits);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::too_large));
+}
+
 TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
   Packer nan;
   nan.put(std::bit_cast<float>(0x7FC00000U));

@@ -79,6 +79,13 @@ Bytes quad_ply_text() {
       "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n");
 }
 
+Bytes quad_ply_strips() {
+  return to_bytes(
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float s\nproperty float t\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n7 0 1 2 -1 0 2 3\n");
+}
+
 Bytes quad_ply_binary(std::endian order) {
   const std::string head =
       std::string("ply\nformat ") + (order == std::endian::big ? "binary_big_endian" : "binary_little_endian") +
@@ -186,6 +193,7 @@ std::vector<NamedFile> all_quads() {
           {"ply_text", ModelFormat::ply, quad_ply_text()},
           {"ply_little", ModelFormat::ply, quad_ply_binary(std::endian::little)},
           {"ply_big", ModelFormat::ply, quad_ply_binary(std::endian::big)},
+          {"ply_strips", ModelFormat::ply, quad_ply_strips()},
           {"stl_text", ModelFormat::stl, quad_stl_text()},
           {"stl_binary", ModelFormat::stl, quad_stl_binary()},
           {"glb", ModelFormat::glb, quad_glb()},

@@ -44,6 +44,7 @@ Bytes make_zip(const std::vector<std::pair<std::string, Bytes>>& entries);
 /// One quad of two triangles at z = 0, corners (0,0) (1,0) (1,1) (0,1), indices 0 1 2 0 2 3, with uvs.
 Bytes quad_obj();
 Bytes quad_ply_text();
+Bytes quad_ply_strips();
 Bytes quad_ply_binary(std::endian order);
 Bytes quad_stl_text();
 Bytes quad_stl_binary();
