@@ -154,17 +154,18 @@ std::optional<double> eye_separation(std::span<const PlacedPoint> points) {
 void guess_unit(std::span<const PlacedPoint> points, ModelFrame& guess) {
   const auto separation = eye_separation(points);
   if (!separation || !(*separation > 0.0)) return;
-  const auto unit = unit_of_eye_separation(*separation);
-  guess.unit_sure = unit.has_value();
-  if (!unit) {
+  const auto by_size = unit_of_eye_separation(*separation);
+  guess.unit_sure = by_size && by_size->is_sure;
+  if (!by_size) {
     guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
                             " apart, which is no head's size in m, dm, cm, mm or in");
     return;
   }
-  guess.unit = *unit;
+  guess.unit = by_size->unit;
   guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
-                          " apart: " + std::to_string(std::lround(*separation * metres_per(*unit) * 1000.0)) +
-                          " mm if the unit is " + std::string(to_string(*unit)));
+                          " apart: " + std::to_string(std::lround(*separation * metres_per(by_size->unit) * 1000.0)) +
+                          " mm if the unit is " + std::string(to_string(by_size->unit)) +
+                          (guess.unit_sure ? "" : "; this is not certain"));
 }
 
 }  // namespace

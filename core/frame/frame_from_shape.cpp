@@ -114,10 +114,10 @@ class ShapeGuess {
 
   void guess_unit() {
     if (eyes_) {
-      if (const auto unit = unit_of_eye_separation(eyes_->separation)) {
-        take_unit(*unit, true,
+      if (const auto by_size = unit_of_eye_separation(eyes_->separation)) {
+        take_unit(by_size->unit, by_size->is_sure,
                   "The eyes are " + std::to_string(eyes_->separation) + " apart, which is a face's if the unit is " +
-                      std::string(to_string(*unit)));
+                      std::string(to_string(by_size->unit)));
         return;
       }
     }
@@ -147,7 +147,7 @@ class ShapeGuess {
   void take_unit(LengthUnit unit, bool sure, std::string reason) {
     guess_.unit = unit;
     guess_.unit_sure = sure;
-    say(std::move(reason));
+    say(std::move(reason) + (sure ? "" : "; this is not certain"));
   }
 
   const Model& model_;

@@ -44,6 +44,16 @@ TEST(FrameFromPoints, UnitsOfTheHeads_AreThoseTheyWereMadeIn) {
   }
 }
 
+TEST(FrameFromPoints, EyesThatFitOnlyInches_AreNotSure) {
+  Head head = upright_heads().front();
+  for (PlacedPoint& point : head.points) point.position /= metres_per(LengthUnit::inch);
+  const ModelFrame guess = guess_frame(head.points, {});
+  EXPECT_EQ(guess.unit, LengthUnit::inch);
+  EXPECT_FALSE(guess.unit_sure);
+  EXPECT_TRUE(guess.axes_sure);
+  EXPECT_NE(guess.reasons.back().find("not certain"), std::string::npos) << guess.reasons.back();
+}
+
 TEST(FrameFromPoints, LeftAndRightExchanged_IsSaid_AndDoesNotTurnTheHeadRound) {
   Head head = upright_heads().front();
   for (PlacedPoint& point : head.points) point.position.x = -point.position.x;

@@ -1,4 +1,6 @@
 // Without points: what the parts show. Better no answer than a wrong one.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/geometry/surface.h"
@@ -60,6 +62,29 @@ TEST(FrameFromShape, Units_OfTheHeads) {
     const std::string expected = head.name == "sample" ? "m" : head.name.starts_with("makehuman") ? "dm" : "cm";
     EXPECT_EQ(to_string(guess.unit), expected) << head.name;
     EXPECT_FALSE(guess.reasons.empty()) << head.name;
+  }
+}
+
+TEST(FrameFromShape, ABustGuessedInInches_IsNotSure_WithEyesOrWithout) {
+  for (const bool has_eyes : {true, false}) {
+    Model bust = upright_heads().front().model;
+    bust.format = "obj";
+    for (glm::vec3& position : bust.positions) position /= static_cast<float>(metres_per(LengthUnit::inch));
+    if (!has_eyes) {
+      // Only the skin is left: its height is all there is to tell the unit.
+      const auto skin =
+          std::max_element(bust.primitives.begin(), bust.primitives.end(),
+                           [](const auto& a, const auto& b) { return a.triangle_count < b.triangle_count; });
+      const auto first = bust.triangles.begin() + skin->first_triangle;
+      bust.triangles = std::vector<Triangle>(first, first + skin->triangle_count);
+      bust.uv_triangles.clear();
+      bust.normal_triangles.clear();
+      bust.primitives = {*skin};
+      bust.primitives[0].first_triangle = 0;
+    }
+    const ModelFrame guess = guess_frame(bust, build_surface(bust));
+    EXPECT_EQ(guess.unit, LengthUnit::inch) << has_eyes;
+    EXPECT_FALSE(guess.unit_sure) << has_eyes;
   }
 }
 

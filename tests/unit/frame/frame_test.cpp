@@ -69,30 +69,35 @@ TEST(FrameWish, OneDirectionAlone_TakesTheOtherFromTheGuess_OrTheLeastTurn) {
   }
 }
 
+std::string shown(const std::optional<UnitBySize>& by_size) {
+  return by_size ? std::string(to_string(by_size->unit)) + (by_size->is_sure ? "" : "?") : std::string();
+}
+
 TEST(HumanSize, Eyes_AreAFaceApart_InOneUnitOnly) {
-  EXPECT_EQ(unit_of_eye_separation(0.063), LengthUnit::metre);
-  EXPECT_EQ(unit_of_eye_separation(0.61), LengthUnit::decimetre);
-  EXPECT_EQ(unit_of_eye_separation(6.5), LengthUnit::centimetre);
-  EXPECT_EQ(unit_of_eye_separation(66.0), LengthUnit::millimetre);
-  EXPECT_EQ(unit_of_eye_separation(2.5), LengthUnit::inch);
-  EXPECT_EQ(unit_of_eye_separation(1000.0), std::nullopt);
+  EXPECT_EQ(shown(unit_of_eye_separation(0.063)), "m");
+  EXPECT_EQ(shown(unit_of_eye_separation(0.61)), "dm");
+  EXPECT_EQ(shown(unit_of_eye_separation(6.5)), "cm");
+  EXPECT_EQ(shown(unit_of_eye_separation(66.0)), "mm");
+  EXPECT_EQ(shown(unit_of_eye_separation(4.0)), "cm?") << "close-set in cm, or a cartoon's in inches";
+  EXPECT_EQ(shown(unit_of_eye_separation(2.5)), "in?") << "inches, or a model without a true size";
+  EXPECT_EQ(shown(unit_of_eye_separation(1000.0)), "");
 }
 
 TEST(HumanSize, Height_OfAHeadABustOrABody_TellsTheUnit) {
-  const auto shown = [](double height) {
-    const auto by_size = unit_of_height(height);
-    return by_size ? std::string(to_string(by_size->unit)) + (by_size->is_sure ? "" : "?") : std::string();
-  };
-  EXPECT_EQ(shown(0.28), "m");
-  EXPECT_EQ(shown(2.9), "dm");
-  EXPECT_EQ(shown(28.0), "cm");
-  EXPECT_EQ(shown(280.0), "mm");
-  EXPECT_EQ(shown(1800.0), "mm") << "a body";
-  EXPECT_EQ(shown(1.8), "m?") << "a body, or a head in dm";
-  EXPECT_EQ(shown(180.0), "cm?") << "a body, or a head in mm";
-  EXPECT_EQ(shown(9.0), "in");
-  EXPECT_EQ(shown(1e9), "");
-  EXPECT_EQ(shown(0.0), "");
+  const auto of_height = [](double height) { return shown(unit_of_height(height)); };
+  EXPECT_EQ(of_height(0.28), "m");
+  EXPECT_EQ(of_height(2.9), "dm");
+  EXPECT_EQ(of_height(28.0), "cm");
+  EXPECT_EQ(of_height(280.0), "mm");
+  EXPECT_EQ(of_height(1800.0), "mm") << "a body";
+  EXPECT_EQ(of_height(1.8), "m?") << "a body, or a head in dm";
+  EXPECT_EQ(of_height(180.0), "cm?") << "a body, or a head in mm";
+  EXPECT_EQ(of_height(24.0), "cm?") << "a head in cm, or a bust in inches";
+  EXPECT_EQ(of_height(60.0), "cm?") << "a bust in cm, or a body in inches";
+  EXPECT_EQ(of_height(9.0), "in?") << "a head in inches, or a model without a true size";
+  EXPECT_EQ(of_height(14.0), "in?") << "a bust in inches, likewise";
+  EXPECT_EQ(of_height(1e9), "");
+  EXPECT_EQ(of_height(0.0), "");
 }
 
 }  // namespace
