@@ -29,8 +29,8 @@ class InfluenceRow {
     const auto values = weights.weights_of(vertex.value());
     double sum = 0.0;
     for (const double w : values) sum += w;
-    if (method_ == WeightMethod::smooth) sum = sum > 0.0 ? 1.0 : 0.0;  // the rest belongs to the root
-    if (!(sum > 0.0)) return;                                          // no influencing point: the vertex does not move
+    if (are_shares(method_)) sum = sum > 0.0 ? 1.0 : 0.0;  // the rest belongs to the root
+    if (!(sum > 0.0)) return;                              // no influencing point: the vertex does not move
     for (std::size_t k = 0; k < ids.size(); ++k) add(ids[k], share * (values[k] / sum));
   }
   void write_to(WeightTable<float>& table) {

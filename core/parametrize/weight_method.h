@@ -14,6 +14,10 @@ enum class WeightMethod : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> weight_method_names = {"paper", "smooth"};
 
+/// Whether a row of weights is the shares by which a vertex follows its points, D_P = sum(w D), the remainder of a row
+/// to 1 belonging to points that never move. False: W of Eq. 4, which Eq. 7 divides by their sum.
+constexpr bool are_shares(WeightMethod method) { return method != WeightMethod::paper; }
+
 /// The paths along which surface distances are measured.
 enum class DistanceMetric : std::uint8_t {
   edge,      ///< mesh edges, as in the paper

@@ -94,7 +94,8 @@ void run(const ParametrizeCommand& options) {
   }
   Head head = load_head(options.head);
   if (!options.weights_json.empty()) {
-    write_file(options.weights_json, [&head](std::ostream& out) { write_weights_json(head.rig, out); });
+    write_file(options.weights_json,
+               [&](std::ostream& out) { write_weights_json(head.rig, rig_request(options.head), out); });
   }
   if (!options.out.empty()) write_packages(head, options);
   print_warnings(head.all_warnings(), options.head.quiet);
@@ -109,7 +110,9 @@ void add_parametrize_command(CLI::App& app) {
   add_head_options(*command, options->head);
   command
       ->add_option("--weights-json", options->weights_json,
-                   "Write W of Eq. 4 of every file vertex as JSON; - is standard output")
+                   "Write the weights of every file vertex as JSON, with their method and whether they are W of Eq. 4 "
+                   "or shares; "
+                   "- is standard output")
       ->envname("SEMBLANTE_WEIGHTS_JSON");
   command->add_option("--out", options->out, "Write the face package into this folder")->envname("SEMBLANTE_OUT");
   command->add_option("--name", options->name, "Name of the model in the package; else that of its file")

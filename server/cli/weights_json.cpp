@@ -7,11 +7,17 @@
 
 namespace semblante {
 
-void write_weights_json(const Rig& rig, std::ostream& out) {
+void write_weights_json(const Rig& rig, const RigRequest& made, std::ostream& out) {
   std::array<std::string, feature_point_count> quoted;
   for (std::uint8_t i = 0; i < feature_point_count; ++i) quoted[i] = '"' + to_string(FeaturePointId(i)) + '"';
 
-  std::string text = "{\"points\": [";
+  const auto name_of = [](const auto& names, auto value) {
+    return std::string(names[static_cast<std::size_t>(value)]);
+  };
+  std::string text = "{\"weights\": \"" + name_of(weight_method_names, made.weights);
+  text += "\", \"metric\": \"" + name_of(distance_metric_names, made.metric);
+  text += std::string("\", \"shares\": ") + (are_shares(made.weights) ? "true" : "false");
+  text += ",\n\"points\": [";
   for (std::size_t i = 0; i < rig.points.size(); ++i) {
     if (i > 0) text += ", ";
     text += quoted[rig.points[i].id.value()];

@@ -2,13 +2,16 @@
 
 #include <iosfwd>
 
-#include "core/types/rig.h"
+#include "core/pipeline/rigged.h"
 
 namespace semblante {
 
-/// {"points": ["2.1", ...], "vertices": [[["2.1", 0.25], ...], ...]}: the marked points in rising order, and W of Eq. 4
-/// before the quotient of Eq. 7 (with `smooth` weights the shares themselves), one row per file vertex. Numbers are the
-/// shortest that read back as the same double.
-void write_weights_json(const Rig& rig, std::ostream& out);
+/// {"weights": "smooth", "metric": "edge", "shares": true,
+///  "points": ["2.1", ...], "vertices": [[["2.1", 0.25], ...], ...]}: how the weights were made, the marked points in
+///  rising order, and one row of weights per file vertex. `shares` says
+/// what the numbers are: false, W of Eq. 4, before the quotient of Eq. 7, so that a vertex moves by the sum of W * D
+/// divided by the sum of W; true, the shares themselves, so that it moves by the sum of W * D. Numbers are the shortest
+/// that read back as the same double.
+void write_weights_json(const Rig& rig, const RigRequest& made, std::ostream& out);
 
 }  // namespace semblante

@@ -1,4 +1,5 @@
 // The real program on heads made here: what it writes, and how it refuses.
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -121,6 +122,36 @@ TEST_F(Sheet, WeightsJson_HasARowPerFileVertex_WithAllDigits) {
     }
   }
   EXPECT_GT(entries, 82U);
+}
+
+TEST_F(Sheet, WeightsJson_NamesItsMethod_AndWhetherRowsAreShares) {
+  const auto weights = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"parametrize", model, "--feature-points", points, "--weights-json", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_semblante(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return json::parse(outcome.out);
+  };
+  const json paper = weights({});
+  EXPECT_EQ(paper["weights"], "paper");
+  EXPECT_EQ(paper["metric"], "edge");
+  EXPECT_EQ(paper["shares"], false);
+  const json smooth = weights({"--weights", "smooth", "--metric", "unfolded"});
+  EXPECT_EQ(smooth["weights"], "smooth");
+  EXPECT_EQ(smooth["metric"], "unfolded");
+  EXPECT_EQ(smooth["shares"], true);
+  // What the word means: no row of shares is more than the whole; rows of W are.
+  const auto greatest_sum = [](const json& file) {
+    double greatest = 0.0;
+    for (const json& row : file["vertices"]) {
+      double sum = 0.0;
+      for (const json& entry : row) sum += entry[1].get<double>();
+      greatest = std::max(greatest, sum);
+    }
+    return greatest;
+  };
+  EXPECT_LE(greatest_sum(smooth), 1.0 + 1e-9);
+  EXPECT_GT(greatest_sum(paper), 1.0 + 1e-9);
 }
 
 TEST_F(Sheet, Displacements_MoveVertices_ByTheQuotientOfTheirWeights) {
