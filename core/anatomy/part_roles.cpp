@@ -60,6 +60,21 @@ std::size_t main_skin_part(const Surface& surface, const std::vector<Votes>& vot
   return best;
 }
 
+/// The part of the face, if no point tells: one named as a face; of equals, and without any, the one with the most
+/// vertices that is not named as something else. The body of a character is often larger than its face.
+std::size_t main_skin_part_by_name(const Surface& surface, std::span<const PartShape> shapes) {
+  const auto rank = [&](std::size_t p) {
+    const int by_name = is_face_name(shapes[p]) ? 2 : has_name_of_another_part(shapes[p]) ? 0 : 1;
+    return std::pair(shapes[p].triangles > 0 ? by_name : -1,
+                     surface.members_of(PartId(static_cast<std::uint32_t>(p))).size());
+  };
+  std::size_t best = 0;
+  for (std::size_t p = 1; p < shapes.size(); ++p) {
+    if (rank(p) > rank(best)) best = p;
+  }
+  return best;
+}
+
 }  // namespace
 
 bool is_skin_point(FeaturePointId id) {
@@ -112,8 +127,8 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
       if (!roles[p] && votes[p][skin] > 0) roles[p] = PartRole::skin;
     }
     std::size_t main = main_skin_part(surface, votes);
-    if (roles[main].value_or(PartRole::skin) != PartRole::skin)
-      main = main_skin_part(surface, std::vector<Votes>(votes.size(), Votes{}));
+    if (votes[main][skin] == 0 || roles[main].value_or(PartRole::skin) != PartRole::skin)
+      main = main_skin_part_by_name(surface, shapes);
     if (!roles[main]) roles[main] = PartRole::skin;
     guess_roles_by_name(shapes, roles);
     guess_roles_by_place(shapes, points, main, roles);

@@ -32,17 +32,27 @@ bool has_side(const std::string& name, std::string_view word, char letter) {
   return false;
 }
 
+/// True if the word stands alone: "arm" in "Std_Skin_Arm", not in "Armature".
+bool has_word(const std::string& name, std::string_view word) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;
+  };
+  for (std::size_t at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + word.size())) return true;
+  }
+  return false;
+}
+
 bool names_teeth(const std::string& name) { return has_any(name, {"teeth", "tooth", "gum", "denture"}); }
 
 std::optional<PartRole> role_of_name(const std::string& name, double x) {
-  // Most specific words first: "eyelash" and "eyeglasses" are not eyes.
-  if (has_any(name, {"lash", "brow", "tear", "lacrimal", "occlusion", "eyeblend", "eye_blend", "caruncle", "fluid",
-                     "beard", "mustache", "moustache"})) {
+  // Most specific words first: "eyelash", "Eyeline" and "eyeglasses" are not eyes, "browline_glasses" are no brow.
+  if (has_any(name, {"glass", "eyewear", "goggle", "spectacle"})) return PartRole::rest;
+  if (has_any(name, {"lash", "eyeline", "eye_line", "brow", "tear", "lacrimal", "occlusion", "eyeblend", "eye_blend",
+                     "caruncle", "fluid", "beard", "mustache", "moustache"})) {
     return PartRole::attached;
   }
-  if (has_any(name, {"hair", "glass", "hat", "helmet", "eyewear", "outfit", "shirt", "cloth", "earring"})) {
-    return PartRole::rest;
-  }
+  if (has_any(name, {"hair", "hat", "helmet", "headwear", "facewear", "earring"})) return PartRole::rest;
   if (has_any(name, {"tongue"})) return PartRole::tongue;  // with or without gums: see jaw_share.h
   if (names_teeth(name)) {
     if (has_any(name, {"upper", "top"})) return PartRole::upper_teeth;
@@ -58,15 +68,51 @@ std::optional<PartRole> role_of_name(const std::string& name, double x) {
   return std::nullopt;
 }
 
+/// What a name says about the large surfaces of a character.
+enum class Region : std::uint8_t { unknown, face, body, other };
+
+Region region_of_name(const std::string& name) {
+  if (role_of_name(name, 0.0) || names_teeth(name) || has_any(name, {"mouth"})) return Region::other;
+  // Before "face" and "head", because of "headphones".
+  if (has_any(name, {"body",     "torso", "outfit", "shirt", "cloth",     "shoe",    "pants",
+                     "trouser",  "jeans", "skirt",  "dress", "jacket",    "sweater", "hoodie",
+                     "onepiece", "glove", "sock",   "boots", "headphone", "headband"})) {
+    return Region::body;
+  }
+  for (const std::string_view word : {"arm", "arms", "hand", "hands", "leg", "legs", "foot", "feet", "coat", "collar",
+                                      "scarf", "suit", "necklace", "tie", "tops", "bottoms"}) {
+    if (has_word(name, word)) return Region::body;
+  }
+  return has_any(name, {"face", "head"}) ? Region::face : Region::unknown;
+}
+
+/// The material decides: a mesh "Face (merged)" has materials for skin, mouth, brows and eyes.
+Region region_of(const PartShape& shape) {
+  const Region by_material = region_of_name(lower_case(shape.material));
+  return by_material != Region::unknown ? by_material : region_of_name(lower_case(shape.name));
+}
+
 }  // namespace
 
 bool is_named_teeth(const PartShape& shape) {
   return names_teeth(lower_case(shape.name)) || names_teeth(lower_case(shape.material));
 }
 
+bool is_face_name(const PartShape& shape) { return region_of(shape) == Region::face; }
+
+bool is_body_name(const PartShape& shape) { return region_of(shape) == Region::body; }
+
+bool has_name_of_another_part(const PartShape& shape) { return region_of(shape) == Region::other; }
+
 void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optional<PartRole>> roles) {
+  // On many characters the face belongs to the mesh "body"; then its other parts are not named by that word.
+  bool body_is_apart = true;
   double low = 0.0;
   double high = 0.0;
+  for (std::size_t p = 0; p < shapes.size(); ++p) {
+    if (roles[p] != PartRole::skin) continue;
+    if (is_body_name(shapes[p])) body_is_apart = false;
+  }
   for (std::size_t p = 0; p < shapes.size(); ++p) {
     if (roles[p] != PartRole::skin) continue;
     low = shapes[p].low.x;
@@ -78,6 +124,7 @@ void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optio
     const double x = shapes[p].center.x - 0.5 * (low + high);
     roles[p] = role_of_name(lower_case(shapes[p].name), x);
     if (!roles[p]) roles[p] = role_of_name(lower_case(shapes[p].material), x);
+    if (!roles[p] && body_is_apart && is_body_name(shapes[p])) roles[p] = PartRole::rest;
   }
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -28,6 +30,8 @@ constexpr double attached_mean = 0.15;  // lashes: at most a centimetre long, wi
 constexpr double attached_most = 0.4;
 constexpr double attached_width = 1.3;  // a brow, a row of lashes; hair in one piece is wider and stays rigid
 constexpr double attached_height = 1.0;
+constexpr double attached_depth = 1.0;   // the arm of a pair of glasses, along the temple, is twice as deep
+constexpr double tongue_of_arch = 0.85;  // greatest width of a tongue as a fraction of the widest row of teeth
 constexpr double of_skin_height = 0.25;  // ES0 of a head cut at the neck, if it is otherwise unknown
 }  // namespace share_of_es
 
@@ -166,6 +170,22 @@ class PlaceGuess {
     if (!inside.empty()) split_mouth(inside, mouth);
   }
 
+  /// Whether a part is narrower than the widest row of teeth, and in its middle.
+  [[nodiscard]] static bool lies_within(const PartShape& shape, const PartShape* row) {
+    return row != nullptr && shape.extent().x < share_of_es::tongue_of_arch * row->extent().x &&
+           std::abs(shape.box_center().x - row->box_center().x) < 0.1 * row->extent().x;
+  }
+
+  /// Whether the middle of a part, seen from above, is among its highest places: on a tongue it is, on the floor
+  /// between two rows of teeth it is not.
+  [[nodiscard]] static bool is_high_in_its_middle(const PartShape& shape) {
+    const glm::dvec3 center = shape.box_center();
+    const glm::dvec3 room = 0.15 * shape.extent();
+    return std::any_of(shape.positions.begin(), shape.positions.end(), [&](const glm::dvec3& v) {
+      return std::abs(v.x - center.x) <= room.x && std::abs(v.z - center.z) <= room.z && v.y > center.y;
+    });
+  }
+
   /// Distinguishes a tongue from an arch of teeth, which is hollow in its middle.
   [[nodiscard]] static bool fills_its_middle(const PartShape& shape) {
     const glm::dvec3 center = shape.box_center();
@@ -178,11 +198,19 @@ class PlaceGuess {
   void split_mouth(const std::vector<std::size_t>& inside, const std::optional<glm::dvec3>& mouth) {
     const bool teeth_elsewhere = largest(PartRole::upper_teeth) != nullptr || largest(PartRole::lower_teeth) != nullptr;
     if (largest(PartRole::tongue) == nullptr && (inside.size() >= 2 || teeth_elsewhere)) {
+      const PartShape* row = nullptr;
+      for (const std::size_t p : inside) {
+        if (is_named_teeth(shapes_[p]) && (row == nullptr || shapes_[p].extent().x > row->extent().x))
+          row = &shapes_[p];
+      }
       // A single tooth fills its middle too, so a tongue must also span much of the mouth.
       for (const std::size_t p : inside) {
         const PartShape& shape = shapes_[p];
         const bool midline = std::abs(shape.box_center().x - skin_.box_center().x) < 0.1 * shape.extent().x;
-        if (is_named_teeth(shape) || !midline || shape.extent().z < 0.3 * es_ || !fills_its_middle(shape)) continue;
+        if (!midline || shape.extent().z < 0.3 * es_ || !fills_its_middle(shape)) continue;
+        // A mesh of teeth may hold the tongue too; then the palate and the floor of the mouth fill their middles as
+        // well.
+        if (is_named_teeth(shape) && (!lies_within(shape, row) || !is_high_in_its_middle(shape))) continue;
         roles_[p] = PartRole::tongue;
         break;
       }
@@ -199,24 +227,45 @@ class PlaceGuess {
   }
 
   void find_attached() {
+    std::vector<std::size_t> small;
     for (std::size_t p = 0; p < shapes_.size(); ++p) {
       if (!is_open(p)) continue;
-      const glm::dvec3 extent = shapes_[p].extent();
-      if (extent.x > share_of_es::attached_width * es_ || extent.y > share_of_es::attached_height * es_) {
+      if (may_be_attached(p)) {
+        small.push_back(p);
+      } else {
         roles_[p] = PartRole::rest;
-        continue;
       }
-      double sum = 0.0;
-      double most = 0.0;
-      for (const glm::dvec3& v : shapes_[p].positions) {
-        const double gap = near_skin_.nearest(v).distance;
-        sum += gap;
-        most = std::max(most, gap);
-      }
-      const bool near = sum < share_of_es::attached_mean * es_ * static_cast<double>(shapes_[p].positions.size()) &&
-                        most < share_of_es::attached_most * es_;
-      roles_[p] = near ? PartRole::attached : PartRole::rest;
     }
+    // The lenses and pads of a pair of glasses go with its frame, a strand with the rest of the hair: small parts of a
+    // named primitive that has parts at rest. The skin's own primitive says nothing.
+    using Primitive = std::pair<std::string_view, std::string_view>;
+    const auto primitive_of = [](const PartShape& shape) { return Primitive(shape.name, shape.material); };
+    std::set<Primitive> rigid;
+    for (std::size_t p = 0; p < shapes_.size(); ++p) {
+      if (roles_[p] == PartRole::rest && shapes_[p].triangles > 0) rigid.insert(primitive_of(shapes_[p]));
+    }
+    rigid.erase(Primitive());
+    rigid.erase(primitive_of(skin_));
+    for (const std::size_t p : small) {
+      roles_[p] = rigid.count(primitive_of(shapes_[p])) > 0 ? PartRole::rest : PartRole::attached;
+    }
+  }
+
+  [[nodiscard]] bool may_be_attached(std::size_t p) const {
+    const glm::dvec3 extent = shapes_[p].extent();
+    if (extent.x > share_of_es::attached_width * es_ || extent.y > share_of_es::attached_height * es_ ||
+        extent.z > share_of_es::attached_depth * es_) {
+      return false;
+    }
+    double sum = 0.0;
+    double most = 0.0;
+    for (const glm::dvec3& v : shapes_[p].positions) {
+      const double gap = near_skin_.nearest(v).distance;
+      sum += gap;
+      most = std::max(most, gap);
+    }
+    return sum < share_of_es::attached_mean * es_ * static_cast<double>(shapes_[p].positions.size()) &&
+           most < share_of_es::attached_most * es_;
   }
 
   static constexpr std::array<PartRole, 2> eye_roles = {PartRole::left_eye, PartRole::right_eye};

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/jaw_share.h"
 #include "core/anatomy/role_by_name.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante {
 namespace {
@@ -154,6 +156,170 @@ TEST_F(CartoonHead, HairInOnePiece_IsNotAttachedHoweverCloseItLies) {
   EXPECT_EQ(describe_parts(model_, surface_, face_points())[1].role, PartRole::rest);
 }
 
+/// Frame with its arms along the temples, and lenses and pads of their own, all one primitive.
+TEST_F(CartoonHead, Glasses_WithoutATellingName_AreAtRest_WithAllTheirParts) {
+  add(testing::make_box({-6, 3, 0.4F}, {6, 5, 0.5F}), "Accessory_03");          // the frame
+  add(testing::make_box({5.6F, 4, -9}, {5.9F, 4.3F, -0.1F}), "Accessory_03");   // an arm
+  add(testing::make_box({2, 3.5F, 0.5F}, {4, 4.5F, 0.6F}), "Accessory_03");     // a lens
+  add(testing::make_box({0.4F, 3.5F, 0.1F}, {0.6F, 4, 0.3F}), "Accessory_03");  // a pad
+  add(testing::make_box({2, 5, 0.1F}, {4, 5.2F, 0.6F}), "Material.002");        // lashes, whatever their name
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()), (std::vector<std::string>{"skin", "rest", "rest", "rest", "rest", "attached"}));
+}
+
+TEST_F(CartoonHead, AnArmOfGlasses_AloneAndWithoutAName_IsTooDeepToBeLashes) {
+  for (glm::vec3& p : model_.positions) p.z = p.x < 5.5F ? p.z : -1.5F * (p.x - 5.5F);  // the side of the head
+  add(testing::make_box({6, 4, -6}, {6.2F, 4.3F, -0.3F}), "");
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()), (std::vector<std::string>{"skin", "rest"}));
+}
+
+/// Half a ring, its ends joined by a floor or a palate at the height `plate`.
+Model bridged(Model arch, float plate) {
+  const auto first = static_cast<std::uint32_t>(arch.positions.size());
+  for (const float z : {-4.4F, -3.0F, -1.6F}) arch.positions.emplace_back(0, plate, z);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    arch.triangles.push_back({2 * i, first + i, 2 * i + 2});
+    arch.triangles.push_back({22 - 2 * i, 24 - 2 * i, first + i});
+    arch.primitives.back().triangle_count += 2;
+  }
+  return arch;
+}
+
+/// Ready Player Me: one mesh "Wolf3D_Teeth" with both rows, gums and the tongue.
+TEST_F(CartoonHead, TheTongueInAMeshOfTeeth_IsATongue) {
+  for (const bool has_points : {true, false}) {
+    for (const bool has_plates : {false, true}) {
+      model_ = Model{};
+      Model plate = testing::make_grid(40, 48);
+      for (glm::vec3& p : plate.positions) p = glm::vec3(p.x / 2 - 10, p.y / 2 - 12, 0);
+      add(plate, "Wolf3D_Head");
+      add(testing::make_ball({3, 4, -1.2F}, 1.3F), "EyeLeft");
+      add(testing::make_ball({-3, 4, -1.2F}, 1.3F), "EyeRight");
+      // The tongue first and rather high: neither order nor height tell it from teeth.
+      Model tongue = testing::make_ball({0, -2.2F, -4}, 1.0F);
+      for (glm::vec3& p : tongue.positions) p = {p.x * 1.4F, p.y, -4 + (p.z + 4) * 2};
+      add(tongue, "Wolf3D_Teeth");
+      add(has_plates ? bridged(arch(-2.0F), -0.9F) : arch(-2.0F), "Wolf3D_Teeth");
+      add(has_plates ? bridged(arch(-4.0F), -4.9F) : arch(-4.0F), "Wolf3D_Teeth");
+      surface_ = build_surface(model_);
+      EXPECT_EQ(roles(has_points ? face_points() : FeaturePointSet{}),
+                (std::vector<std::string>{"skin", "left_eye", "right_eye", "tongue", "upper_teeth", "lower_teeth"}))
+          << has_points << has_plates;
+    }
+  }
+}
+
+TEST_F(CartoonHead, AMeshOfTeethWithoutATongue_HasNone) {
+  add(testing::make_ball({3, 4, -1.2F}, 1.3F), "EyeLeft");
+  add(testing::make_ball({-3, 4, -1.2F}, 1.3F), "EyeRight");
+  add(bridged(arch(-2.0F), -0.9F), "Wolf3D_Teeth");
+  add(bridged(arch(-4.0F), -4.9F), "Wolf3D_Teeth");
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()),
+            (std::vector<std::string>{"skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth"}));
+}
+
+/// The real shapes of our own head, in the one mesh that Ready Player Me makes of them: the tongue goes with the jaw.
+TEST(ReadyPlayerMe, TeethAndTongueInOneMesh_MoveAsTheyShould) {
+  const Model own = testing::sample_head_model();
+  Model model = own;
+  const Surface surface = build_surface(model);
+  for (Primitive& primitive : model.primitives) {
+    for (const std::string_view word : {"teeth", "gum", "tongue"}) {
+      if (primitive.name.find(word) != std::string::npos) primitive.name = "Wolf3D_Teeth";
+    }
+  }
+  for (const FeaturePointSet& points : {FeaturePointSet{}, testing::sample_head_points()}) {
+    const auto before = describe_parts(own, surface, points);
+    const auto parts = describe_parts(model, surface, points);
+    ASSERT_EQ(parts.size(), before.size());
+    std::size_t in_mouth = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      EXPECT_EQ(part_role_names[static_cast<std::size_t>(parts[p].role)],
+                part_role_names[static_cast<std::size_t>(before[p].role)])
+          << parts[p].name << " " << p << (points.empty() ? " without points" : "");
+      in_mouth += parts[p].name == "Wolf3D_Teeth" ? 1 : 0;
+    }
+    EXPECT_GE(in_mouth, 3U);
+    const auto shares = share_of_jaw(surface, parts, {});
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (parts[p].role != PartRole::tongue) continue;
+      for (const SurfaceVertexId v : surface.members_of(PartId(static_cast<std::uint32_t>(p)))) {
+        ASSERT_EQ(shares[v.value()].jaw, 1.0);
+      }
+    }
+  }
+}
+
+/// A character of VRoid: meshes named alike, materials that tell; the body is larger than the face.
+class VroidCharacter : public CartoonHead {
+ protected:
+  VroidCharacter() {
+    model_ = Model{};
+    Model body = testing::make_grid(80, 80);
+    for (glm::vec3& p : body.positions) p = glm::vec3(p.x / 2 - 20, p.y / 2 - 60, -5);
+    add_material(body, "Body (merged)", "N00_000_00_Body_00_SKIN (Instance)");
+    add_material(testing::make_box({-15, -55, -6}, {15, -25, -4}), "Body (merged)",
+                 "N00_002_03_Tops_01_CLOTH (Instance)");
+    Model face = testing::make_grid(40, 48);
+    for (glm::vec3& p : face.positions) p = glm::vec3(p.x / 2 - 10, p.y / 2 - 12, 0);
+    add_material(face, "Face (merged)", "N00_000_00_Face_00_SKIN (Instance)");
+    add_material(testing::make_box({2, 5, 0.1F}, {4, 5.2F, 0.6F}), "Face (merged)", "N00_000_00_FaceEyeline_00_FACE");
+    add_material(testing::make_box({2, 5.4F, 0.1F}, {4, 5.6F, 0.6F}), "Face (merged)",
+                 "N00_000_00_FaceEyelash_00_FACE");
+    add_material(testing::make_box({2, 6.4F, 0.1F}, {4, 6.6F, 0.6F}), "Face (merged)", "N00_000_00_FaceBrow_00_FACE");
+    add_material(testing::make_ball({3, 4, -1.2F}, 1.3F), "Face (merged)", "N00_000_00_EyeWhite_00_EYE");
+    add_material(testing::make_ball({-3, 4, -1.2F}, 1.3F), "Face (merged)", "N00_000_00_EyeIris_00_EYE");
+    add_material(testing::make_ball({0, 8, -6}, 9), "Hair001 (merged)", "N00_000_Hair_00_HAIR");
+    surface_ = build_surface(model_);
+  }
+  void add_material(const Model& part, const std::string& mesh, const std::string& material) {
+    add(part, mesh);
+    model_.primitives.back().material = static_cast<int>(model_.materials.size());
+    model_.materials.push_back({.name = material});
+  }
+};
+
+TEST_F(VroidCharacter, WithoutPoints_TheFaceIsTheSkin_AndTheBodyIsNot) {
+  EXPECT_EQ(roles({}), (std::vector<std::string>{"rest", "rest", "skin", "attached", "attached", "attached", "left_eye",
+                                                 "right_eye", "rest"}));
+}
+
+TEST_F(CartoonHead, ASkinThatIsNamedBody_IsTheSkin_AndItsEyesAreEyes) {
+  // As of MakeHuman: the face is part of the mesh "body", and so are the eyeballs.
+  model_.primitives.back().name = "body";
+  add(testing::make_ball({3, 4, -1.2F}, 1.3F), "body");
+  add(testing::make_ball({-3, 4, -1.2F}, 1.3F), "body");
+  add(testing::make_box({-15, -55, -6}, {15, -25, -4}), "jeans01");
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()), (std::vector<std::string>{"skin", "left_eye", "right_eye", "rest"}));
+  EXPECT_EQ(roles({}).front(), "skin");
+}
+
+TEST(RegionByName, FaceAndBody_AreToldApart) {
+  const auto region = [](const char* name, const char* material) {
+    PartShape shape;
+    shape.name = name;
+    shape.material = material;
+    return is_face_name(shape) ? "face" : is_body_name(shape) ? "body" : has_name_of_another_part(shape) ? "other" : "";
+  };
+  EXPECT_STREQ(region("Face (merged)", "N00_000_00_Face_00_SKIN"), "face");
+  EXPECT_STREQ(region("Body (merged)", "N00_000_00_Face_00_SKIN"), "face");
+  EXPECT_STREQ(region("Face (merged)", "N00_000_00_FaceMouth_00_FACE"), "other");
+  EXPECT_STREQ(region("Face (merged)", "N00_000_00_FaceEyeline_00_FACE"), "other");
+  EXPECT_STREQ(region("Face (merged)", "Material.001"), "face");
+  EXPECT_STREQ(region("Body (merged)", "N00_000_00_HairBack_00_HAIR"), "other");
+  EXPECT_STREQ(region("Wolf3D_Head", "Wolf3D_Skin"), "face");
+  EXPECT_STREQ(region("Wolf3D_Body", "Wolf3D_Body"), "body");
+  EXPECT_STREQ(region("Wolf3D_Outfit_Top", ""), "body");
+  EXPECT_STREQ(region("Wolf3D_Headwear", ""), "other");
+  EXPECT_STREQ(region("CC_Base_Body", "Std_Skin_Arm"), "body");
+  EXPECT_STREQ(region("CC_Base_Body", "Std_Skin_Head"), "face");
+  EXPECT_STREQ(region("Armature", "Legacy Shader"), "") << "no arm, no leg";
+  EXPECT_STREQ(region("neckTie", "tie.002"), "body");
+}
+
 struct NameCase {
   const char* name;
   double x;
@@ -169,6 +335,13 @@ TEST(RoleByName, NamesInUse_SayWhatTheySay) {
                                                            {"eyebrow_left", 3, PartRole::attached},
                                                            {"EyeOcclusion", 3, PartRole::attached},
                                                            {"glasses", 0, PartRole::rest},
+                                                           {"Sunglasses_browline", 0, PartRole::rest},
+                                                           {"spectacles", 0, PartRole::rest},
+                                                           {"N00_000_00_FaceEyeline_00_FACE", 3, PartRole::attached},
+                                                           {"Eyeliner", 3, PartRole::attached},
+                                                           {"Wolf3D_Headwear", 0, PartRole::rest},
+                                                           {"Wolf3D_Outfit_Top", 0, PartRole::rest},
+                                                           {"N00_000_00_Body_00_SKIN", 0, PartRole::rest},
                                                            {"Eyeglasses", 0, PartRole::rest},
                                                            {"Wolf3D_Hair", 0, PartRole::rest},
                                                            {"teeth-upper", 0, PartRole::upper_teeth},
