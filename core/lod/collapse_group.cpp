@@ -34,8 +34,10 @@ constexpr double distance_weight = 1e-3;
 constexpr double most_turn = 0.5;
 /// Minimum cosine between a triangle's normal and the full surface's normals at its corners.
 constexpr double least_facing = 0.2;
-/// Minimum of twice the area divided by the squared longest side; a triangle below is a needle.
+/// Twice the area of a triangle divided by its squared longest side, below which it is a needle; on meshes of needles,
+/// as lashes are, a fraction of what is usual there.
 constexpr double needle = 0.05;
+constexpr double needle_of_usual = 0.1;
 
 /// The index of the corner of a triangle at one of its vertices.
 std::size_t place_in(const Face& face, int vertex) {
@@ -65,6 +67,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
   void attach(GroupMesh& group, CollapseHistory& history) {
     group_ = &group;
     history_ = &history;
+    needle_ = std::min(needle, needle_of_usual * usual_fullness());
     measure();
   }
 
@@ -84,6 +87,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
   }
 
   void preprocess_collapse(const CollapseInfo& collapse) override {
+    const double price = std::max(price_below(collapse, std::numeric_limits<double>::infinity()), 0.0);
     const CornerMap map = corner_map(collapse).value_or(CornerMap{});
     for (const FaceHandle f : group_->mesh.vf_range(collapse.v0)) {
       const auto number = static_cast<std::uint32_t>(f.idx());
@@ -97,7 +101,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
       face.corners[c] = map.at(face.corners[c]);
       history_->change(number, face.corners);
     }
-    history_->end_collapse();
+    history_->end_collapse(price);
   }
 
   void postprocess_collapse(const CollapseInfo& collapse) override {
@@ -173,7 +177,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     if (area_after <= 0.0) return false;
     if (area_before > 0.0 && glm::dot(before, after) < most_turn * area_before * area_after) return false;
     const double full_after = fullness(p1, pb, pd, area_after);
-    if (full_after < needle && full_after < fullness(p0, pb, pd, area_before)) return false;
+    if (full_after < needle_ && full_after < fullness(p0, pb, pd, area_before)) return false;
     const glm::dvec3 meant = group_->normals[static_cast<std::size_t>(v1)] +
                              group_->normals[static_cast<std::size_t>(b)] +
                              group_->normals[static_cast<std::size_t>(d)];
@@ -199,6 +203,23 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
       uvs[c] = group_->all.uvs[uv];
     }
     return twice_uv_area(uvs[0], uvs[1], uvs[2]);
+  }
+
+  /// The median of the triangles' fullness.
+  [[nodiscard]] double usual_fullness() const {
+    std::vector<double> all;
+    all.reserve(group_->faces.size());
+    for (const Face& face : group_->faces) {
+      const glm::dvec3& a = group_->position(0, face.vertices[0]);
+      const glm::dvec3& b = group_->position(0, face.vertices[1]);
+      const glm::dvec3& c = group_->position(0, face.vertices[2]);
+      const double area = glm::length(area_vector(a, b, c));
+      all.push_back(area > 0.0 ? fullness(a, b, c, area) : 0.0);
+    }
+    if (all.empty()) return 1.0;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return *middle;
   }
 
   [[nodiscard]] Quadric& quadric(std::size_t vertex, std::size_t pose) {
@@ -241,15 +262,22 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return area_vector(group_->position(pose, a), group_->position(pose, b), group_->position(pose, c));
   }
 
+  [[nodiscard]] double importance_of(const Face& face) const {
+    double sum = 0.0;
+    for (const int v : face.vertices) sum += group_->importance[static_cast<std::size_t>(v)];
+    return sum / 3.0;
+  }
+
   void add_plane(const Face& face, std::size_t pose) {
     const glm::dvec3 area = area_of(face, pose);
     const double twice_area = glm::length(area);
     if (twice_area <= 0.0) return;
-    const Quadric plane = plane_quadric(area / twice_area, group_->position(pose, face.vertices[0]), twice_area / 6.0);
+    const double weight = importance_of(face) * twice_area / 6.0;
+    const Quadric plane = plane_quadric(area / twice_area, group_->position(pose, face.vertices[0]), weight);
     for (const int v : face.vertices) {
       Quadric& sum = quadric(static_cast<std::size_t>(v), pose);
       sum += plane;
-      sum += point_quadric(group_->position(pose, v), distance_weight * twice_area / 6.0);
+      sum += point_quadric(group_->position(pose, v), distance_weight * weight);
     }
   }
 
@@ -264,8 +292,8 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
       const glm::dvec3 outward = glm::cross(along, area_of(group_->face(f), pose));
       const double length = glm::length(outward);
       if (length <= 0.0) continue;
-      const Quadric plane =
-          plane_quadric(outward / length, group_->position(pose, from), border_weight * glm::dot(along, along) / 6.0);
+      const double weight = importance_of(group_->face(f)) * border_weight * glm::dot(along, along) / 6.0;
+      const Quadric plane = plane_quadric(outward / length, group_->position(pose, from), weight);
       quadric(static_cast<std::size_t>(from), pose) += plane;
       quadric(static_cast<std::size_t>(to), pose) += plane;
     }
@@ -276,6 +304,7 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
   std::vector<Quadric> quadrics_;  ///< by vertex, then pose
   OpenMesh::VertexHandle asked_;   ///< the vertex asked about last, and the least price found for it
   double cheapest_ = 0.0;
+  double needle_ = needle;
 };
 
 /// Stops the decimater at the target number of corners, or on cancellation.

@@ -1,6 +1,8 @@
 #include "core/lod/collapse_history.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace semblante {
@@ -31,19 +33,24 @@ void CollapseHistory::remove(std::uint32_t triangle) {
   edits_.push_back({triangle, {Model::no_index, Model::no_index, Model::no_index}});
 }
 
-void CollapseHistory::end_collapse() {
+void CollapseHistory::end_collapse(double price) {
   edits_after_.push_back(edits_.size());
   counts_.push_back(used_);
+  prices_.push_back(std::max(price, std::nextafter(prices_.back(), std::numeric_limits<double>::infinity())));
 }
 
-std::size_t CollapseHistory::collapses_within(std::size_t budget) const {
-  const auto found = std::partition_point(counts_.begin(), counts_.end(), [&](std::size_t c) { return c > budget; });
-  return static_cast<std::size_t>(std::min(found, counts_.end() - 1) - counts_.begin());
+std::size_t CollapseHistory::collapses_at(const CollapseLimit& limit) const {
+  const auto dearer = std::upper_bound(prices_.begin(), prices_.end(), limit.price);
+  const auto fewer =
+      std::partition_point(counts_.begin(), counts_.end(), [&](std::size_t c) { return c >= limit.least_corners; });
+  // Each is the first state beyond the limit; the state of no collapse is within both.
+  const auto states = std::min(dearer - prices_.begin(), fewer - counts_.begin());
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(states, 1) - 1);
 }
 
-void CollapseHistory::append_triangles(std::size_t budget, std::vector<LevelTriangle>& triangles) const {
+void CollapseHistory::append_triangles(const CollapseLimit& limit, std::vector<LevelTriangle>& triangles) const {
   std::vector<LevelTriangle> then = full_;
-  const std::size_t end = edits_after_[collapses_within(budget)];
+  const std::size_t end = edits_after_[collapses_at(limit)];
   for (std::size_t e = 0; e < end; ++e) then[edits_[e].triangle].corners = edits_[e].corners;
   std::erase_if(then, [](const LevelTriangle& t) { return t.corners[0] == Model::no_index; });
   std::sort(then.begin(), then.end(), [](const auto& a, const auto& b) { return a.source < b.source; });

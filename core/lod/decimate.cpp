@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <numeric>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "core/lod/collapse_history.h"
 #include "core/lod/corners.h"
 #include "core/lod/fixed_vertices.h"
+#include "core/lod/importance.h"
 
 namespace semblante {
 namespace {
@@ -20,8 +22,8 @@ constexpr std::array<std::uint32_t, 5> ladder = {50000, 20000, 10000, 5000, 2500
 constexpr std::uint32_t light_model = 10000;
 /// A level with more than this fraction of the vertices of the previous one is omitted.
 constexpr double most_of_level_before = 0.9;
-/// Minimum of a group relative to the common fraction: teeth must not vanish because lips are fixed.
-constexpr double least_of_share = 0.25;
+/// Minimum of the parts of a role, relative to the level's fraction of the model: teeth must not vanish.
+constexpr double least_of_share = 0.125;
 
 std::vector<glm::dvec3> on_surface(const Surface& surface, std::span<const glm::vec3> file_positions) {
   std::vector<glm::dvec3> positions;
@@ -74,33 +76,43 @@ LevelOfDetail level_from(const Corners& corners, const std::vector<LevelTriangle
   return level;
 }
 
-std::size_t budget_of(const CollapseHistory& group, double share) {
-  return static_cast<std::size_t>(share * static_cast<double>(group.full()));
+/// The limit of a group at a price, and the fraction of its corners that it keeps at any price.
+CollapseLimit limit_of(const CollapseHistory& group, double price, double least_share) {
+  return {price, static_cast<std::size_t>(least_share * static_cast<double>(group.full()))};
 }
 
-/// Total corners of the groups when each is reduced to the same fraction, or to its minimum.
-std::size_t count_at(const std::vector<CollapseHistory>& groups, double share) {
-  std::size_t count = 0;
-  for (const CollapseHistory& group : groups) count += group.count_within(budget_of(group, share));
-  return count;
-}
-
-/// The largest common fraction at which the total is within the budget, given the minima of the groups.
-double share_within(const std::vector<CollapseHistory>& groups, std::size_t budget) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int step = 0; step < 40; ++step) {
-    const double middle = 0.5 * (low + high);
-    (count_at(groups, middle) <= budget ? low : high) = middle;
+/// The least price at which the groups together have at most `budget` corners; the dearest if there is none.
+double price_within(const std::vector<CollapseHistory>& groups, std::size_t budget, double least_share) {
+  const auto count_at = [&](double price) {
+    std::size_t count = 0;
+    for (const CollapseHistory& group : groups) count += group.count_at(limit_of(group, price, least_share));
+    return count;
+  };
+  double dearest = 0.0;
+  for (const CollapseHistory& group : groups) dearest = std::max(dearest, group.dearest());
+  // The bits of positive doubles are in the order of their values: 64 steps find the very price.
+  std::uint64_t low = 0;
+  auto high = std::bit_cast<std::uint64_t>(dearest);
+  while (low < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    if (count_at(std::bit_cast<double>(middle)) <= budget) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
   }
-  return low;
+  return std::bit_cast<double>(high);
 }
 
-/// Triangles of all groups, reduced to the same fraction, with at most this many corners.
-std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& groups, std::size_t corners) {
-  const double share = share_within(groups, corners);
+/// Triangles of all groups at one price, with at most this many corners. Each group keeps a fraction of `share`.
+std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& groups, std::size_t corners,
+                                            double share) {
+  const double least_share = least_of_share * share;
+  const double price = price_within(groups, corners, least_share);
   std::vector<LevelTriangle> triangles;
-  for (const CollapseHistory& group : groups) group.append_triangles(budget_of(group, share), triangles);
+  for (const CollapseHistory& group : groups) {
+    group.append_triangles(limit_of(group, price, least_share), triangles);
+  }
   std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.source < b.source; });
   return triangles;
 }
@@ -168,7 +180,8 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   std::vector<std::vector<glm::dvec3>> poses;
   for (const LodPose& pose : options.poses) poses.push_back(on_surface(surface, pose.positions));
   const std::vector<bool> fixed = fixed_vertices(surface, model, rig.points, rig.influence);
-  const DecimationMesh mesh{corners, model.uvs, surface.positions, poses, fixed};
+  const std::vector<double> importance = importance_of_vertices(surface, rig);
+  const DecimationMesh mesh{corners, model.uvs, surface.positions, poses, fixed, importance};
   const double least_share =
       least_of_share * options.budgets.back() / static_cast<double>(std::max<std::size_t>(corners.corners.size(), 1));
 
@@ -187,15 +200,18 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   }
   if (stopped) return Error{ErrorCode::cancelled, "", "stopped on request"};
 
-  std::size_t before = count_at(groups, 1.0);
+  std::size_t before = 0;
+  for (const CollapseHistory& group : groups) before += group.full();
+  const auto full = static_cast<double>(std::max<std::size_t>(before, 1));
   for (const std::uint32_t budget : options.budgets) {
     if (budget >= before) continue;
-    std::vector<LevelTriangle> triangles = triangles_within(groups, budget);
+    const double share = budget / full;
+    std::vector<LevelTriangle> triangles = triangles_within(groups, budget, share);
     std::size_t count = drawn_vertices(corners, triangles);
     // A non-manifold mesh has slightly more vertices than corners: lower the target by the difference, a few times.
     for (std::size_t aim = budget, attempt = 0; count > budget && attempt < 3; ++attempt) {
       aim -= std::min(aim, count - budget);
-      triangles = triangles_within(groups, aim);
+      triangles = triangles_within(groups, aim, share);
       count = drawn_vertices(corners, triangles);
     }
     if (static_cast<double>(count) > most_of_level_before * static_cast<double>(before)) continue;

@@ -48,9 +48,10 @@ struct LevelOfDetail {
       source_triangles;  ///< #T, increasing: the original triangle in the model, which defines the look
 };
 
-/// Decimates `model` to each of the budgets, every level from the previous one, with the parts of each role in
-/// proportion. Deterministic. `surface` and `rig` are the model's. Feature points, lips, lids, borders and seams are
-/// kept; levels that are not at least a tenth smaller than the previous one are omitted.
+/// Decimates `model` to each of the budgets, every level from the previous one; vertices go where their errors are
+/// least and matter least (importance.h), so that the face keeps most of them. Deterministic. `surface` and `rig` are
+/// the model's. Feature points, lips, lids, borders and seams are kept; levels that are not at least a tenth smaller
+/// than the previous one are omitted.
 ///
 /// Errors: `cancelled`.
 Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& surface, const Rig& rig,

@@ -32,6 +32,7 @@ class VertexNumbers {
       moved = moved || pose[surface_vertex] != rest;
     }
     group_.moves.push_back(moved);
+    group_.importance.push_back(all.importance[surface_vertex]);
     if (all.fixed[surface_vertex]) group_.mesh.status(v).set_locked(true);
     return entry->second;
   }

@@ -57,6 +57,7 @@ struct GroupMesh {
   std::vector<LevelTriangle> untouched;  ///< what makes no manifold with the others
   std::vector<glm::dvec3> positions;     ///< by vertex, then pose: what one collapse reads lies together
   std::vector<glm::dvec3> normals;       ///< by vertex, of the full neutral surface; length: area
+  std::vector<double> importance;        ///< by vertex
   std::vector<bool> moves;               ///< by vertex: it or a neighbour differs in some pose
 };
 

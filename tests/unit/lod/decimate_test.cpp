@@ -1,6 +1,7 @@
 #include "core/lod/decimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -344,24 +345,57 @@ TEST(Decimate, AFanThatNoModellerMakesStaysWhole) {
   EXPECT_TRUE(decimate_to(make_double_fan(20'000), {5000}).empty());
 }
 
-TEST(Decimate, PartsOfEachRoleGiveTheirShare) {
+/// A ball of the face, and the same ball elsewhere in another role; how many vertices each keeps.
+struct TwoBalls {
   Model model = make_ball({0.0F, 0.0F, 0.0F}, 5.0F, 64, 32);
-  const auto second = testing::append(model, make_ball({20.0F, 0.0F, 0.0F}, 1.0F, 32, 16), "tooth");
-  const Surface surface = build_surface(model);
-  Rig rig = plain_rig(model, surface);
-  rig.parts[1].role = PartRole::upper_teeth;
-  LodOptions options;
-  options.budgets = {600};
-  const auto levels = decimate(model, surface, rig, options);
-  ASSERT_EQ(levels->size(), 1U);
-  const auto used = used_vertices(levels->front().triangles);
-  const auto small = static_cast<double>(std::distance(used.lower_bound(second), used.end()));
-  const double share =
-      static_cast<double>(model.positions.size() - second) / static_cast<double>(model.positions.size());
-  EXPECT_NEAR(small / static_cast<double>(used.size()), share, 0.02);
-  const auto parts = parts_of_level(rig, levels->front());
-  EXPECT_EQ(parts[0].vertex_count + parts[1].vertex_count, used.size());
-  EXPECT_EQ(parts[0].triangle_count + parts[1].triangle_count, levels->front().triangles.size());
+  std::uint32_t second;
+  Surface surface;
+  Rig rig;
+  TwoBalls(const glm::vec3& at, PartRole role)
+      : second(testing::append(model, make_ball(at, 5.0F, 64, 32), "other")), surface(build_surface(model)) {
+    rig = plain_rig(model, surface);
+    rig.parts[1].role = role;
+  }
+  [[nodiscard]] std::array<std::size_t, 2> kept(std::uint32_t budget) const {
+    LodOptions options;
+    options.budgets = {budget};
+    const auto levels = decimate(model, surface, rig, options);
+    if (!levels.ok() || levels->size() != 1U) return {0, 0};
+    const auto used = used_vertices(levels->front().triangles);
+    const auto of_second = static_cast<std::size_t>(std::distance(used.lower_bound(second), used.end()));
+    const auto parts = parts_of_level(rig, levels->front());
+    EXPECT_EQ(parts[0].vertex_count + parts[1].vertex_count, used.size());
+    EXPECT_EQ(parts[0].triangle_count + parts[1].triangle_count, levels->front().triangles.size());
+    EXPECT_LE(used.size(), budget);
+    EXPECT_GE(used.size(), budget * 9 / 10);
+    return {used.size() - of_second, of_second};
+  }
+};
+
+TEST(Decimate, VerticesGoToTheFace_ThenToHair_ThenToEyesAndTeeth) {
+  const glm::vec3 beside(20.0F, 0.0F, 0.0F);
+  const auto [face, skin] = TwoBalls(beside, PartRole::skin).kept(600);
+  const std::size_t hair = TwoBalls(beside, PartRole::rest).kept(600)[1];
+  const std::size_t eye = TwoBalls(beside, PartRole::left_eye).kept(600)[1];
+  const std::size_t tooth = TwoBalls(beside, PartRole::upper_teeth).kept(600)[1];
+  EXPECT_NEAR(static_cast<double>(face), static_cast<double>(skin), 30.0) << "without points both are skin";
+  EXPECT_GT(skin, hair);
+  EXPECT_GT(hair, eye);
+  EXPECT_GT(eye, tooth);
+  EXPECT_GT(tooth, 10U) << "it must not vanish";
+}
+
+TEST(Decimate, WhatIsFarFromTheFace_GetsFewerVertices) {
+  const auto skin_at = [](float x) {
+    TwoBalls balls({x, 0.0F, 0.0F}, PartRole::skin);
+    balls.rig.points = testing::points_at(balls.model, {{"2.1", 5}, {"5.1", 900}, {"8.3", 1200}});
+    return balls.kept(600)[1];
+  };
+  const std::size_t hand = skin_at(60.0F);
+  const std::size_t foot = skin_at(150.0F);
+  EXPECT_GT(skin_at(11.0F), 2 * hand);
+  EXPECT_GT(hand, foot);
+  EXPECT_GT(foot, 8U);
 }
 
 TEST(Decimate, ALevelKeepsThePrimitivesOfItsTriangles) {
