@@ -6,6 +6,7 @@
 
 #include "core/bridges/generated/arkit_tables.h"
 #include "core/bridges/live_link_csv.h"
+#include "core/types/warning_groups.h"
 
 namespace semblante {
 namespace {
@@ -215,6 +216,7 @@ Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_r
   LiveLinkTake take;
   const auto columns = read_header(next_line(text), take.warnings);
   if (!columns) return columns.error();
+  take.warnings = grouped_warnings(take.warnings);  // an extended rig has hundreds of columns of its own
   double first = 0.0;
   double last = 0.0;
   double days = 0.0;

@@ -13,8 +13,6 @@ namespace {
 
 /// Squares of coordinates are finite in float32 below this, for any unit of the file.
 constexpr float max_coordinate = 1e15F;
-/// Bounds the text that a hostile file can cause.
-constexpr std::size_t max_warnings = 32;
 
 bool no_corner_has_one(const std::vector<Triangle>& triangles) {
   for (const Triangle& triangle : triangles) {
@@ -111,14 +109,6 @@ void ModelBuilder::add_triangle(const Corner& a, const Corner& b, const Corner& 
   ++model.primitives.back().triangle_count;
 }
 
-void ModelBuilder::warn(std::string message) {
-  if (model.warnings.size() >= max_warnings) {
-    ++suppressed_warnings_;
-    return;
-  }
-  model.warnings.push_back(std::move(message));
-}
-
 Result<Model> ModelBuilder::finish(std::string format) && {
   if (Status status = check_positions(model); !status) return status.error();
   if (Status status = check_examples(model); !status) return status.error();
@@ -129,11 +119,9 @@ Result<Model> ModelBuilder::finish(std::string format) && {
   if (limits_.needs_triangles && !has_extent(model))
     return Error{ErrorCode::empty, "", "all triangles are at one point"};
   if (degenerate_ > 0) {
-    model.warnings.push_back(std::to_string(degenerate_) + " triangles that use a vertex twice were omitted");
+    warn(std::to_string(degenerate_) + " triangles that use a vertex twice were omitted");
   }
-  if (suppressed_warnings_ > 0) {
-    model.warnings.push_back("and " + std::to_string(suppressed_warnings_) + " more warnings");
-  }
+  model.warnings = warnings_.sentences();
   while (!model.primitives.empty() && model.primitives.back().triangle_count == 0) model.primitives.pop_back();
   normalize_normals(model);
   if (model.uvs.empty() || no_corner_has_one(model.uv_triangles)) {

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/import/limits.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
+#include "core/types/warning_groups.h"
 
 namespace semblante::import {
 
@@ -28,7 +30,7 @@ class ModelBuilder {
   /// Starts a primitive with this name (printable()) and material (-1: none) for the following triangles.
   void begin_primitive(const std::string& name, int material);
   void add_triangle(const Corner& a, const Corner& b, const Corner& c);
-  void warn(std::string message);
+  void warn(std::string message) { warnings_.add(std::move(message)); }
 
   [[nodiscard]] const ImportLimits& limits() const { return limits_; }
   /// Number of triangles that may still be added; omitted ones count, so that the time is bounded.
@@ -41,7 +43,9 @@ class ModelBuilder {
   ImportLimits limits_;
   std::size_t triangles_seen_ = 0;
   std::size_t degenerate_ = 0;
-  std::size_t suppressed_warnings_ = 0;
+  /// Bounds the text that a hostile file can cause.
+  static constexpr std::size_t max_kinds_of_warnings = 32;
+  WarningGroups warnings_{max_kinds_of_warnings};
 };
 
 }  // namespace semblante::import

@@ -14,7 +14,7 @@ struct HeadWarnings {
   std::vector<std::string> rig;     ///< what is missing, and what does not move without it
   std::vector<std::string> levels;  ///< budgets that no level meets
 
-  /// All warnings in the order of the members, for users and for rig.json.
+  /// All warnings in the order of the members, equal ones grouped (WarningGroups), for users and for rig.json.
   [[nodiscard]] std::vector<std::string> all() const;
 };
 
