@@ -98,6 +98,8 @@ bool is_named_teeth(const PartShape& shape) {
   return names_teeth(lower_case(shape.name)) || names_teeth(lower_case(shape.material));
 }
 
+bool is_rigid_name(std::string_view name) { return role_of_name(lower_case(name), 0.0) == PartRole::rest; }
+
 bool is_face_name(const PartShape& shape) { return region_of(shape) == Region::face; }
 
 bool is_body_name(const PartShape& shape) { return region_of(shape) == Region::body; }

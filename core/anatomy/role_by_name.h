@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/anatomy/part_shape.h"
 #include "core/types/rig.h"
@@ -24,6 +25,9 @@ bool is_body_name(const PartShape& shape);
 
 /// True if it is named as something that can be neither skin nor body: eyes, teeth, mouth, lashes, hair, glasses.
 bool has_name_of_another_part(const PartShape& shape);
+
+/// True for a name of what follows the head rigidly wherever it lies: hair, hats and glasses.
+bool is_rigid_name(std::string_view name);
 
 /// True if the name of a part or its material contains teeth or gums, upper or lower.
 bool is_named_teeth(const PartShape& shape);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/role_by_name.h"
 #include "core/doctor/part_checks.h"
 #include "core/doctor/words.h"
 #include "core/geometry/nearest_point.h"
@@ -65,6 +67,52 @@ Finding about(const Subject& head, std::size_t part, FindingCode code, FeaturePo
   return finding;
 }
 
+/// Whether a person said so, or its name: hair and glasses lie in the face and follow the head alone.
+bool is_meant_to_stay(const Part& part) { return part.role_by_user || is_rigid_name(part.name); }
+
+struct IdlePart {
+  std::size_t part;
+  FeaturePointId point;  ///< the nearest
+  glm::dvec3 at;
+  double distance;  ///< to it, in ES0
+};
+
+/// One finding for each of a few parts, one for all of many, at the nearest of them.
+void tell_idle_parts(const Subject& head, const std::vector<IdlePart>& idle, std::vector<Finding>& out) {
+  constexpr std::size_t most_alone = 2;
+  constexpr std::size_t most_named = 4;
+  const auto& parts = head.rig.parts;
+  const auto tell = [&](std::span<const IdlePart> told) {
+    const IdlePart& nearest = *std::min_element(
+        told.begin(), told.end(), [](const IdlePart& a, const IdlePart& b) { return a.distance < b.distance; });
+    Finding finding = about(head, nearest.part, FindingCode::idle_part, nearest.point, nearest.at);
+    std::string names;
+    std::size_t vertices = 0;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      vertices += parts[told[i].part].vertex_count;
+      if (i < most_named) names += (i == 0 ? "" : ", ") + called(parts, told[i].part);
+    }
+    const std::string size = count_of(vertices, "vertex", "vertices");
+    finding.words = told.size() == 1
+                        ? names + ", " + size + ", is in the moving face close to " + to_string(nearest.point) +
+                              ", but no point influences it and it has no role; it stays while the skin under it moves"
+                        : std::to_string(told.size()) + " parts: " + names + (told.size() > most_named ? ", ..." : "") +
+                              ", " + size + ", are in the moving face, the nearest close to " +
+                              to_string(nearest.point) +
+                              ", but no point influences them and they have no role; they stay while the skin under "
+                              "them moves";
+    finding.remedy =
+        "give the part a role (attached, if it sits on the skin), join it to the skin, or mark points on it";
+    finding.measured = {"distance to the point as a fraction of ES0", nearest.distance, beside_a_point};
+    out.push_back(std::move(finding));
+  };
+  if (idle.size() > most_alone) {
+    tell(idle);
+  } else {
+    for (const IdlePart& part : idle) tell({&part, 1});
+  }
+}
+
 void find_strangers(const Subject& head, std::vector<Finding>& out) {
   if (!head.frame.eye_separation) return;
   std::vector<glm::dvec3> places;
@@ -80,6 +128,7 @@ void find_strangers(const Subject& head, std::vector<Finding>& out) {
   const NearestPoint nearest(places);
   const double reach = beside_a_point * *head.frame.eye_separation;
   const auto& parts = head.rig.parts;
+  std::vector<IdlePart> idle;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartId part(static_cast<std::uint32_t>(p));
     if (parts[p].triangle_count == 0 || with_points.contains(part)) continue;
@@ -94,18 +143,11 @@ void find_strangers(const Subject& head, std::vector<Finding>& out) {
       finding.remedy = "export the model with one skin only";
       finding.measured = {"fraction of the face's points close to it", share, share_of_a_face};
       out.push_back(std::move(finding));
-    } else if (parts[p].role == PartRole::rest && near.distance <= reach) {
-      Finding finding = about(head, p, FindingCode::idle_part, ids[near.point], near.at);
-      finding.words = called(parts, p) + ", " + count_of(parts[p].vertex_count, "vertex", "vertices") +
-                      ", is in the moving face close to " + to_string(ids[near.point]) +
-                      ", but no point influences it and it has no role; it stays while the skin under it moves";
-      finding.remedy =
-          "give the part a role (attached, if it sits on the skin), join it to the skin, or mark points on it";
-      finding.measured = {"distance to the point as a fraction of ES0", near.distance / *head.frame.eye_separation,
-                          beside_a_point};
-      out.push_back(std::move(finding));
+    } else if (parts[p].role == PartRole::rest && near.distance <= reach && !is_meant_to_stay(parts[p])) {
+      idle.push_back({p, ids[near.point], near.at, near.distance / *head.frame.eye_separation});
     }
   }
+  tell_idle_parts(head, idle, out);
 }
 
 void find_still_eyes(const Subject& head, std::vector<Finding>& out) {

@@ -68,6 +68,36 @@ TEST(DoctorReport, ManyFindingsOfAKind_AreNotAllTold) {
   EXPECT_THAT(told.back()->words, HasSubstr("; the same applies to "));
 }
 
+std::vector<Finding> idle_parts(const testing::Head& head) {
+  std::vector<Finding> idle;
+  for (const Finding& finding : testing::examine_without_weights(head).findings) {
+    if (finding.code == FindingCode::idle_part) idle.push_back(finding);
+  }
+  return idle;
+}
+
+TEST(DoctorReport, ManyIdleParts_AreOneFinding_AndNoneWhoseNameSaysThatTheyStay) {
+  const auto with_plates = [](int count, const std::string& name) {
+    testing::Head head = testing::sample_head();
+    const double top = testing::place(head, "8.2").y;
+    const double bottom = testing::place(head, "2.1").y;
+    const double back = testing::place(head, "2.13").z;
+    const double unit = testing::unit(head);
+    for (int i = 0; i < count; ++i) {
+      testing::begin_primitive(head, name + std::to_string(i));
+      testing::copy_skin(head, glm::dmat3(1.0), unit * glm::dvec3(0.0, 0.0, 0.03 + 0.002 * i),
+                         [=](const glm::dvec3& at) { return at.y < top && at.y > bottom && at.z > back; });
+    }
+    return head;
+  };
+  EXPECT_EQ(idle_parts(with_plates(2, "plate ")).size(), 2U);
+  const auto many = idle_parts(with_plates(22, "plate "));
+  ASSERT_EQ(many.size(), 1U);
+  EXPECT_THAT(many[0].words, ::testing::StartsWith("22 parts: part "));
+  EXPECT_THAT(many[0].words, HasSubstr("\"plate 3\", ..., "));
+  EXPECT_TRUE(idle_parts(with_plates(3, "Sunglasses ")).empty());
+}
+
 TEST(DoctorReport, MeshWithoutTriangles_IsExaminedToo) {
   Model model;
   model.positions.assign(3, glm::vec3(0.0F));
