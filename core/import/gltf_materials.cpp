@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
-#include "core/import/image_type.h"
+#include "core/import/image_reader.h"
 #include "core/import/limits.h"
 #include "core/import/text.h"
 
@@ -13,7 +15,8 @@ namespace {
 
 class MaterialReader {
  public:
-  MaterialReader(GltfDocument& document, ModelBuilder& builder) : document_(document), builder_(builder) {}
+  MaterialReader(GltfDocument& document, ModelBuilder& builder)
+      : document_(document), builder_(builder), images_(builder.limits()) {}
 
   UvSource read(const JsonCursor& source) {
     Material material;
@@ -28,10 +31,12 @@ class MaterialReader {
       material.metallic = unit(pbr, "metallicFactor");
       material.roughness = unit(pbr, "roughnessFactor");
       material.base_color_image = image_of(pbr, "baseColorTexture", &uv);
+      material.is_color_lost = material.base_color_image < 0 && pbr.has("baseColorTexture");
     } else if (source.has("extensions") && source.member("extensions").has("KHR_materials_pbrSpecularGlossiness")) {
       const JsonCursor old = source.member("extensions").member("KHR_materials_pbrSpecularGlossiness");
       material.base_color = color(old, "diffuseFactor");
       material.base_color_image = image_of(old, "diffuseTexture", &uv);
+      material.is_color_lost = material.base_color_image < 0 && old.has("diffuseTexture");
       material.metallic = 0.0F;
       material.roughness = 1.0F - unit(old, "glossinessFactor");
     }
@@ -105,15 +110,29 @@ class MaterialReader {
       }
     }
     const JsonCursor texture = document_.item("textures", texture_index);
-    const auto source = texture.index("source", document_.count("images"));
+    const auto source = source_of(texture);
     if (document_.failed()) return -1;
     if (!source) {
-      builder_.warn("texture " + std::to_string(texture_index) + " has no PNG or JPEG image and is omitted");
+      builder_.warn("texture " + std::to_string(texture_index) + " has no image and is omitted");
       return -1;
     }
     const auto [entry, is_new] = image_by_source_.try_emplace(*source, -1);
     if (is_new) entry->second = load_image(*source);
     return entry->second;
+  }
+
+  /// The image of a texture: its own, which glTF's core can show, else that of an extension.
+  std::optional<std::size_t> source_of(const JsonCursor& texture) {
+    const std::size_t count = document_.count("images");
+    const auto source = texture.index("source", count);
+    if (source || document_.failed() || !texture.has("extensions")) return source;
+    const JsonCursor extensions = texture.member("extensions");
+    for (const char* const name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+      if (!extensions.has(name)) continue;
+      const auto of_extension = extensions.member(name).index("source", count);
+      if (of_extension || document_.failed()) return of_extension;
+    }
+    return std::nullopt;
   }
 
   int load_image(std::size_t index) {
@@ -135,12 +154,12 @@ class MaterialReader {
       if (within_limit(loaded->size(), source)) bytes = std::move(*loaded);
     }
     if (document_.failed()) return -1;
-    const std::string_view mime_type = image_type(bytes);
-    if (mime_type.empty()) {
-      builder_.warn("image " + std::to_string(index) + " is neither PNG nor JPEG and is omitted");
+    auto image = images_.read(std::move(bytes));
+    if (!image) {
+      builder_.warn("image " + std::to_string(index) + " " + image.error().message + "; it is omitted");
       return -1;
     }
-    builder_.model.images.push_back({std::string(mime_type), std::move(bytes)});
+    builder_.model.images.push_back(std::move(*image));
     return static_cast<int>(builder_.model.images.size()) - 1;
   }
 
@@ -155,6 +174,7 @@ class MaterialReader {
 
   GltfDocument& document_;
   ModelBuilder& builder_;
+  ImageReader images_;
   std::map<std::size_t, int> image_by_source_;
   std::size_t image_bytes_ = 0;
 };

@@ -16,8 +16,8 @@ struct UvSource {
   bool is_identity = true;
 };
 
-/// Reads all materials and their images into the model; returns the UV source of each material. Images are kept as the
-/// file's bytes. Unsupported content (other image formats) becomes a warning.
+/// Reads all materials and their images into the model; returns the UV source of each material. Images that
+/// cannot be read become a warning.
 std::vector<UvSource> read_materials(GltfDocument& document, ModelBuilder& builder);
 
 }  // namespace semblante::import

@@ -1,15 +1,15 @@
 #include "core/import/image_type.h"
 
-#include <algorithm>
-#include <array>
+#include "core/import/text.h"
 
 namespace semblante::import {
 
 std::string_view image_type(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::uint8_t, 4> png = {0x89, 'P', 'N', 'G'};
-  constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
-  if (bytes.size() >= png.size() && std::equal(png.begin(), png.end(), bytes.begin())) return "image/png";
-  if (bytes.size() >= jpeg.size() && std::equal(jpeg.begin(), jpeg.end(), bytes.begin())) return "image/jpeg";
+  const std::string_view text = as_text(bytes);
+  if (text.starts_with("\x89PNG")) return "image/png";
+  if (text.starts_with("\xFF\xD8\xFF")) return "image/jpeg";
+  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return "image/webp";
+  if (text.starts_with("\xABKTX 20\xBB\r\n\x1A\n")) return "image/ktx2";
   return {};
 }
 

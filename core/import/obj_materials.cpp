@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/import/image_type.h"
 #include "core/import/limits.h"
 #include "core/import/text.h"
 
@@ -68,13 +67,12 @@ int ObjMaterials::image(std::string_view rest) {
   int& index = image_by_path_[std::string(path)] = -1;
   auto bytes = load(path);
   if (!bytes) return -1;
-  const std::string_view type = image_type(*bytes);
-  if (type.empty() || bytes->size() > builder_.limits().max_image_bytes) {
-    builder_.warn("the image " + shown(path) + (type.empty() ? " is neither PNG nor JPEG" : " is too large") +
-                  " and is omitted");
+  auto read = images_.read(std::move(*bytes));
+  if (!read) {
+    builder_.warn("the image " + shown(path) + " " + read.error().message + "; it is omitted");
     return -1;
   }
-  builder_.model.images.push_back({std::string(type), std::move(*bytes)});
+  builder_.model.images.push_back(std::move(*read));
   return index = static_cast<int>(builder_.model.images.size()) - 1;
 }
 
@@ -96,6 +94,7 @@ void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {
     current_->metallic = unit(rest, current_->metallic);
   } else if (keyword == "map_Kd") {
     current_->base_color_image = image(rest);
+    current_->is_color_lost = current_->base_color_image < 0;
   } else if (keyword == "norm") {
     current_->normal_image = image(rest);
   }

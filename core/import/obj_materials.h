@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/import/gltf_container.h"
+#include "core/import/image_reader.h"
 #include "core/import/model_builder.h"
 
 namespace semblante::import {
@@ -16,7 +17,8 @@ namespace semblante::import {
 /// a head is usable without its texture.
 class ObjMaterials {
  public:
-  ObjMaterials(ModelBuilder& builder, ResourceReader resources) : builder_(builder), resources_(std::move(resources)) {}
+  ObjMaterials(ModelBuilder& builder, ResourceReader resources)
+      : builder_(builder), resources_(std::move(resources)), images_(builder.limits()) {}
 
   /// Reads one file of an `mtllib` line.
   void read_library(std::string_view name);
@@ -30,6 +32,7 @@ class ObjMaterials {
 
   ModelBuilder& builder_;
   ResourceReader resources_;
+  ImageReader images_;
   std::map<std::string, Material, std::less<>> by_name_;
   std::map<std::string, int, std::less<>> image_by_path_;
   std::size_t bytes_read_ = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t max_materials = 255;
 
 /// The plain materials, in linear RGB.
-enum class Plain : std::uint8_t { skin, sclera, iris, pupil, teeth, mouth, hair, lashes, fluid };
+enum class Plain : std::uint8_t { skin, sclera, iris, pupil, teeth, mouth, hair, lashes, fluid, neutral };
 
 struct PlainMaterial {
   std::string_view name;
@@ -23,7 +23,7 @@ struct PlainMaterial {
   float roughness;
 };
 
-constexpr std::array<PlainMaterial, 9> plain_materials = {{
+constexpr std::array<PlainMaterial, 10> plain_materials = {{
     {"skin", {0.72F, 0.46F, 0.35F, 1.0F}, 0.55F},
     {"sclera", {0.85F, 0.84F, 0.81F, 1.0F}, 0.15F},
     {"iris", {0.12F, 0.20F, 0.24F, 1.0F}, 0.15F},
@@ -33,6 +33,7 @@ constexpr std::array<PlainMaterial, 9> plain_materials = {{
     {"hair", {0.035F, 0.022F, 0.016F, 1.0F}, 0.70F},
     {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips of untextured hairs: translucent, not opaque
     {"fluid", {1.0F, 1.0F, 1.0F, 0.06F}, 0.05F},
+    {"neutral", {0.30F, 0.31F, 0.33F, 1.0F}, 0.80F},  // clothing and whatever is no part of a face
 }};
 
 struct Hint {
@@ -41,8 +42,9 @@ struct Hint {
 };
 
 /// The first match is used: "lash" comes before "eye" because of "EyeLashes".
-constexpr std::array<Hint, 15> hints = {{
+constexpr std::array<Hint, 16> hints = {{
     {"lash", Plain::lashes},
+    {"eyeline", Plain::lashes},
     {"brow", Plain::hair},
     {"hair", Plain::hair},
     {"fluid", Plain::fluid},
@@ -60,9 +62,13 @@ constexpr std::array<Hint, 15> hints = {{
 }};
 
 Plain plain_of(std::string_view material, std::string_view primitive, PartRole role) {
+  bool is_named_skin = false;
   for (const std::string_view name : {material, primitive}) {
     std::string lower(name);
     std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    // The mesh of a body may be called skin and have materials for clothing.
+    if (!name.empty() && (material.empty() || name == material))
+      is_named_skin = lower.find("skin") != std::string::npos;
     for (const Hint& hint : hints) {
       if (lower.find(hint.word) != std::string::npos) return hint.plain;
     }
@@ -79,10 +85,10 @@ Plain plain_of(std::string_view material, std::string_view primitive, PartRole r
     case PartRole::attached:
       return Plain::hair;
     case PartRole::skin:
-    case PartRole::rest:
-      break;
+      return Plain::skin;
+    default:
+      return is_named_skin ? Plain::skin : Plain::neutral;  // cloth must not look like skin
   }
-  return Plain::skin;
 }
 
 /// The material of a triangle of a plain eyeball. The pupil's diameter is a third of the iris's, as in the neutral
@@ -108,7 +114,7 @@ Plain painted(const glm::vec3& center, const Triangle& corners, Plain plain, Par
 }
 
 bool says_nothing(const Material& material) {
-  return material.base_color_image < 0 && glm::vec3(material.base_color) == glm::vec3(1.0F);
+  return material.is_color_lost || (material.base_color_image < 0 && glm::vec3(material.base_color) == glm::vec3(1.0F));
 }
 
 EyeLook eye_look(const Rig& rig) {

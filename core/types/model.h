@@ -17,7 +17,7 @@ namespace semblante {
 /// Three corner indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An image as the bytes of the file; never decoded on the server.
+/// An encoded image: the bytes of the file, or what the import made of a format that clients cannot show.
 struct Image {
   std::string mime_type;  ///< "image/png" or "image/jpeg"
   std::vector<std::uint8_t> bytes;
@@ -29,6 +29,8 @@ struct Material {
   glm::vec4 base_color{1.0F};  ///< linear RGBA
   int base_color_image = -1;   ///< index into Model::images, -1: none
   int normal_image = -1;       ///< index into Model::images, -1: none
+  /// The file has an image of the base colour that cannot be read: the look is then that of the part's role.
+  bool is_color_lost = false;
   float metallic = 0.0F;
   float roughness = 0.8F;
   float alpha_cutoff = 0.5F;  ///< for alpha_mode == mask

@@ -29,7 +29,7 @@ struct Artefact {
   Sha256 sha256{};
 };
 
-/// An image of the model as in the file, with its type ("image/png").
+/// An image of the model as the import gives it (PNG or JPEG), with its type ("image/png").
 struct ImageArtefact : Artefact {
   std::string mime_type;
 };

@@ -2,6 +2,8 @@
 
 #include <meshoptimizer.h>
 
+#include "tests/unit/import/webp_images.h"
+
 namespace semblante::test {
 
 std::size_t compressed_view(GltfWriter& writer, const Bytes& encoded, std::size_t count, std::size_t stride,
@@ -85,6 +87,22 @@ GltfWriter quantized_quad() {
   writer.json["meshes"][0]["extras"] = {{"targetNames", {"smile"}}};
   writer.primitive()["indices"] = writer.indices({0, 1, 2, 0, 2, 3});
   writer.json["nodes"][0]["scale"] = {0.001, 0.001, 0.001};
+  return writer;
+}
+
+GltfWriter quad_with_texture(const nlohmann::json& texture, const std::vector<Bytes>& images) {
+  GltfWriter writer;
+  writer.add_quad();
+  writer.primitive()["material"] = 0;
+  writer.json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  writer.json["textures"] = nlohmann::json::array({texture});
+  for (const Bytes& image : images) writer.json["images"].push_back({{"bufferView", writer.view(image)}});
+  return writer;
+}
+
+GltfWriter webp_quad() {
+  GltfWriter writer = quad_with_texture({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}, {lossless_webp});
+  writer.json["extensionsRequired"].push_back("EXT_texture_webp");
   return writer;
 }
 

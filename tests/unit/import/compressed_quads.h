@@ -21,5 +21,9 @@ Bytes encoded_sequence(const std::vector<std::uint32_t>& indices, std::size_t ve
 GltfWriter compressed_quad(bool as_triangles);
 /// The quad by KHR_mesh_quantization: shorts made whole by the node, byte normals, a sparse morph target of bytes.
 GltfWriter quantized_quad();
+/// The quad with this texture, an object of glTF, as its base colour, over these images.
+GltfWriter quad_with_texture(const nlohmann::json& texture, const std::vector<Bytes>& images);
+/// The quad with a WebP by EXT_texture_webp, which the file requires.
+GltfWriter webp_quad();
 
 }  // namespace semblante::test

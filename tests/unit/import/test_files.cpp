@@ -202,6 +202,7 @@ std::vector<NamedFile> all_quads() {
           {"meshopt_triangles", ModelFormat::glb, compressed_quad(true).glb()},
           {"meshopt_indices", ModelFormat::glb, compressed_quad(false).glb()},
           {"quantized", ModelFormat::glb, quantized_quad().glb()},
+          {"webp", ModelFormat::glb, webp_quad().glb()},
           {"zip", ModelFormat::gltf_zip, quad_zip()}};
 }
 

@@ -127,6 +127,31 @@ TEST(Materials, BlankOnes_AreChosenByNameThenByRole) {
   EXPECT_EQ(assigned.materials[assigned.of_triangle.back()].name, "green") << "what the file says is kept";
 }
 
+TEST(Materials, AColourThatIsLost_IsThatOfTheRole_AndClothNeverLooksLikeSkin) {
+  Model model = make_model();
+  const Surface surface = build_surface(model);
+  std::vector<Part> parts(surface.part_count());
+  model.materials.push_back({});
+  model.primitives[0].material = static_cast<int>(model.materials.size()) - 1;
+  const auto look = [&](const char* name, PartRole role, bool is_lost) {
+    Material& material = model.materials.back();
+    material.name = name;
+    material.base_color = {0.9F, 0.9F, 0.8F, 1.0F};  // the factor of the image that is lost
+    material.is_color_lost = is_lost;
+    parts[0].role = role;
+    return assign_materials(model, surface, parts).materials[0].name;
+  };
+  EXPECT_EQ(look("Wolf3D_Outfit_Top", PartRole::rest, true), "neutral");
+  EXPECT_EQ(look("Wolf3D_Outfit_Top", PartRole::rest, false), "Wolf3D_Outfit_Top");
+  EXPECT_EQ(look("Material.004", PartRole::rest, true), "neutral");
+  EXPECT_EQ(look("Wolf3D_Skin", PartRole::skin, true), "skin");
+  EXPECT_EQ(look("N00_000_00_Body_00_SKIN", PartRole::rest, true), "skin");
+  EXPECT_EQ(look("Wolf3D_Hair", PartRole::rest, true), "hair");
+  EXPECT_EQ(look("Material.005", PartRole::upper_teeth, true), "teeth");
+  EXPECT_EQ(look("Skin", PartRole::left_eye, true), "sclera");
+  EXPECT_EQ(look("N00_000_00_FaceEyeline_00_FACE", PartRole::attached, true), "lashes");
+}
+
 TEST(Materials, PlainEyeball_GetsAnIrisAroundThePupil) {
   const Model model = make_model();
   const Surface surface = build_surface(model);

@@ -1,0 +1,35 @@
+#include "core/import/image_reader.h"
+
+#include <string>
+#include <utility>
+
+#include "core/import/image_type.h"
+#include "core/import/webp.h"
+
+namespace semblante::import {
+
+Result<Image> ImageReader::read(std::vector<std::uint8_t> bytes) {
+  if (bytes.size() > limits_.max_image_bytes) {
+    return Error{ErrorCode::too_large, "", "has more than " + std::to_string(limits_.max_image_bytes) + " bytes"};
+  }
+  const std::string_view type = image_type(bytes);
+  if (type == "image/png" || type == "image/jpeg") return Image{std::string(type), std::move(bytes)};
+  if (type == "image/ktx2") {
+    return Error{ErrorCode::unsupported, "",
+                 "is a KTX2 texture (Basis Universal), which cannot be read here; PNG, JPEG and WebP can"};
+  }
+  if (type != "image/webp") return Error{ErrorCode::unsupported, "", "is neither PNG nor JPEG nor WebP"};
+  const auto size = webp_size(bytes);
+  if (!size) return size.error();
+  if (size->pixels() > limits_.max_image_pixels || size->pixels() > pixels_left_) {
+    const bool of_file = size->pixels() <= limits_.max_image_pixels;
+    return Error{ErrorCode::too_large, "",
+                 "is a WebP image of " + std::to_string(size->width) + " x " + std::to_string(size->height) +
+                     (of_file ? ", with which all together have more than " : ", more than ") +
+                     std::to_string(of_file ? limits_.max_decoded_pixels : limits_.max_image_pixels) + " pixels"};
+  }
+  pixels_left_ -= size->pixels();
+  return converted_webp(bytes);
+}
+
+}  // namespace semblante::import

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/import/limits.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+
+namespace semblante::import {
+
+/// Makes the images of one file such that every client can show them.
+class ImageReader {
+ public:
+  explicit ImageReader(const ImportLimits& limits) : limits_(limits), pixels_left_(limits.max_decoded_pixels) {}
+
+  /// PNG and JPEG, told by their content, as they are; WebP converted (webp.h). An error for anything else or for more
+  /// than the limits; its message continues a sentence that begins with the image's name ("is ...").
+  Result<Image> read(std::vector<std::uint8_t> bytes);
+
+ private:
+  ImportLimits limits_;
+  std::size_t pixels_left_;
+};
+
+}  // namespace semblante::import

@@ -1,0 +1,65 @@
+#include "core/import/webp.h"
+
+#include <memory>
+#include <utility>
+
+#include <stb/stb_image_write.h>
+#include <webp/decode.h>
+
+namespace semblante::import {
+namespace {
+
+/// Above 90 stb keeps the full resolution of the colours.
+constexpr int jpeg_quality = 93;
+
+Error cannot_be_decoded() { return {ErrorCode::malformed, "", "is a WebP image that cannot be decoded"}; }
+
+Result<WebPBitstreamFeatures> features_of(std::span<const std::uint8_t> bytes) {
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK || features.width < 1 ||
+      features.height < 1) {
+    return cannot_be_decoded();
+  }
+  if (features.has_animation != 0) {
+    return Error{ErrorCode::unsupported, "", "is a WebP image that moves, which no texture can"};
+  }
+  return features;
+}
+
+void append(void* bytes, void* data, int size) {
+  const auto* const begin = static_cast<const std::uint8_t*>(data);
+  static_cast<std::vector<std::uint8_t>*>(bytes)->insert(static_cast<std::vector<std::uint8_t>*>(bytes)->end(), begin,
+                                                         begin + size);
+}
+
+}  // namespace
+
+Result<WebpSize> webp_size(std::span<const std::uint8_t> bytes) {
+  const auto features = features_of(bytes);
+  if (!features) return features.error();
+  return WebpSize{static_cast<std::size_t>(features->width), static_cast<std::size_t>(features->height)};
+}
+
+Result<Image> converted_webp(std::span<const std::uint8_t> bytes) {
+  const auto features = features_of(bytes);
+  if (!features) return features.error();
+  constexpr int lossy = 1;
+  const bool has_alpha = features->has_alpha != 0;
+  const bool to_jpeg = features->format == lossy && !has_alpha;
+  const int channels = has_alpha ? 4 : 3;
+  int width = 0;
+  int height = 0;
+  const auto decode = has_alpha ? &WebPDecodeRGBA : &WebPDecodeRGB;
+  const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> pixels(decode(bytes.data(), bytes.size(), &width, &height),
+                                                                  &WebPFree);
+  if (!pixels) return cannot_be_decoded();
+  Image image;
+  image.mime_type = to_jpeg ? "image/jpeg" : "image/png";
+  const int written =
+      to_jpeg ? stbi_write_jpg_to_func(append, &image.bytes, width, height, channels, pixels.get(), jpeg_quality)
+              : stbi_write_png_to_func(append, &image.bytes, width, height, channels, pixels.get(), width * channels);
+  if (written == 0) return cannot_be_decoded();
+  return image;
+}
+
+}  // namespace semblante::import
