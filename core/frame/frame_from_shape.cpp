@@ -130,10 +130,13 @@ class ShapeGuess {
     }
     const glm::dvec3 size = high - low;
     const double height = guess_.axes_sure ? size[axis_of(guess_.axes.up)] : std::max({size.x, size.y, size.z});
+    const auto by_size = unit_of_height(height);
+    const bool is_human_in_metres = by_size && by_size->unit == LengthUnit::metre;
     if (is_gltf() && height >= 0.1 && height <= 2.6) {
-      take_unit(LengthUnit::metre, true,
-                "The unit of glTF is the metre, and " + std::to_string(height) + " m fits a head or a body");
-    } else if (const auto by_size = unit_of_height(height)) {
+      take_unit(LengthUnit::metre, is_human_in_metres,
+                "The unit of glTF is the metre, and " + std::to_string(height) + " m " +
+                    (is_human_in_metres ? "fits a head or a body" : "is nearly a head's or a body's size"));
+    } else if (by_size) {
       take_unit(by_size->unit, by_size->is_sure && !is_gltf(),
                 "The model is " + std::to_string(height) +
                     " tall, which is a head's, a bust's or a body's size if the unit is " +

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/surface.h"
+#include "tests/support/meshes.h"
 #include "tests/unit/frame/turned_heads.h"
 
 namespace semblante::test {
@@ -85,6 +86,22 @@ TEST(FrameFromShape, ABustGuessedInInches_IsNotSure_WithEyesOrWithout) {
     const ModelFrame guess = guess_frame(bust, build_surface(bust));
     EXPECT_EQ(guess.unit, LengthUnit::inch) << has_eyes;
     EXPECT_FALSE(guess.unit_sure) << has_eyes;
+  }
+}
+
+TEST(FrameFromShape, TheMetreOfAGltf_IsSure_IfAHeadOrABodyHasThatHeight) {
+  const auto guess_of = [](float height) {
+    Model box = testing::make_box(glm::vec3(0.0F), glm::vec3(0.5F * height, height, 0.5F * height));
+    box.format = "glb";
+    return guess_frame(box, build_surface(box));
+  };
+  for (const float height : {0.25F, 0.6F, 1.3F, 1.8F}) {
+    EXPECT_EQ(guess_of(height).unit, LengthUnit::metre) << height;
+    EXPECT_TRUE(guess_of(height).unit_sure) << height;
+  }
+  for (const float height : {0.12F, 0.9F, 2.5F}) {
+    EXPECT_EQ(guess_of(height).unit, LengthUnit::metre) << height;
+    EXPECT_FALSE(guess_of(height).unit_sure) << height;
   }
 }
 
