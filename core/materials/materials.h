@@ -33,8 +33,9 @@ struct EyeLook {
 
 /// Keeps the model's materials. Triangles without a material, or with plain white (as for an OBJ without its .mtl), get
 /// a plain material by name ("Iris", "lashes"), else by the role of their part, so that eyes and teeth do not look like
-/// skin, nor clothing; likewise where the image of the base colour could not be read. On plain eyeballs the triangles around the pupil become iris and pupil; a cornea over them becomes clear.
-/// `parts` is by PartId and may be empty: then only names are used.
+/// skin, nor clothing; likewise where the image of the base colour could not be read. On plain eyeballs the triangles
+/// around the pupil become iris and pupil; a cornea over them becomes clear. `parts` is by PartId and may be empty:
+/// then only names are used.
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts,
                                     const EyeLook& eyes = {});
 
