@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
@@ -84,19 +86,75 @@ void share_joined_part(const Surface& surface, PartId part, const std::vector<Su
   }
 }
 
+/// The mean position of those points that are marked.
+std::optional<glm::dvec3> middle_of(std::span<const SurfacePoint> points,
+                                    std::initializer_list<std::string_view> names) {
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (const std::string_view name : names) {
+    const auto id = parse_feature_point(name);
+    for (const SurfacePoint& point : points) {
+      if (point.id != id) continue;
+      sum += point.position;
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? std::optional(sum / count) : std::nullopt;
+}
+
+struct Rows {
+  std::vector<SurfaceVertexId> upper, lower;
+};
+
+/// The roots of both rows in the only part with teeth: its highest and its lowest vertices, if it is as high as two
+/// rows and the lips meet at about its middle. Empty for a part with one row.
+Rows rows_of_only_part(const Surface& surface, PartId part, std::span<const SurfacePoint> points) {
+  constexpr double two_rows = 0.35;  // of ES0; a row with its gums is at most 18 mm high
+  constexpr double middle = 0.25;    // of the height, from the ends to the line of the lips
+  constexpr double roots = 0.15;     // of the height
+  Rows rows;
+  const auto left = middle_of(points, {"3.7", "3.11"});
+  const auto right = middle_of(points, {"3.8", "3.12"});
+  const auto lips = middle_of(points, {"2.2", "2.3"});
+  if (!left || !right || !lips) return rows;
+  double low = infinite;
+  double high = -infinite;
+  for (const SurfaceVertexId v : surface.members_of(part)) {
+    low = std::min(low, surface.positions[v.value()].y);
+    high = std::max(high, surface.positions[v.value()].y);
+  }
+  const double height = high - low;
+  if (height < two_rows * std::abs(left->x - right->x)) return rows;
+  if (lips->y < low + middle * height || lips->y > high - middle * height) return rows;
+  for (const SurfaceVertexId v : surface.members_of(part)) {
+    const double y = surface.positions[v.value()].y;
+    if (y > high - roots * height) rows.upper.push_back(v);
+    if (y < low + roots * height) rows.lower.push_back(v);
+  }
+  return rows;
+}
+
+bool is_teeth(const Part& part) { return part.role == PartRole::upper_teeth || part.role == PartRole::lower_teeth; }
+
 }  // namespace
 
 std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
                                      std::span<const SurfacePoint> points) {
   std::vector<MouthShare> shares(surface.vertex_count());
+  const bool has_one_part_of_teeth = std::count_if(parts.begin(), parts.end(), is_teeth) == 1;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     const PartId part(p);
     const PartRole role = parts[p].role;
     if (role != PartRole::tongue && role != PartRole::lower_teeth && role != PartRole::upper_teeth) continue;
-    const std::vector<SurfaceVertexId> upper =
+    std::vector<SurfaceVertexId> upper =
         sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::upper_teeth, part));
-    const std::vector<SurfaceVertexId> lower =
+    std::vector<SurfaceVertexId> lower =
         sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::lower_teeth, part));
+    if (has_one_part_of_teeth && is_teeth(parts[p])) {
+      Rows rows = rows_of_only_part(surface, part, points);
+      upper = std::move(rows.upper);
+      lower = std::move(rows.lower);
+    }
     if (!upper.empty() && !lower.empty()) {
       std::vector<SurfaceVertexId> tongue;
       for (const SurfacePoint& point : points) {

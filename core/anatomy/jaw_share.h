@@ -21,7 +21,8 @@ struct MouthShare {
 /// are one part, joined at the throat. If all of it moved as the tongue does, it would pull the upper gum off its
 /// teeth. Such a part is recognized by both rows of teeth in it. The shares of its vertices depend on distances along
 /// the surface: they follow the upper teeth where those are nearer, the jaw where lower teeth or tongue points are
-/// nearer, with a smooth transition; and the tongue's own points do not move the gums.
+/// nearer, with a smooth transition; and the tongue's own points do not move the gums. The same for teeth that are one
+/// part with both rows, told by its height and the lips at its middle.
 std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
                                      std::span<const SurfacePoint> points);
 

@@ -1,5 +1,7 @@
 #include "core/anatomy/part_roles.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/anatomy/jaw_share.h"
@@ -218,6 +220,37 @@ TEST_F(CartoonHead, AMeshOfTeethWithoutATongue_HasNone) {
   surface_ = build_surface(model_);
   EXPECT_EQ(roles(face_points()),
             (std::vector<std::string>{"skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth"}));
+}
+
+/// Both rows joined at the back, as where a modeller has welded everything inside the mouth.
+TEST_F(CartoonHead, BothRowsInOnePart_OpenWithTheJaw) {
+  Model rows = arch(-2.0F);
+  const Model lower = arch(-4.0F);
+  const auto first = static_cast<std::uint32_t>(rows.positions.size());
+  rows.positions.insert(rows.positions.end(), lower.positions.begin(), lower.positions.end());
+  for (const Triangle& t : lower.triangles) rows.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const std::uint32_t end : {0U, 22U}) {
+    rows.triangles.push_back({end, end + 2, first + end + 1});
+    rows.triangles.push_back({end + 2, first + end + 3, first + end + 1});
+  }
+  rows.primitives.back().triangle_count = static_cast<std::uint32_t>(rows.triangles.size());
+  const std::uint32_t teeth = add(rows, "Wolf3D_Teeth");
+  surface_ = build_surface(model_);
+  FeaturePointSet points = face_points();
+  const auto at = [&](float x, float y) { return static_cast<std::uint32_t>((y + 12) * 2 * 41 + (x + 10) * 2); };
+  for (const FeaturePoint& corner :
+       testing::points_at(model_, {{"3.7", at(2, 4)}, {"3.8", at(-2, 4)}, {"3.11", at(4, 4)}, {"3.12", at(-4, 4)}})) {
+    points.push_back(corner);
+  }
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  const auto parts = describe_parts(model_, surface_, points);
+  ASSERT_EQ(parts.size(), 2U);
+  const auto shares = share_of_jaw(surface_, parts, surface_points(surface_, points));
+  const auto share_at = [&](std::uint32_t vertex) { return shares[surface_.surface_of[teeth + vertex].value()].jaw; };
+  for (const std::uint32_t front : {10U, 11U, 12U, 13U, 14U, 15U}) {
+    EXPECT_EQ(share_at(front), 0.0) << front;
+    EXPECT_EQ(share_at(first + front), 1.0) << front;
+  }
 }
 
 /// The real shapes of our own head, in the one mesh that Ready Player Me makes of them: the tongue goes with the jaw.
