@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 
 /// The ear's own frame: `up` along its length, `back` across it, `out` away from the head. The ear is tilted back by
-/// about 15 degrees and away from the head by about 25.
+/// about 12 degrees and away from the head by about 12.
 struct Frame {
   Vec3 origin, up, back, out;
   [[nodiscard]] Vec3 at(double u, double b, double o) const { return origin + up * u + back * b + out * o; }
@@ -21,9 +21,9 @@ struct Frame {
 
 Frame ear_frame() {
   Frame f;
-  f.origin = {6.95, -1.45, -0.55};
-  f.up = glm::normalize(Vec3(0.12, 1.0, -0.20));
-  const Vec3 back = glm::normalize(Vec3(0.34, 0.0, -1.0));
+  f.origin = {6.8, -1.25, -0.65};
+  f.up = glm::normalize(Vec3(0.17, 1.0, -0.20));
+  const Vec3 back = glm::normalize(Vec3(0.16, 0.0, -1.0));
   f.out = glm::normalize(glm::cross(back, f.up));
   if (f.out.x < 0.0) f.out = -f.out;
   f.back = glm::normalize(back - f.up * glm::dot(back, f.up));
@@ -37,9 +37,9 @@ double rounded(double v, double e) { return std::copysign(std::pow(std::abs(v), 
 Vec2 outline(double a) {
   const double up = std::sin(a);
   const double back = -std::cos(a);
-  const double length = up > 0.0 ? 3.0 : 3.15;
+  const double length = up > 0.0 ? 2.9 : 2.95;
   double width = back > 0.0 ? 2.05 : 1.25;
-  width *= 1.0 - 0.38 * glm::smoothstep(0.2, -0.9, up);
+  width *= 1.0 - 0.30 * glm::smoothstep(0.2, -0.9, up);
   return {length * rounded(up, 0.94), width * rounded(back, up < 0.0 ? 0.72 : 0.85) + 0.15 * up};
 }
 
@@ -99,7 +99,8 @@ void add_ear(Skin& skin, const Loop& hole) {
       double out = glm::mix(ring.out, ring.front, to_front);
       // The lobe is a soft pad: the rings of groove and antihelix flatten there.
       if (index >= 5 && index <= 10) out = glm::mix(out, 1.12, 0.85 * lobe);
-      out -= 0.45 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
+      out *= 0.74;  // close to the head
+      out -= 0.22 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
       Paint paint;
       paint.flush = 0.6;
       loop.push_back(mesh.add(frame.at(o.x * ring.size + ring.up, o.y * ring.size + ring.back, out), paint));
@@ -115,7 +116,7 @@ void add_ear(Skin& skin, const Loop& hole) {
   }
   Paint paint;
   paint.flush = 0.6;
-  close_with_fan(mesh, outer, true, mesh.add(frame.at(-0.2, -0.25, 0.1), paint), Chart::outer);
+  close_with_fan(mesh, outer, true, mesh.add(frame.at(-0.2, -0.25, 0.07), paint), Chart::outer);
 
   const auto extreme = [&](const Loop& loop, const Vec3& direction) {
     int best = loop[0];

@@ -11,8 +11,8 @@ namespace {
 using std::numbers::pi;
 constexpr int around = 32;
 /// Rings by angle from the line of sight, in degrees. Close rings at the iris keep its rim round: iris_radius on the
-/// ball is asin(0.60 / 1.42) = 25.0 degrees.
-constexpr double ring_angles[] = {4.0, 8.4, 14.0, 20.0, 25.0, 30.0, 38.0, 50.0, 64.0, 80.0, 100.0, 125.0, 150.0};
+/// ball is asin(0.655 / 1.42) = 27.5 degrees.
+constexpr double ring_angles[] = {4.0, 9.0, 15.0, 21.5, 27.5, 33.0, 41.0, 52.0, 64.0, 80.0, 100.0, 125.0, 150.0};
 
 }  // namespace
 

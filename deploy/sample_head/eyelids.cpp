@@ -16,15 +16,16 @@ namespace {
 using std::numbers::pi;
 
 // The opening, relative to the centre of the eye, in cm.
-constexpr double inner_corner_y = -0.10;
-constexpr double outer_corner_y = 0.08;
+constexpr double inner_corner_y = -0.14;
+constexpr double outer_corner_y = 0.13;
 constexpr double inner_corner_z = 0.80;  ///< the inner corner is off the ball, towards the nose
 constexpr double outer_corner_z = 0.62;
 
-/// Height of the lid edges over the middle of the slit: tangent to the iris on both sides.
-constexpr double lid_height = iris_radius;
+/// Height of the lid edges over the middle of the slit: tangent to the iris for the standard; the painted rim of the
+/// iris goes on under them, because an eye whose whole iris is seen looks startled.
+constexpr double lid_height = 0.59;
 /// Height of the fold under which the upper lid slides, at the middle.
-constexpr double fold_height = 0.96;
+constexpr double fold_height = 0.92;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
 constexpr double lower_thickness = 0.17;
 constexpr double fold_front = 1.60;

@@ -20,20 +20,21 @@ struct BorderPoint {
 };
 
 /// Forehead, temple, sideburn, arch over the ear, nape.
-constexpr std::array<BorderPoint, 14> border_points = {{{0, 34},
-                                                        {18, 34.5},
-                                                        {34, 32.5},
-                                                        {46, 26},
-                                                        {55, 13},
-                                                        {63, -2},
-                                                        {70, -13},
-                                                        {77, -14},
-                                                        {84, -4},
-                                                        {94, 0},
-                                                        {106, -4},
-                                                        {120, -24},
-                                                        {140, -38},
-                                                        {180, -43}}};
+constexpr std::array<BorderPoint, 15> border_points = {{{0, 31},
+                                                        {15, 32},
+                                                        {30, 30},
+                                                        {42, 23.5},
+                                                        {52, 12.5},
+                                                        {60, 0},
+                                                        {67, -11},
+                                                        {73, -15},
+                                                        {79, -11},
+                                                        {86, -2},
+                                                        {96, 2},
+                                                        {108, -4},
+                                                        {122, -22},
+                                                        {140, -36},
+                                                        {180, -42}}};
 
 /// Strands from front to back: lines of equal angle about the long axis of the head.
 double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
@@ -41,11 +42,11 @@ double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
 double thickness(double a, double t, const Vec3& p) {
   const double front = 0.5 + 0.5 * std::cos(a);
-  const double body = 0.16 + 0.14 * front + 0.55 * glm::smoothstep(0.0, 0.55, t) +
-                      0.75 * front * front * glm::smoothstep(0.0, 0.22, t) * (1.0 - glm::smoothstep(0.35, 1.0, t));
+  const double body = 0.10 + 0.62 * glm::smoothstep(0.0, 0.5, t) +
+                      1.25 * front * front * glm::smoothstep(0.0, 0.26, t) * (1.0 - glm::smoothstep(0.40, 1.0, t));
   const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
   const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
-  return body - 0.26 * groove;
+  return body - 0.30 * groove;
 }
 
 }  // namespace
@@ -63,7 +64,9 @@ double hairline(double azimuth) {
   const double t3 = t2 * t;
   const double e =
       (2 * t3 - 3 * t2 + 1) * at(i) + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * at(i + 1) + (t3 - t2) * m1;
-  return e * pi / 180.0;
+  // Locks: the border is not a drawn line.
+  const double locks = 0.8 * std::sin(0.31 * degrees + 0.6) + 0.35 * std::sin(0.83 * degrees);
+  return (e + locks * glm::smoothstep(75.0, 40.0, degrees)) * pi / 180.0;
 }
 
 Hair make_hair() {
@@ -90,7 +93,7 @@ Hair make_hair() {
   };
   add_ring(0.03, 0.0, 0.25);  // tucked under the skin
   add_ring(0.0, 0.0, -0.02);  // the border
-  add_ring(0.0, 0.6, 0.0);    // and its thickness
+  add_ring(0.0, 0.5, 0.0);    // and its thickness
   for (int r = 0; r < rows; ++r) add_ring(0.02 + 0.96 * std::pow(static_cast<double>(r) / (rows - 1), 1.1), 1.0, 0.0);
   const Vec3 crown = cast_from_inside(hair_centre, {0.0, 1.0, 0.0});
   hair.top = mesh.add(crown + Vec3(0.0, thickness(0.0, 1.0, crown), 0.0));
@@ -106,8 +109,8 @@ Vec2 hair_uv(const Vec3& p) {
 
 Vec2 brow_line(double t) {
   // Rises to its highest point in the middle of its width (4.3), then falls to a fine end.
-  const double x = glm::mix(1.15, 5.15, t);
-  const double y = 2.42 + 0.50 * std::sin(pi * t) + 0.06 * t;
+  const double x = glm::mix(1.2, 5.1, t);
+  const double y = 1.90 + 0.38 * std::sin(pi * std::pow(t, 1.1)) + 0.24 * t;
   return {x, y};
 }
 

@@ -36,6 +36,9 @@ LipPlace lip_place(int k) {
   return {spread(static_cast<double>(upper ? k : lip_steps - k) / (0.5 * lip_steps)), upper};
 }
 
+/// The corners are a little higher than the middle: a mouth that is level in the mesh looks sad under light from above.
+double corner_rise(double s) { return 0.25 * std::pow(s, 2.4); }
+
 /// Border of the red (8.x): cupid's bow above, a full curve below.
 Vec2 border(const LipPlace& place) {
   const double s = place.along;
@@ -43,16 +46,15 @@ Vec2 border(const LipPlace& place) {
   if (place.upper) {
     const double fall = 0.70 * (1.0 - std::pow(s, 1.9));
     const double bow = -0.08 * std::exp(-std::pow(s / 0.12, 2.0));
-    return {x, mouth_y + fall + bow + 0.07 * std::pow(s, 5.0)};
+    return {x, mouth_y + fall + bow + corner_rise(s)};
   }
-  return {x, mouth_y - 0.92 * std::pow(1.0 - std::pow(s, 2.0), 1.1) + 0.07 * std::pow(s, 5.0)};
+  return {x, mouth_y - 0.92 * std::pow(1.0 - std::pow(s, 2.0), 1.1) + corner_rise(s)};
 }
 
 /// Line where the lips meet (2.x), the same for both: a small tubercle in the middle, level corners.
 Vec3 meeting(double s) {
   const double x = inner_corner_x * s;
-  const double y =
-      mouth_y - 0.05 * std::exp(-std::pow(s / 0.2, 2.0)) + 0.015 * std::sin(pi * s) + 0.07 * std::pow(s, 5.0);
+  const double y = mouth_y - 0.06 * std::exp(-std::pow(s / 0.22, 2.0)) + corner_rise(s);
   const double z = front_z(x, mouth_y) - 0.16 - 0.16 * s * s;
   return {x, y, z};
 }

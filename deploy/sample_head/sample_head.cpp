@@ -10,6 +10,7 @@
 #include "deploy/sample_head/feature_points.h"
 #include "deploy/sample_head/hair.h"
 #include "deploy/sample_head/mouth_parts.h"
+#include "deploy/sample_head/shirt.h"
 #include "deploy/sample_head/skin.h"
 #include "deploy/sample_head/textures.h"
 #include "deploy/sample_head/upper_lid.h"
@@ -26,7 +27,14 @@ glm::vec4 linear(double r, double g, double b) {
   return {one(r), one(g), one(b), 1.0};
 }
 
-enum Material : std::size_t { skin_material, eye_material, teeth_material, tongue_material, hair_material };
+enum Material : std::size_t {
+  skin_material,
+  eye_material,
+  teeth_material,
+  tongue_material,
+  hair_material,
+  cloth_material
+};
 
 /// Adds parts to a head and numbers vertices as a reader of the file does.
 class Assembly {
@@ -73,11 +81,9 @@ SampleHead make_sample_head() {
   const Skin skin = make_skin();
   head.images = {paint_skin(skin.mesh), paint_eye(), paint_teeth(), paint_hair()};
   const glm::vec4 white(1.0F);
-  head.materials = {{"skin", white, 0.55F, 0, false},
-                    {"eye", white, 0.15F, 1, false},
-                    {"teeth", white, 0.3F, 2, true},
-                    {"tongue", linear(0.78, 0.42, 0.42), 0.45F, std::nullopt, false},
-                    {"hair", white, 0.75F, 3, true}};
+  head.materials = {{"skin", white, 0.55F, 0, false}, {"eye", white, 0.15F, 1, false},
+                    {"teeth", white, 0.3F, 2, true},  {"tongue", linear(0.78, 0.42, 0.42), 0.45F, std::nullopt, false},
+                    {"hair", white, 0.75F, 3, true},  {"cloth", linear(0.36, 0.47, 0.55), 0.9F, std::nullopt, true}};
   const UvOf by_gum = [](const Vec3&, const Paint& paint, Chart) { return Vec2(0.5, 1.0 - paint.lip); };
 
   Assembly assembly(head);
@@ -94,6 +100,7 @@ SampleHead make_sample_head() {
   const Hair hair = make_hair();
   assembly.add("hair", hair_material, hair.mesh, {{"11.5", hair.top}},
                [](const Vec3& p, const Paint&, Chart) { return hair_uv(p); });
+  assembly.add("shirt", cloth_material, make_shirt(), {});
   head.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(head_pivot * 0.01)});
   std::sort(head.points.begin(), head.points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return head;

@@ -31,12 +31,22 @@ double join(double a, double b, double k) {
 /// `a` minus `b`, with a rounded rim of size k.
 double carve(double a, double b, double k) { return -join(-a, b, k); }
 
-double nose_distance(const Vec3& q) {
-  double d = capsule(q, {0.0, 0.8, 8.25}, {0.0, -3.0, 10.35}, 0.70, 0.74);         // bridge
-  d = join(d, ellipsoid(q, {0.0, -3.62, 10.42}, {0.92, 0.78, 0.92}), 0.9);         // tip
+double bridge_distance(const Vec3& q) { return capsule(q, {0.0, 0.9, 7.75}, {0.0, -3.1, 10.0}, 0.98, 0.84); }
+
+double nose_end_distance(const Vec3& q) {
+  double d = ellipsoid(q, {0.0, -3.62, 10.36}, {0.98, 0.82, 0.94});                // tip
   d = join(d, ellipsoid(q, {0.98, -3.92, 9.55}, {0.62, 0.62, 0.90}), 0.9);         // wing
   d = join(d, capsule(q, {0.0, -4.42, 9.4}, {0.0, -4.1, 10.5}, 0.34, 0.42), 0.5);  // columella
   return carve(d, ellipsoid(q, {0.60, -4.72, 9.92}, {0.30, 0.40, 0.52}), 0.35);    // nostril
+}
+
+/// Neck, shoulders and chest.
+double bust_distance(const Vec3& q) {
+  double d = capsule(q, {0.0, -5.5, -3.5}, {0.0, -16.0, -4.0}, 4.3, 4.65);           // neck
+  d = join(d, capsule(q, {4.4, -6.0, -2.2}, {1.6, -17.5, 0.0}, 0.7, 0.7), 2.4);      // sternomastoid
+  d = join(d, capsule(q, {0.0, -15.5, -5.6}, {9.5, -20.4, -5.0}, 2.5, 2.2), 4.0);    // trapezius
+  d = join(d, capsule(q, {11.4, -22.6, -4.2}, {12.6, -28.0, -4.0}, 3.7, 3.5), 4.0);  // shoulder
+  return join(d, ellipsoid(q, {0.0, -26.0, -4.4}, {12.5, 8.8, 6.6}), 3.0);           // chest
 }
 
 }  // namespace
@@ -50,23 +60,22 @@ double skull_distance(const Vec3& p) {
 double head_distance(const Vec3& p) {
   const Vec3 q(std::abs(p.x), p.y, p.z);
   double d = skull_distance(q);
-  d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);             // middle of the face
-  d = join(d, ellipsoid(q, {0.0, -5.1, 2.9}, {5.65, 5.5, 6.1}), 2.4);             // lower face
-  d = join(d, ellipsoid(q, {3.6, -5.9, 1.7}, {1.85, 2.6, 2.8}), 2.2);             // angle of the jaw
-  d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);              // cheek bone
-  d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);              // apple of the cheek
-  d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);              // muzzle, over the teeth
-  d = join(d, ellipsoid(q, {0.0, -9.4, 7.6}, {1.75, 1.5, 1.85}), 2.2);            // chin
-  d = join(d, capsule(q, {4.0, -7.4, 2.9}, {1.4, -9.7, 7.0}, 1.0, 1.0), 2.4);     // edge of the jaw
-  d = join(d, capsule(q, {1.0, 2.0, 8.05}, {4.6, 2.0, 6.2}, 0.72, 0.66), 1.8);    // brow ridge
-  d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);            // eye socket
-  d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);            // lids over the ball
-  d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
-  d = join(d, nose_distance(q), 0.95);
-  double neck = capsule(q, {0.0, -6.0, -2.5}, {0.0, -15.0, -2.3}, 4.5, 4.9);
-  neck = join(neck, capsule(q, {4.4, -6.0, -2.2}, {1.5, -16.5, 1.6}, 0.8, 1.0), 2.0);    // sternomastoid
-  neck = join(neck, capsule(q, {0.0, -17.5, -3.2}, {6.0, -18.5, -3.2}, 2.4, 2.2), 3.0);  // trapezius
-  return join(d, neck, 2.8);
+  d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);              // middle of the face
+  d = join(d, ellipsoid(q, {0.0, -4.7, 2.8}, {5.6, 6.1, 6.2}), 2.4);               // lower face
+  d = join(d, ellipsoid(q, {3.2, -5.2, 1.4}, {1.8, 2.6, 2.8}), 2.8);               // angle of the jaw
+  d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);               // cheek bone
+  d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);               // apple of the cheek
+  d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);               // muzzle, over the teeth
+  d = join(d, ellipsoid(q, {0.0, -9.4, 7.45}, {1.55, 1.6, 1.85}), 2.4);            // chin
+  d = join(d, capsule(q, {3.75, -6.3, 2.4}, {2.85, -8.65, 5.2}, 1.0, 1.08), 2.4);  // edge of the jaw, in two
+  d = join(d, capsule(q, {2.85, -8.65, 5.2}, {1.4, -9.72, 7.0}, 1.08, 1.1), 2.4);  // pieces: a curve
+  d = join(d, capsule(q, {1.0, 1.9, 7.95}, {4.6, 1.8, 6.2}, 0.70, 0.66), 2.2);     // brow ridge
+  d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);             // eye socket
+  d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);             // lids over the ball
+  d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);   // fold over the upper lid
+  d = join(d, bridge_distance(q), 2.3);
+  d = join(d, nose_end_distance(q), 1.15);
+  return join(d, bust_distance(q), 2.4);
 }
 
 Vec3 head_normal(const Vec3& p) {

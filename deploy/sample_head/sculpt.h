@@ -26,6 +26,6 @@ double skull_distance(const Vec3& p);
 /// Left eyeball.
 inline constexpr double eye_radius = 1.42;
 inline const Vec3 eye_centre{3.2, 0.0, 6.62};
-inline constexpr double iris_radius = 0.60;
+inline constexpr double iris_radius = 0.655;
 
 }  // namespace semblante::sample_head_detail

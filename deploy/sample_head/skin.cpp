@@ -1,5 +1,7 @@
 #include "deploy/sample_head/skin.h"
 
+#include <cmath>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -9,6 +11,7 @@
 #include "deploy/sample_head/lips.h"
 #include "deploy/sample_head/nostrils.h"
 #include "deploy/sample_head/sculpt.h"
+#include "deploy/sample_head/shirt.h"
 #include "deploy/sample_head/skin_cage.h"
 #include "deploy/sample_head/subdivide.h"
 
@@ -49,28 +52,18 @@ void relax(HalfMesh& mesh, int rounds) {
   }
 }
 
-/// The edge of the bust: horizontal, and rolled in under the neck.
-void finish_bust(HalfMesh& mesh, const Loop& border) {
-  constexpr double level = -15.5;
+/// Puts the border on the neckline and continues it a little, tucked under the collar.
+void tuck_neckline(HalfMesh& mesh, const Loop& border) {
   const auto at = [&](int v) -> Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
+  Loop tucked;
   for (const int v : border) {
-    const Vec3 outward(at(v).x, 0.0, at(v).z + 1.8);
-    at(v) = cast_from_inside({0.0, level, -1.8}, outward);
-    if (outward.x == 0.0) at(v).x = 0.0;
+    if (at(v).x != 0.0) at(v) = neckline(std::atan2(at(v).x, at(v).z + 3.4));
+    const Vec3 n = head_normal(at(v));
+    Vec3 below = project_to_head(at(v) + Vec3(0.0, -0.5, 0.0) + Vec3(n.x, 0.0, n.z) * 0.5) - n * 0.25;
+    if (at(v).x == 0.0) below.x = 0.0;
+    tucked.push_back(mesh.add(below));
   }
-  Loop outer = border;
-  struct Step {
-    double size, down;
-  };
-  for (const auto& step : {Step{0.985, 0.16}, Step{0.94, 0.24}, Step{0.86, 0.26}}) {
-    Loop loop;
-    for (const int v : border) {
-      const Vec3 p = at(v);
-      loop.push_back(mesh.add({p.x * step.size, p.y - step.down, (p.z + 1.8) * step.size - 1.8}));
-    }
-    bridge(mesh, outer, loop, false, Chart::outer);
-    outer = loop;
-  }
+  bridge(mesh, border, tucked, false, Chart::outer);
 }
 
 }  // namespace
@@ -80,8 +73,9 @@ Skin make_skin() {
   Skin skin;
   skin.mesh = subdivide(cage.mesh);
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
-  // Jaw and neck form the outline and have no moving point, so more vertices there do no harm.
-  skin.mesh = refine(skin.mesh, [](const Vec3& p) { return p.y < -4.6 && p.z < 5.2; });
+  // Jaw and chin form the outline.
+  skin.mesh =
+      refine(skin.mesh, [](const Vec3& p) { return p.y > -12.5 && ((p.y < -4.6 && p.z < 6.2) || p.y < -9.55); });
   for (auto& p : skin.mesh.positions) p = project_to_head(p);
   relax(skin.mesh, 6);
   // Finds all holes before filling any: a filling must not change another hole's border.
@@ -89,12 +83,12 @@ Skin make_skin() {
   const Loop around_mouth = boundary_loop(skin.mesh, cage["M5_0"], {1.0, 0.0, 0.0});
   const Loop nostril = boundary_loop(skin.mesh, cage["h0"], {1.0, 0.0, 0.0});
   const Loop ear = boundary_loop(skin.mesh, cage["Y7"], {0.0, 1.0, 0.0});
-  const Loop bust = boundary_loop(skin.mesh, cage["bust"], {1.0, 0.0, 0.0});
+  const Loop edge = boundary_loop(skin.mesh, cage["neckline"], {1.0, 0.0, 0.0});
   add_eyelids(skin, orbit);
   add_lips(skin, around_mouth);
   add_nostril(skin, nostril);
   add_ear(skin, ear);
-  finish_bust(skin.mesh, bust);
+  tuck_neckline(skin.mesh, edge);
   skin.marks["9.15"] = around_mouth[0];
   mark_skin_points(skin);
   orient(skin.mesh, {0.0, 0.0, 1.0});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -11,9 +12,12 @@
 #include <glm/geometric.hpp>
 
 #include "deploy/sample_head/sculpt.h"
+#include "deploy/sample_head/shirt.h"
 
 namespace semblante::sample_head_detail {
 namespace {
+
+using std::numbers::pi;
 
 struct NamedVertex {
   const char* name;
@@ -155,29 +159,36 @@ void add_cranium(SkinCage& cage) {
   }
 }
 
-/// Rings down the neck. Each tilts forward less than the one above; the last, the edge of the bust, is horizontal.
+/// Rings down the neck; the last is the neckline, under the collar.
 void add_neck(SkinCage& cage) {
   struct Ring {
     double front_y, back_y;
   };
-  constexpr Ring rings[] = {{-12.6, -10.8}, {-13.9, -12.8}, {-15.6, -15.2}};
+  constexpr Ring rings[] = {{-12.6, -10.6}, {-14.2, -12.2}, {-15.9, -13.6}};
   HalfMesh& mesh = cage.mesh;
   Loop above = loop_of(cage, neck_head);
   const Loop head = above;
+  const auto azimuth_of = [&](std::size_t i) {
+    return pi * static_cast<double>(i) / static_cast<double>(head.size() - 1);
+  };
   for (const auto& ring : rings) {
     Loop loop;
     for (std::size_t i = 0; i < head.size(); ++i) {
-      const double azimuth = 3.14159265358979 * static_cast<double>(i) / static_cast<double>(head.size() - 1);
+      const double azimuth = azimuth_of(i);
       const double t = 0.5 - 0.5 * std::cos(azimuth);
       Vec3 direction(std::sin(azimuth), 0.0, std::cos(azimuth));
       if (i == 0 || i + 1 == head.size()) direction.x = 0.0;
       const double y = ring.front_y + (ring.back_y - ring.front_y) * t;
-      loop.push_back(mesh.add(cast_from_inside({0.0, y, -1.6}, direction)));
+      loop.push_back(mesh.add(cast_from_inside({0.0, y, -2.6}, direction)));
     }
     bridge(mesh, above, loop, false, Chart::outer);
     above = loop;
   }
-  cage.names["bust"] = above[0];
+  Loop edge;
+  for (std::size_t i = 0; i < head.size(); ++i)
+    edge.push_back(mesh.add(neckline(i + 1 == head.size() ? pi : azimuth_of(i))));
+  bridge(mesh, above, edge, false, Chart::outer);
+  cage.names["neckline"] = edge[0];
 }
 
 }  // namespace

@@ -74,7 +74,11 @@ Colour skin_colour(const Vec3& p, const Paint& paint) {
   const double azimuth = std::atan2(std::abs(from_centre.x), from_centre.z);
   const double elevation = std::atan2(from_centre.y, std::hypot(from_centre.x, from_centre.z));
   const double over = elevation - hairline(azimuth);
-  c = glm::mix(c, Colour(0.24, 0.15, 0.11), 0.9 * glm::smoothstep(-0.06, 0.05, over) * (paint.flush > 0.0 ? 0.0 : 1.0));
+  // The roots of the hair begin before its shell, some strands farther out than others.
+  const double strand = 0.5 + 0.2 * std::sin(47.0 * azimuth) + 0.17 * std::sin(83.0 * azimuth + 1.0) +
+                        0.13 * std::sin(29.0 * azimuth + 2.0);
+  const double roots = 0.85 * glm::smoothstep(-0.08 - 0.025 * strand, 0.06, over);
+  c = glm::mix(c, Colour(0.24, 0.15, 0.11), roots * (paint.flush > 0.0 ? 0.0 : 1.0));
   c = glm::mix(c, Colour(0.800, 0.470, 0.435), 0.9 * paint.lip);
   c = glm::mix(c, Colour(0.72, 0.46, 0.42), 0.8 * paint.lid);
   return glm::mix(c, Colour(0.13, 0.08, 0.06), glm::smoothstep(0.55, 0.9, paint.lash));
@@ -223,7 +227,7 @@ SampleHeadImage paint_eye() {
       const Vec2 q((x + 0.5) / eye_size * 2.0 - 1.0, (y + 0.5) / eye_size * 2.0 - 1.0);
       const double r = glm::length(q) / iris;  // 1 at the rim of the iris
       const double angle = std::atan2(q.y, q.x);
-      Colour c = glm::mix(Colour(0.95, 0.94, 0.925), Colour(0.86, 0.68, 0.64), glm::smoothstep(1.5, 4.0, r));
+      Colour c = glm::mix(Colour(0.93, 0.915, 0.90), Colour(0.80, 0.62, 0.58), glm::smoothstep(1.2, 3.2, r));
       // Fibres: a few sine waves whose sum looks irregular, the same on left and right.
       const double a = std::abs(std::abs(angle) - 0.5 * pi);
       const double fibre =
@@ -233,7 +237,7 @@ SampleHeadImage paint_eye() {
       blue = glm::mix(blue, Colour(0.08, 0.14, 0.18), glm::smoothstep(0.80, 0.98, r));
       // The shadow of the lid on the upper part.
       blue *= 1.0 - 0.30 * glm::smoothstep(0.1, -0.9, q.y / iris);
-      c *= 1.0 - 0.16 * glm::smoothstep(0.2, -1.2, q.y / iris) * (r < 2.5 ? 1.0 : 0.0);
+      c *= 1.0 - 0.22 * glm::smoothstep(0.3, -1.0, q.y / iris);
       c = glm::mix(blue, c, glm::smoothstep(0.96, 1.06, r));
       c = glm::mix(Colour(0.02, 0.02, 0.025), c, glm::smoothstep(0.30, 0.36, r));
       // A painted glint makes the eye look alive under any light.
