@@ -16,14 +16,14 @@ namespace {
 using std::numbers::pi;
 
 // The opening, relative to the centre of the eye, in cm.
-constexpr double inner_corner_y = -0.14;
-constexpr double outer_corner_y = 0.13;
+constexpr double inner_corner_y = -0.13;
+constexpr double outer_corner_y = 0.12;
 constexpr double inner_corner_z = 0.80;  ///< the inner corner is off the ball, towards the nose
 constexpr double outer_corner_z = 0.62;
 
 /// Height of the lid edges over the middle of the slit: tangent to the iris for the standard; the painted rim of the
 /// iris goes on under them, because an eye whose whole iris is seen looks startled.
-constexpr double lid_height = 0.59;
+constexpr double lid_height = 0.60;
 /// Height of the fold under which the upper lid slides, at the middle.
 constexpr double fold_height = 0.92;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
@@ -71,13 +71,19 @@ Vec3 opening_edge(int k) {
     const double z = std::sqrt(std::max(fold_front * fold_front - 0.85 * x * x, 0.0));
     return eye_centre + Vec3(x, y, glm::mix(z, corner, to_corner));
   }
-  const double y = line - (lid_height + corner_line(0.0)) * (1.0 - std::pow(std::abs(t), 1.8));
+  const double y = lower_edge_y(x);
   const double r = eye_radius + lower_thickness;
   const double z = std::sqrt(std::max(r * r - x * x - y * y, 0.0));
   return eye_centre + Vec3(x, y, glm::mix(z, corner, to_corner));
 }
 
 }  // namespace
+
+double lower_edge_y(double x) {
+  const double t = std::min(std::abs(x) / slit_half_width, 1.0);
+  // Fuller towards the nose, where the closing lid comes down farther for the slant of the slit.
+  return corner_line(x) - (lid_height + corner_line(0.0)) * (1.0 - std::pow(t, x < 0.0 ? 2.1 : 1.85));
+}
 
 double upper_edge_y(double x) {
   const double t = std::min(std::abs(x) / slit_half_width, 1.0);

@@ -11,8 +11,9 @@ void add_eyelids(Skin& skin, const Loop& orbit);
 
 inline constexpr int lid_steps = 24;
 
-/// Line of the upper lid's edge over the eyeball: y at x, both from the middle of the eye.
+/// Lines of the lids' edges over the eyeball: y at x, both from the middle of the eye.
 double upper_edge_y(double x);
+double lower_edge_y(double x);
 inline constexpr double slit_half_width = 1.52;
 
 }  // namespace semblante::sample_head_detail

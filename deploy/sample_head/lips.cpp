@@ -17,6 +17,7 @@ constexpr double mouth_y = -6.72;
 constexpr double corner_x = 2.52;        ///< of the border of the red, 8.3
 constexpr double inner_corner_x = 2.38;  ///< of the line where the lips meet, 2.4
 constexpr double gap = 0.012;            ///< between the lips: invisible, but keeps the surfaces separate
+constexpr double pressed_gap = 0.004;
 
 struct LipPlace {
   double along;  ///< 0 middle .. 1 corner
@@ -60,18 +61,19 @@ Vec3 meeting(double s) {
 }
 
 /// Point of the red between border (0) and meeting line (1).
-Vec3 red(const LipPlace& place, double t) {
-  const Vec2 b = border(place);
+Vec3 red(const LipPlace& place, double t, bool pressed) {
+  Vec2 b = border(place);
+  if (pressed) b.y = glm::mix(b.y, meeting(place.along).y, 0.4);
   const Vec3 from(b.x, b.y, front_z(b.x, b.y) + 0.03 * (1.0 - place.along));
   const Vec3 to = meeting(place.along);
   const double taper = 1.0 - std::pow(place.along, 2.4);
-  const double fullness = (place.upper ? 0.30 : 0.42) * taper;
+  const double fullness = (place.upper ? 0.30 : 0.42) * taper * (pressed ? 0.5 : 1.0);
   const double rise = std::sin(0.5 * pi * t);
   Vec3 p;
   p.x = glm::mix(from.x, to.x, t);
   p.y = glm::mix(from.y, to.y, rise);
   p.z = glm::mix(from.z, to.z, t * t * t) + fullness * std::sin(pi * std::pow(t, 0.85));
-  p.y += (place.upper ? 0.5 : -0.5) * gap * (1.0 - std::pow(place.along, 8.0)) * t;
+  p.y += (place.upper ? 0.5 : -0.5) * (pressed ? pressed_gap : gap) * (1.0 - std::pow(place.along, 8.0)) * t;
   return p;
 }
 
@@ -90,7 +92,7 @@ constexpr BagSection bag[] = {
 
 }  // namespace
 
-void add_lips(Skin& skin, const Loop& around) {
+void add_lips(Skin& skin, const Loop& around, bool pressed) {
   HalfMesh& mesh = skin.mesh;
   const auto around_at = [&](int k) {
     return mesh.positions[static_cast<std::size_t>(around[static_cast<std::size_t>(k)])];
@@ -122,7 +124,7 @@ void add_lips(Skin& skin, const Loop& around) {
 
   Paint paint;
   const auto red_ring = [&](double t) {
-    return add_ring([&](int k) { return red(lip_place(k), t); }, paint, Chart::outer);
+    return add_ring([&](int k) { return red(lip_place(k), t, pressed); }, paint, Chart::outer);
   };
   paint.lip = 0.55;
   const Loop border_loop = red_ring(0.0);

@@ -9,6 +9,7 @@
 #include "deploy/sample_head/eyeballs.h"
 #include "deploy/sample_head/feature_points.h"
 #include "deploy/sample_head/hair.h"
+#include "deploy/sample_head/identity.h"
 #include "deploy/sample_head/mouth_parts.h"
 #include "deploy/sample_head/shirt.h"
 #include "deploy/sample_head/skin.h"
@@ -39,13 +40,14 @@ enum Material : std::size_t {
 /// Adds parts to a head and numbers vertices as a reader of the file does.
 class Assembly {
  public:
-  explicit Assembly(SampleHead& head) : head_(head) {}
+  Assembly(SampleHead& head, const SampleHeadTraits& traits) : head_(head), traits_(traits) {}
 
   using Marks = std::map<std::string, int, std::less<>>;
 
   void add(const std::string& name, Material material, const HalfMesh& half, const Marks& marks,
            const UvOf& uv_of = skin_uv) {
     EmittedMesh emitted = emit_symmetric(name, material, half, uv_of);
+    shape(emitted.mesh);
     for (const auto& [id, vertex] : marks) {
       const auto v = static_cast<std::size_t>(vertex);
       add_point(id, emitted.mesh, emitted.left[v]);
@@ -55,11 +57,15 @@ class Assembly {
   }
 
   void add(Eyeball eye, const std::string& pupil_id) {
+    shape(eye.mesh);
     add_point(pupil_id, eye.mesh, eye.pupil);
     push(std::move(eye.mesh));
   }
 
  private:
+  void shape(SampleHeadMesh& mesh) const {
+    if (traits_.jaw_width != 1.0 || traits_.face_length != 1.0 || traits_.nose_length != 1.0) reshape(mesh, traits_);
+  }
   void add_point(const std::string& id, const SampleHeadMesh& mesh, std::uint32_t vertex) {
     const auto parsed = parse_feature_point(id);
     assert(parsed);
@@ -71,14 +77,15 @@ class Assembly {
   }
 
   SampleHead& head_;
+  const SampleHeadTraits& traits_;
   std::uint32_t first_ = 0;
 };
 
 }  // namespace
 
-SampleHead make_sample_head() {
+SampleHead make_sample_head(const SampleHeadTraits& traits) {
   SampleHead head;
-  const Skin skin = make_skin();
+  const Skin skin = make_skin(traits);
   head.images = {paint_skin(skin.mesh), paint_eye(), paint_teeth(), paint_hair()};
   const glm::vec4 white(1.0F);
   head.materials = {{"skin", white, 0.55F, 0, false}, {"eye", white, 0.15F, 1, false},
@@ -86,9 +93,9 @@ SampleHead make_sample_head() {
                     {"hair", white, 0.75F, 3, true},  {"cloth", linear(0.36, 0.47, 0.55), 0.9F, std::nullopt, true}};
   const UvOf by_gum = [](const Vec3&, const Paint& paint, Chart) { return Vec2(0.5, 1.0 - paint.lip); };
 
-  Assembly assembly(head);
+  Assembly assembly(head, traits);
   assembly.add("skin", skin_material, skin.mesh, skin.marks);
-  const UpperLid lid = make_upper_lid();
+  const UpperLid lid = make_upper_lid(traits.closed_eyes);
   assembly.add("upper lids", skin_material, lid.mesh, lid.marks);
   for (const bool right : {false, true}) assembly.add(make_eyeball(right, eye_material), right ? "3.6" : "3.5");
   const MouthPart upper = make_upper_teeth();

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/types/feature_point_id.h"
+#include "deploy/sample_head/traits.h"
 
 namespace semblante {
 
@@ -53,6 +54,6 @@ struct SampleHead {
 };
 
 /// Builds the head from tables and formulas. Deterministic; exactly symmetric in x.
-SampleHead make_sample_head();
+SampleHead make_sample_head(const SampleHeadTraits& traits = {});
 
 }  // namespace semblante

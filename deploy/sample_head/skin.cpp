@@ -68,7 +68,7 @@ void tuck_neckline(HalfMesh& mesh, const Loop& border) {
 
 }  // namespace
 
-Skin make_skin() {
+Skin make_skin(const SampleHeadTraits& traits) {
   SkinCage cage = make_skin_cage();
   Skin skin;
   skin.mesh = subdivide(cage.mesh);
@@ -85,7 +85,7 @@ Skin make_skin() {
   const Loop ear = boundary_loop(skin.mesh, cage["Y7"], {0.0, 1.0, 0.0});
   const Loop edge = boundary_loop(skin.mesh, cage["neckline"], {1.0, 0.0, 0.0});
   add_eyelids(skin, orbit);
-  add_lips(skin, around_mouth);
+  add_lips(skin, around_mouth, traits.pressed_lips);
   add_nostril(skin, nostril);
   add_ear(skin, ear);
   tuck_neckline(skin.mesh, edge);

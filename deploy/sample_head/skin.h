@@ -4,6 +4,7 @@
 #include <string>
 
 #include "deploy/sample_head/half_mesh.h"
+#include "deploy/sample_head/traits.h"
 
 namespace semblante::sample_head_detail {
 
@@ -14,6 +15,6 @@ struct Skin {
   std::map<std::string, int, std::less<>> marks;  ///< FPs that are known by construction, by FP id
 };
 
-Skin make_skin();
+Skin make_skin(const SampleHeadTraits& traits);
 
 }  // namespace semblante::sample_head_detail

@@ -35,7 +35,7 @@ constexpr std::size_t tips = 1;
 
 }  // namespace
 
-UpperLid make_upper_lid() {
+UpperLid make_upper_lid(bool closed) {
   UpperLid lid;
   HalfMesh& mesh = lid.mesh;
   std::vector<Loop> loops;
@@ -44,7 +44,7 @@ UpperLid make_upper_lid() {
     for (int c = 0; c <= columns; ++c) {
       const double t = 2.0 * c / columns - 1.0;
       const double x = t * half_width;
-      const double edge_y = upper_edge_y(x);
+      const double edge_y = closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x);
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
       const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // pointed at 3.1: everything else is behind it
       const double end = t * t * t * t;

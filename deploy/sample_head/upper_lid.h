@@ -19,6 +19,6 @@ struct UpperLid {
   HalfMesh mesh;
   std::map<std::string, int, std::less<>> marks;
 };
-UpperLid make_upper_lid();
+UpperLid make_upper_lid(bool closed);
 
 }  // namespace semblante::sample_head_detail

@@ -1,20 +1,36 @@
 #include "tests/support/sample_head_model.h"
 
-#include "deploy/sample_head/sample_head.h"
+#include <deque>
+#include <utility>
 
 namespace semblante::testing {
 namespace {
 
-const SampleHead& head() {
-  static const SampleHead made = make_sample_head();
-  return made;
+constexpr FamilyMember family[] = {
+    {"sample", {}},
+    {"broad", {.jaw_width = 1.10, .face_length = 0.94, .nose_length = 0.85}},
+    {"long", {.jaw_width = 0.93, .face_length = 1.07, .nose_length = 1.2}},
+    {"pressed lips", {.pressed_lips = true}},
+    {"closed eyes", {.closed_eyes = true}},
+};
+
+/// Building a head takes a good part of a second and many tests want the same.
+const SampleHead& head_of(const SampleHeadTraits& traits) {
+  static std::deque<std::pair<SampleHeadTraits, SampleHead>> made;
+  for (const auto& [built_with, head] : made) {
+    if (built_with == traits) return head;
+  }
+  return made.emplace_back(traits, make_sample_head(traits)).second;
 }
 
 }  // namespace
 
-Model sample_head_model() {
+std::span<const FamilyMember> sample_family() { return family; }
+
+Model sample_head_model(const SampleHeadTraits& traits) {
+  const SampleHead& head = head_of(traits);
   Model model;
-  for (const SampleHeadMesh& mesh : head().meshes) {
+  for (const SampleHeadMesh& mesh : head.meshes) {
     const auto first = static_cast<std::uint32_t>(model.positions.size());
     Primitive primitive{mesh.name, -1, static_cast<std::uint32_t>(model.triangles.size()),
                         static_cast<std::uint32_t>(mesh.triangles.size())};
@@ -25,9 +41,10 @@ Model sample_head_model() {
   return model;
 }
 
-FeaturePointSet sample_head_points() {
+FeaturePointSet sample_head_points(const SampleHeadTraits& traits) {
+  const SampleHead& head = head_of(traits);
   FeaturePointSet points;
-  for (const SampleHeadPoint& point : head().points) {
+  for (const SampleHeadPoint& point : head.points) {
     FeaturePoint placed{point.id, std::nullopt, point.position};
     if (point.vertex) placed.vertex = VertexId(*point.vertex);
     points.push_back(placed);

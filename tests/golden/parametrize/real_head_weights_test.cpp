@@ -1,4 +1,4 @@
-// The fast parametrization against the literal oracle, on heads made by others.
+// The fast parametrization against the literal oracle, on heads made by others and on our own family.
 
 #include <cmath>
 #include <ctime>
@@ -13,6 +13,7 @@
 #include "core/parametrize/point_distances.h"
 #include "tests/oracle/literal_weights.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante {
 namespace {
@@ -37,25 +38,15 @@ struct HeadFile {
 
 std::ostream& operator<<(std::ostream& out, const HeadFile& head) { return out << head.folder << "/" << head.model; }
 
-class RealHeads : public ::testing::TestWithParam<HeadFile> {
+class WeightsOfHead : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto folder = oracle::faces_folder();
-    if (!folder) GTEST_SKIP() << "no folder of real heads";
-    const auto& [name, model_file, points_file, triangles_file] = GetParam();
-    const Model trusted = oracle::read_trusted_obj(*folder / name / triangles_file);
-    model_ = oracle::import_head(*folder / name / triangles_file);
-    ASSERT_EQ(model_.triangles, trusted.triangles);  // else our edges would not be those of other programs
-    ASSERT_EQ(model_.positions, trusted.positions);
-    if (std::string_view(model_file) != triangles_file) {
-      model_.positions = oracle::read_trusted_obj(*folder / name / model_file).positions;
-    }
+  /// Parametrizes the head, with the points that `place` finds on its surface.
+  template <class Place>
+  void make(Model model, Place place) {
+    model_ = std::move(model);
     const std::clock_t before = std::clock();
     surface_ = build_surface(model_);
-    auto placed =
-        place_feature_points(model_, surface_, oracle::read_trusted_points(*folder / name / points_file), nullptr);
-    ASSERT_TRUE(placed) << placed.error().message;
-    points_ = *std::move(placed);
+    points_ = place();
     auto rig = parametrize(model_, surface_, points_);
     ASSERT_TRUE(rig);
     rig_ = *std::move(rig);
@@ -65,6 +56,8 @@ class RealHeads : public ::testing::TestWithParam<HeadFile> {
     }
   }
 
+  void expect_those_of_the_literal_oracle() const;
+
   Model model_;
   Surface surface_;
   FeaturePointSet points_;
@@ -73,7 +66,7 @@ class RealHeads : public ::testing::TestWithParam<HeadFile> {
   std::map<oracle::PointName, std::uint32_t> marked_;
 };
 
-TEST_P(RealHeads, WeightsEqualTheLiteralOracle) {
+void WeightsOfHead::expect_those_of_the_literal_oracle() const {
   const oracle::LiteralResult expected = oracle::literal_weights(as_oracle_mesh(model_), marked_);
 
   for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
@@ -109,6 +102,39 @@ TEST_P(RealHeads, WeightsEqualTheLiteralOracle) {
   EXPECT_LT(seconds_, 2.0);
 #endif
 }
+
+class RealHeads : public WeightsOfHead, public ::testing::WithParamInterface<HeadFile> {};
+
+TEST_P(RealHeads, WeightsEqualTheLiteralOracle) {
+  const auto folder = oracle::faces_folder();
+  if (!folder) GTEST_SKIP() << "no folder of real heads";
+  const auto& [name, model_file, points_file, triangles_file] = GetParam();
+  const Model trusted = oracle::read_trusted_obj(*folder / name / triangles_file);
+  Model model = oracle::import_head(*folder / name / triangles_file);
+  ASSERT_EQ(model.triangles, trusted.triangles);  // else our edges would not be those of other programs
+  ASSERT_EQ(model.positions, trusted.positions);
+  if (std::string_view(model_file) != triangles_file) {
+    model.positions = oracle::read_trusted_obj(*folder / name / model_file).positions;
+  }
+  const auto marked = oracle::read_trusted_points(*folder / name / points_file);
+  ASSERT_NO_FATAL_FAILURE(make(std::move(model), [&] {
+    auto placed = place_feature_points(model_, surface_, marked, nullptr);
+    EXPECT_TRUE(placed) << placed.error().message;
+    return placed ? *std::move(placed) : FeaturePointSet{};
+  }));
+  expect_those_of_the_literal_oracle();
+}
+
+class FamilyHeads : public WeightsOfHead, public ::testing::WithParamInterface<testing::FamilyMember> {};
+
+TEST_P(FamilyHeads, WeightsEqualTheLiteralOracle) {
+  const SampleHeadTraits& traits = GetParam().traits;
+  ASSERT_NO_FATAL_FAILURE(
+      make(testing::sample_head_model(traits), [&] { return testing::sample_head_points(traits); }));
+  expect_those_of_the_literal_oracle();
+}
+
+INSTANTIATE_TEST_SUITE_P(Faces, FamilyHeads, ::testing::ValuesIn(testing::sample_family()), testing::member_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Faces, RealHeads,

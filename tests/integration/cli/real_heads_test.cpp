@@ -33,16 +33,17 @@ std::filesystem::path faces_directory() {
 struct Heads : ::testing::Test {
   Workspace work;
 
-  [[nodiscard]] HeadFiles sample() const {
-    const SampleHead head = make_sample_head();
+  [[nodiscard]] HeadFiles of_our_own(const std::string& name, const SampleHeadTraits& traits = {}) const {
+    const SampleHead head = make_sample_head(traits);
     const auto glb = sample_head_glb(head);
     EXPECT_TRUE(glb);
-    return {"sample", work.write("sample.glb", std::string(glb->begin(), glb->end())),
-            work.write("sample.fps.json", sample_head_feature_points_json(head))};
+    return {name, work.write(name + ".glb", std::string(glb->begin(), glb->end())),
+            work.write(name + ".fps.json", sample_head_feature_points_json(head))};
   }
-  /// The sample and whichever real heads there are.
+  /// The sample, another person with pressed lips, and whichever real heads there are.
   [[nodiscard]] std::vector<HeadFiles> all() const {
-    std::vector<HeadFiles> heads = {sample()};
+    std::vector<HeadFiles> heads = {of_our_own("sample"),
+                                    of_our_own("other", {.jaw_width = 1.1, .face_length = 0.94, .pressed_lips = true})};
     const auto faces = faces_directory();
     for (const auto& [folder, model] :
          std::vector<std::pair<std::string, std::string>>{{"ict-facekit", "neutral.obj"},
@@ -127,7 +128,7 @@ TEST_F(Heads, Faces_MoveSomeVertices_AndNoneFarAway) {
 }
 
 TEST_F(Heads, Package_IsWritten_UnderTheNamesClientsFetch) {
-  const HeadFiles head = sample();
+  const HeadFiles head = of_our_own("sample");
   const Outcome outcome =
       run_semblante({"parametrize", head.model, "--feature-points", head.points, "--out", work.path("package")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -9,16 +9,15 @@
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante {
 namespace {
 
 /// What must hold of every level of any head.
-void check_levels(const Model& model, const std::vector<MarkedPoint>& marked, std::vector<std::uint32_t> budgets) {
+void check_levels(const Model& model, const FeaturePointSet& points, std::vector<std::uint32_t> budgets) {
   const Surface surface = build_surface(model);
-  const auto points = place_feature_points(model, surface, marked, nullptr);
-  ASSERT_TRUE(points.ok());
-  const auto rig = parametrize(model, surface, *points);
+  const auto rig = parametrize(model, surface, points);
   ASSERT_TRUE(rig.ok());
   const std::vector<LodPose> poses = lod_poses(*rig, model);
   LodOptions options;
@@ -49,6 +48,21 @@ void check_levels(const Model& model, const std::vector<MarkedPoint>& marked, st
     for (const SurfaceError& pose : error.poses) EXPECT_LT(pose.rms, 1.25 * error.neutral.rms + 0.002 * es);
   }
 }
+
+void check_levels(const Model& model, const std::vector<MarkedPoint>& marked, std::vector<std::uint32_t> budgets) {
+  const auto points = place_feature_points(model, build_surface(model), marked, nullptr);
+  ASSERT_TRUE(points.ok());
+  check_levels(model, *points, std::move(budgets));
+}
+
+class FamilyLevels : public ::testing::TestWithParam<testing::FamilyMember> {};
+
+TEST_P(FamilyLevels, GoToTheirBudgets) {
+  const SampleHeadTraits& traits = GetParam().traits;
+  check_levels(testing::sample_head_model(traits), testing::sample_head_points(traits), {6000, 3000});
+}
+
+INSTANTIATE_TEST_SUITE_P(Lod, FamilyLevels, ::testing::ValuesIn(testing::sample_family()), testing::member_name);
 
 TEST(RealHeadLevels, TheSmallerHeadGoesToItsBudgets) {
   const auto folder = oracle::faces_folder();

@@ -369,5 +369,39 @@ TEST(SampleHead, TeethAndTongue_StandInsideTheMouth) {
   EXPECT_NEAR(at("6.1").y, at("9.11").y, 0.003);   // tip of the tongue between them
 }
 
+glm::dvec3 at(const SampleHead& of, const std::string& id) {
+  const auto wanted = parse_feature_point(id);
+  return std::find_if(of.points.begin(), of.points.end(), [&](const auto& p) { return p.id == wanted; })->position;
+}
+
+TEST(SampleFamily, AnotherPersonHasTheSameMesh_WithOtherProportions) {
+  const SampleHead other = make_sample_head({.jaw_width = 1.1, .face_length = 0.94, .nose_length = 0.85});
+  ASSERT_EQ(other.meshes.size(), head().meshes.size());
+  for (std::size_t m = 0; m < other.meshes.size(); ++m) {
+    EXPECT_EQ(other.meshes[m].triangles, head().meshes[m].triangles);
+    for (const auto& n : other.meshes[m].normals) ASSERT_NEAR(glm::length(n), 1.0F, 1e-4F);
+  }
+  EXPECT_GT(at(other, "2.1").y, at("2.1").y + 0.004);    // a shorter face
+  EXPECT_GT(at(other, "2.13").x, at("2.13").x + 0.003);  // a wider jaw
+  EXPECT_LT(at(other, "9.3").z, at("9.3").z - 0.002);    // a flatter nose
+  EXPECT_LT(glm::distance(at(other, "3.5"), at("3.5")), 5e-4);
+  EXPECT_EQ(at(other, "8.3"), at(other, "8.4") * glm::dvec3(-1.0, 1.0, 1.0));
+}
+
+TEST(SampleFamily, PressedLips_AreThinAndAllButTouch) {
+  const SampleHead pressed = make_sample_head({.pressed_lips = true});
+  EXPECT_GT(at(pressed, "2.2").y, at(pressed, "2.3").y);
+  EXPECT_LT(at(pressed, "2.2").y - at(pressed, "2.3").y, 0.5 * (at("2.2").y - at("2.3").y));
+  EXPECT_LT(at(pressed, "8.1").y - at(pressed, "8.2").y, 0.7 * (at("8.1").y - at("8.2").y));
+}
+
+TEST(SampleFamily, ClosedEyes_HaveTheUpperLidsOnTheLowerOnes) {
+  const SampleHead closed = make_sample_head({.closed_eyes = true});
+  const double opening = at(closed, "3.1").y - at(closed, "3.3").y;
+  EXPECT_GT(opening, 0.0);
+  EXPECT_LT(opening, 0.1 * (at("3.1").y - at("3.3").y));
+  EXPECT_EQ(at(closed, "3.7"), at("3.7"));
+}
+
 }  // namespace
 }  // namespace semblante
