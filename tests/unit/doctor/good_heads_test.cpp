@@ -30,6 +30,12 @@ TEST(GoodHeads, Sample_HasNoFinding) {
   EXPECT_THAT(lines(testing::examine_with_weights(testing::sample_head(), WeightMethod::smooth)), IsEmpty());
 }
 
+TEST(GoodHeads, OtherPersonsOfOurOwn_HaveNoFinding) {
+  for (const char* const name : {"broad", "long", "pressed lips"})
+    EXPECT_THAT(lines(testing::examine_with_weights(*testing::head_named(name), WeightMethod::smooth)), IsEmpty())
+        << name;
+}
+
 TEST(GoodHeads, Sample_LeaksWithTheWeightsOfThePaperAlone) {
   // A vertex of one lip is partly led by the points of the other: Eq. 3 knows no slit (core/expressions/README.md).
   EXPECT_THAT(lines(testing::examine_with_weights(testing::sample_head(), WeightMethod::paper)),

@@ -6,7 +6,6 @@
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
-#include "deploy/sample_head/sample_head.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::testing {
@@ -20,22 +19,8 @@ FeaturePointSet place(const Model& model, const std::vector<MarkedPoint>& marked
 
 }  // namespace
 
-Head sample_head() {
-  const SampleHead made = make_sample_head();
-  Head head{"sample", {}, {}};
-  for (const SampleHeadMesh& mesh : made.meshes) {
-    const auto first = static_cast<std::uint32_t>(head.model.positions.size());
-    Primitive primitive{mesh.name, -1, static_cast<std::uint32_t>(head.model.triangles.size()),
-                        static_cast<std::uint32_t>(mesh.triangles.size())};
-    head.model.primitives.push_back(primitive);
-    head.model.positions.insert(head.model.positions.end(), mesh.positions.begin(), mesh.positions.end());
-    for (const auto& t : mesh.triangles) head.model.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  for (const SampleHeadPoint& point : made.points) {
-    const auto vertex = point.vertex ? std::optional(VertexId(*point.vertex)) : std::nullopt;
-    head.points.push_back({point.id, vertex, point.position});
-  }
-  return head;
+Head sample_head(const SampleHeadTraits& traits) {
+  return {"sample", sample_head_model(traits), sample_head_points(traits)};
 }
 
 std::optional<Head> real_head(std::string_view name) {
@@ -62,7 +47,12 @@ std::optional<Head> real_head(std::string_view name) {
   return head;
 }
 
-std::optional<Head> head_named(std::string_view name) { return name == "sample" ? sample_head() : real_head(name); }
+std::optional<Head> head_named(std::string_view name) {
+  for (const FamilyMember& member : sample_family()) {
+    if (name == member.name) return sample_head(member.traits);
+  }
+  return real_head(name);
+}
 
 Report examine_with_weights(const Head& head, WeightMethod method) {
   const Surface surface = build_surface(head.model);

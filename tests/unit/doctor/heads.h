@@ -7,6 +7,7 @@
 #include "core/doctor/examine.h"
 #include "core/types/feature_points.h"
 #include "core/types/model.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante::testing {
 
@@ -17,12 +18,12 @@ struct Head {
   FeaturePointSet points;
 };
 
-/// Our own head, always there.
-Head sample_head();
+/// Our own head or one of its family, always there.
+Head sample_head(const SampleHeadTraits& traits = {});
 /// "ict-facekit", "ict-facekit identity", "makehuman", "makehuman glb", "mediapipe-canonical"; empty where the folder
 /// of real heads is not there.
 std::optional<Head> real_head(std::string_view name);
-/// Either of these by name: "sample" is our own.
+/// Either of these by name: our own have those of sample_family().
 std::optional<Head> head_named(std::string_view name);
 
 /// The report on a head with all its weights.

@@ -62,10 +62,12 @@ TEST_P(PlantedDefects, AreFound_AtTheirPlaces) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Doctor, PlantedDefects, ::testing::Values("sample", "ict-facekit", "makehuman"),
+INSTANTIATE_TEST_SUITE_P(Doctor, PlantedDefects,
+                         ::testing::Values("sample", "broad", "long", "pressed lips", "ict-facekit", "makehuman"),
                          [](const auto& info) {
                            std::string name = info.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '-' || c == ' '; }, '_');
                            return name;
                          });
 
