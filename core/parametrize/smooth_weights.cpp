@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/parametrize/cavity_weights.h"
 #include "core/parametrize/site_kriging.h"
 
 namespace semblante {
@@ -29,8 +30,7 @@ constexpr double eye_separation_per_spread = 0.85;
 /// Parts with points close together (a tongue) get their own unit.
 constexpr double greatest_unit_per_spread = 2.0;
 
-/// Weights of all feature points at one vertex.
-using Row = std::array<double, feature_point_count>;
+using Row = WeightRow;
 
 double sum_of(const Row& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
 
@@ -104,6 +104,20 @@ Row row_of_points(SiteKriging& points, std::size_t member) {
   return row;
 }
 
+std::size_t member_of(const PointDistances& distances, SurfaceVertexId vertex) {
+  const auto at = std::lower_bound(distances.members.begin(), distances.members.end(), vertex);
+  return static_cast<std::size_t>(at - distances.members.begin());
+}
+
+/// The sockets of the eyes, and the mouth if the jaw's point is marked.
+std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, std::span<const SurfacePoint> points) {
+  std::vector<Cavity> cavities = find_cavities(surface, part, points);
+  const bool has_jaw = std::any_of(points.begin(), points.end(),
+                                   [](const SurfacePoint& p) { return p.id == parse_feature_point("2.1"); });
+  if (!has_jaw) std::erase_if(cavities, [](const Cavity& c) { return c.is_mouth; });
+  return cavities;
+}
+
 }  // namespace
 
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
@@ -116,19 +130,21 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   // The corrections at the edges: their rows minus those from the points alone; zero at the points themselves.
   std::vector<Row> corrections;
   for (const KrigingSite& site : of_edges) {
-    const auto member = std::lower_bound(distances.members.begin(), distances.members.end(), site.vertex);
     Row& correction = corrections.emplace_back();
     add(correction, site, 1.0);
-    const Row plain = row_of_points(points, static_cast<std::size_t>(member - distances.members.begin()));
+    const Row plain = row_of_points(points, member_of(distances, site.vertex));
     for (std::size_t id = 0; id < plain.size(); ++id) correction[id] -= plain[id];
   }
   const std::size_t edge_count = of_edges.size();
   of_edges.insert(of_edges.end(), of_points.begin(), of_points.end());
   SiteKriging edges(surface, distances, std::move(of_edges), unit, at_edges);
 
-  WeightTable<double> table;
-  std::vector<std::size_t> order;
-  for (std::size_t m = 0; m < distances.members.size(); ++m) {
+  // Rows of the cavities continue those of their rims.
+  const PartId part = surface.part_of[distances.members.front().value()];
+  const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points);
+  std::vector<const Row*> in_cavity(distances.members.size(), nullptr);
+  std::vector<std::vector<Row>> cavity_rows_of(cavities.size());
+  const auto smooth_row = [&](std::size_t m) {
     Row row = row_of_points(points, m);
     for (const SiteKriging::Term& term : edges.at(m)) {
       const auto site = static_cast<std::size_t>(term.site - edges.sites().data());
@@ -136,6 +152,20 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
       for (std::size_t id = 0; id < row.size(); ++id) row[id] += term.weight * corrections[site][id];
     }
     cut(row);
+    return row;
+  };
+  for (std::size_t c = 0; c < cavities.size(); ++c) {
+    cavity_rows_of[c] =
+        cavity_rows(surface, cavities[c], unit, [&](SurfaceVertexId v) { return smooth_row(member_of(distances, v)); });
+    for (std::size_t k = 0; k < cavities[c].members.size(); ++k) {
+      in_cavity[member_of(distances, cavities[c].members[k])] = &cavity_rows_of[c][k];
+    }
+  }
+
+  WeightTable<double> table;
+  std::vector<std::size_t> order;
+  for (std::size_t m = 0; m < distances.members.size(); ++m) {
+    Row row = in_cavity[m] != nullptr ? *in_cavity[m] : smooth_row(m);
     keep_greatest(row, order);
     for (std::size_t id = 0; id < row.size(); ++id) {
       if (row[id] >= least_weight) table.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/anatomy/cavities.h"
+#include "core/geometry/surface.h"
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+
+/// Weights of all feature points at one vertex.
+using WeightRow = std::array<double, feature_point_count>;
+
+/// The shares of the points in the members of a cavity, in their order. The distance through the air says nothing
+/// there: what lies behind a lip is near to the skin in front of it, and does not follow it.
+///
+/// The rows continue those of the rim smoothly and give way, within a length that is short in an eye's socket and
+/// longer in the mouth, to a row of their own: none in the socket, that of the skull; the jaw's (2.1) in the mouth, as
+/// jaw_share_in_mouth says. They are the solution of (Laplacian of w) = (w - own row) / length^2 on the graph of edges,
+/// so they are not negative and their sums are at most those of the rim.
+///
+/// `row_of`: the row of a vertex of the rim. `unit`: ES0 in model units.
+std::vector<WeightRow> cavity_rows(const Surface& surface, const Cavity& cavity, double unit,
+                                   const std::function<WeightRow(SurfaceVertexId)>& row_of);
+
+}  // namespace semblante
