@@ -6,13 +6,19 @@
 #include <map>
 #include <queue>
 
+#include "core/anatomy/smooth_step.h"
+
 namespace semblante {
 namespace {
 
-// Chosen on the shapes of two real heads (tests/bench/README.md), in ES0: over this length the rim's motion falls to
-// 1/e.
-constexpr double length_in_mouth = 0.25;
-constexpr double length_in_socket = 0.067;
+/// How the rim's motion ends in a cavity, in ES0: it falls by 1/e over `length`, after a rim of the thickness of a lip
+/// or lid, which moves as one with the rim's line. Chosen on the shapes of two real heads (tests/bench/README.md).
+struct Fade {
+  double rim;
+  double length;
+};
+constexpr Fade mouth_fade = {0.20, 0.22};
+constexpr Fade socket_fade = {0.05, 0.055};
 /// Sweeps end when no weight changes by more; a weight below it is dropped from the table anyway.
 constexpr double least_change = 1e-4;
 constexpr int most_sweeps = 100;
@@ -121,8 +127,11 @@ class Diffusion {
         if (link.row < members) lower(link.row, to + link.length, from[m]);
       }
     }
+    const Fade& fade = cavity_.is_mouth ? mouth_fade : socket_fade;
+    pull_.resize(members);
     for (const std::uint32_t m : order_) {
-      const double rim_share = std::exp(-distance[m] / length());
+      pull_[m] = smooth_step(0.0, fade.rim, distance[m]) / (4.0 * fade.length * fade.length);
+      const double rim_share = std::exp(-std::max(0.0, distance[m] - fade.rim / 2.0) / fade.length);
       for (std::size_t c = 0; c < ids_.size(); ++c) {
         rows_[m * ids_.size() + c] =
             rim_share * rows_[from[m] * ids_.size() + c] + (1.0 - rim_share) * own_weight(m, c);
@@ -133,7 +142,7 @@ class Diffusion {
   /// Solves the equation of one member for its own row; the greatest change of a weight.
   double relax(std::uint32_t m) {
     const auto links = links_of(m);
-    double pull = static_cast<double>(links.size()) / (4.0 * length() * length());
+    const double pull = static_cast<double>(links.size()) * pull_[m];
     double all = pull;
     sums_.assign(ids_.size(), 0.0);
     if (jaw_column_ < ids_.size()) sums_[jaw_column_] = pull * jaw_share_[m];
@@ -156,7 +165,6 @@ class Diffusion {
   [[nodiscard]] std::span<const Link> links_of(std::uint32_t m) const {
     return std::span(links_).subspan(link_offsets_[m], link_offsets_[m + 1] - link_offsets_[m]);
   }
-  [[nodiscard]] double length() const { return cavity_.is_mouth ? length_in_mouth : length_in_socket; }
   [[nodiscard]] double own_weight(std::uint32_t m, std::size_t column) const {
     return column == jaw_column_ ? jaw_share_[m] : 0.0;
   }
@@ -173,6 +181,7 @@ class Diffusion {
   std::vector<std::size_t> ids_;  ///< of the columns
   std::size_t jaw_column_ = std::numeric_limits<std::size_t>::max();
   std::vector<double> jaw_share_;     ///< of the members
+  std::vector<double> pull_;          ///< of the members, towards their own rows
   std::vector<double> rows_;          ///< members and rim, by columns
   std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
   std::vector<double> sums_;
