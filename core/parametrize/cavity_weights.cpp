@@ -18,6 +18,8 @@ struct Fade {
   double length;
 };
 constexpr Fade mouth_fade = {0.20, 0.22};
+/// The back of a lip is continuous with its front up to this depth.
+constexpr double lip = 0.10;
 constexpr Fade socket_fade = {0.05, 0.055};
 /// Sweeps end when no weight changes by more; a weight below it is dropped from the table anyway.
 constexpr double least_change = 1e-4;
@@ -45,6 +47,8 @@ class Diffusion {
     }
   }
 
+  /// The distance of a member from the rim along edges, in ES0.
+  [[nodiscard]] double depth(std::size_t member) const { return distance_[member]; }
   [[nodiscard]] WeightRow row(std::size_t member) const {
     WeightRow row{};
     for (std::size_t c = 0; c < ids_.size(); ++c) row[ids_[c]] = rows_[member * ids_.size() + c];
@@ -103,13 +107,13 @@ class Diffusion {
       jaw_share_.push_back(
           cavity_.is_mouth ? jaw_share_in_mouth((surface_.positions[v.value()] - cavity_.middle) / unit_) : 0.0);
     }
-    std::vector<double> distance(members, std::numeric_limits<double>::infinity());
+    distance_.assign(members, std::numeric_limits<double>::infinity());
     std::vector<std::uint32_t> from(members);
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     const auto lower = [&](std::uint32_t m, double to, std::uint32_t row) {
-      if (to >= distance[m]) return;
-      distance[m] = to;
+      if (to >= distance_[m]) return;
+      distance_[m] = to;
       from[m] = row;
       queue.emplace(to, m);
     };
@@ -121,7 +125,7 @@ class Diffusion {
     while (!queue.empty()) {
       const auto [to, m] = queue.top();
       queue.pop();
-      if (to > distance[m]) continue;
+      if (to > distance_[m]) continue;
       order_.push_back(m);
       for (const Link& link : links_of(m)) {
         if (link.row < members) lower(link.row, to + link.length, from[m]);
@@ -130,8 +134,8 @@ class Diffusion {
     const Fade& fade = cavity_.is_mouth ? mouth_fade : socket_fade;
     pull_.resize(members);
     for (const std::uint32_t m : order_) {
-      pull_[m] = smooth_step(0.0, fade.rim, distance[m]) / (4.0 * fade.length * fade.length);
-      const double rim_share = std::exp(-std::max(0.0, distance[m] - fade.rim / 2.0) / fade.length);
+      pull_[m] = smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length);
+      const double rim_share = std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length);
       for (std::size_t c = 0; c < ids_.size(); ++c) {
         rows_[m * ids_.size() + c] =
             rim_share * rows_[from[m] * ids_.size() + c] + (1.0 - rim_share) * own_weight(m, c);
@@ -180,6 +184,7 @@ class Diffusion {
   std::vector<std::uint32_t> link_offsets_;
   std::vector<std::size_t> ids_;  ///< of the columns
   std::size_t jaw_column_ = std::numeric_limits<std::size_t>::max();
+  std::vector<double> distance_;      ///< of the members from the rim
   std::vector<double> jaw_share_;     ///< of the members
   std::vector<double> pull_;          ///< of the members, towards their own rows
   std::vector<double> rows_;          ///< members and rim, by columns
@@ -194,7 +199,14 @@ std::vector<WeightRow> cavity_rows(const Surface& surface, const Cavity& cavity,
   Diffusion diffusion(surface, cavity, unit, row_of);
   diffusion.solve();
   std::vector<WeightRow> rows;
-  for (std::size_t m = 0; m < cavity.members.size(); ++m) rows.push_back(diffusion.row(m));
+  for (std::size_t m = 0; m < cavity.members.size(); ++m) {
+    WeightRow& row = rows.emplace_back(diffusion.row(m));
+    const double depth = diffusion.depth(m);
+    if (!cavity.is_mouth || depth >= lip) continue;
+    const double share = smooth_step(0.0, lip, depth);
+    const WeightRow in_front = row_of(cavity.members[m]);
+    for (std::size_t id = 0; id < row.size(); ++id) row[id] = share * row[id] + (1.0 - share) * in_front[id];
+  }
   return rows;
 }
 
