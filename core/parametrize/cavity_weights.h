@@ -1,18 +1,14 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "core/anatomy/cavities.h"
 #include "core/geometry/surface.h"
-#include "core/types/feature_point_id.h"
+#include "core/parametrize/weight_row.h"
 
 namespace semblante {
-
-/// Weights of all feature points at one vertex.
-using WeightRow = std::array<double, feature_point_count>;
 
 /// The shares of the points in the members of a cavity, in their order. The distance through the air says nothing
 /// there: what lies behind a lip is near to the skin in front of it, and does not follow it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <numeric>
 
@@ -121,7 +122,7 @@ std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, st
 }  // namespace
 
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
-                                        std::span<const MarginSite> margins) {
+                                        std::span<const MarginSite> margins, const WeightPrior& prior) {
   std::vector<KrigingSite> of_points = point_sites(distances);
   const double unit = unit_length(of_points, eye_separation);
   std::vector<KrigingSite> of_edges = edge_sites(surface, distances, margins);
@@ -144,6 +145,9 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points);
   std::vector<const Row*> in_cavity(distances.members.size(), nullptr);
   std::vector<std::vector<Row>> cavity_rows_of(cavities.size());
+  std::bitset<feature_point_count> present;
+  for (const SurfacePoint& point : distances.points) present.set(point.id.value());
+  std::vector<std::size_t> order;
   const auto smooth_row = [&](std::size_t m) {
     Row row = row_of_points(points, m);
     for (const SiteKriging::Term& term : edges.at(m)) {
@@ -152,6 +156,9 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
       for (std::size_t id = 0; id < row.size(); ++id) row[id] += term.weight * corrections[site][id];
     }
     cut(row);
+    keep_greatest(row, order);
+    prior.correct(row, present);
+    keep_greatest(row, order);
     return row;
   };
   for (std::size_t c = 0; c < cavities.size(); ++c) {
@@ -163,10 +170,14 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   }
 
   WeightTable<double> table;
-  std::vector<std::size_t> order;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
-    Row row = in_cavity[m] != nullptr ? *in_cavity[m] : smooth_row(m);
-    keep_greatest(row, order);
+    Row row;
+    if (in_cavity[m] != nullptr) {
+      row = *in_cavity[m];
+      keep_greatest(row, order);
+    } else {
+      row = smooth_row(m);
+    }
     for (std::size_t id = 0; id < row.size(); ++id) {
       if (row[id] >= least_weight) table.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);
     }

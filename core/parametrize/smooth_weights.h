@@ -5,6 +5,7 @@
 #include "core/anatomy/opening_margins.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_distances.h"
+#include "core/parametrize/weight_prior.h"
 #include "core/types/weight_table.h"
 
 namespace semblante {
@@ -18,8 +19,9 @@ inline constexpr std::size_t max_smooth_influences = 8;
 /// vertex share the one equally).
 ///
 /// `eye_separation`: ES0 in model units, the length that makes the weights independent of scale; not positive if
-/// unknown, then the spread of the points replaces it.
+/// unknown, then the spread of the points replaces it. `prior`: corrections learned from other heads.
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
-                                        std::span<const MarginSite> margins = {});
+                                        std::span<const MarginSite> margins = {},
+                                        const WeightPrior& prior = trained_weight_prior());
 
 }  // namespace semblante

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/cavities.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/place_feature_points.h"
@@ -67,12 +68,11 @@ std::vector<CotangentEdge> cotangent_edges(const ExpressionStudy& study) {
   return edges;
 }
 
-ExpressionStudy read_expression_study(const std::filesystem::path& folder) {
+ExpressionStudy study_of(Model model, const std::vector<MarkedPoint>& marked) {
   ExpressionStudy study;
-  study.model = oracle::import_head(folder / "neutral.obj");
+  study.model = std::move(model);
   study.surface = build_surface(study.model);
-  const auto points = place_feature_points(study.model, study.surface,
-                                           oracle::read_trusted_points(folder / "ict-facekit.fps.json"), nullptr);
+  const auto points = place_feature_points(study.model, study.surface, marked, nullptr);
   if (!points) throw std::runtime_error(points.error().message);
   study.eye_separation = 1024.0 * compute_fapu(*points)[FapuUnit::es].value();
   const PartId skin =
@@ -89,19 +89,44 @@ ExpressionStudy read_expression_study(const std::filesystem::path& folder) {
     if (of_members[0] != Model::no_index) study.triangles.push_back(of_members);
   }
   for (const SurfacePoint& p : study.distances.points) study.member_of_point.push_back(member_of[p.vertex.value()]);
+  study.hidden.assign(study.member_count(), false);
+  for (const Cavity& cavity : find_cavities(study.surface, skin, study.distances.points)) {
+    for (const SurfaceVertexId v : cavity.members) study.hidden[member_of[v.value()]] = true;
+  }
+  return study;
+}
 
+Expression expression_of(const ExpressionStudy& study, std::string name,
+                         const std::function<glm::dvec3(std::uint32_t file_vertex)>& displacement) {
+  Expression expression{std::move(name), {}};
+  for (const SurfaceVertexId vertex : study.distances.members) {
+    expression.displacement.push_back(displacement(study.surface.file_vertex_of[vertex.value()].value()));
+  }
+  return expression;
+}
+
+ExpressionStudy read_target_study(const std::filesystem::path& model, const std::filesystem::path& points) {
+  std::vector<MarkedPoint> marked = oracle::read_trusted_points(points);
+  for (MarkedPoint& point : marked) point.vertex.reset();
+  ExpressionStudy study = study_of(oracle::import_head(model), marked);
+  for (const Example& example : study.model.examples) {
+    study.expressions.push_back(
+        expression_of(study, example.name, [&](std::uint32_t v) { return glm::dvec3(example.at(v)); }));
+  }
+  return study;
+}
+
+ExpressionStudy read_expression_study(const std::filesystem::path& folder) {
+  ExpressionStudy study = study_of(oracle::import_head(folder / "neutral.obj"),
+                                   oracle::read_trusted_points(folder / "ict-facekit.fps.json"));
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "expressions")) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const auto& file : files) {
     const Model moved = oracle::read_trusted_obj(file);
-    Expression expression{file.stem().string(), {}};
-    for (const SurfaceVertexId vertex : study.distances.members) {
-      const VertexId v = study.surface.file_vertex_of[vertex.value()];
-      expression.displacement.push_back(glm::dvec3(moved.positions.at(v.value())) -
-                                        glm::dvec3(study.model.positions[v.value()]));
-    }
-    study.expressions.push_back(std::move(expression));
+    study.expressions.push_back(expression_of(study, file.stem().string(), [&](std::uint32_t v) {
+      return glm::dvec3(moved.positions.at(v)) - glm::dvec3(study.model.positions[v]);
+    }));
   }
   return study;
 }
@@ -115,6 +140,8 @@ Figures measure(const ExpressionStudy& study, const Shares& shares) {
     std::vector<glm::dvec3> error(study.member_count());
     double wrong = 0.0;
     double all = 0.0;
+    double visibly_wrong = 0.0;
+    double visible = 0.0;
     double largest = 0.0;
     for (std::size_t m = 0; m < error.size(); ++m) {
       glm::dvec3 predicted(0.0);
@@ -122,6 +149,10 @@ Figures measure(const ExpressionStudy& study, const Shares& shares) {
       error[m] = predicted - truth[m];
       wrong += glm::dot(error[m], error[m]);
       all += glm::dot(truth[m], truth[m]);
+      if (!study.hidden[m]) {
+        visibly_wrong += glm::dot(error[m], error[m]);
+        visible += glm::dot(truth[m], truth[m]);
+      }
       largest = std::max(largest, glm::length(truth[m]));
     }
     std::vector<glm::dvec3> laplacian(error.size());
@@ -132,6 +163,7 @@ Figures measure(const ExpressionStudy& study, const Shares& shares) {
     double rough = 0.0;
     for (const glm::dvec3& l : laplacian) rough += glm::length(l);
     figures.error += wrong / all / static_cast<double>(study.expressions.size());
+    figures.visible_error += visibly_wrong / visible / static_cast<double>(study.expressions.size());
     figures.roughness +=
         rough / static_cast<double>(error.size()) / largest / static_cast<double>(study.expressions.size());
   }

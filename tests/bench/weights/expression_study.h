@@ -10,6 +10,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_distances.h"
+#include "core/types/marked_point.h"
 
 namespace semblante::bench {
 
@@ -27,6 +28,7 @@ struct ExpressionStudy {
   double eye_separation = 0.0;
   std::vector<Triangle> triangles;  ///< of the skin, by member
   std::vector<std::uint32_t> member_of_point;
+  std::vector<bool> hidden;  ///< #M: inside the mouth or an eye's socket
   std::vector<Expression> expressions;
 
   [[nodiscard]] std::size_t member_count() const { return distances.members.size(); }
@@ -36,6 +38,14 @@ struct ExpressionStudy {
   }
 };
 
+/// A head without expressions.
+ExpressionStudy study_of(Model model, const std::vector<MarkedPoint>& points);
+/// An expression from the displacement of each file vertex.
+Expression expression_of(const ExpressionStudy& study, std::string name,
+                         const std::function<glm::dvec3(std::uint32_t file_vertex)>& displacement);
+
+/// A head with morph targets, which are its expressions, and the positions of its points; throws.
+ExpressionStudy read_target_study(const std::filesystem::path& model, const std::filesystem::path& points);
 /// Reads `folder`/{neutral.obj, ict-facekit.fps.json, expressions/*.obj}; throws where they cannot be read.
 ExpressionStudy read_expression_study(const std::filesystem::path& folder);
 
@@ -53,6 +63,7 @@ using Shares = std::vector<double>;
 struct Figures {
   /// sum |predicted - true|^2 / sum |true|^2, mean of the expressions.
   double error = 0.0;
+  double visible_error = 0.0;  ///< the same of vertices outside the mouth and the eyes' sockets
   /// Mean over the vertices of |cotangent Laplacian of the error| / largest displacement, mean of the expressions. The
   /// Laplacian is sum (cot a + cot b) / 2 (e_j - e_i), not divided by areas.
   double roughness = 0.0;

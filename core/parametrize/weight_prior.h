@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/parametrize/weight_row.h"
+
+namespace semblante {
+
+/// What faces with known shapes teach about the weights of others.
+///
+/// The smooth weights of a vertex say where it lies between the points, whatever the size, the proportions and the mesh
+/// of the head. The prior is a table over these coordinates: where points i and j share a vertex, the weight of point k
+/// is off by c_ijk, so
+///
+///     w_k = g_k + sum over pairs of g_i g_j c_ijk,   cut at zero, and scaled to a sum of one if it is more
+///
+/// with the share of the root (1 - sum g) as one more i or j. So the correction is as smooth as the weights themselves,
+/// is zero at the points, and fades out where a head has no such points. Pairs on the edge of one lip or lid have none:
+/// the edges stay as opening_margins.h makes them.
+class WeightPrior {
+ public:
+  /// c_ijk of one table row and of its mirror image.
+  struct Entry {
+    std::uint8_t i, j;  ///< ids of feature points, or `root`
+    std::uint8_t k;     ///< id of a feature point
+    std::int16_t hundredths;
+  };
+  static constexpr std::size_t root = feature_point_count;
+
+  /// No corrections.
+  WeightPrior() = default;
+  explicit WeightPrior(std::span<const Entry> entries);
+
+  /// Corrects a row of weights with a sum of at most one. Only `present` points get weight.
+  void correct(WeightRow& row, const std::bitset<feature_point_count>& present) const;
+
+  /// Whether the table may correct this pair; false for pairs on the edge of one lip or lid.
+  static bool allows(std::size_t i, std::size_t j);
+  /// The point on the other side, or the same; root for root.
+  static std::size_t mirrored(std::size_t id);
+
+ private:
+  struct Correction {
+    std::uint8_t point;
+    double factor;
+  };
+  [[nodiscard]] static std::size_t cell(std::size_t i, std::size_t j) { return i * (feature_point_count + 1) + j; }
+
+  std::vector<std::uint32_t> offsets_;  ///< by cell (i < j), one more; empty: no corrections
+  std::vector<Correction> corrections_;
+};
+
+/// The table of weight_prior_table.inc, trained by tests/bench/prior on the heads its README names.
+const WeightPrior& trained_weight_prior();
+
+}  // namespace semblante

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/parametrize/weight_prior.h"
+#include "tests/bench/prior/training_head.h"
+
+namespace semblante::bench {
+
+/// The table that makes the smooth weights of these heads closest to their expressions: least squares of the skin
+/// outside mouth and sockets, with weights cut at zero and sums at one as WeightPrior does it, a ridge on the table and
+/// one on the roughness of what it adds. Each row stands for its mirror image as well.
+std::vector<WeightPrior::Entry> train_prior(std::span<const TrainingHead> heads);
+
+/// Smooth weights of a head's skin as shares.
+Shares smooth_shares(const ExpressionStudy& study, const WeightPrior& prior);
+
+}  // namespace semblante::bench
