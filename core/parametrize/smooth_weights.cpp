@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <numeric>
 
@@ -145,8 +144,9 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points);
   std::vector<const Row*> in_cavity(distances.members.size(), nullptr);
   std::vector<std::vector<Row>> cavity_rows_of(cavities.size());
-  std::bitset<feature_point_count> present;
-  for (const SurfacePoint& point : distances.points) present.set(point.id.value());
+  WeightPrior::Places places;
+  places.fill(WeightPrior::nowhere);
+  for (const SurfacePoint& point : distances.points) places[point.id.value()] = point.vertex.value();
   std::vector<std::size_t> order;
   const auto smooth_row = [&](std::size_t m) {
     Row row = row_of_points(points, m);
@@ -157,7 +157,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     }
     cut(row);
     keep_greatest(row, order);
-    prior.correct(row, present);
+    prior.correct(row, places);
     keep_greatest(row, order);
     return row;
   };

@@ -55,7 +55,7 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
 }
 
-void WeightPrior::correct(WeightRow& row, const std::bitset<feature_point_count>& present) const {
+void WeightPrior::correct(WeightRow& row, const Places& places) const {
   if (offsets_.empty()) return;
   std::array<std::uint8_t, feature_point_count + 1> ids{};
   std::array<double, feature_point_count + 1> shares{};
@@ -74,11 +74,12 @@ void WeightPrior::correct(WeightRow& row, const std::bitset<feature_point_count>
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
+      if (ids[b] != root && places[ids[a]] == places[ids[b]]) continue;
       const double both = shares[a] * shares[b];
       const std::size_t at = cell(ids[a], ids[b]);
       for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
         const Correction& correction = corrections_[c];
-        if (present[correction.point]) row[correction.point] += both * correction.factor;
+        if (places[correction.point] != nowhere) row[correction.point] += both * correction.factor;
       }
     }
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,8 +34,13 @@ class WeightPrior {
   WeightPrior() = default;
   explicit WeightPrior(std::span<const Entry> entries);
 
-  /// Corrects a row of weights with a sum of at most one. Only `present` points get weight.
-  void correct(WeightRow& row, const std::bitset<feature_point_count>& present) const;
+  /// The surface vertex of each point of a part; `nowhere` for points it does not have.
+  using Places = std::array<std::uint32_t, feature_point_count>;
+  static constexpr std::uint32_t nowhere = 0xFFFFFFFFU;
+
+  /// Corrects a row of weights with a sum of at most one. Only points with a place get weight. Pairs of points at one
+  /// place have no correction: their vertex follows both equally.
+  void correct(WeightRow& row, const Places& places) const;
 
   /// Whether the table may correct this pair; false for pairs on the edge of one lip or lid.
   static bool allows(std::size_t i, std::size_t j);

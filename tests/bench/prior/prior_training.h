@@ -13,7 +13,4 @@ namespace semblante::bench {
 /// one on the roughness of what it adds. Each row stands for its mirror image as well.
 std::vector<WeightPrior::Entry> train_prior(std::span<const TrainingHead> heads);
 
-/// Smooth weights of a head's skin as shares.
-Shares smooth_shares(const ExpressionStudy& study, const WeightPrior& prior);
-
 }  // namespace semblante::bench

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tests/bench/prior/prior_training.h"
+#include "tests/bench/weights/smooth_shares.h"
 #include "tests/oracle/real_heads.h"
 
 namespace semblante::bench {

@@ -90,7 +90,23 @@ TEST(SmoothWeights_Rows, AreSharedByPointsAtOneVertex) {
       smooth(testing::make_grid(side, side), {{"2.1", at(20, 20)}, {"2.10", at(20, 20)}, {"2.2", at(26, 20)}}, 25.0);
   EXPECT_EQ(weight_of(table, at(20, 20), "2.1"), 0.5);
   EXPECT_EQ(weight_of(table, at(20, 20), "2.10"), 0.5);
-  EXPECT_EQ(weight_of(table, at(22, 20), "2.1"), weight_of(table, at(22, 20), "2.10"));
+  // Beside the vertex the prior tells the two apart, by little.
+  EXPECT_NEAR(weight_of(table, at(22, 20), "2.1"), weight_of(table, at(22, 20), "2.10"), 0.02);
+}
+
+// What lies behind a lip follows the lip less the deeper it lies, and the jaw on the lower side.
+TEST(SmoothWeights_Rows, PassToJawAndSkullBehindALip) {
+  const auto table = smooth(testing::make_grid(side, side),
+                            {{"2.4", at(30, 20)},
+                             {"2.5", at(10, 20)},
+                             {"2.6", at(28, 28)},
+                             {"2.7", at(12, 28)},
+                             {"2.8", at(28, 12)},
+                             {"2.9", at(12, 12)},
+                             {"2.1", at(20, 3)}},
+                            20.0);
+  EXPECT_GT(weight_of(table, at(20, 15), "2.1"), weight_of(table, at(20, 25), "2.1") + 0.1);
+  EXPECT_LT(sum_of(table, at(20, 24)), sum_of(table, at(20, 28)) - 0.1);
 }
 
 // On a mesh four times finer, steps between neighbours shrink: a jump would not.

@@ -1,0 +1,88 @@
+#include "core/parametrize/weight_prior.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+std::uint8_t id(std::string_view name) { return testing::fp(name).value(); }
+
+WeightPrior::Places all_apart() {
+  WeightPrior::Places places{};
+  std::iota(places.begin(), places.end(), 0U);
+  return places;
+}
+
+WeightRow row_of(std::initializer_list<std::pair<const char*, double>> weights) {
+  WeightRow row{};
+  for (const auto& [name, weight] : weights) row[id(name)] = weight;
+  return row;
+}
+
+WeightRow corrected(const WeightPrior& prior, WeightRow row, const WeightPrior::Places& places = all_apart()) {
+  prior.correct(row, places);
+  return row;
+}
+
+double sum_of(const WeightRow& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
+
+TEST(WeightPrior, WithoutATableChangesNothing) {
+  const WeightRow row = row_of({{"4.1", 0.5}, {"4.3", 0.3}});
+  EXPECT_EQ(corrected({}, row), row);
+}
+
+TEST(WeightPrior, AddsTheProductOfThePairTimesItsEntryOnBothSides) {
+  const WeightPrior::Entry table[] = {{id("4.1"), id("4.3"), id("3.1"), 50}};
+  const WeightPrior prior{table};
+  EXPECT_DOUBLE_EQ(corrected(prior, row_of({{"4.1", 0.5}, {"4.3", 0.4}}))[id("3.1")], 0.1);
+  EXPECT_DOUBLE_EQ(corrected(prior, row_of({{"4.2", 0.5}, {"4.4", 0.4}}))[id("3.2")], 0.1);
+  EXPECT_EQ(corrected(prior, row_of({{"4.1", 0.5}, {"4.4", 0.4}}))[id("3.1")], 0.0);
+}
+
+TEST(WeightPrior, UsesTheShareOfTheRoot) {
+  const WeightPrior::Entry table[] = {{id("4.1"), WeightPrior::root, id("4.1"), -100}};
+  const WeightRow row = corrected(WeightPrior{table}, row_of({{"4.1", 0.75}}));
+  EXPECT_DOUBLE_EQ(row[id("4.1")], 0.75 - 0.75 * 0.25);
+  EXPECT_EQ(corrected(WeightPrior{table}, row_of({{"4.1", 1.0}}))[id("4.1")], 1.0);
+}
+
+TEST(WeightPrior, KeepsWeightsPositiveAndSumsAtMostOne) {
+  const WeightPrior::Entry table[] = {{id("4.1"), id("4.3"), id("4.1"), -900}, {id("4.1"), id("4.3"), id("4.5"), 900}};
+  const WeightRow row = corrected(WeightPrior{table}, row_of({{"4.1", 0.5}, {"4.3", 0.5}}));
+  EXPECT_EQ(row[id("4.1")], 0.0);
+  for (const double w : row) EXPECT_GE(w, 0.0);
+  EXPECT_NEAR(sum_of(row), 1.0, 1e-12);
+}
+
+TEST(WeightPrior, GivesNoWeightToPointsThatAreNotThereAndNoneToPairsAtOnePlace) {
+  const WeightPrior::Entry table[] = {{id("4.1"), id("4.3"), id("3.1"), 50}};
+  const WeightRow row = row_of({{"4.1", 0.5}, {"4.3", 0.4}});
+  WeightPrior::Places absent = all_apart();
+  absent[id("3.1")] = WeightPrior::nowhere;
+  EXPECT_EQ(corrected(WeightPrior{table}, row, absent), row);
+  WeightPrior::Places together = all_apart();
+  together[id("4.3")] = together[id("4.1")];
+  EXPECT_EQ(corrected(WeightPrior{table}, row, together), row);
+}
+
+TEST(WeightPrior, LeavesTheEdgesOfLipsAndLidsAlone) {
+  EXPECT_FALSE(WeightPrior::allows(id("2.2"), id("2.4")));
+  EXPECT_FALSE(WeightPrior::allows(id("3.1"), id("3.7")));
+  EXPECT_TRUE(WeightPrior::allows(id("2.2"), id("8.1")));
+  EXPECT_TRUE(WeightPrior::allows(id("3.1"), id("2.4")));
+  for (const auto& edge : {row_of({{"2.2", 0.6}, {"2.6", 0.4}}), row_of({{"3.1", 0.3}, {"3.7", 0.7}})}) {
+    EXPECT_EQ(corrected(trained_weight_prior(), edge), edge);
+  }
+}
+
+TEST(WeightPrior, IsTrained) {
+  const WeightRow brow = row_of({{"4.1", 0.5}, {"4.2", 0.5}});
+  EXPECT_NE(corrected(trained_weight_prior(), brow), brow);
+}
+
+}  // namespace
+}  // namespace semblante
