@@ -7,6 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
 #include "core/geometry/nearest_point.h"
@@ -26,12 +29,24 @@ std::vector<glm::dvec3> teeth_of_row(const Surface& surface, std::span<const Par
   return positions;
 }
 
+struct Box {
+  glm::dvec3 low{infinite}, high{-infinite};
+
+  void add(const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  [[nodiscard]] bool is_within(const glm::dvec3& p, double distance) const {
+    return glm::all(glm::greaterThan(p, low - distance)) && glm::all(glm::lessThan(p, high + distance));
+  }
+};
+
 /// The vertices of a part that hold a row of teeth; empty if the row is not in this part.
 std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, const std::vector<glm::dvec3>& teeth) {
   const std::span<const SurfaceVertexId> members = surface.members_of(part);
   if (teeth.empty()) return {};
-  std::vector<glm::dvec3> positions;
-  for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
+  Box box;
+  for (const SurfaceVertexId v : members) box.add(surface.positions[v.value()]);
 
   double low = infinite;
   double high = -infinite;
@@ -41,14 +56,22 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   }
   // About two millimetres: a row of teeth is about 60 mm wide.
   const double touch = 0.04 * (high - low);
+  // Most teeth are far from most parts: only those at the part's box are searched for.
+  std::vector<glm::dvec3> near;
+  for (const glm::dvec3& t : teeth) {
+    if (box.is_within(t, touch)) near.push_back(t);
+  }
+  if (near.size() * 10 < teeth.size()) return {};
+  std::vector<glm::dvec3> positions;
+  for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
-  for (const glm::dvec3& t : teeth) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
+  for (const glm::dvec3& t : near) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
   // Gums touch many vertices of the teeth (a quarter of them on the head used for tests); a tongue at rest touches them
   // only with its tip (one in fifty).
   if (touching * 10 < teeth.size()) return {};
 
-  const NearestPoint near_teeth(teeth);
+  const NearestPoint near_teeth(near);
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t m = 0; m < members.size(); ++m) {
     // Half the distance, because the borders of the tongue are close to the teeth too.
