@@ -21,8 +21,8 @@ constexpr Fade mouth_fade = {0.20, 0.22};
 /// The back of a lip is continuous with its front up to this depth.
 constexpr double lip = 0.10;
 constexpr Fade socket_fade = {0.05, 0.055};
-/// Sweeps end when no weight changes by more; a weight below it is dropped from the table anyway.
-constexpr double least_change = 1e-4;
+/// Sweeps end when no weight changes by more; the start is close to the solution.
+constexpr double least_change = 1e-3;
 constexpr int most_sweeps = 100;
 
 /// The unknown rows and the equations between them.

@@ -49,6 +49,8 @@ double unit_length(std::span<const KrigingSite> sites, double eye_separation) {
 /// weight is zero when it is dropped. If that would leave almost nothing (many points equally far) no choice is
 /// continuous: then the greatest are kept unchanged, among equal ones those of lower ids.
 void keep_greatest(Row& weights, std::vector<std::size_t>& order) {
+  const auto positive = std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
+  if (static_cast<std::size_t>(positive) <= max_smooth_influences) return;
   order.resize(weights.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::partial_sort(

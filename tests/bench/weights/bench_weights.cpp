@@ -14,6 +14,7 @@
 #include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/candidate_weights.h"
 #include "tests/bench/weights/expression_study.h"
+#include "tests/bench/weights/smooth_shares.h"
 
 namespace semblante::bench {
 namespace {
@@ -36,9 +37,14 @@ Shares to_shares(const ExpressionStudy& study, const WeightTable<double>& table,
 
 void print(const char* name, const ExpressionStudy& study, const Shares& shares) {
   const Figures f = measure(study, shares);
-  std::printf("%-22s %6.3f %9.4f %6.1f %5zu %9.3f %9.3f %9.3f\n", name, f.error, f.roughness, f.mean_influences,
-              f.max_influences, f.lip_leak, f.lid_leak, f.least);
+  std::printf("%-22s %6.3f %8.3f %9.4f %6.1f %5zu %9.3f %9.3f %9.3f\n", name, f.error, f.visible_error, f.roughness,
+              f.mean_influences, f.max_influences, f.lip_leak, f.lid_leak, f.least);
   std::fflush(stdout);
+}
+
+void print_columns() {
+  std::printf("%-22s %6s %8s %9s %6s %5s %9s %9s %9s\n", "weights", "E", "visible", "rough", "infl", "max", "lip leak",
+              "lid leak", "least");
 }
 
 template <class Work>
@@ -119,13 +125,13 @@ void run(const std::filesystem::path& folder) {
   const ExpressionStudy study = read_expression_study(folder);
   std::printf("%s: skin of %zu vertices, %zu points, %zu expressions\n\n", folder.filename().c_str(),
               study.member_count(), study.point_count(), study.expressions.size());
-  std::printf("%-22s %6s %9s %6s %5s %9s %9s %9s\n", "weights", "E", "rough", "infl", "max", "lip leak", "lid leak",
-              "least");
+  print_columns();
   const auto regions = influence_regions(study.surface, study.distances);
   print("paper", study, to_shares(study, part_weights(study.surface, study.distances, regions), true));
   const auto margins = margin_sites(study.surface, study.distances.points);
   const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation, margins);
   print("smooth", study, to_shares(study, smooth, false));
+  print("smooth, no prior", study, smooth_shares(study, {}));
   const Surface unfolded = with_unfolded_diagonals(study.surface, study.model.triangles);
   const PartId part = study.surface.part_of[study.distances.members[0].value()];
   const PointDistances nearer = measure_distances(unfolded, part, study.distances.points);
@@ -138,6 +144,17 @@ void run(const std::filesystem::path& folder) {
   for (const double length : {0.3, 0.5, 0.7}) {
     print(("kriging, " + std::to_string(length).substr(0, 3) + " ES0").c_str(), study, kriging_shares(study, length));
   }
+  const ExpressionStudy other = read_target_study(folder.parent_path() / "makehuman/head.glb",
+                                                  folder.parent_path() / "makehuman/makehuman.fps.json");
+  std::printf("\nmakehuman: skin of %zu vertices, %zu points, %zu expressions\n\n", other.member_count(),
+              other.point_count(), other.expressions.size());
+  print_columns();
+  print(
+      "paper", other,
+      to_shares(other, part_weights(other.surface, other.distances, influence_regions(other.surface, other.distances)),
+                true));
+  print("smooth", other, smooth_shares(other, trained_weight_prior()));
+  print("smooth, no prior", other, smooth_shares(other, {}));
   std::printf("\nseconds for all points, and whole parametrizations as multiples of the baseline's distances\n");
   std::printf("%-14s %8s %8s %9s %9s %7s %7s\n", "mesh", "vertices", "points", "baseline", "distances", "paper",
               "smooth");
