@@ -72,6 +72,7 @@ void WeightPrior::correct(WeightRow& row, const Places& places) const {
     shares[count] = 1.0 - sum;
     ids[count++] = root;
   }
+  WeightRow change{};
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (ids[b] != root && places[ids[a]] == places[ids[b]]) continue;
@@ -79,13 +80,18 @@ void WeightPrior::correct(WeightRow& row, const Places& places) const {
       const std::size_t at = cell(ids[a], ids[b]);
       for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
         const Correction& correction = corrections_[c];
-        if (places[correction.point] != nowhere) row[correction.point] += both * correction.factor;
+        if (places[correction.point] != nowhere) change[correction.point] += both * correction.factor;
       }
     }
   }
   double corrected = 0.0;
-  for (double& w : row) {
-    w = std::max(0.0, w);
+  for (std::size_t id = 0; id < row.size(); ++id) {
+    double& w = row[id];
+    if (change[id] >= 0.0) {
+      w += change[id];
+    } else if (w > 0.0) {
+      w *= w / (w - change[id]);
+    }
     corrected += w;
   }
   if (corrected <= 1.0) return;

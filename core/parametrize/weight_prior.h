@@ -15,8 +15,11 @@ namespace semblante {
 /// of the head. The prior is a table over these coordinates: where points i and j share a vertex, the weight of point k
 /// is off by c_ijk, so
 ///
-///     w_k = g_k + sum over pairs of g_i g_j c_ijk,   cut at zero, and scaled to a sum of one if it is more
+///     d_k = sum over pairs of g_i g_j c_ijk
+///     w_k = g_k + d_k                 where d_k is positive
+///     w_k = g_k^2 / (g_k - d_k)       where it is negative: the same slope at zero, and never below zero
 ///
+/// scaled to a sum of one if it is more,
 /// with the share of the root (1 - sum g) as one more i or j. So the correction is as smooth as the weights themselves,
 /// is zero at the points, and fades out where a head has no such points. Pairs on the edge of one lip or lid have none:
 /// the edges stay as opening_margins.h makes them.

@@ -13,7 +13,7 @@ namespace semblante::bench {
 namespace {
 
 constexpr double table_ridge = 3e-5;
-constexpr double roughness_ridge = 1.0;
+constexpr double roughness_ridge = 3.0;
 /// Against sums over one, which WeightPrior scales down.
 constexpr double sum_penalty = 1e-3;
 constexpr int iterations = 100;
@@ -211,15 +211,16 @@ class Fit {
     Matrix steep = static_cast<float>(2.0 * table_ridge) * table;
     for (const Lesson& lesson : lessons_) {
       const Matrix added = lesson.products * table;
-      const Matrix raw = lesson.rows + added;
-      const Matrix weights = raw.cwiseMax(0.0F);
+      // As WeightPrior: added where it is positive, with a slope that falls from one to zero where it is negative.
+      const Matrix rest = (added.array() < 0.0F).select(lesson.rows.array() / (lesson.rows - added).array(), 1.0F);
+      const Matrix weights = lesson.rows.cwiseProduct(rest) + added.cwiseMax(0.0F);
       const Eigen::VectorXf over = (weights.rowwise().sum().array() - 1.0F).max(0.0F).matrix();
       const Matrix weighted = weights * lesson.gram;
       value += lesson.weight * (weights.cwiseProduct(weighted - 2.0F * lesson.wanted).cast<double>().sum() +
                                 sum_penalty * over.cast<double>().squaredNorm());
       Matrix back = 2.0F * (weighted - lesson.wanted);
       back.colwise() += static_cast<float>(2.0 * sum_penalty) * over;
-      back = (raw.array() > 0.0F).select(back, 0.0F);
+      back = back.cwiseProduct(rest.cwiseProduct(rest));
       const Matrix rough = lesson.laplacian * added;
       const Matrix rough_weighted = rough * lesson.gram;
       value += lesson.weight * roughness_ridge * rough.cwiseProduct(rough_weighted).cast<double>().sum();

@@ -9,7 +9,7 @@
 namespace semblante::bench {
 
 /// The table that makes the smooth weights of these heads closest to their expressions: least squares of the skin
-/// outside mouth and sockets, with weights cut at zero and sums at one as WeightPrior does it, a ridge on the table and
+/// outside mouth and sockets, as WeightPrior computes it, with a ridge on the table and
 /// one on the roughness of what it adds. Each row stands for its mirror image as well.
 std::vector<WeightPrior::Entry> train_prior(std::span<const TrainingHead> heads);
 
