@@ -76,7 +76,7 @@ void WeightPrior::correct(WeightRow& row, const Places& places) const {
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (ids[b] != root && places[ids[a]] == places[ids[b]]) continue;
-      const double both = shares[a] * shares[b];
+      const double both = shares[a] * shares[b] * (ids[b] == root ? sum : 1.0);
       const std::size_t at = cell(ids[a], ids[b]);
       for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
         const Correction& correction = corrections_[c];

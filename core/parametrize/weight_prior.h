@@ -19,8 +19,8 @@ namespace semblante {
 ///     w_k = g_k + d_k                 where d_k is positive
 ///     w_k = g_k^2 / (g_k - d_k)       where it is negative: the same slope at zero, and never below zero
 ///
-/// scaled to a sum of one if it is more,
-/// with the share of the root (1 - sum g) as one more i or j. So the correction is as smooth as the weights themselves,
+/// scaled to a sum of one if it is more. The share of the root, 1 - sum g, is one more i or j, times sum g, so that a
+/// correction ends more gently than the weights do. So the correction is as smooth as the weights themselves,
 /// is zero at the points, and fades out where a head has no such points. Pairs on the edge of one lip or lid have none:
 /// the edges stay as opening_margins.h makes them.
 class WeightPrior {

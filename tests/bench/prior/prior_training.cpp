@@ -16,7 +16,7 @@ constexpr double table_ridge = 3e-5;
 constexpr double roughness_ridge = 3.0;
 /// Against sums over one, which WeightPrior scales down.
 constexpr double sum_penalty = 1e-3;
-constexpr int iterations = 100;
+constexpr int iterations = 80;
 /// Pairs of points that share less than this of the mean vertex say nothing; points that share less with either are no
 /// targets.
 constexpr double least_pair = 1e-4;
@@ -120,6 +120,8 @@ class Fit {
         lesson.products.col(static_cast<Eigen::Index>(p)) =
             all.col(static_cast<Eigen::Index>(pairs_[p].i))
                 .cwiseProduct(all.col(static_cast<Eigen::Index>(pairs_[p].j)));
+        if (pairs_[p].j != WeightPrior::root) continue;
+        lesson.products.col(static_cast<Eigen::Index>(p)).array() *= 1.0F - all.col(point_count).array();
       }
     }
   }

@@ -46,7 +46,7 @@ TEST(WeightPrior, AddsTheProductOfThePairTimesItsEntryOnBothSides) {
 TEST(WeightPrior, UsesTheShareOfTheRoot) {
   const WeightPrior::Entry table[] = {{id("4.1"), WeightPrior::root, id("4.1"), -100}};
   const WeightRow row = corrected(WeightPrior{table}, row_of({{"4.1", 0.75}}));
-  EXPECT_DOUBLE_EQ(row[id("4.1")], 0.75 * 0.75 / (0.75 + 0.75 * 0.25));
+  EXPECT_DOUBLE_EQ(row[id("4.1")], 0.75 * 0.75 / (0.75 + 0.75 * 0.25 * 0.75));
   EXPECT_EQ(corrected(WeightPrior{table}, row_of({{"4.1", 1.0}}))[id("4.1")], 1.0);
 }
 
