@@ -87,6 +87,7 @@ void fill_rig(semblante_head& head, const RigDocument& document, const semblante
   head.kernel = semblante::to_kernel_rig(document);
   head.rig = head.kernel.view();
   if (options != nullptr && options->viseme_share > 0.0F) head.rig.viseme_share = options->viseme_share;
+  if (options != nullptr && options->jaw_takes_lip != 0) head.rig.lip_share = 1.0F;
 }
 
 void fill_face(semblante_head& head) {
@@ -100,6 +101,7 @@ void fill_face(semblante_head& head) {
   head.face.row_points = head.points.data();
   head.face.row_weights = head.table.rows.weights.data();
   head.face.rigid = head.table.rigid.data();
+  head.face.turn = head.table.turn.empty() ? nullptr : head.table.turn.data();
   // Cannot be 0: decode_weights refuses rows whose points are not rising.
   head.prepared_memory.reset(::operator new (semblante_prepared_size(&head.face), std::align_val_t{64}));
   head.prepared = semblante_prepare(&head.face, head.prepared_memory.get());

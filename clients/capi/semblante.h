@@ -73,9 +73,11 @@ typedef struct semblante_package {
 } semblante_package;
 
 typedef struct semblante_head_options {
-  float viseme_share; /* share of the viseme at an FP that an expression also moves (Eq. 5); 0: that of rig.json; a
-                         share of 0 is set by semblante_head_set_viseme_share */
-  uint32_t reserved[7];
+  float viseme_share;     /* share of the viseme at an FP that an expression also moves (Eq. 5); 0: that of rig.json; a
+                             share of 0 is set by semblante_head_set_viseme_share */
+  uint32_t jaw_takes_lip; /* 1: FAP 3 alone takes the lower lip along, as on a human face; 0: not, as in the standard.
+                             FAPs of the lip itself win in both cases. */
+  uint32_t reserved[6];
 } semblante_head_options;
 
 /* One parametrized head and its current pose. */

@@ -1,19 +1,33 @@
 import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
 import { fapCount, featurePointCount } from '../../protocol/ts/generated/mpeg4.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
-import { featurePointIndex, rigFapus, type DisplacementSet, type RigDocument } from '../../protocol/ts/rig_document.ts';
+import {
+  ballPlaces,
+  featurePointIndex,
+  rigFapus,
+  type DisplacementSet,
+  type RigDocument,
+  type RigLids,
+} from '../../protocol/ts/rig_document.ts';
 import type { Face } from './face.ts';
 import { FaceError } from './face_error.ts';
 
 // Layout of the structures of core/kernel/semblante_kernel.h with 4-byte pointers.
 const frameBytes = 8 + (fapCount + 1) * 4;
-const rigBytes = 160;
+const rigFloatsAt = 8;
+const rigFloats = (160 - rigFloatsAt) / 4; // up to the pointer of companions
+const companionsAt = 160;
+const lipShareAt = 168;
+const lidsAt = 172;
+const lidFloats = 3 + 4 + ballPlaces;
+const rigBytes = lidsAt + 2 * lidFloats * 4;
 const visemeShareAt = 64;
-const faceBytes = 24;
+const companionBytes = 8;
+const faceBytes = 28;
 const trianglesBytes = 16;
 const irisFloats = 6;
 const tongueFloats = 11;
-const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats;
+const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats + 4 + 2 * lidFloats;
 
 interface KernelExports {
   memory: WebAssembly.Memory;
@@ -58,7 +72,25 @@ export interface Pose {
   readonly irises: Float32Array;
   /** origin, left, up, half width (0: no tongue), limit of the roll */
   readonly tongue: Float32Array;
+  /** left, right; upper, lower: share of the slit that the lid has closed */
+  readonly lidClosures: Float32Array;
+  /** left, right; `lidFields` floats each */
+  readonly lids: Float32Array;
 }
+
+/** The points of the lids of the left eye; those of the right eye are the next. */
+export const lidPoints = { upper: featurePointIndex('3.1')!, lower: featurePointIndex('3.3')! } as const;
+export { ballPlaces };
+
+/** Members of one eye in `Pose.lids`, as indices of floats. */
+export const lidFields = {
+  gaze: 0,
+  slit: 3,
+  /** 0: the lids do not slide */
+  opening: 4,
+  ball: 7,
+  count: lidFloats,
+} as const;
 
 /** Compiles the kernel, for any number of faces. `source`: the bytes or the response of a fetch. */
 export async function compileKernel(source: BufferSource | Response | Promise<Response>): Promise<WebAssembly.Module> {
@@ -85,6 +117,7 @@ export class Kernel {
   private readonly bytes: Uint8Array;
   private readonly share: Float32Array;
   private readonly shareOfRig: number;
+  private readonly lipShare: Float32Array;
   private readonly at: {
     frame: number;
     spans: number;
@@ -133,6 +166,8 @@ export class Kernel {
     const faceAt = place(faceBytes);
     const visemes = place(rig.visemes.length * featurePointCount * 12);
     const expressions = place(rig.expressions.length * featurePointCount * 12);
+    const followers = [...rig.companions, ...rig.lower_lip];
+    const companions = place(followers.length * companionBytes);
     const poses = Array.from({ length: options.poseCount ?? 3 }, () => place(poseFloats * 4));
     const shown = place(poseFloats * 4);
     const rest = place(vertices * 12);
@@ -141,6 +176,7 @@ export class Kernel {
     const rowPoints = place(entries);
     const rowWeights = place(entries * 4);
     const rigid = place(vertices);
+    const turn = place(vertices);
     const trianglesAt = place(trianglesBytes);
     const cornersAt = place(corners * 4);
     const joined = place(turned * 4);
@@ -154,7 +190,17 @@ export class Kernel {
     floats(visemes, rig.visemes.length * featurePointCount * 3).set(flatten(rig.visemes));
     floats(expressions, rig.expressions.length * featurePointCount * 3).set(flatten(rig.expressions));
     new Uint32Array(memory, base + rigAt, 2).set([base + visemes, base + expressions]);
-    floats(rigAt + 8, (rigBytes - 8) / 4).set(rigNumbers(rig));
+    floats(rigAt + rigFloatsAt, rigFloats).set(rigNumbers(rig));
+    const companionView = new DataView(memory, base + companions, followers.length * companionBytes);
+    followers.forEach(({ point, leader, share }, i) => {
+      const isChoice = i >= rig.companions.length;
+      companionView.setUint8(i * companionBytes, featurePointIndex(point)!);
+      companionView.setUint8(i * companionBytes + 1, featurePointIndex(leader)!);
+      companionView.setUint8(i * companionBytes + 2, isChoice ? 1 : 0);
+      companionView.setFloat32(i * companionBytes + 4, share, true);
+    });
+    new Uint32Array(memory, base + rigAt + companionsAt, 2).set([base + companions, followers.length]);
+    floats(rigAt + lidsAt, 2 * lidFloats).set(rig.lids.flatMap(lidNumbers));
     if (vertices > 0) {
       floats(rest, vertices * 3).set(mesh.positions);
       floats(positions, vertices * 3).set(mesh.positions);
@@ -162,13 +208,15 @@ export class Kernel {
       new Uint8Array(memory, base + rowPoints, entries).set(influence.rowPoints);
       floats(rowWeights, entries).set(influence.rowWeights);
       new Uint8Array(memory, base + rigid, vertices).set(influence.rigid);
-      new Uint32Array(memory, base + faceAt, 6).set([
+      new Uint8Array(memory, base + turn, vertices).set(influence.turn);
+      new Uint32Array(memory, base + faceAt, 7).set([
         vertices,
         base + rest,
         base + rowOffsets,
         base + rowPoints,
         base + rowWeights,
         base + rigid,
+        base + turn,
       ]);
     }
     if (turned > 0) {
@@ -203,6 +251,7 @@ export class Kernel {
     this.bytes = new Uint8Array(memory);
     this.share = floats(rigAt + visemeShareAt, 1);
     this.shareOfRig = rig.viseme_share;
+    this.lipShare = floats(rigAt + lipShareAt, 1);
     this.positions = floats(positions, vertices * 3);
     this.normals = floats(normals, turned * 3);
     this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
@@ -216,6 +265,14 @@ export class Kernel {
   setVisemeShare(share: number | null): void {
     if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share must be between 0 and 1');
     this.share[0] = share ?? this.shareOfRig;
+  }
+
+  /**
+   * Whether FAP 3 alone takes the lower lip along, for later calls of `evaluate`. By the standard it does not (false,
+   * the default): streams move the lip by FAPs of its own, and these always win.
+   */
+  setJawTakesLip(takes: boolean): void {
+    this.lipShare[0] = takes ? 1 : 0;
   }
 
   /**
@@ -297,7 +354,14 @@ export function flatten(sets: readonly DisplacementSet[]): Float32Array {
   return flat;
 }
 
-/** The float members of semblante_rig in order. A missing FAPU is 0. */
+/** The float members of semblante_lids in order. */
+function lidNumbers(lids: RigLids | null): number[] {
+  if (lids === null) return new Array<number>(lidFloats).fill(0);
+  const { gaze, slit, opening, gaze_share, ball } = lids;
+  return [...gaze, slit, opening, ...gaze_share, ...ball];
+}
+
+/** The float members of semblante_rig up to its companions, in order. A missing FAPU is 0. */
 function rigNumbers(rig: RigDocument): number[] {
   const fapu = rigFapus.map((unit) => rig.fapu[unit] ?? 0);
   const irises = rig.irises.flatMap((iris) =>
@@ -328,5 +392,7 @@ function poseViews(floats: Float32Array): Pose {
     tongueRoll: next(1),
     irises: next(2 * irisFloats),
     tongue: next(tongueFloats),
+    lidClosures: next(4),
+    lids: next(2 * lidFloats),
   };
 }

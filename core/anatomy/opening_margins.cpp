@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/lid_edge.h"
 #include "core/geometry/shortest_path.h"
 
 namespace semblante {
@@ -16,21 +17,11 @@ namespace {
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_lip = 2;
-/// Maximum distance of a corner from the lid's part if it is not a vertex of that part, as a fraction of the eye's
-/// width.
-constexpr double greatest_step_to_corner = 0.25;
 
 const SurfacePoint* find(std::span<const SurfacePoint> points, const char* name) {
   const auto at = std::find_if(points.begin(), points.end(),
                                [&](const SurfacePoint& p) { return p.id == parse_feature_point(name); });
   return at != points.end() ? &*at : nullptr;
-}
-
-SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::dvec3& to) {
-  const auto members = surface.members_of(part);
-  return *std::min_element(members.begin(), members.end(), [&](SurfaceVertexId a, SurfaceVertexId b) {
-    return glm::distance(surface.positions[a.value()], to) < glm::distance(surface.positions[b.value()], to);
-  });
 }
 
 /// Vertices evenly spaced between the ends of a path, without the ends.
@@ -53,35 +44,6 @@ std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector
   return places;
 }
 
-/// The edge of a lid from corner to corner, through its middle.
-struct LidEdge {
-  const SurfacePoint* middle = nullptr;
-  std::array<const SurfacePoint*, 2> corners{};
-  std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< paths from the middle
-  std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
-};
-
-std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfacePoint> points, const char* middle,
-                                const std::array<const char*, 2>& corners) {
-  LidEdge edge;
-  edge.middle = find(points, middle);
-  edge.corners = {find(points, corners[0]), find(points, corners[1])};
-  if (edge.middle == nullptr || edge.corners[0] == nullptr || edge.corners[1] == nullptr) return std::nullopt;
-  const PartId part = surface.part_of[edge.middle->vertex.value()];
-  const double width = glm::distance(edge.corners[0]->position, edge.corners[1]->position);
-  for (std::size_t c = 0; c < 2; ++c) {
-    SurfaceVertexId end = edge.corners[c]->vertex;
-    edge.ends_at_corner[c] = surface.part_of[end.value()] == part;
-    if (!edge.ends_at_corner[c]) {
-      end = nearest_of_part(surface, part, edge.corners[c]->position);
-      const double step = glm::distance(surface.positions[end.value()], edge.corners[c]->position);
-      if (step > greatest_step_to_corner * width) return std::nullopt;
-    }
-    edge.to_corner[c] = shortest_path(surface, edge.middle->vertex, end);
-  }
-  return edge;
-}
-
 /// y of the edge at `x`; the mean if it passes `x` several times, nullopt if it does not.
 std::optional<double> height_of(const Surface& surface, const LidEdge& edge, double x) {
   double sum = 0.0;
@@ -101,7 +63,8 @@ std::optional<double> height_of(const Surface& surface, const LidEdge& edge, dou
 
 void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, double travel,
                    std::vector<MarginSite>& sites) {
-  const auto& [a, b] = edge.corners;
+  const SurfacePoint& a = edge.corners[0];
+  const SurfacePoint& b = edge.corners[1];
   for (std::size_t c = 0; c < 2; ++c) {
     const auto& path = edge.to_corner[c];
     std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);
@@ -111,12 +74,11 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
       // Beyond the end of the other edge there is no opening.
       const double across = height_of(surface, other, p.x).value_or(p.y);
       const double middle = std::clamp(std::abs(p.y - across) / travel, 0.0, 1.0);
-      const glm::dvec3 axis = b->position - a->position;
-      const double to_b = std::clamp(glm::dot(p - a->position, axis) / glm::dot(axis, axis), 0.0, 1.0);
+      const glm::dvec3 axis = b.position - a.position;
+      const double to_b = std::clamp(glm::dot(p - a.position, axis) / glm::dot(axis, axis), 0.0, 1.0);
       MarginSite site{vertex, {}};
-      for (const auto& [id, share] :
-           {std::pair(edge.middle->id, middle), std::pair(a->id, (1.0 - middle) * (1.0 - to_b)),
-            std::pair(b->id, (1.0 - middle) * to_b)}) {
+      for (const auto& [id, share] : {std::pair(edge.middle.id, middle), std::pair(a.id, (1.0 - middle) * (1.0 - to_b)),
+                                      std::pair(b.id, (1.0 - middle) * to_b)}) {
         if (share > 0.0) site.shares.emplace_back(id, share);
       }
       sites.push_back(std::move(site));
@@ -125,27 +87,22 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
 }
 
 void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
-  struct Eye {
-    std::optional<LidEdge> upper, lower;
-  };
-  const std::array<Eye, 2> eyes = {
-      Eye{lid_edge(surface, points, "3.1", {"3.11", "3.7"}),  //
-          lid_edge(surface, points, "3.3", {"3.11", "3.7"})},
-      Eye{lid_edge(surface, points, "3.2", {"3.12", "3.8"}), lid_edge(surface, points, "3.4", {"3.12", "3.8"})}};
+  const std::array<std::optional<EyeEdges>, 2> eyes = {find_eye_edges(surface, points, 0),
+                                                       find_eye_edges(surface, points, 1)};
   // A lid at FAP 1024 moves by IRISD0, which is the mean of both eyes.
   double travel = 0.0;
   int open = 0;
-  for (const Eye& eye : eyes) {
-    if (!eye.upper || !eye.lower) continue;
-    travel += eye.upper->middle->position.y - eye.lower->middle->position.y;
+  for (const auto& eye : eyes) {
+    if (!eye) continue;
+    travel += eye->upper.middle.position.y - eye->lower.middle.position.y;
     ++open;
   }
   if (!(travel > 0.0)) return;
   travel /= open;
-  for (const Eye& eye : eyes) {
-    if (!eye.upper || !eye.lower) continue;
-    add_lid_sites(surface, *eye.upper, *eye.lower, travel, sites);
-    add_lid_sites(surface, *eye.lower, *eye.upper, travel, sites);
+  for (const auto& eye : eyes) {
+    if (!eye) continue;
+    add_lid_sites(surface, eye->upper, eye->lower, travel, sites);
+    add_lid_sites(surface, eye->lower, eye->upper, travel, sites);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -14,9 +15,21 @@ inline void copy_vector(const glm::vec3& from, float (&to)[3]) {
   to[2] = from.z;
 }
 
-/// Sets irises (left, right) and tongue of a kernel rig; an empty one becomes one that does not move.
+inline semblante_lids to_kernel(const std::optional<Lids>& lids) {
+  semblante_lids result{};
+  if (!lids) return result;
+  copy_vector(lids->gaze, result.gaze);
+  result.slit = lids->slit;
+  result.opening = lids->opening;
+  std::copy(lids->gaze_share.begin(), lids->gaze_share.end(), std::begin(result.gaze_share));
+  std::copy(lids->ball.begin(), lids->ball.end(), std::begin(result.ball));
+  return result;
+}
+
+/// Sets irises, lids (left, right) and tongue of a kernel rig; an empty one becomes one that does not move.
 inline void set_moving_parts(const std::array<std::optional<Iris>, 2>& irises, const std::optional<Tongue>& tongue,
-                             semblante_rig& rig) {
+                             const std::array<std::optional<Lids>, 2>& lids, semblante_rig& rig) {
+  for (std::size_t eye = 0; eye < lids.size(); ++eye) rig.lids[eye] = to_kernel(lids[eye]);
   for (std::size_t eye = 0; eye < irises.size(); ++eye) {
     rig.iris[eye] = {};
     if (!irises[eye]) continue;

@@ -16,7 +16,8 @@ inline constexpr float default_viseme_share = 0.85F;
 struct KernelRig {
   std::vector<float> visemes;      ///< 15 by 84 by 3, model units
   std::vector<float> expressions;  ///< 7 by 84 by 3, model units
-  semblante_rig fixed{};           ///< all members except the two pointers
+  std::vector<semblante_companion> companions;
+  semblante_rig fixed{};  ///< all members except the pointers and their counts
 
   /// Valid while this object exists and its arrays are not modified.
   [[nodiscard]] semblante_rig view() const;

@@ -1,19 +1,36 @@
-/* Pose -> vertices: Eq. 7 for all vertices, then the local motions of eyes, irises and tongue, then the head's motion.
+/* Pose -> vertices: Eq. 7 for all vertices, then the local motions of eyes, irises, lids and tongue, then the head's
+ * motion.
  */
 #include <stddef.h>
 
 #include "core/kernel/export.h"
+#include "core/kernel/head_motion.h"
 #include "core/kernel/local_motion.h"
 #include "core/kernel/rigid_motion.h"
 #include "core/kernel/semblante_kernel.h"
+#include "core/tables/generated/mpeg4_tables.h"
 
 #if defined(__wasm__)
 /* JavaScript uses fixed offsets of this struct (README.md): they must not change. */
-_Static_assert(sizeof(semblante_face) == 24, "face");
+_Static_assert(sizeof(semblante_face) == 28, "face");
 #endif
 
 /* Four lanes, three used: one multiply-add per influence. Lanes are independent, so the bits do not depend on it. */
 typedef float lanes __attribute__((vector_size(16)));
+
+/* The weights of the lids' points in the row of a vertex. */
+static semblante_lid_weights lid_weights(const semblante_face* face, uint32_t v) {
+  semblante_lid_weights weights = {0.0F, 0.0F};
+  const int eye = semblante_lids_of(face->rigid[v]);
+  for (uint32_t k = face->row_offsets[v]; eye >= 0 && k < face->row_offsets[v + 1]; ++k) {
+    if (face->row_points[k] == SEMBLANTE_UPPER_LID(eye)) {
+      weights.upper = face->row_weights[k];
+    } else if (face->row_points[k] == SEMBLANTE_LOWER_LID(eye)) {
+      weights.lower = face->row_weights[k];
+    }
+  }
+  return weights;
+}
 
 SEMBLANTE_EXPORT(semblante_deform)
 void semblante_deform(const semblante_face* face, const semblante_pose* pose, float* positions) {
@@ -37,9 +54,15 @@ void semblante_deform(const semblante_face* face, const semblante_pose* pose, fl
     }
     float p[3] = {rest[0] + d[0], rest[1] + d[1], rest[2] + d[2]};
     if (face->rigid != NULL && face->rigid[v] != SEMBLANTE_RIGID_NONE) {
-      semblante_move_local(&local, face->rigid[v], rest, p);
+      semblante_move_local(&local, face->rigid[v], lid_weights(face, v), rest, p);
     }
-    semblante_move(&head, p);
+    const uint8_t turn = face->turn == NULL ? SEMBLANTE_TURN_FULL : face->turn[v];
+    if (turn == SEMBLANTE_TURN_FULL) {
+      semblante_move(&head, p);
+    } else if (turn != 0) {
+      const semblante_rigid_motion part = semblante_part_of_turn(pose->head_rotation, pose->head_pivot, turn);
+      semblante_move(&part, p);
+    }
     positions[0] = p[0];
     positions[1] = p[1];
     positions[2] = p[2];

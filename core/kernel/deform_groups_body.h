@@ -2,7 +2,9 @@
  * SEMBLANTE_LANES, the number of floats per register (4 or 8), and SEMBLANTE_DEFORM_GROUPS, the name of the function.
  * Every lane adds the same terms as semblante_deform in the same order, so that all variants are bit-identical to it.
  */
+#include "core/kernel/head_motion.h"
 #include "core/kernel/prepared_layout.h"
+#include "core/tables/generated/mpeg4_tables.h"
 
 #if SEMBLANTE_LANES == 8
 #include <immintrin.h>
@@ -61,10 +63,32 @@ typedef struct cursor {
   uint32_t written;
 } cursor;
 
-/* Local motions vertex by vertex, for groups with different motions and for an incomplete last group. */
+/* The points of one group and their weights, eight for each point. */
+typedef struct group_row {
+  const uint8_t* points;
+  const float* weights;
+  uint32_t count;
+} group_row;
+
+/* The weights that one vertex of a group has of the points of its lids. */
+static semblante_lid_weights lid_weights(const group_row* row, uint32_t lane, uint8_t rigid) {
+  semblante_lid_weights weights = {0.0F, 0.0F};
+  const int eye = semblante_lids_of(rigid);
+  for (uint32_t k = 0; eye >= 0 && k < row->count; ++k) {
+    if (row->points[k] == SEMBLANTE_UPPER_LID(eye)) {
+      weights.upper = row->weights[k * SEMBLANTE_GROUP + lane];
+    } else if (row->points[k] == SEMBLANTE_LOWER_LID(eye)) {
+      weights.lower = row->weights[k * SEMBLANTE_GROUP + lane];
+    }
+  }
+  return weights;
+}
+
+/* Local motions and the head's vertex by vertex, for groups with different motions and for an incomplete last group. */
 static __attribute__((noinline)) void finish_by_vertex(const semblante_prepared_face* face,
-                                                       const semblante_group_pose* pose, const float* rest,
-                                                       uint32_t first, const float* moved, float* to) {
+                                                       const semblante_group_pose* pose, const group_row* row,
+                                                       const float* rest, uint32_t first, const float* moved,
+                                                       float* to) {
   const uint8_t* const rigid = face->rigid + first;
   const uint32_t left = face->vertex_count - first;
   const uint32_t count = left < SEMBLANTE_GROUP ? left : SEMBLANTE_GROUP;
@@ -72,9 +96,15 @@ static __attribute__((noinline)) void finish_by_vertex(const semblante_prepared_
     float p[3] = {moved[v * 3], moved[v * 3 + 1], moved[v * 3 + 2]};
     if (rigid[v] != SEMBLANTE_RIGID_NONE) {
       const float at_rest[3] = {rest[v], rest[v + SEMBLANTE_GROUP], rest[v + 2 * SEMBLANTE_GROUP]};
-      semblante_move_local(&pose->local, rigid[v], at_rest, p);
+      semblante_move_local(&pose->local, rigid[v], lid_weights(row, v, rigid[v]), at_rest, p);
     }
-    semblante_move(&pose->head, p);
+    const uint8_t turn = face->turn[first + v];
+    if (turn == SEMBLANTE_TURN_FULL) {
+      semblante_move(&pose->head, p);
+    } else if (turn != 0) {
+      const semblante_rigid_motion part = semblante_part_of_turn(pose->head_rotation, pose->head.pivot, turn);
+      semblante_move(&part, p);
+    }
     to[v * 3] = p[0];
     to[v * 3 + 1] = p[1];
     to[v * 3 + 2] = p[2];
@@ -126,7 +156,9 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   const semblante_rigid_motion head = pose->head;
   const semblante_rigid_motion own = part != NULL ? *part : head;
   const uint32_t groups = run->group_count;
-  const uint8_t* const changed = run->part != SEMBLANTE_GROUP_NONE && pose->local_changed ? NULL : pose->changed_points;
+  const int part_changed = run->part != SEMBLANTE_GROUP_BODY &&
+                           (pose->head_changed || (run->part != SEMBLANTE_GROUP_NONE && pose->local_changed));
+  const uint8_t* const changed = part_changed ? NULL : pose->changed_points;
   const reg* weights = at->weights;
   const reg* rest = at->rest;
   const uint8_t* points = at->points;
@@ -142,7 +174,8 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
         for (uint32_t r = 0; r < REGISTERS; ++r) {
           store_rows(p[r][0], p[r][1], p[r][2], moved + (size_t)r * SEMBLANTE_LANES * 3);
         }
-        finish_by_vertex(face, pose, (const float*)rest, first[g], moved, to);
+        const group_row row = {points, (const float*)weights, count};
+        finish_by_vertex(face, pose, &row, (const float*)rest, first[g], moved, to);
       } else {
         for (uint32_t r = 0; r < REGISTERS; ++r) {
           if (then == AFTER_PART_AND_HEAD) {
@@ -197,6 +230,10 @@ static inline __attribute__((always_inline)) void deform_run_of(const semblante_
 
 /* The motions of a part in this pose. *eye: the eye that rotates it. */
 static after after_of(uint32_t part, const semblante_group_pose* pose, uint32_t* eye) {
+  *eye = 0;
+  if (part == SEMBLANTE_GROUP_BODY) {
+    return AFTER_NOTHING;
+  }
   *eye = part == SEMBLANTE_GROUP_RIGHT_EYE || part == SEMBLANTE_GROUP_RIGHT_IRIS;
   const int iris = part == SEMBLANTE_GROUP_LEFT_IRIS || part == SEMBLANTE_GROUP_RIGHT_IRIS;
   if (part == SEMBLANTE_GROUP_MIXED || (part == SEMBLANTE_GROUP_TONGUE && pose->tongue_moves) ||

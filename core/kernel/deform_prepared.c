@@ -46,6 +46,7 @@ static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) 
   out->head = semblante_rigid_motion_of(pose->head_rotation, pose->head_pivot, still);
   static const float none[9] = {0.0F};
   out->head_moves = differ(&out->head.change[0][0], none, 9);
+  out->head_rotation = pose->head_rotation;
   semblante_prepare_local(pose, &out->local);
   for (uint32_t eye = 0; eye < 2; ++eye) {
     out->eye_moves[eye] =
@@ -54,6 +55,7 @@ static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) 
   }
   out->tongue_moves = pose->tongue_roll != 0.0F;
   out->changed_points = NULL;
+  out->head_changed = 0;
   out->local_changed = 0;
 }
 
@@ -77,14 +79,15 @@ void semblante_deform_prepared(const semblante_prepared_face* face, const sembla
   best()(face, &prepared, positions);
 }
 
-/* Whether eyes, pupils or tongue differ, that is, all members of a pose except the points and the head. */
+/* Whether eyes, pupils, lids or tongue differ, that is, all members of a pose except the points and the head. */
 static int parts_differ(const semblante_pose* a, const semblante_pose* b) {
   return differ(&a->eye_rotation[0][0], &b->eye_rotation[0][0], 8) ||
          differ(&a->eye_translation[0][0], &b->eye_translation[0][0], 6) ||
          differ(&a->eye_pivot[0][0], &b->eye_pivot[0][0], 6) || differ(a->pupil_growth, b->pupil_growth, 2) ||
          a->tongue_roll != b->tongue_roll ||
          differ(&a->iris[0].axis[0], &b->iris[0].axis[0], sizeof a->iris / (sizeof(float))) ||
-         differ(a->tongue.origin, b->tongue.origin, sizeof a->tongue / (sizeof(float)));
+         differ(a->tongue.origin, b->tongue.origin, sizeof a->tongue / (sizeof(float))) ||
+         differ(&a->lid_closure[0][0], &b->lid_closure[0][0], (sizeof a->lid_closure + sizeof a->lids) / sizeof(float));
 }
 
 SEMBLANTE_EXPORT(semblante_deform_changed)
@@ -98,11 +101,9 @@ uint32_t semblante_deform_changed(const semblante_prepared_face* face, const sem
   for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
     changed[fp] = (uint8_t)differ(prepared.fp[fp], previous.fp[fp], 3);
   }
-  const int head_changed = differ(&prepared.head.change[0][0], &previous.head.change[0][0], 9) ||
-                           (prepared.head_moves && differ(prepared.head.pivot, previous.head.pivot, 3));
-  if (!head_changed) {
-    prepared.changed_points = changed;
-  }
+  prepared.changed_points = changed;
+  prepared.head_changed = differ(&prepared.head.change[0][0], &previous.head.change[0][0], 9) ||
+                          (prepared.head_moves && differ(prepared.head.pivot, previous.head.pivot, 3));
   prepared.local_changed = parts_differ(before, now);
   return best()(face, &prepared, positions);
 }

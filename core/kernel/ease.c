@@ -83,6 +83,11 @@ void semblante_ease(const semblante_pose* before, const semblante_pose* from, co
     out->pupil_growth[eye] =
         at(&c, before->pupil_growth[eye], from->pupil_growth[eye], to->pupil_growth[eye], after->pupil_growth[eye]);
     out->iris[eye] = from->iris[eye];
+    for (int lid = 0; lid < 2; ++lid) {
+      out->lid_closure[eye][lid] = at(&c, before->lid_closure[eye][lid], from->lid_closure[eye][lid],
+                                      to->lid_closure[eye][lid], after->lid_closure[eye][lid]);
+    }
+    out->lids[eye] = from->lids[eye];
   }
   out->tongue_roll = at(&c, before->tongue_roll, from->tongue_roll, to->tongue_roll, after->tongue_roll);
   out->tongue = from->tongue;

@@ -1,7 +1,9 @@
 /* Frame -> pose: Eq. 5 (visemes and expressions), Eq. 6 (low-level FAPs) and the rotations of eyes and head. */
 #include <stddef.h>
 
+#include "core/kernel/companions.h"
 #include "core/kernel/export.h"
+#include "core/kernel/lids.h"
 #include "core/kernel/rotation.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/tables/generated/mpeg4_tables.h"
@@ -10,8 +12,9 @@
 /* JavaScript uses fixed offsets of these structs (README.md): they must not change. */
 _Static_assert(sizeof(semblante_frame) == 284 && offsetof(semblante_frame, fap) == 8, "frame");
 _Static_assert(sizeof(semblante_iris) == 24 && sizeof(semblante_tongue) == 44, "iris, tongue");
-_Static_assert(sizeof(semblante_rig) == 160 && offsetof(semblante_rig, iris) == 68, "rig");
-_Static_assert(sizeof(semblante_pose) == 1220 && offsetof(semblante_pose, pupil_growth) == 1116, "pose");
+_Static_assert(sizeof(semblante_lids) == 96 && sizeof(semblante_companion) == 8, "lids, companion");
+_Static_assert(sizeof(semblante_rig) == 364 && offsetof(semblante_rig, lids) == 172, "rig");
+_Static_assert(sizeof(semblante_pose) == 1428 && offsetof(semblante_pose, lid_closure) == 1220, "pose");
 #endif
 
 /* Weighted sum of two entries of a table of displacement sets at one FP. Entries out of range count as zero. */
@@ -73,6 +76,11 @@ static int rigid_part_of(uint8_t fp) {
 SEMBLANTE_EXPORT(semblante_evaluate)
 void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, semblante_pose* pose) {
   evaluate_high_level(rig, frame, pose->fp);
+  float set[SEMBLANTE_FP_COUNT * 3];
+  uint8_t own[SEMBLANTE_FP_COUNT] = {0};
+  for (uint32_t i = 0; i < SEMBLANTE_FP_COUNT * 3; ++i) {
+    set[i] = pose->fp[i];
+  }
 
   float* const rotation[3] = {pose->eye_rotation[0], pose->eye_rotation[1], pose->head_rotation};
   float angle[3][3] = {{0}}; /* AU; by part and axis */
@@ -86,6 +94,7 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
   for (int eye = 0; eye < 2; ++eye) {
     pose->iris[eye] = rig->iris[eye];
     pose->pupil_growth[eye] = 0.0F;
+    pose->lids[eye] = rig->lids[eye];
   }
   pose->tongue = rig->tongue;
   pose->tongue_roll = 0.0F;
@@ -109,7 +118,13 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
       const int eye = fap->fp == SEMBLANTE_FP_LEFT_PUPIL || fap->fp == SEMBLANTE_FP_RIGHT_PUPIL;
       float* const target = eye ? pose->eye_translation[rigid_part_of(fap->fp)] : &pose->fp[(size_t)fap->fp * 3];
       target[fap->axis] = displacement;
+      own[fap->fp] |= (uint8_t)(1U << fap->axis);
     }
+  }
+
+  semblante_move_companions(rig, set, own, pose->fp);
+  for (int eye = 0; eye < 2; ++eye) {
+    semblante_close_lids(eye, angle[eye][0] * SEMBLANTE_AU_RADIANS, pose);
   }
 
   for (int part = 0; part < 3; ++part) {

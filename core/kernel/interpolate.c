@@ -44,6 +44,10 @@ void semblante_interpolate(const semblante_pose* a, const semblante_pose* b, flo
   for (int eye = 0; eye < 2; ++eye) {
     out->pupil_growth[eye] = lerp(a->pupil_growth[eye], b->pupil_growth[eye], t);
     out->iris[eye] = a->iris[eye];
+    for (int lid = 0; lid < 2; ++lid) {
+      out->lid_closure[eye][lid] = lerp(a->lid_closure[eye][lid], b->lid_closure[eye][lid], t);
+    }
+    out->lids[eye] = a->lids[eye];
   }
   out->tongue_roll = lerp(a->tongue_roll, b->tongue_roll, t);
   out->tongue = a->tongue;

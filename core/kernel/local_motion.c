@@ -57,11 +57,18 @@ void semblante_prepare_local(const semblante_pose* pose, semblante_local_motions
   for (int eye = 0; eye < 2; ++eye) {
     motions->eye[eye] =
         semblante_rigid_motion_of(pose->eye_rotation[eye], pose->eye_pivot[eye], pose->eye_translation[eye]);
+    semblante_prepare_lid_roll(eye, pose, &motions->eye[eye], &motions->lids[eye]);
   }
 }
 
-void semblante_move_local(const semblante_local_motions* motions, uint8_t rigid, const float rest[3], float p[3]) {
+void semblante_move_local(const semblante_local_motions* motions, uint8_t rigid, semblante_lid_weights weights,
+                          const float rest[3], float p[3]) {
   const semblante_pose* const pose = motions->pose;
+  const int lids = semblante_lids_of(rigid);
+  if (lids >= 0) {
+    semblante_roll_lid(&motions->lids[lids], weights.upper, weights.lower, rest, p);
+    return;
+  }
   if (rigid >= SEMBLANTE_RIGID_TONGUE) {
     const float share = (float)(rigid - (SEMBLANTE_RIGID_TONGUE - 1)) / 128.0F;
     roll_tongue(&pose->tongue, share * pose->tongue_roll, rest, p);

@@ -14,14 +14,31 @@ typedef struct group_facts {
   int rises; /* whether the points of each row are increasing */
 } group_facts;
 
+static uint8_t rigid_of(const semblante_face* face, uint32_t v) {
+  return face->rigid == NULL ? SEMBLANTE_RIGID_NONE : face->rigid[v];
+}
+
+static uint8_t turn_of(const semblante_face* face, uint32_t v) {
+  return face->turn == NULL ? SEMBLANTE_TURN_FULL : face->turn[v];
+}
+
+/* The part of a group of one vertex. Only skin may stay when the head turns, and vertices of the neck and of lids are
+ * moved one by one. */
+static uint32_t part_of(uint8_t rigid, uint8_t turn) {
+  if (turn != SEMBLANTE_TURN_FULL) {
+    return turn == 0 && rigid == SEMBLANTE_RIGID_NONE ? SEMBLANTE_GROUP_BODY : SEMBLANTE_GROUP_MIXED;
+  }
+  return rigid >= SEMBLANTE_RIGID_TONGUE       ? SEMBLANTE_GROUP_TONGUE
+         : semblante_lids_of(rigid) >= 0       ? SEMBLANTE_GROUP_MIXED
+         : rigid == SEMBLANTE_RIGID_LEFT_EYE   ? SEMBLANTE_GROUP_LEFT_EYE
+         : rigid == SEMBLANTE_RIGID_RIGHT_EYE  ? SEMBLANTE_GROUP_RIGHT_EYE
+         : rigid == SEMBLANTE_RIGID_LEFT_IRIS  ? SEMBLANTE_GROUP_LEFT_IRIS
+         : rigid == SEMBLANTE_RIGID_RIGHT_IRIS ? SEMBLANTE_GROUP_RIGHT_IRIS
+                                               : SEMBLANTE_GROUP_NONE;
+}
+
 /* The part of a group after adding one vertex. */
-static uint32_t join_part(uint32_t part, int is_first, uint8_t rigid) {
-  const uint32_t own = rigid >= SEMBLANTE_RIGID_TONGUE       ? SEMBLANTE_GROUP_TONGUE
-                       : rigid == SEMBLANTE_RIGID_LEFT_EYE   ? SEMBLANTE_GROUP_LEFT_EYE
-                       : rigid == SEMBLANTE_RIGID_RIGHT_EYE  ? SEMBLANTE_GROUP_RIGHT_EYE
-                       : rigid == SEMBLANTE_RIGID_LEFT_IRIS  ? SEMBLANTE_GROUP_LEFT_IRIS
-                       : rigid == SEMBLANTE_RIGID_RIGHT_IRIS ? SEMBLANTE_GROUP_RIGHT_IRIS
-                                                             : SEMBLANTE_GROUP_NONE;
+static uint32_t join_part(uint32_t part, int is_first, uint32_t own) {
   if (is_first || own == part) {
     return own;
   }
@@ -51,7 +68,7 @@ static __attribute__((noinline)) group_facts facts_of(const semblante_face* face
   const uint32_t left = face->vertex_count - first;
   const uint32_t end = first + (left < SEMBLANTE_GROUP ? left : SEMBLANTE_GROUP);
   for (uint32_t v = first; v < end; ++v) {
-    facts.part = join_part(facts.part, v == first, face->rigid == NULL ? SEMBLANTE_RIGID_NONE : face->rigid[v]);
+    facts.part = join_part(facts.part, v == first, part_of(rigid_of(face, v), turn_of(face, v)));
     for (uint32_t k = face->row_offsets[v]; k < face->row_offsets[v + 1]; ++k) {
       if (k > face->row_offsets[v] && face->row_points[k] <= face->row_points[k - 1]) {
         facts.rises = 0;
@@ -97,7 +114,7 @@ static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, 
 
 /* The offsets of the arrays of a prepared face from its header, and its total size. */
 typedef struct layout {
-  size_t runs, first, rest, weights, points, rigid, end;
+  size_t runs, first, rest, weights, points, rigid, turn, end;
   uint32_t run_count;
 } layout;
 
@@ -129,6 +146,7 @@ static layout lay_out(const semblante_face* face) {
   l.weights = place(&l.end, united * SEMBLANTE_GROUP * sizeof(float));
   l.points = place(&l.end, united);
   l.rigid = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
+  l.turn = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
   return l;
 }
 
@@ -174,8 +192,9 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
   float* weights = (float*)(base + l.weights);
   uint8_t* points = (uint8_t*)(base + l.points);
   uint8_t* const rigid = (uint8_t*)(base + l.rigid);
+  uint8_t* const turn = (uint8_t*)(base + l.turn);
   const semblante_prepared_face prepared = {
-      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, rigid};
+      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, rigid, turn};
   *(semblante_prepared_face*)memory = prepared;
 
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
@@ -211,7 +230,8 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
     }
   }
   for (uint32_t v = 0; v < groups * SEMBLANTE_GROUP; ++v) {
-    rigid[v] = v < face->vertex_count && face->rigid != NULL ? face->rigid[v] : SEMBLANTE_RIGID_NONE;
+    rigid[v] = v < face->vertex_count ? rigid_of(face, v) : SEMBLANTE_RIGID_NONE;
+    turn[v] = v < face->vertex_count ? turn_of(face, v) : SEMBLANTE_TURN_FULL;
   }
   return (const semblante_prepared_face*)memory;
 }

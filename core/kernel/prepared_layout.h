@@ -15,6 +15,7 @@ typedef enum semblante_group_part {
   SEMBLANTE_GROUP_RIGHT_EYE,
   SEMBLANTE_GROUP_LEFT_IRIS, /* all vertices belong to the eye, some to its iris */
   SEMBLANTE_GROUP_RIGHT_IRIS,
+  SEMBLANTE_GROUP_BODY,   /* no vertex has a local motion or turns with the head */
   SEMBLANTE_GROUP_TONGUE, /* some vertices belong to the tongue, the others have no local motion */
   SEMBLANTE_GROUP_MIXED,  /* any other combination, and an incomplete last group */
   SEMBLANTE_GROUP_PARTS
@@ -38,6 +39,7 @@ struct semblante_prepared_face {
   const float* weights;  /* #U by 8: for each point of each group the weights of the group's vertices */
   const uint8_t* points; /* #U, increasing within a group */
   const uint8_t* rigid;  /* #V padded to whole groups, by vertex: SEMBLANTE_RIGID_* */
+  const uint8_t* turn;   /* likewise: 255ths of the head's rotation */
 };
 
 /* One pose, prepared for all groups. */
@@ -45,13 +47,15 @@ typedef struct semblante_group_pose {
   float fp[SEMBLANTE_FP_COUNT][4]; /* the fourth component is unused */
   semblante_rigid_motion head;
   int head_moves;
+  const float* head_rotation; /* of the pose; the vertices of the neck have a share of it */
   semblante_local_motions local;
   int eye_moves[2]; /* left, right; a motion that is zero is skipped, which gives the same bits */
   int iris_moves[2];
   int tongue_moves;
   /* For semblante_deform_changed; null: everything is computed. */
   const uint8_t* changed_points; /* 84: 1 where the displacement changed */
-  int local_changed;             /* whether eyes, pupils or tongue moved */
+  int head_changed;
+  int local_changed; /* whether eyes, pupils or tongue moved */
 } semblante_group_pose;
 
 /* Deforms all groups; returns the number of written vertices. */

@@ -145,6 +145,7 @@ WeightTable<float> influence_with_roles(const Surface& surface, std::span<const 
       case PartRole::left_eye:
       case PartRole::right_eye:
       case PartRole::rest:
+      case PartRole::body:
         break;
     }
     row.write_to(table);

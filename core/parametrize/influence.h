@@ -18,6 +18,7 @@ namespace semblante {
 ///     tongue        its own W / sum(W), and 2.1 fully on top: such rows sum to 2
 ///     attached      the row of the nearest skin vertex
 ///     eyes, upper teeth, rest: no row; they move rigidly, with the eye or with the head
+///     body          no row; it stays
 ///
 /// Weights of `smooth` are shares as they are: their rows are not divided by the sum.
 ///

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "core/anatomy/iris.h"
+#include "core/anatomy/lids.h"
 #include "core/anatomy/lip_gaps.h"
+#include "core/anatomy/neck.h"
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/pivots.h"
 #include "core/anatomy/point_lookup.h"
@@ -58,8 +60,35 @@ RigidMotion rigid_motion_of(PartRole role) {
   return RigidMotion::none;
 }
 
-/// Data for FAPs 29, 30 and 47: the places and vertices of irises and tongue.
-void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig) {
+/// The vertices of lids: those that follow the points of one eye's lids. A vertex that follows both eyes is skin.
+void find_rolling_lids(const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig,
+                       std::vector<RigidMotion>& motion) {
+  static const std::array<std::array<FeaturePointId, 2>, 2> lid_points = {
+      {{*parse_feature_point("3.1"), *parse_feature_point("3.3")},
+       {*parse_feature_point("3.2"), *parse_feature_point("3.4")}}};
+  std::vector<RigidMotion> lids(motion.size(), RigidMotion::none);
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
+    if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye);
+    if (!rig.lids[eye]) continue;
+    for (std::size_t s = 0; s < motion.size(); ++s) {
+      const auto row = rig.influence.points_of(surface.file_vertex_of[s].value());
+      const bool follows = std::any_of(row.begin(), row.end(), [&](FeaturePointId id) {
+        return id == lid_points[eye][0] || id == lid_points[eye][1];
+      });
+      if (!follows || motion[s] != RigidMotion::none) continue;
+      const bool is_of_both = lids[s] != RigidMotion::none;
+      lids[s] = is_of_both ? RigidMotion::none : eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
+    }
+  }
+  for (std::size_t s = 0; s < motion.size(); ++s) {
+    if (lids[s] != RigidMotion::none) motion[s] = lids[s];
+  }
+}
+
+/// Data for the FAPs that move parts: the places and vertices of irises (FAPs 29, 30), lids and tongue (47).
+void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, bool rolls,
+                       Rig& rig) {
   std::vector<RigidMotion> motion(surface.vertex_count(), RigidMotion::none);
   for (std::size_t s = 0; s < motion.size(); ++s)
     motion[s] = rigid_motion_of(rig.parts[surface.part_of[s].value()].role);
@@ -81,6 +110,7 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
       motion[v.value()] = left ? RigidMotion::left_iris : RigidMotion::right_iris;
     }
   }
+  if (rolls) find_rolling_lids(surface, points, rig, motion);
   if (const auto tongue = find_tongue(surface, rig.parts, points)) {
     rig.tongue = tongue->shape;
     for (std::size_t s = 0; s < motion.size(); ++s) {
@@ -117,6 +147,8 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   if (!weights) return weights.error();
 
   rig.parts = describe_parts(model, surface, points, options.roles_by_user);
+  rig.head_pivot = head_pivot(rig.parts, points);
+  const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot);
   rig.weights = rows_of_file_vertices(surface, *weights);
   rig.influence =
       rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights, options.weights));
@@ -129,12 +161,14 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   if (options.weights == WeightMethod::smooth) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
   rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
   rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);
-  rig.head_pivot = head_pivot(rig.parts, points);
+  if (!turn.empty()) {
+    for (const SurfaceVertexId vertex : surface.surface_of) rig.turn_of_vertex.push_back(turn[vertex.value()]);
+  }
 
   rig.warnings = explain_missing_fapu(rig.fapu, points);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
-  find_moving_parts(model, surface, on_surface, rig);
+  find_moving_parts(model, surface, on_surface, options.weights == WeightMethod::smooth, rig);
   if (options.progress && !options.progress(1.0, "done")) {
     return Error{ErrorCode::cancelled, "", "stopped on request"};
   }

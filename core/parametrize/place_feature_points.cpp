@@ -176,7 +176,10 @@ std::optional<Error> find_impossible_part(const Surface& surface, const FeatureP
   for (const SurfacePoint& point : on_surface) {
     if (!is_skin_point(point.id)) continue;
     const std::optional<PartRole> role = roles[surface.part_of[point.vertex.value()].value()];
-    if (!role || *role == PartRole::skin || *role == PartRole::attached || *role == PartRole::rest) continue;
+    if (!role || *role == PartRole::skin || *role == PartRole::attached || *role == PartRole::rest ||
+        *role == PartRole::body) {
+      continue;
+    }
     std::string what(part_role_names[static_cast<std::size_t>(*role)]);
     std::replace(what.begin(), what.end(), '_', ' ');
     return Error{ErrorCode::invalid_argument, pointer_to(point.id),

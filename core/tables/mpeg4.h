@@ -77,6 +77,13 @@ struct ExpressionInfo {
   std::string_view description;
 };
 
+/// A feature point that follows another one.
+struct Companion {
+  std::uint8_t point, leader;  ///< dense indices
+  double share;                ///< of the leader's displacement
+  bool is_choice;              ///< the lower lip with the jaw: only if a player chooses so
+};
+
 }  // namespace semblante::mpeg4
 
 #include "core/tables/generated/mpeg4_entries.h"

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -16,13 +18,15 @@ enum class RigidMotion : std::uint8_t {
   right_eye,
   left_iris,   ///< rotates with the eye, and moves outwards when the pupil grows
   right_iris,  ///< likewise
+  left_lids,   ///< rolls on the eyeball with its weights of 3.1 and 3.3
+  right_lids,  ///< likewise of 3.2 and 3.4
   tongue_least = 128,
   tongue = 255,  ///< the whole roll
 };
 
 /// False for the unused byte values in between.
 constexpr bool is_rigid_motion(std::uint8_t value) {
-  return value <= static_cast<std::uint8_t>(RigidMotion::right_iris) ||
+  return value <= static_cast<std::uint8_t>(RigidMotion::right_lids) ||
          value >= static_cast<std::uint8_t>(RigidMotion::tongue_least);
 }
 
@@ -37,7 +41,9 @@ constexpr double tongue_share(RigidMotion motion) {
   return value < 128 ? 0.0 : (value - 127) / 128.0;
 }
 
-constexpr bool is_eye(RigidMotion motion) { return motion != RigidMotion::none && motion < RigidMotion::tongue_least; }
+constexpr bool is_eye(RigidMotion motion) {
+  return motion >= RigidMotion::left_eye && motion <= RigidMotion::right_iris;
+}
 constexpr bool is_left_eye(RigidMotion motion) {
   return motion == RigidMotion::left_eye || motion == RigidMotion::left_iris;
 }
@@ -48,6 +54,22 @@ struct Iris {
   float pupil_radius = 0.0F;
   float iris_radius = 0.0F;  ///< more than pupil_radius
   float bend = 0.0F;         ///< 1 / length: at distance r from the axis the surface is bend * r * r farther along it
+};
+
+/// The lids of one eye on the neutral face, which slide round the line through the eye's pivot along x. Lengths in
+/// model units, angles in radians.
+struct Lids {
+  static constexpr std::size_t ball_places = 17;  ///< at which the ball is sampled, from the pole to the equator
+
+  glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit vector from the eye's pivot through the pupil
+  float slit = 0.0F;                 ///< angle about the axis between the rims in the middle
+  float opening = 0.0F;              ///< displacement of 3.1 (3.2) downwards that closes the eye; positive
+  /// Upper, lower: share of the eye's pitch that the open lid follows. ICT-FaceKit's shapes of looking down and up give
+  /// 0.65 and 0.35, 0.15 and 0.15 for a gaze of 30 degrees.
+  std::array<float, 2> gaze_share{0.6F, 0.15F};
+  /// Distance of the eyeball's surface from the pivot, at equal steps of sqrt(1 - cosine of the angle to `gaze`) from 0
+  /// to 1. All 0: the head has no eyeball that lids could pierce.
+  std::array<float, ball_places> ball{};
 };
 
 /// The tongue on the neutral face, in model units.

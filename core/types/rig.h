@@ -18,9 +18,19 @@
 namespace semblante {
 
 /// The anatomical role of a connected part, which determines its motion.
-enum class PartRole : std::uint8_t { skin, left_eye, right_eye, upper_teeth, lower_teeth, tongue, attached, rest };
-inline constexpr std::array<std::string_view, 8> part_role_names = {
-    "skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "attached", "rest"};
+enum class PartRole : std::uint8_t {
+  skin,
+  left_eye,
+  right_eye,
+  upper_teeth,
+  lower_teeth,
+  tongue,
+  attached,
+  rest,
+  body
+};
+inline constexpr std::array<std::string_view, 9> part_role_names = {
+    "skin", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "attached", "rest", "body"};
 
 /// A part in reports and for clients.
 struct Part {
@@ -41,6 +51,7 @@ struct Rig {
   WeightTable<double> weights;
   WeightTable<float> influence;              ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
+  std::vector<std::uint8_t> turn_of_vertex;  ///< #V: 255ths of the head's rotation; empty: all turn fully
   std::vector<PartId> part_of_vertex;        ///< #V
   std::vector<Part> parts;                   ///< by PartId
   /// The lip gaps of the closing mouth; empty if unknown, because points are missing or because the weights make each
@@ -50,6 +61,7 @@ struct Rig {
   glm::vec3 right_eye_pivot{0.0F};
   std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: the eye has no movable iris
   std::optional<Tongue> tongue;               ///< empty: the head has no tongue that can roll
+  std::array<std::optional<Lids>, 2> lids;    ///< left, right; empty: the lids move by Eq. 7 alone
   glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
   std::vector<std::string> warnings;          ///< texts: what is missing, and what does not move without it
 };

@@ -34,6 +34,7 @@ class KernelFace {
     face_.row_points = reinterpret_cast<const std::uint8_t*>(face.table.rows.points.data());
     face_.row_weights = face.table.rows.weights.data();
     face_.rigid = face.table.rigid.data();
+    face_.turn = face.table.turn.empty() ? nullptr : face.table.turn.data();
   }
 
   [[nodiscard]] semblante_pose pose(const FaceValues& values) const {
@@ -91,6 +92,10 @@ std::vector<JointTracks> make_tracks(const PackedFace& face, const FaceSkin& ski
       radius = reach(face, joint.place, [&](std::uint8_t rigid) {
         return is_eye(RigidMotion{rigid}) && is_left_eye(RigidMotion{rigid}) == (joint.index == 0);
       });
+    }
+    if (joint.kind == FaceJoint::Kind::lid) {
+      const auto lids = joint.index < 2 ? RigidMotion::left_lids : RigidMotion::right_lids;
+      radius = reach(face, joint.place, [&](std::uint8_t rigid) { return RigidMotion{rigid} == lids; });
     }
     const double rim = joint.kind == FaceJoint::Kind::pupil ? face.rig.irises[joint.index]->pupil_radius : 0.0;
     tracks.push_back({VectorTrack(tolerance), TurnTrack(radius > 0.0 ? tolerance / radius : 0.0),
@@ -165,9 +170,11 @@ class ClipMaker {
       const JointTransform transform = joint_transform(skin_, j, pose);
       const FaceJoint::Kind kind = skin_.joints[j].kind;
       // A motion that this kind of joint never has, has no track.
-      if (kind != FaceJoint::Kind::head) tracks_[j].translation.push(seconds, transform.translation);
-      if (kind == FaceJoint::Kind::head || kind == FaceJoint::Kind::eye)
-        tracks_[j].rotation.push(seconds, transform.rotation);
+      const bool turns = kind == FaceJoint::Kind::head || kind == FaceJoint::Kind::eye || kind == FaceJoint::Kind::lid;
+      const bool slides =
+          kind == FaceJoint::Kind::eye || kind == FaceJoint::Kind::pupil || kind == FaceJoint::Kind::point;
+      if (slides) tracks_[j].translation.push(seconds, transform.translation);
+      if (turns) tracks_[j].rotation.push(seconds, transform.rotation);
       if (kind == FaceJoint::Kind::pupil) tracks_[j].scale.push(seconds, transform.scale);
     }
   }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t head_joint = 0;
 constexpr std::uint32_t whole = 65535;
+constexpr std::uint8_t whole_turn = 255;
 constexpr std::size_t max_joints = 256;  // their numbers are bytes
 
 /// Tolerance of the sum of a quantized row, above one.
@@ -26,7 +27,7 @@ struct Influence {
   double share = 0.0;
 };
 
-/// The share of the pupil's motion at a vertex of an iris, from 1 inside to 0 at the rim (SPEC 1.4, step 4).
+/// The share of the pupil's motion at a vertex of an iris, from 1 inside to 0 at the rim (SPEC 1.4, step 5).
 double pupil_share(const Iris& iris, glm::vec3 from_pivot) {
   const float along = glm::dot(from_pivot, iris.axis);
   const double r = glm::length(from_pivot - along * iris.axis);
@@ -89,6 +90,12 @@ class SkinMaker {
   SkinMaker(const PackedFace& face, int influences) : face_(face), wanted_(static_cast<std::size_t>(influences)) {
     skin_.joints.push_back({FaceJoint::Kind::head, "head", std::nullopt, face.rig.head_pivot});
     for (std::size_t eye = 0; eye < 2; ++eye) add_eye(eye);
+    for (std::size_t eye = 0; eye < 2; ++eye) add_lids(eye);
+    const auto& turn = face.table.turn;
+    if (std::all_of(turn.begin(), turn.end(), [](std::uint8_t t) { return t == whole_turn; })) return;
+    body_joint_ = skin_.joints.size();
+    skin_.joints.front().parent = body_joint_;
+    skin_.joints.push_back({FaceJoint::Kind::body, "body", std::nullopt, face.rig.head_pivot});
   }
 
   Result<FaceSkin> make() {
@@ -98,6 +105,7 @@ class SkinMaker {
     for (std::size_t v = 0; v < vertices; ++v) {
       rows[v] = row_of(v);
       cut(rows[v]);
+      keep_with_body(rows[v], v);
       most = std::max(most, rows[v].size());
     }
     if (skin_.joints.size() > max_joints) {
@@ -151,6 +159,50 @@ class SkinMaker {
     skin_.joints.push_back(joint);
   }
 
+  void add_lids(std::size_t eye) {
+    const std::optional<Lids>& lids = face_.rig.lids[eye];
+    const RigidMotion motion = eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
+    const auto& rigid = face_.table.rigid;
+    if (!lids || std::find(rigid.begin(), rigid.end(), static_cast<std::uint8_t>(motion)) == rigid.end()) return;
+    for (std::size_t lid = 0; lid < 2; ++lid) {
+      const std::string name = std::string(eye == 0 ? "left" : "right") + (lid == 0 ? "_upper_lid" : "_lower_lid");
+      FaceJoint joint{FaceJoint::Kind::lid, name, head_joint, face_.rig.eye_pivots[eye]};
+      joint.index = eye * 2 + lid;
+      lid_joint_[joint.index] = skin_.joints.size();
+      skin_.joints.push_back(joint);
+    }
+  }
+
+  /// The joint that carries an influence of a vertex: a lid its own points.
+  std::size_t carrier_of(std::size_t v, FeaturePointId id, int gain) {
+    const auto motion = RigidMotion{face_.table.rigid[v]};
+    const std::size_t eye = motion == RigidMotion::right_lids ? 1 : 0;
+    const bool of_lids = motion == RigidMotion::left_lids || motion == RigidMotion::right_lids;
+    if (of_lids && lid_joint_[eye * 2]) {
+      static const std::array<FeaturePointId, 4> lids = {*parse_feature_point("3.1"), *parse_feature_point("3.3"),
+                                                         *parse_feature_point("3.2"), *parse_feature_point("3.4")};
+      for (const std::size_t lid : {0U, 1U}) {
+        if (id == lids[eye * 2 + lid]) return *lid_joint_[eye * 2 + lid];
+      }
+    }
+    return point_joint(id, gain);
+  }
+
+  /// Takes from a row what its vertex does not have of the head's rotation.
+  void keep_with_body(std::vector<Influence>& row, std::size_t v) const {
+    if (!body_joint_ || face_.table.turn[v] == whole_turn) return;
+    const double turn = face_.table.turn[v] / static_cast<double>(whole_turn);
+    for (Influence& i : row) i.share *= turn;
+    // The smallest share makes room: neck and body hardly follow points.
+    if (row.size() >= wanted_) row.pop_back();
+    double sum = 0.0;
+    for (const Influence& i : row) sum += i.share;
+    row.push_back({*body_joint_, 1.0 - sum});
+    std::sort(row.begin(), row.end(), [](const Influence& a, const Influence& b) {
+      return a.share != b.share ? a.share > b.share : a.joint < b.joint;
+    });
+  }
+
   std::size_t point_joint(FeaturePointId id, int gain) {
     const auto [at, added] = point_joint_.emplace(std::pair(id.value(), gain), skin_.joints.size());
     if (!added) return at->second;
@@ -182,10 +234,13 @@ class SkinMaker {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     const int gain = std::max(1, static_cast<int>(std::ceil(sum - sum_slack)));
     std::vector<Influence> row;
+    double taken = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (weights[i] > 0.0F) row.push_back({point_joint(points[i], gain), static_cast<double>(weights[i]) / gain});
+      if (!(weights[i] > 0.0F)) continue;
+      row.push_back({carrier_of(v, points[i], gain), static_cast<double>(weights[i]) / gain});
+      taken += row.back().share;
     }
-    const double rest = 1.0 - sum / gain;
+    const double rest = 1.0 - taken;
     if (rest > 0.0) row.push_back({head_joint, rest});
     return row;
   }
@@ -241,6 +296,8 @@ class SkinMaker {
   const std::size_t wanted_;
   FaceSkin skin_;
   std::array<std::optional<std::size_t>, 2> eye_joint_, pupil_joint_;
+  std::array<std::optional<std::size_t>, 4> lid_joint_;
+  std::optional<std::size_t> body_joint_;
   std::map<std::pair<std::uint8_t, int>, std::size_t> point_joint_;
   std::size_t eyes_with_rows_ = 0;
 };
@@ -278,6 +335,16 @@ JointTransform joint_transform(const FaceSkin& skin, std::size_t joint, const se
       out.translation += j.facing * glm::vec3(0.0F, 0.0F, sink.y);
       break;
     }
+    case FaceJoint::Kind::lid: {
+      const semblante_lids& lids = pose.lids[j.index / 2];
+      const float closure = pose.lid_closure[j.index / 2][j.index % 2];
+      // Upwards is the right-hand rule about -x.
+      const float angle = lids.slit * (j.index % 2 == 0 ? -closure : closure);
+      out.rotation = glm::angleAxis(angle, glm::vec3(-1.0F, 0.0F, 0.0F));
+      break;
+    }
+    case FaceJoint::Kind::body:
+      break;
     case FaceJoint::Kind::point:
       out.translation += j.gain * as_vector(&pose.fp[j.index * 3]);
       break;
@@ -293,10 +360,13 @@ void skin_positions(const FaceSkin& skin, std::span<const glm::vec3> rest, const
                     std::size_t influences, std::span<glm::vec3> positions) {
   std::vector<glm::mat4> world(skin.joints.size());
   std::vector<glm::mat4> matrices(skin.joints.size());
-  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    const glm::mat4 local = as_matrix(joint_transform(skin, j, pose));
-    world[j] = skin.joints[j].parent ? world[*skin.joints[j].parent] * local : local;
-    matrices[j] = world[j] * inverse_bind(skin.joints[j]);
+  for (const bool is_root : {true, false}) {  // the body comes after its children
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      if (is_root == skin.joints[j].parent.has_value()) continue;
+      const glm::mat4 local = as_matrix(joint_transform(skin, j, pose));
+      world[j] = skin.joints[j].parent ? world[*skin.joints[j].parent] * local : local;
+      matrices[j] = world[j] * inverse_bind(skin.joints[j]);
+    }
   }
   const std::size_t used = std::min(influences, skin.influences);
   for (std::size_t v = 0; v < rest.size(); ++v) {

@@ -19,15 +19,18 @@
 
 namespace semblante {
 
-/// A joint of the skin. Feature points only translate, eyes turn and translate, pupils scale, the head turns.
+/// A joint of the skin. Feature points only translate, eyes turn and translate, pupils scale, lids and head turn, the
+/// body stays.
 struct FaceJoint {
-  enum class Kind : std::uint8_t { head, eye, pupil, point };
+  enum class Kind : std::uint8_t { head, eye, pupil, lid, point, body };
   Kind kind = Kind::head;
   std::string name;
-  std::optional<std::size_t> parent;         ///< empty: the head, which is the first
+  std::optional<std::size_t> parent;         ///< empty: the root, which is the body, else the head
   glm::vec3 place{0.0F};                     ///< position on the neutral face
   glm::quat facing{1.0F, 0.0F, 0.0F, 0.0F};  ///< on the neutral face; only pupils are rotated: z along the axis
-  std::size_t index = 0;                     ///< eye and pupil: 0 left, 1 right; point: the FeaturePointId's value
+  /// Eye and pupil: 0 left, 1 right. Lid: 0 left upper, 1 left lower, 2 and 3 those of the right eye. Point: the
+  /// FeaturePointId's value.
+  std::size_t index = 0;
   /// Of a pupil. If its radius grows by the factor 1 + s, the joint is scaled along its z axis by
   /// 1 + 2 s sink[0].x + s^2 sink[1].x and moved along that axis by 2 s sink[0].y + s^2 sink[1].y.
   std::array<glm::vec2, 2> sink{glm::vec2(0.0F), glm::vec2(0.0F)};
@@ -42,8 +45,10 @@ struct JointTransform {
 };
 
 /// Eq. 7 as a skin. A row of weights that sum to s moves its vertex by the sum of w * d; the shares of a skin sum to
-/// one. The rest belongs to the head, which moves only by rotations of the whole head. If s is more than one (a tongue
-/// has its own points and the jaw's) the row uses joints with twice the displacement and half the weight.
+/// one. The rest belongs to the head, which moves only by rotations of the whole head, and, on the neck and below it,
+/// to the body. Lids turn about the eye's pivot. If
+/// s is more than one (a tongue has its own points and the jaw's) the row uses joints with twice the displacement and
+/// half the weight.
 struct FaceSkin {
   std::vector<FaceJoint> joints;
   std::size_t influences = 4;         ///< per vertex, a multiple of 4

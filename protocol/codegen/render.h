@@ -28,6 +28,7 @@ std::string fap_group_table();
 std::string feature_point_group_table();
 std::string feature_point_table();
 std::string fapu_table();
+std::string companion_table();
 std::string select_table();
 /// SPEC.md with the text between each pair of `<!-- generated: NAME -->` and `<!-- end -->` generated again.
 std::string render_spec(const nlohmann::ordered_json& schema, const nlohmann::ordered_json& packed,

@@ -1,5 +1,6 @@
 // The tables of SPEC.md that come from core/tables.
 #include <initializer_list>
+#include <sstream>
 #include <string>
 
 #include "core/tables/mpeg4.h"
@@ -131,6 +132,17 @@ std::string fapu_table() {
   for (const mpeg4::FapuInfo& fapu : mpeg4::fapus) {
     if (fapu.measure_count == 0) continue;  // AU, which is not a length of a face
     out += row({code(fapu.name), measures_of(fapu), std::string(fapu.meaning)});
+  }
+  return out;
+}
+
+std::string companion_table() {
+  std::string out = header({"FP", "follows", "share", "when"});
+  for (const mpeg4::Companion& companion : mpeg4::companions) {
+    std::ostringstream share;
+    share << companion.share;
+    out += row({point_id(companion.point), point_id(companion.leader), share.str(),
+                companion.is_choice ? "the player lets FAP 3 open the mouth" : "always"});
   }
   return out;
 }

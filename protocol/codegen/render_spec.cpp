@@ -85,6 +85,7 @@ std::string render_spec(const Json& schema, const Json& packed, const std::strin
       {"feature point groups", feature_point_group_table},
       {"feature points", feature_point_table},
       {"fapus", fapu_table},
+      {"companions", companion_table},
       {"selects", select_table},
       {"groups", fap_group_table},
       {"packed tables", [&] { return packed_table_list(packed); }},

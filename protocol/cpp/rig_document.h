@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/types/companion.h"
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
 #include "core/types/result.h"
@@ -97,6 +98,8 @@ struct RigDocument {
   std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: FAP 29 or 30 does nothing
   std::optional<Tongue> tongue;               ///< empty: FAP 47 does nothing
   std::vector<PartInfo> parts;
+  std::array<std::optional<Lids>, 2> lids;  ///< left, right; empty: the lids move by the sum of step 4 alone
+  std::vector<Companion> companions;
   double viseme_share = 0.85;                                 ///< of Eq. 5
   std::array<DisplacementSet, viseme_count> visemes;          ///< entry 0 "sil"
   std::array<DisplacementSet, expression_count> expressions;  ///< entry 0 "none", empty

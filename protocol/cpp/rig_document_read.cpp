@@ -20,7 +20,8 @@ constexpr std::size_t max_rig_text_bytes = 4096;
 constexpr std::size_t max_list = 100'000;  // parts, materials, warnings: bounds a hostile file
 constexpr std::uint64_t max_u32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t max_exact = (1ULL << 53U) - 1;
-constexpr double max_float = std::numeric_limits<float>::max();
+constexpr double greatest_share = 10.0;  // of a companion
+constexpr float max_float = std::numeric_limits<float>::max();
 
 float real(const JsonCursor& at) { return static_cast<float>(at.number(-max_float, max_float)); }
 
@@ -153,6 +154,35 @@ Tongue tongue(const JsonCursor& at) {
   return result;
 }
 
+template <std::size_t N>
+std::array<float, N> list(const JsonCursor& at, float low, float high) {
+  std::array<float, N> result{};
+  const auto values = at.elements(N, N);
+  for (std::size_t i = 0; i < values.size(); ++i) result[i] = static_cast<float>(values[i].number(low, high));
+  return result;
+}
+
+std::optional<Lids> lids(const JsonCursor& at) {
+  if (at.is_null()) return std::nullopt;
+  constexpr double half_turn = 3.2;
+  Lids result;
+  result.gaze = direction(at.member("gaze"));
+  result.slit = static_cast<float>(at.member("slit").number(0.0, half_turn));
+  result.opening = above(at.member("opening"), 0.0F);
+  result.gaze_share = list<2>(at.member("gaze_share"), 0.0F, 1.0F);
+  result.ball = list<Lids::ball_places>(at.member("ball"), 0.0F, max_float);
+  return result;
+}
+
+void read_companions(const JsonCursor& at, bool is_choice, std::vector<Companion>& companions) {
+  for (const auto& [point, leaders] : at.members()) {
+    for (const auto& [leader, share] : leaders.members()) {
+      companions.push_back({point_id(leaders, point), point_id(share, leader),
+                            static_cast<float>(share.number(-greatest_share, greatest_share)), is_choice});
+    }
+  }
+}
+
 RigDocument::PartInfo part(const JsonCursor& at) {
   RigDocument::PartInfo result;
   result.name = at.member("name").text(max_rig_text_bytes);
@@ -227,7 +257,13 @@ Result<RigDocument> read_rig(std::string_view text) {
     for (std::size_t i = 0; i < eyes.size(); ++i) rig.irises[i] = iris(eyes[i]);
   }
   if (const auto at = root.optional_member("tongue"); at && !at->is_null()) rig.tongue = tongue(*at);
+  if (const auto lids_of_eyes = root.optional_member("lids")) {
+    const auto eyes = lids_of_eyes->elements(2, 2);
+    for (std::size_t i = 0; i < eyes.size(); ++i) rig.lids[i] = lids(eyes[i]);
+  }
   for (const auto& at : root.member("parts").elements(0, max_list)) rig.parts.push_back(part(at));
+  if (const auto at = root.optional_member("companions")) read_companions(*at, false, rig.companions);
+  if (const auto at = root.optional_member("lower_lip")) read_companions(*at, true, rig.companions);
   rig.viseme_share = root.member("viseme_share").number(0.0, 1.0);
   displacement_sets(root.member("visemes"), rig.visemes);
   displacement_sets(root.member("expressions"), rig.expressions);

@@ -54,6 +54,16 @@ ordered_json sets_of(const std::array<RigDocument::DisplacementSet, N>& sets) {
   return result;
 }
 
+/// {point: {leader: share}} of the companions with the given `is_choice`.
+ordered_json companions_of(const std::vector<Companion>& companions, bool is_choice) {
+  ordered_json result = ordered_json::object();
+  for (const Companion& companion : companions) {
+    if (companion.is_choice == is_choice)
+      result[to_string(companion.point)][to_string(companion.leader)] = shortest(companion.share);
+  }
+  return result;
+}
+
 ordered_json material_of(const RigDocument::MaterialInfo& material) {
   static constexpr std::array<const char*, 3> alpha_modes = {"opaque", "mask", "blend"};
   return {{"name", material.name},
@@ -83,6 +93,22 @@ ordered_json tongue_of(const Tongue& tongue) {
           {"up", vector_of(tongue.up)},
           {"half_width", shortest(tongue.half_width)},
           {"roll_limit", shortest(tongue.roll_limit)}};
+}
+
+template <std::size_t N>
+ordered_json list_of(const std::array<float, N>& values) {
+  ordered_json result = ordered_json::array();
+  for (const float value : values) result.push_back(shortest(value));
+  return result;
+}
+
+ordered_json lids_of(const std::optional<Lids>& lids) {
+  if (!lids) return nullptr;
+  return {{"gaze", vector_of(lids->gaze)},
+          {"slit", shortest(lids->slit)},
+          {"opening", shortest(lids->opening)},
+          {"gaze_share", list_of(lids->gaze_share)},
+          {"ball", list_of(lids->ball)}};
 }
 
 }  // namespace
@@ -129,12 +155,17 @@ std::string write_rig(const RigDocument& rig) {
   json["head_pivot"] = vector_of(rig.head_pivot);
   if (rig.irises[0] || rig.irises[1]) json["irises"] = {iris_of(rig.irises[0]), iris_of(rig.irises[1])};
   if (rig.tongue) json["tongue"] = tongue_of(*rig.tongue);
+  if (rig.lids[0] || rig.lids[1]) json["lids"] = {lids_of(rig.lids[0]), lids_of(rig.lids[1])};
   json["parts"] = ordered_json::array();
   for (const auto& part : rig.parts) {
     json["parts"].push_back({{"name", part.name},
                              {"role", part_role_names[static_cast<std::size_t>(part.role)]},
                              {"vertices", part.vertices},
                              {"triangles", part.triangles}});
+  }
+  for (const bool is_choice : {false, true}) {
+    ordered_json companions = companions_of(rig.companions, is_choice);
+    if (!companions.empty()) json[is_choice ? "lower_lip" : "companions"] = std::move(companions);
   }
   json["viseme_share"] = rig.viseme_share;
   json["visemes"] = sets_of(rig.visemes);

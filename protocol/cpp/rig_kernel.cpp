@@ -1,5 +1,6 @@
 #include "protocol/cpp/rig_kernel.h"
 
+#include "core/expressions/companions.h"
 #include "core/expressions/kernel_parts.h"
 
 namespace semblante {
@@ -26,13 +27,14 @@ KernelRig to_kernel_rig(const RigDocument& document) {
   KernelRig rig;
   rig.visemes = dense(document.visemes);
   rig.expressions = dense(document.expressions);
+  rig.companions = to_kernel(document.companions);
   for (std::size_t unit = 0; unit < SEMBLANTE_FAPU_COUNT; ++unit) {
     rig.fixed.fapu[unit] = static_cast<float>(document.fapu.value[unit].value_or(0.0));
   }
   copy_vector(document.eye_pivots[0], rig.fixed.eye_pivot[0]);
   copy_vector(document.eye_pivots[1], rig.fixed.eye_pivot[1]);
   copy_vector(document.head_pivot, rig.fixed.head_pivot);
-  set_moving_parts(document.irises, document.tongue, rig.fixed);
+  set_moving_parts(document.irises, document.tongue, document.lids, rig.fixed);
   rig.fixed.viseme_share = static_cast<float>(document.viseme_share);
   return rig;
 }

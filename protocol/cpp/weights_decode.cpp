@@ -43,9 +43,9 @@ Result<Header> read_header(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < header_bytes) return fail(ErrorCode::truncated, "header", "shorter than its header of 64 bytes");
   if (std::memcmp(bytes.data(), magic, sizeof(magic)) != 0) return fail(ErrorCode::malformed, "magic", "not SBWT");
   const std::uint16_t file_version = byte_io::get_u16(&bytes[at_version]);
-  if (file_version != version_of_eyes && file_version != version_of_all_parts) {
+  if (file_version < version_of_eyes || file_version > version_of_turns) {
     return fail(ErrorCode::unsupported, "version",
-                "version " + std::to_string(file_version) + ", only 1 and 2 are known");
+                "version " + std::to_string(file_version) + ", only 1 to 3 are known");
   }
   Header header;
   header.version = file_version;
@@ -182,12 +182,25 @@ Status read_rigid(byte_io::Reader& reader, const Header& header, std::vector<std
     const std::uint8_t motion = reader.u8();
     const std::uint64_t run = reader.varint();
     if (reader.failed()) return fail(ErrorCode::truncated, "rigid", "ends early");
-    if (!is_rigid_motion(motion) || (header.version == version_of_eyes && motion > greatest_eye_motion)) {
+    if (!is_rigid_motion(motion) || !has_motion(header.version, motion)) {
       return fail(ErrorCode::out_of_range, "rigid", "unknown rigid motion");
     }
     if (run == 0 || run > vertex_count - rigid.size())
       return fail(ErrorCode::out_of_range, "rigid", "invalid length of a run");
     rigid.insert(rigid.end(), run, motion);
+  }
+  return Unit{};
+}
+
+Status read_turns(byte_io::Reader& reader, const Header& header, std::vector<std::uint8_t>& turns) {
+  if (header.version != version_of_turns) return Unit{};
+  const auto differences = reader.take(header.vertex_count);
+  if (reader.failed()) return fail(ErrorCode::truncated, "turn", "ends early");
+  turns.reserve(differences.size());
+  std::uint8_t last = full_turn;
+  for (const std::uint8_t difference : differences) {
+    last = static_cast<std::uint8_t>(last + difference);
+    turns.push_back(last);
   }
   return Unit{};
 }
@@ -211,6 +224,7 @@ Result<InfluenceTable> decode_weights(std::span<const std::uint8_t> bytes) {
   std::copy_n(bytes.begin() + at_mesh_sha256, table.mesh_sha256.size(), table.mesh_sha256.begin());
   if (const auto status = read_rows(reader, *header, *sets, *ids, table.rows); !status) return status.error();
   if (const auto status = read_rigid(reader, *header, table.rigid); !status) return status.error();
+  if (const auto status = read_turns(reader, *header, table.turn); !status) return status.error();
   if (reader.remaining() != 0) return fail(ErrorCode::malformed, "payload", "bytes after the last field");
   return table;
 }

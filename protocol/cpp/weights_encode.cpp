@@ -129,8 +129,28 @@ std::vector<std::uint32_t> residuals(const WeightTable<float>& rows, const Quant
   return result;
 }
 
+std::uint16_t lowest_version(const InfluenceTable& table) {
+  const bool all_turn =
+      std::all_of(table.turn.begin(), table.turn.end(), [](std::uint8_t t) { return t == full_turn; });
+  for (const std::uint16_t version : {version_of_eyes, version_of_parts}) {
+    const auto is_known = [version](std::uint8_t motion) { return has_motion(version, motion); };
+    if (all_turn && std::all_of(table.rigid.begin(), table.rigid.end(), is_known)) return version;
+  }
+  return version_of_turns;
+}
+
+/// The differences between the shares of consecutive vertices, which are neighbours.
+void append_turns(std::vector<std::uint8_t>& payload, const InfluenceTable& table) {
+  std::uint8_t last = full_turn;
+  for (std::uint32_t v = 0; v < table.vertex_count; ++v) {
+    const std::uint8_t turn = table.turn.empty() ? full_turn : table.turn[v];
+    payload.push_back(static_cast<std::uint8_t>(turn - last));
+    last = turn;
+  }
+}
+
 std::vector<std::uint8_t> build_payload(const InfluenceTable& table, const Quantized& quantized,
-                                        const Dictionary& dictionary, int bits) {
+                                        const Dictionary& dictionary, int bits, std::uint16_t version) {
   std::vector<std::uint8_t> payload;
   for (const OrderedInfluenceSet& set : dictionary.sets) {
     payload.push_back(static_cast<std::uint8_t>(set.points.size() | (set.unit_sum ? unit_sum_flag : 0U)));
@@ -145,6 +165,7 @@ std::vector<std::uint8_t> build_payload(const InfluenceTable& table, const Quant
     byte_io::append_varint(payload, end - v);
     v = end;
   }
+  if (version == version_of_turns) append_turns(payload, table);
   return payload;
 }
 
@@ -152,6 +173,7 @@ void assert_consistent([[maybe_unused]] const InfluenceTable& table) {
 #ifndef NDEBUG
   assert(table.vertex_count > 0 && table.vertex_count <= max_weights_vertices);
   assert(table.rows.row_count() == table.vertex_count && table.rigid.size() == table.vertex_count);
+  assert(table.turn.empty() || table.turn.size() == table.vertex_count);
   assert(table.rows.points.size() == table.rows.weights.size() && table.rows.points.size() <= max_weights_entries);
   for (std::size_t v = 0; v < table.vertex_count; ++v) {
     const auto points = table.rows.points_of(v);
@@ -170,7 +192,8 @@ std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const Weig
   assert_consistent(table);
   const Quantized quantized = quantize_rows(table.rows, encoding.bits);
   const Dictionary dictionary = build_dictionary(table.rows, quantized.unit_sum);
-  const std::vector<std::uint8_t> payload = build_payload(table, quantized, dictionary, encoding.bits);
+  const std::uint16_t version = lowest_version(table);
+  const std::vector<std::uint8_t> payload = build_payload(table, quantized, dictionary, encoding.bits, version);
 
   std::vector<std::uint8_t> bytes(header_bytes + compressBound(payload.size()));
   uLongf packed = bytes.size() - header_bytes;
@@ -180,9 +203,7 @@ std::vector<std::uint8_t> encode_weights(const InfluenceTable& table, const Weig
   bytes.resize(header_bytes + packed);
 
   std::memcpy(bytes.data(), magic, sizeof(magic));
-  const bool eyes_only = std::all_of(table.rigid.begin(), table.rigid.end(),
-                                     [](std::uint8_t motion) { return motion <= greatest_eye_motion; });
-  byte_io::put_u16(&bytes[at_version], eyes_only ? version_of_eyes : version_of_all_parts);
+  byte_io::put_u16(&bytes[at_version], version);
   bytes[at_bits] = static_cast<std::uint8_t>(encoding.bits);
   byte_io::put_u32(&bytes[at_vertex_count], table.vertex_count);
   byte_io::put_u32(&bytes[at_set_count], static_cast<std::uint32_t>(dictionary.sets.size()));

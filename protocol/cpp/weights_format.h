@@ -16,6 +16,7 @@ struct InfluenceTable {
   Sha256 mesh_sha256{};             ///< of the bytes of mesh.drc whose decoded vertex order this is
   WeightTable<float> rows;          ///< #V rows, weights in [0, 1]; ids rise within a row
   std::vector<std::uint8_t> rigid;  ///< #V: RigidMotion values
+  std::vector<std::uint8_t> turn;   ///< #V: 255ths of the head's rotation; empty: all vertices turn fully
 };
 
 struct WeightsEncoding {

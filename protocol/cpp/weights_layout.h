@@ -3,14 +3,28 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/types/moving_parts.h"
+
 /// Layout constants shared by the encoder and the decoder of the `weights` artefact: SPEC.md, 1.3.
 namespace semblante::weights_layout {
 
 inline constexpr std::uint8_t magic[4] = {'S', 'B', 'W', 'T'};
-/// Versions. 1: only the rigid motions of the eyes. 2: also irises and tongue. The encoder uses the lowest sufficient.
+/// Versions. 1: only the rigid motions of the eyes. 2: also irises and tongue. 3: also lids, and each vertex's share of
+/// the head's rotation. The encoder uses the lowest sufficient.
 inline constexpr std::uint16_t version_of_eyes = 1;
-inline constexpr std::uint16_t version_of_all_parts = 2;
+inline constexpr std::uint16_t version_of_parts = 2;
+inline constexpr std::uint16_t version_of_turns = 3;
 inline constexpr std::uint8_t greatest_eye_motion = 2;
+
+/// Whether a version has this rigid motion, a valid one.
+constexpr bool has_motion(std::uint16_t version, std::uint8_t motion) {
+  const bool lids = motion == static_cast<std::uint8_t>(RigidMotion::left_lids) ||
+                    motion == static_cast<std::uint8_t>(RigidMotion::right_lids);
+  return version == version_of_turns || (!lids && (version == version_of_parts || motion <= greatest_eye_motion));
+}
+
+/// The share of a vertex that turns fully with the head, and of all vertices before the first.
+inline constexpr std::uint8_t full_turn = 255;
 inline constexpr int min_bits = 8;
 inline constexpr int max_bits = 16;
 

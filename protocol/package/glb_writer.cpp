@@ -32,6 +32,10 @@ std::vector<SliceAttribute> influence_attributes(const Slice& slice, const GlbFa
   }
   attributes.push_back({"_RIGID", Kind::generic, Type::uint8, 1, 0,
                         gather<std::uint8_t>(slice, 1, [&](auto v, auto) { return face.rigid[v]; })});
+  if (!face.turn.empty()) {
+    attributes.push_back({"_TURN", Kind::generic, Type::uint8, 1, 0,
+                          gather<std::uint8_t>(slice, 1, [&](auto v, auto) { return face.turn[v]; })});
+  }
   return attributes;
 }
 

@@ -16,12 +16,13 @@ namespace semblante {
 struct GlbFace {
   const WeightTable<float>* rows = nullptr;  ///< #R rows, normalized quotients of Eq. 7
   std::span<const std::uint8_t> rigid;       ///< #R, RigidMotion values
+  std::span<const std::uint8_t> turn;        ///< #R, 255ths of the head's rotation; empty: all vertices turn fully
   std::string rig_json;                      ///< content of the SEMBLANTE_face extension
 };
 
 /// A glTF 2.0 binary with one KHR_draco_mesh_compression primitive per material, attributes _FP_INDEX_n / _FP_WEIGHT_n
-/// (four influences each) and _RIGID, materials and textures kept, the rig in the extension SEMBLANTE_face of the
-/// scene.
+/// (four influences each), _RIGID and, if not all vertices turn fully with the head, _TURN, materials and textures
+/// kept, the rig in the extension SEMBLANTE_face of the scene.
 Result<std::vector<std::uint8_t>> write_face_glb(const RenderMesh& mesh, const std::vector<Material>& materials,
                                                  const std::vector<Image>& images, const GlbFace& face);
 

@@ -141,7 +141,6 @@ class GltfBuilder::Content {
     std::vector<float> matrices;
     for (const GltfJoint& joint : joints) {
       const int node = static_cast<int>(gltf_.nodes.size());
-      if (joint.parent) gltf_.nodes[first_joint_ + *joint.parent].children.push_back(node);
       tinygltf::Node out;
       out.name = joint.name;
       out.translation = {joint.translation.x, joint.translation.y, joint.translation.z};
@@ -152,17 +151,25 @@ class GltfBuilder::Content {
       const float* const matrix = glm::value_ptr(joint.inverse_bind);
       matrices.insert(matrices.end(), matrix, matrix + 16);
     }
+    int root = static_cast<int>(first_joint_);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].parent) {
+        gltf_.nodes[first_joint_ + *joints[j].parent].children.push_back(skin.joints[j]);
+      } else {
+        root = skin.joints[j];
+      }
+    }
     tinygltf::Accessor accessor;
     accessor.bufferView = add_view(std::as_bytes(std::span(matrices)), 0);
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
     accessor.type = TINYGLTF_TYPE_MAT4;
     accessor.count = joints.size();
     skin.inverseBindMatrices = add(accessor);
-    skin.skeleton = static_cast<int>(first_joint_);
+    skin.skeleton = root;
     skin.name = "face";
     gltf_.skins.push_back(std::move(skin));
     gltf_.nodes[0].skin = 0;
-    gltf_.scenes[0].nodes.push_back(static_cast<int>(first_joint_));
+    gltf_.scenes[0].nodes.push_back(root);
   }
 
   void add_animation(const std::string& name, std::span<const GltfChannel> channels) {

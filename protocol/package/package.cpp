@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/expressions/companions.h"
 #include "core/expressions/contact.h"
 #include "core/expressions/library.h"
 #include "core/geometry/smooth_normals.h"
@@ -36,12 +37,14 @@ WeightTable<float> lay_out(const WeightTable<float>& by_file_vertex, std::span<c
   return rows;
 }
 
-std::vector<std::uint8_t> lay_out(const std::vector<RigidMotion>& by_file_vertex,
-                                  std::span<const std::uint32_t> file_vertex) {
-  std::vector<std::uint8_t> rigid;
-  rigid.reserve(file_vertex.size());
-  for (const std::uint32_t vertex : file_vertex) rigid.push_back(static_cast<std::uint8_t>(by_file_vertex[vertex]));
-  return rigid;
+/// Likewise the value of each vertex as a byte; empty stays empty.
+template <class T>
+std::vector<std::uint8_t> lay_out(const std::vector<T>& by_file_vertex, std::span<const std::uint32_t> file_vertex) {
+  std::vector<std::uint8_t> result;
+  if (by_file_vertex.empty()) return result;
+  result.reserve(file_vertex.size());
+  for (const std::uint32_t vertex : file_vertex) result.push_back(static_cast<std::uint8_t>(by_file_vertex[vertex]));
+  return result;
 }
 
 /// A level may have another file vertex of the same surface vertex as the point: then uses that one.
@@ -151,6 +154,7 @@ Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, i
   draft.table.mesh_sha256 = draft.package.mesh_drc.sha256;
   draft.table.rows = lay_out(rig.influence, draft.encoded.file_vertex);
   draft.table.rigid = lay_out(rig.rigid_of_vertex, draft.encoded.file_vertex);
+  draft.table.turn = lay_out(rig.turn_of_vertex, draft.encoded.file_vertex);
   draft.package.weights = make_artefact(encode_weights(draft.table, {weight_bits}));
   const auto decoded = decode_weights(draft.package.weights.bytes);
   if (!decoded) return decoded.error();
@@ -168,6 +172,8 @@ RigDocument common_document(const Rig& rig, const MaterialAssignment& materials,
   document.head_pivot = rig.head_pivot;
   document.irises = rig.irises;
   document.tongue = rig.tongue;
+  document.lids = rig.lids;
+  document.companions = companions_of(rig.points);
   for (std::size_t v = 0; v < viseme_count; ++v)
     document.visemes[v] = on_this_face(worn_as(viseme_library()[v], options.worn), rig);
   for (std::size_t e = 0; e < expression_count; ++e)
@@ -213,7 +219,9 @@ Status finish(Draft& draft, const Model& model, const Rig& rig, const MaterialAs
   const WeightTable<float> render_rows = lay_out(rig.influence, draft.mesh.file_vertex);
   const std::vector<std::uint8_t> render_rigid = lay_out(rig.rigid_of_vertex, draft.mesh.file_vertex);
   face.rows = &render_rows;
+  const std::vector<std::uint8_t> render_turn = lay_out(rig.turn_of_vertex, draft.mesh.file_vertex);
   face.rigid = render_rigid;
+  face.turn = render_turn;
   face.rig_json = write_rig(document);
   auto glb = write_face_glb(draft.mesh, materials.materials, model.images, face);
   if (!glb) return glb.error();

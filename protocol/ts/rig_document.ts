@@ -34,6 +34,12 @@ export interface RigDocument {
   irises: [RigIris | null, RigIris | null];
   /** Null: no tongue that can roll; FAP 47 has no effect. */
   tongue: RigTongue | null;
+  /** Left, right; null: the lids of the eye do not roll. */
+  lids: [RigLids | null, RigLids | null];
+  /** Feature points that follow others. */
+  companions: RigCompanion[];
+  /** Those that follow the jaw only if the player chooses so: the lower lip. */
+  lower_lip: RigCompanion[];
   parts: RigPart[];
   /** Viseme share of Eq. 5. */
   viseme_share: number;
@@ -81,6 +87,27 @@ export interface RigTongue {
   roll_limit: number;
 }
 
+/** The lids of one eye, which slide round the line through its pivot along x. */
+export interface RigLids {
+  /** Unit vector from the pivot through the pupil. */
+  gaze: Vec3;
+  /** Angle about that line between the rims in the middle, radians. */
+  slit: number;
+  /** Displacement of the upper lid's point downwards that closes the eye. */
+  opening: number;
+  /** Upper and lower lid: share of the eye's pitch that the open lid follows. */
+  gaze_share: [number, number];
+  /** Distance of the eyeball's surface from the pivot, at 17 equal steps of sqrt(1 - cosine of the angle to `gaze`). */
+  ball: number[];
+}
+
+/** `point` moves by `share` of the displacement of `leader`. */
+export interface RigCompanion {
+  point: string;
+  leader: string;
+  share: number;
+}
+
 export interface RigLevel {
   vertices: number;
   triangles: number;
@@ -103,6 +130,7 @@ export const partRoles = [
   'tongue',
   'attached',
   'rest',
+  'body',
 ] as const;
 export type PartRole = (typeof partRoles)[number];
 
@@ -139,6 +167,10 @@ export const rigFapus: readonly RigFapu[] = ['IRISD', 'ES', 'ENS', 'MNS', 'MW'];
 export const visemeCount = 15;
 export const expressionCount = 7;
 
+/** Number of places at which an eyeball is sampled. */
+export const ballPlaces = 17;
+const halfTurn = 3.2;
+const greatestShare = 10; // of a companion
 const maxRigBytes = 16 << 20;
 const maxText = 4096;
 const maxList = 100_000;
@@ -220,6 +252,9 @@ export function readRig(json: string): RigDocument {
     head_pivot: vec3(root.member('head_pivot')),
     irises: readIrises(root.optional('irises')),
     tongue: readTongue(root.optional('tongue')),
+    lids: readBothLids(root.optional('lids')),
+    companions: readCompanions(root.optional('companions')),
+    lower_lip: readCompanions(root.optional('lower_lip')),
     parts: list('parts', maxList, readPart),
     viseme_share: root.member('viseme_share').number(0, 1),
     visemes: root.member('visemes').elements(visemeCount, visemeCount).map(readSet),
@@ -278,6 +313,36 @@ function readTongue(at: JsonCursor | undefined): RigTongue | null {
     half_width: above(at.member('half_width'), 0),
     roll_limit: at.member('roll_limit').number(0, 7),
   };
+}
+
+function readBothLids(at: JsonCursor | undefined): RigDocument['lids'] {
+  if (at === undefined) return [null, null];
+  return at.elements(2, 2).map((eye) => orNull(eye, readLids)) as RigDocument['lids'];
+}
+
+function readLids(at: JsonCursor): RigLids {
+  const list = (name: string, count: number, low: number, high: number): number[] =>
+    at
+      .member(name)
+      .elements(count, count)
+      .map((value) => value.number(low, high));
+  return {
+    gaze: direction(at.member('gaze')),
+    slit: at.member('slit').number(0, halfTurn),
+    opening: above(at.member('opening'), 0),
+    gaze_share: list('gaze_share', 2, 0, 1) as [number, number],
+    ball: list('ball', ballPlaces, 0, maxFloat),
+  };
+}
+
+function readCompanions(at: JsonCursor | undefined): RigCompanion[] {
+  return (at?.members() ?? []).flatMap(([point, leaders]) =>
+    leaders.members().map(([leader, share]) => ({
+      point: pointId(leaders, point),
+      leader: pointId(share, leader),
+      share: share.number(-greatestShare, greatestShare),
+    })),
+  );
 }
 
 function readFeaturePoints(at: JsonCursor, vertices: number): RigFeaturePoint[] {

@@ -17,6 +17,8 @@ export interface InfluenceTable {
   rowWeights: Float32Array;
   /** Per vertex: a value of `rigidMotion`; values from `tongue` on encode the share of the tongue's roll. */
   rigid: Uint8Array;
+  /** Per vertex: 255ths of the head's rotation. */
+  turn: Uint8Array;
 }
 
 const headerBytes = 64;
@@ -26,14 +28,30 @@ const maxSets = 2 ** 24;
 const maxInflation = 1032; // maximum expansion of deflate
 
 /** The rigid motion of a vertex after Eq. 7 and before the head's rotation. */
-export const rigidMotion = { none: 0, leftEye: 1, rightEye: 2, leftIris: 3, rightIris: 4, tongue: 128 } as const;
+export const rigidMotion = {
+  none: 0,
+  leftEye: 1,
+  rightEye: 2,
+  leftIris: 3,
+  rightIris: 4,
+  leftLids: 5,
+  rightLids: 6,
+  tongue: 128,
+} as const;
+
+/** The value of `turn` of a vertex that turns fully with the head. */
+export const fullTurn = 255;
 
 /** A vertex's share of the tongue's roll; 0 outside the tongue. */
 export const tongueShare = (rigid: number): number => (rigid < rigidMotion.tongue ? 0 : (rigid - 127) / 128);
 
 /** 0 left eye, 1 right eye, -1 neither. */
 export const eyeOf = (rigid: number): -1 | 0 | 1 =>
-  rigid === rigidMotion.none || rigid >= rigidMotion.tongue ? -1 : rigid % 2 === 1 ? 0 : 1;
+  rigid === rigidMotion.none || rigid > rigidMotion.rightIris ? -1 : rigid % 2 === 1 ? 0 : 1;
+
+/** The eye whose lids a vertex belongs to: 0 left, 1 right, -1 neither. */
+export const lidsOf = (rigid: number): -1 | 0 | 1 =>
+  rigid === rigidMotion.leftLids ? 0 : rigid === rigidMotion.rightLids ? 1 : -1;
 
 interface WeightsHeader {
   version: number;
@@ -68,7 +86,7 @@ function readHeader(bytes: Uint8Array): WeightsHeader {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (view.getUint32(0, false) !== 0x53425754) fail('malformed', 'magic', 'not SBWT');
   const version = view.getUint16(4, true);
-  if (version !== 1 && version !== 2) fail('unsupported', 'version', `version ${version}, only 1 and 2 are known`);
+  if (version < 1 || version > 3) fail('unsupported', 'version', `version ${version}, only 1 to 3 are known`);
   const header = {
     version,
     bits: view.getUint8(6),
@@ -122,7 +140,7 @@ async function inflate(packed: Uint8Array, size: number): Promise<Uint8Array> {
   return raw;
 }
 
-type Rows = Pick<InfluenceTable, 'rowOffsets' | 'rowPoints' | 'rowWeights' | 'rigid'>;
+type Rows = Pick<InfluenceTable, 'rowOffsets' | 'rowPoints' | 'rowWeights' | 'rigid' | 'turn'>;
 
 function readPayload(payload: Uint8Array, header: WeightsHeader): Rows {
   const from = new ByteReader(payload);
@@ -135,8 +153,10 @@ function readPayload(payload: Uint8Array, header: WeightsHeader): Rows {
     const rows = readRows(from, header, sets, ids);
     field = 'rigid';
     const rigid = readRigid(from, header);
+    field = 'turn';
+    const turn = readTurns(from, header);
     if (from.remaining !== 0) fail('malformed', 'payload', 'bytes after the last field');
-    return { ...rows, rigid };
+    return { ...rows, rigid, turn };
   } catch (error) {
     if (error instanceof EndOfBytes || error instanceof VarintTooLarge) fail('truncated', field, 'ends early');
     throw error;
@@ -186,7 +206,7 @@ function readRows(
   header: WeightsHeader,
   sets: InfluenceSet[],
   ids: Uint32Array,
-): Omit<Rows, 'rigid'> {
+): Omit<Rows, 'rigid' | 'turn'> {
   let stored = 0;
   for (const id of ids) stored += sets[id]!.last.length;
   const residuals = fromPlanes(from.take(stored * (header.bits <= 8 ? 1 : 2)), stored);
@@ -233,8 +253,21 @@ function readRigid(from: ByteReader, { version, vertexCount }: WeightsHeader): U
   return rigid;
 }
 
-/** Version 1 has only the motions of the eyes. */
+/** Only version 3 has them: the differences between consecutive vertices, the first from a full turn. */
+function readTurns(from: ByteReader, { version, vertexCount }: WeightsHeader): Uint8Array {
+  const turns = new Uint8Array(vertexCount).fill(fullTurn);
+  if (version < 3) return turns;
+  let last: number = fullTurn;
+  from.take(vertexCount).forEach((difference, v) => {
+    last = (last + difference) & 0xff;
+    turns[v] = last;
+  });
+  return turns;
+}
+
+/** Version 1 has only the motions of the eyes, version 2 also those of irises and tongue. */
 function isKnown(motion: number, version: number): boolean {
   if (version === 1) return motion <= rigidMotion.rightEye;
-  return motion <= rigidMotion.rightIris || motion >= rigidMotion.tongue;
+  const lastOfEyes = version === 2 ? rigidMotion.rightIris : rigidMotion.rightLids;
+  return motion <= lastOfEyes || motion >= rigidMotion.tongue;
 }

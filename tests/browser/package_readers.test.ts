@@ -104,8 +104,8 @@ describe('face package, read by others', () => {
     expect(led / table.vertexCount).toBeGreaterThan(0.3);
     // Eyes, irises, and the tongue with roll shares from 0 to 1.
     const motions = new Set(table.rigid);
-    for (const motion of [0, 1, 2, 3, 4, 255]) expect(motions).toContain(motion);
-    for (const motion of motions) expect(motion <= 4 || motion >= 128).toBe(true);
+    for (const motion of [0, 1, 2, 3, 4, 5, 6, 255]) expect(motions).toContain(motion);
+    for (const motion of motions) expect(motion <= 6 || motion >= 128).toBe(true);
   });
 
   test('FaceGlb_GltfLoader_ReadsMeshMaterialsWeightsAndRig', async () => {

@@ -13,6 +13,9 @@ import { launch } from './support/studio_page.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
+/** Dense numbers of point and leader, share. */
+type Followers = [number, number, number][];
+
 interface Golden {
   tolerance: { position: number };
   rig: {
@@ -21,11 +24,14 @@ interface Golden {
     head_pivot: Vec3;
     irises: RigDocument['irises'];
     tongue: RigDocument['tongue'];
+    lids: RigDocument['lids'];
+    companions: Followers;
+    lower_lip: Followers;
     viseme_share: number;
     visemes: Record<string, Vec3>[];
     expressions: Record<string, Vec3>[];
   };
-  face: { rest: Vec3[]; normals: Vec3[]; triangles: Vec3[]; rows: [number, number][][]; rigid: number[] };
+  face: { rest: Vec3[]; normals: Vec3[]; triangles: Vec3[]; rows: [number, number][][]; rigid: number[]; turn: number[] };
   cases: {
     name: string;
     frame: {
@@ -33,6 +39,7 @@ interface Golden {
       expression: { select1: number; intensity1: number; select2: number; intensity2: number };
       faps: Record<string, number>;
     };
+    jaw_takes_lip?: boolean;
     positions: number[];
   }[];
   interpolations: { from: number; to: number; t: number; positions: number[] }[];
@@ -47,12 +54,17 @@ function rigOf({ rig }: Golden): RigDocument {
     name: '',
     displacements: Object.fromEntries(Object.entries(set).map(([fp, by]) => [featurePoints[Number(fp)]!.id, by])),
   });
+  const followers = (list: Followers) =>
+    list.map(([point, leader, share]) => ({ point: featurePoints[point]!.id, leader: featurePoints[leader]!.id, share }));
   return {
     fapu: Object.fromEntries(rigFapus.map((unit, i) => [unit, rig.fapu[i]])),
     eye_pivots: rig.eye_pivot,
     head_pivot: rig.head_pivot,
     irises: rig.irises,
     tongue: rig.tongue,
+    lids: rig.lids,
+    companions: followers(rig.companions),
+    lower_lip: followers(rig.lower_lip),
     viseme_share: rig.viseme_share,
     visemes: rig.visemes.map(named),
     expressions: rig.expressions.map(named),
@@ -70,6 +82,7 @@ function meshOf({ face }: Golden): GoldenMesh {
     rowPoints: face.rows.flat().map(([point]) => point),
     rowWeights: face.rows.flat().map(([, weight]) => weight),
     rigid: face.rigid,
+    turn: face.turn,
   };
 }
 
@@ -83,7 +96,8 @@ async function poses(): Promise<Record<keyof Pose, number[]>[]> {
     poseCount: count + golden.interpolations.length,
     withVertices: false,
   });
-  golden.cases.forEach(({ frame: { viseme, expression, faps } }, pose) => {
+  golden.cases.forEach(({ frame: { viseme, expression, faps }, jaw_takes_lip }, pose) => {
+    kernel.setJawTakesLip(jaw_takes_lip ?? false);
     const frame = { ...neutralFrame(), viseme, expression };
     const steps = new Float64Array(69).fill(1);
     for (const [fap, value] of Object.entries(faps)) {

@@ -58,6 +58,43 @@ Vec3 operator*(const Matrix& m, const Vec3& v) {
   return r;
 }
 
+namespace {
+
+/// What a companion follows: the whole way of its leader, or only what FAPs add to a set that has the point itself.
+void follow(const semblante_rig& rig, const Pose& sets, const std::array<Vec3, 84>& own, Pose& pose) {
+  const Pose leaders = pose;
+  for (std::uint32_t k = 0; k < rig.companion_count; ++k) {
+    const semblante_companion& c = rig.companion[k];
+    const double share = c.share * (c.is_choice != 0 ? rig.lip_share : 1.0F);
+    for (int i = 0; i < 3; ++i) {
+      if (own[c.point][i] != 0.0) continue;
+      const bool in_set = sets.fp[c.point] != Vec3{};
+      pose.fp[c.point][i] += share * (leaders.fp[c.leader][i] - (in_set ? sets.fp[c.leader][i] : 0.0));
+    }
+  }
+}
+
+double limited(double value, double low, double high) { return std::max(low, std::min(high, value)); }
+
+double between(const float* table, int count, double at) {
+  const int k = std::min(static_cast<int>(at), count - 2);
+  return table[k] + (at - k) * (static_cast<double>(table[k + 1]) - table[k]);
+}
+
+std::array<double, 2> closure_of(const semblante_lids& lids, double upper_y, double lower_y, double pitch) {
+  if (lids.opening <= 0.0F) return {0.0, 0.0};
+  double upper = limited(-upper_y / lids.opening, -0.75, 1.0);
+  double lower = limited(lower_y / lids.opening, -0.75, 1.0);
+  const double gaze = limited(pitch, -0.8, 0.8) / lids.slit;
+  const double open = limited(1.0 - upper - lower, 0.0, 1.0);
+  upper = limited(upper + open * lids.gaze_share[0] * gaze, -0.75, 1.0);
+  lower = limited(lower - open * lids.gaze_share[1] * gaze, -0.75, 1.0);
+  const double both = std::max(1.0, upper + lower);
+  return {upper / both, lower / both};
+}
+
+}  // namespace
+
 Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
   Pose pose;
   const double b = std::min<int>(frame.viseme_blend, 63) / 63.0;
@@ -77,6 +114,8 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
     }
   }
 
+  const Pose sets = pose;
+  std::array<Vec3, 84> own{};                    // 1 where a FAP moves the point along the axis
   const int left_pupil = 18;                     // 3.5: 14 points of group 2, then the fifth of group 3
   const int right_pupil = 19;                    // 3.6
   std::array<std::array<double, 3>, 3> angle{};  // left eye, right eye, head; by axis
@@ -105,7 +144,14 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
       if (fapu == 0.0) continue;
       const double displacement = fap.sign * value * fapu;  // Eq. 6
       (part < 2 ? pose.eye_translation[part] : pose.fp[fp])[fap.axis] = displacement;
+      own[fp][fap.axis] = 1.0;
     }
+  }
+  follow(rig, sets, own, pose);
+  for (int eye = 0; eye < 2; ++eye) {
+    const int upper_lid = 14 + eye;  // 3.1, 3.2
+    const int lower_lid = 16 + eye;  // 3.3, 3.4
+    pose.lid_closure[eye] = closure_of(rig.lids[eye], pose.fp[upper_lid][1], pose.fp[lower_lid][1], angle[eye][0]);
   }
   const auto compose = [](const std::array<double, 3>& a) {
     return rotation(1, a[1]) * rotation(0, a[0]) * rotation(2, a[2]);
@@ -171,25 +217,111 @@ Vec3 with_local_motion(const semblante_rig& rig, const Pose& pose, int rigid, co
   return rigid >= 128 ? rolled(rig.tongue, pose.tongue_roll * (rigid - 127) / 128.0, rest) : rest;
 }
 
+double size_of(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// Rodrigues' formula.
+Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
+  const Vec3 across{axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]};
+  const double along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+  Vec3 result{};
+  for (int i = 0; i < 3; ++i) {
+    result[i] = std::cos(angle) * v[i] + std::sin(angle) * across[i] + (1.0 - std::cos(angle)) * along * axis[i];
+  }
+  return result;
+}
+
+double ball_towards(const semblante_lids& lids, const Vec3& pole, const Vec3& d) {
+  const double cosine = (d[0] * pole[0] + d[1] * pole[1] + d[2] * pole[2]) / size_of(d);
+  return between(lids.ball, 17, 16.0 * std::sqrt(1.0 - limited(cosine, 0.0, 1.0)));
+}
+
+/// A vertex of lids: `p`, by the other points alone, taken to its height on its circle and kept off the ball.
+Vec3 with_lid(const semblante_rig& rig, const Pose& pose, int eye, double upper, double lower, const Vec3& rest,
+              const Vec3& p) {
+  const semblante_lids& lids = rig.lids[eye];
+  const float* const pivot = rig.eye_pivot[eye];
+  const Vec3 from{rest[0] - pivot[0], rest[1] - pivot[1], rest[2] - pivot[2]};
+  Vec3 arm{p[0] - pivot[0], p[1] - pivot[1], p[2] - pivot[2]};
+  const double way = lids.opening * (lower * pose.lid_closure[eye][1] - upper * pose.lid_closure[eye][0]);
+  const double radius = std::hypot(arm[1], arm[2]);
+  if (arm[2] > 0.05 * radius && way != 0.0) {
+    const double sine = (arm[1] + way) / radius;
+    arm[2] = std::abs(sine) < 1.0 ? std::max(0.05 * radius, radius * std::cos(std::asin(sine))) : 0.05 * radius;
+  }
+  arm[1] += way;
+  const double wanted = 0.03 * lids.ball[16];
+  if (wanted > 0.0) {
+    const Vec3 rest_pole{lids.gaze[0], lids.gaze[1], lids.gaze[2]};
+    double clearance = std::min(wanted, size_of(from) - ball_towards(lids, rest_pole, from));
+    const Vec3 pole = pose.eye[eye] * rest_pole;
+    const double swing = size_of({pole[0] - rest_pole[0], pole[1] - rest_pole[1], pole[2] - rest_pole[2]});
+    if (clearance > -wanted)
+      clearance += std::min(1.0, (std::abs(way) / lids.ball[16] + swing) / 0.1) * (wanted - clearance);
+    Vec3 from_ball{};
+    for (int i = 0; i < 3; ++i) from_ball[i] = arm[i] - pose.eye_translation[eye][i];
+    const double least = ball_towards(lids, pole, from_ball) + clearance;
+    if (size_of(from_ball) < least) {
+      const double flat = std::hypot(from_ball[0], from_ball[1]) / least;  // sine of the angle to straight ahead
+      const double stretch = least / size_of(from_ball);
+      if (from_ball[2] > 0.0 && flat * flat < 0.75) {
+        from_ball[2] = least * std::cos(std::asin(flat));
+      } else {
+        for (double& component : from_ball) component *= stretch;
+      }
+      for (int i = 0; i < 3; ++i) arm[i] = from_ball[i] + pose.eye_translation[eye][i];
+    }
+  }
+  return {pivot[0] + arm[0], pivot[1] + arm[1], pivot[2] + arm[2]};
+}
+
+/// The rotation of a vertex that has a share of the head's: between none and it, by normalized linear interpolation of
+/// quaternions, which is a rotation about the same axis with tan(half of it) = share sin / ((1 - share) + share cos).
+Matrix part_of(const Matrix& head, double share) {
+  const Vec3 axis{head[2][1] - head[1][2], head[0][2] - head[2][0], head[1][0] - head[0][1]};
+  const double size = size_of(axis);
+  if (size < 1e-12) return head;  // no turn
+  const double half = 0.5 * std::acos(limited((head[0][0] + head[1][1] + head[2][2] - 1.0) / 2.0, -1.0, 1.0));
+  const double angle = 2.0 * std::atan2(share * std::sin(half), (1.0 - share) + share * std::cos(half));
+  Matrix part{};
+  for (int column = 0; column < 3; ++column) {
+    Vec3 unit{};
+    unit[column] = 1.0;
+    const Vec3 to = turned(unit, {axis[0] / size, axis[1] / size, axis[2] / size}, angle);
+    for (int row = 0; row < 3; ++row) part[row][column] = to[row];
+  }
+  return part;
+}
+
 }  // namespace
 
 std::vector<Vec3> deform(const semblante_face& face, const semblante_rig& rig, const Pose& pose) {
   std::vector<Vec3> positions;
   for (std::uint32_t v = 0; v < face.vertex_count; ++v) {
     Vec3 sum_of_moves{};
+    const int motion = face.rigid == nullptr ? 0 : face.rigid[v];
+    const int lids = (motion == 5 || motion == 6) && rig.lids[motion - 5].opening > 0.0F ? motion - 5 : -1;
+    double upper = 0.0;
+    double lower = 0.0;
     for (std::uint32_t e = face.row_offsets[v]; e < face.row_offsets[v + 1]; ++e) {
+      if (lids >= 0 && (face.row_points[e] == 14 + lids || face.row_points[e] == 16 + lids)) {
+        (face.row_points[e] == 14 + lids ? upper : lower) = face.row_weights[e];
+        continue;
+      }
       for (int i = 0; i < 3; ++i) sum_of_moves[i] += face.row_weights[e] * pose.fp[face.row_points[e]][i];
     }
     const int rigid = face.rigid == nullptr ? 0 : face.rigid[v];
     const Vec3 rest{face.rest[v * 3], face.rest[v * 3 + 1], face.rest[v * 3 + 2]};
     Vec3 p = with_local_motion(rig, pose, rigid, rest);
     for (int i = 0; i < 3; ++i) p[i] += sum_of_moves[i];  // Eq. 7
-    if (rigid != 0 && rigid < 128) {
+    if (lids >= 0) p = with_lid(rig, pose, lids, upper, lower, rest, p);
+    if (rigid >= 1 && rigid <= 4) {
       const int eye = (rigid - 1) % 2;
       p = turn_about(pose.eye[eye], rig.eye_pivot[eye], p);
       for (int i = 0; i < 3; ++i) p[i] += pose.eye_translation[eye][i];
     }
-    positions.push_back(turn_about(pose.head, rig.head_pivot, p));
+    const int turn = face.turn == nullptr ? 255 : face.turn[v];
+    const Matrix head = turn == 255 ? pose.head : part_of(pose.head, turn / 255.0);
+    positions.push_back(turn_about(head, rig.head_pivot, p));
   }
   return positions;
 }

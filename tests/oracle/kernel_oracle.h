@@ -17,8 +17,9 @@ struct Pose {
   std::array<Matrix, 2> eye{};
   std::array<Vec3, 2> eye_translation{};
   Matrix head{};
-  std::array<double, 2> pupil_growth{};  ///< of the radius
-  double tongue_roll = 0.0;              ///< radians
+  std::array<double, 2> pupil_growth{};                ///< of the radius
+  double tongue_roll = 0.0;                            ///< radians
+  std::array<std::array<double, 2>, 2> lid_closure{};  ///< left, right; upper, lower
 };
 
 /// Rotation by `angle` radians about axis 0, 1 or 2, right-hand rule.
@@ -29,7 +30,7 @@ Vec3 operator*(const Matrix& m, const Vec3& v);
 /// Reads the FAPs from core/tables/mpeg4.h, not from the kernel's own table.
 Pose evaluate(const semblante_rig& rig, const semblante_frame& frame);
 
-/// Eq. 7 with the quotients as they stand in the face, then irises, eyes and tongue, then the head.
+/// Eq. 7 with the quotients as they stand in the face, then irises, eyes, lids and tongue, then the head.
 std::vector<Vec3> deform(const semblante_face& face, const semblante_rig& rig, const Pose& pose);
 
 }  // namespace semblante::oracle

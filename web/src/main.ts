@@ -61,6 +61,10 @@ function main(root: HTMLElement): void {
       live.touch();
     },
     onIdle: (on) => driver.setIdle(on),
+    onJawTakesLip: (takes) => {
+      scene.jawTakesLip = takes;
+      driver.byHand();
+    },
   });
   const clip = new ClipPanel(driver);
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);

@@ -32,6 +32,7 @@ function ramp(n: number): DrawableMesh {
     rowPoints: new Uint8Array(count),
     rowWeights: Float32Array.from({ length: count }, (_, v) => (v % side) / n),
     rigid: new Uint8Array(count),
+    turn: new Uint8Array(count).fill(255),
   };
 }
 

@@ -55,6 +55,7 @@ std::optional<Substance> substance_by_role(PartRole role) {
       return Substance::gums;
     case PartRole::attached:
     case PartRole::rest:
+    case PartRole::body:
       return std::nullopt;
   }
   return std::nullopt;

@@ -53,7 +53,8 @@ std::string joined(const json& words) {
 
 TableData read_table_data(const std::string& data_folder) {
   return {codegen::read_json(data_folder + "/faps.json"), codegen::read_json(data_folder + "/feature-points.json"),
-          codegen::read_json(data_folder + "/fapus.json"), codegen::read_json(data_folder + "/high-level.json")};
+          codegen::read_json(data_folder + "/fapus.json"), codegen::read_json(data_folder + "/high-level.json"),
+          codegen::read_json(data_folder + "/companions.json")};
 }
 
 std::string render_c_header(const TableData& data) {
@@ -65,7 +66,10 @@ std::string render_c_header(const TableData& data) {
       << "#define SEMBLANTE_FAP_PUPIL 3 /* the diameter of a pupil changes */\n"
       << "#define SEMBLANTE_FAP_ROLL 4  /* the borders of the tongue turn up */\n\n"
       << "#define SEMBLANTE_FP_LEFT_PUPIL " << index_of(data, "3.5") << "\n"
-      << "#define SEMBLANTE_FP_RIGHT_PUPIL " << index_of(data, "3.6") << "\n\n"
+      << "#define SEMBLANTE_FP_RIGHT_PUPIL " << index_of(data, "3.6") << "\n"
+      << "/* The point of the right eye is the next one. */\n"
+      << "#define SEMBLANTE_FP_LEFT_UPPER_LID " << index_of(data, "3.1") << "\n"
+      << "#define SEMBLANTE_FP_LEFT_LOWER_LID " << index_of(data, "3.3") << "\n\n"
       << "/* displacement (or angle) = sign * value * unit along (or about) the axis */\n"
       << "typedef struct semblante_fap_entry {\n"
       << "  uint8_t kind; /* SEMBLANTE_FAP_* */\n"
@@ -160,6 +164,14 @@ std::string render_cpp_header(const TableData& data) {
   array("ExpressionInfo", "expressions", data.high_level["expressions"].size());
   for (const json& expression : data.high_level["expressions"]) {
     out << "    {" << quoted(expression["name"]) << ", " << quoted(expression["description"]) << "},\n";
+  }
+  out << "}};\n\n";
+  array("Companion", "companions", data.companions["companions"].size() + data.companions["lower_lip"].size());
+  for (const char* const list : {"companions", "lower_lip"}) {
+    for (const json& entry : data.companions[list]) {
+      out << "    {" << index_of(data, entry["point"]) << ", " << index_of(data, entry["follows"]) << ", "
+          << entry["share"] << ", " << (list == std::string_view("lower_lip") ? "true" : "false") << "},\n";
+    }
   }
   out << "}};\n\n}  // namespace semblante::mpeg4\n";
   return out.str();

@@ -11,7 +11,7 @@ namespace semblante::tables {
 
 /// The parsed files of core/tables/data.
 struct TableData {
-  nlohmann::ordered_json faps, feature_points, fapus, high_level;
+  nlohmann::ordered_json faps, feature_points, fapus, high_level, companions;
 };
 
 /// Reads the data files. Throws std::exception with the file's name on any fault: this runs at development time only.

@@ -373,4 +373,28 @@ inline constexpr std::array<ExpressionInfo, 7> expressions = {{
     {"surprise", "brows raised; upper lids wide open, lower lids relaxed; jaw opened"},
 }};
 
+inline constexpr std::array<Companion, 21> companions = {{
+    {9, 0, 1.0, false},
+    {10, 0, 0.95, false},
+    {11, 0, 0.95, false},
+    {12, 0, 0.2, false},
+    {13, 0, 0.2, false},
+    {26, 14, 0.42, false},
+    {27, 15, 0.42, false},
+    {34, 0, 0.27, false},
+    {35, 0, 0.27, false},
+    {34, 45, 0.5, false},
+    {35, 46, 0.5, false},
+    {2, 0, 0.95, true},
+    {3, 0, 0.45, true},
+    {4, 0, 0.45, true},
+    {7, 0, 0.82, true},
+    {8, 0, 0.82, true},
+    {44, 0, 0.97, true},
+    {45, 0, 0.43, true},
+    {46, 0, 0.43, true},
+    {49, 0, 0.87, true},
+    {50, 0, 0.87, true},
+}};
+
 }  // namespace semblante::mpeg4

@@ -13,6 +13,9 @@
 
 #define SEMBLANTE_FP_LEFT_PUPIL 18
 #define SEMBLANTE_FP_RIGHT_PUPIL 19
+/* The point of the right eye is the next one. */
+#define SEMBLANTE_FP_LEFT_UPPER_LID 14
+#define SEMBLANTE_FP_LEFT_LOWER_LID 16
 
 /* displacement (or angle) = sign * value * unit along (or about) the axis */
 typedef struct semblante_fap_entry {

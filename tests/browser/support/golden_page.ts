@@ -14,6 +14,7 @@ export interface GoldenMesh {
   rowPoints: number[];
   rowWeights: number[];
   rigid: number[];
+  turn: number[];
 }
 
 /** For each pose the vertices that the shader computes, #V by 3. */
@@ -29,6 +30,7 @@ function deformAll(given: GoldenMesh, poses: Record<keyof Pose, number[]>[]): nu
     rowPoints: Uint8Array.from(given.rowPoints),
     rowWeights: Float32Array.from(given.rowWeights),
     rigid: Uint8Array.from(given.rigid),
+    turn: Uint8Array.from(given.turn),
   };
   const view = new FaceView(mesh, []);
   const renderer = new WebGLRenderer();

@@ -20,7 +20,7 @@ struct Bound {
 // A little over what is reached; 1 would be what doing nothing gives.
 const std::map<std::string, Bound> bounds = {
     {"browDown", {0.86, 0.50}},     {"browInnerUp", {0.70, 0.73}}, {"eyeBlink_R", {0.50, 0.86}},
-    {"eyeWide", {0.61, 0.81}},      {"jawOpen", {0.74, 0.82}},     {"jawOpen_mouthClose", {0.93, 0.65}},
+    {"eyeWide", {0.61, 0.81}},      {"jawOpen", {0.74, 0.82}},     {"jawOpen_mouthClose", {0.93, 0.59}},
     {"mouthFrown", {0.57, 0.81}},   {"mouthFunnel", {0.60, 0.80}}, {"mouthLowerDown", {0.45, 0.89}},
     {"mouthPress", {0.76, 0.66}},   {"mouthPucker", {0.58, 0.82}}, {"mouthSmile", {0.70, 0.71}},
     {"mouthSmile_L", {0.70, 0.71}}, {"noseSneer", {0.69, 0.73}},

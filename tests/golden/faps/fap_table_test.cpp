@@ -30,6 +30,18 @@ const json& fap_data() {
 
 const json& fap(int number) { return fap_data().at(static_cast<std::size_t>(number - 1)); }
 
+/// The share of a point's displacement that another point takes of it, by the data of the companions.
+float share_of_companion(const std::string& point, const std::string& leader) {
+  static const json data = [] {
+    std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + "/core/tables/data/companions.json");
+    return json::parse(file).at("companions");
+  }();
+  for (const json& entry : data) {
+    if (entry.at("point") == point && entry.at("follows") == leader) return entry.at("share");
+  }
+  return 0.0F;
+}
+
 /// A head with eyes, teeth and tongue, in one of its methods of weights, with what the tests ask of it.
 class Subject {
  public:
@@ -48,6 +60,16 @@ class Subject {
     return face_.pose(bench::frame_of({{number, value}}));
   }
   [[nodiscard]] std::vector<glm::vec3> moved(const semblante_frame& frame) const { return face_.pose(frame); }
+
+  /// Whether a vertex is more than two eye distances away from a point and from all that follow it.
+  [[nodiscard]] bool is_far(std::size_t v, const std::string& point) const {
+    for (const FeaturePoint& p : head_.points) {
+      const std::string id = to_string(p.id);
+      if (!p.vertex || (id != point && share_of_companion(id, point) == 0.0F)) continue;
+      if (glm::distance(rest_[v], rest_[p.vertex->value()]) <= 2048.0F * unit("ES")) return false;
+    }
+    return true;
+  }
 
   [[nodiscard]] std::optional<std::uint32_t> vertex_of(const std::string& point) const {
     for (const FeaturePoint& p : head_.points) {
@@ -148,7 +170,38 @@ void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance, const 
       << what << ": " << a.x << " " << a.y << " " << a.z << " for " << b.x << " " << b.y << " " << b.z;
 }
 
+bool is_lid(const Subject& head, std::size_t v, std::size_t eye) {
+  const RigidMotion motion = head.rig().rigid_of_vertex[v];
+  return motion == (eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids);
+}
+
+/// A lid that rolls goes down (or up) by what its FAP says, about, on an arc about the eye; only this eye's lids move,
+/// and the fold above, which follows.
+void check_lid(const Subject& head, int number, float value) {
+  const std::string point = fap(number).at("feature_points")[0];
+  const std::size_t eye = number % 2 == 1 ? 0 : 1;
+  const glm::vec3 displacement = axis_of(number) * value * head.unit("IRISD");
+  const std::vector<glm::vec3> moved = head.moved(number, value);
+  const auto vertex = head.vertex_of(point);
+  ASSERT_TRUE(vertex.has_value()) << point;
+  EXPECT_NEAR(moved[*vertex].y - head.rest(*vertex).y, displacement.y, 0.25F * std::abs(displacement.y)) << point;
+  const glm::vec3 pivot = eye == 0 ? head.rig().left_eye_pivot : head.rig().right_eye_pivot;
+  for (std::size_t v = 0; v < head.count(); ++v) {
+    const glm::vec3 d = moved[v] - head.rest(v);
+    if (d == glm::vec3(0.0F)) continue;
+    EXPECT_TRUE(head.role(v) == PartRole::skin || head.role(v) == PartRole::attached);
+    EXPECT_LE(glm::length(d), 1.6F * glm::length(displacement));
+    EXPECT_LE(glm::distance(head.rest(v), pivot), 1024.0F * head.unit("ES"));
+    if (is_lid(head, v, 1 - eye)) ADD_FAILURE() << "the other eye";
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
 void check_translation(const Subject& head, int number, float value) {
+  if (number >= 19 && number <= 22 && head.rig().lids[number % 2 == 1 ? 0 : 1]) {
+    check_lid(head, number, value);
+    return;
+  }
   const std::string point = fap(number).at("feature_points")[0];
   const glm::vec3 displacement = axis_of(number) * value * head.unit(fap(number).at("unit"));
   const std::vector<glm::vec3> moved = head.moved(number, value);
@@ -161,8 +214,8 @@ void check_translation(const Subject& head, int number, float value) {
     if (!other.vertex || to_string(other.id) == point) continue;
     const std::uint32_t v = other.vertex->value();
     const bool carried = is_jaw(number) && (head.role(v) == PartRole::tongue || head.role(v) == PartRole::lower_teeth);
-    expect_near(moved[v] - head.rest(v), carried ? displacement : glm::vec3(0.0F), head.tolerance(),
-                to_string(other.id));
+    const float share = carried ? 1.0F : share_of_companion(to_string(other.id), point);
+    expect_near(moved[v] - head.rest(v), share * displacement, head.tolerance(), to_string(other.id));
   }
   const bool tongue = is_of_tongue(point);
   float farthest = 0.0F;
@@ -177,6 +230,7 @@ void check_translation(const Subject& head, int number, float value) {
       case PartRole::left_eye:
       case PartRole::right_eye:
       case PartRole::rest:
+      case PartRole::body:
         EXPECT_EQ(d, glm::vec3(0.0F));
         break;
       case PartRole::upper_teeth:
@@ -196,8 +250,7 @@ void check_translation(const Subject& head, int number, float value) {
           EXPECT_EQ(d, glm::vec3(0.0F));
         }
         // Two eye distances away nothing of it is left; but an ear's points are all there is on the scalp behind it.
-        if (!tongue && !is_jaw(number) && !point.starts_with("10.") &&
-            glm::distance(head.rest(v), head.rest(*vertex)) > 2048.0F * head.unit("ES")) {
+        if (!tongue && !is_jaw(number) && !point.starts_with("10.") && head.is_far(v, point)) {
           farthest = std::max(farthest, glm::length(d));
         }
         break;
@@ -216,7 +269,10 @@ void check_eye_turn(const Subject& head, int number, float value) {
     expect_near(moved[v], turned(head.rest(v), pivot, axis_of(number), value * 1e-5), head.tolerance(), "eye");
     if (::testing::Test::HasFailure()) return;
   }
-  expect_others_still(head, moved, "an eye", [&](std::size_t v) { return head.role(v) == role; });
+  // The lids of the eye follow its gaze, and the cornea beneath them.
+  const std::size_t eye = left ? 0 : 1;
+  expect_others_still(head, moved, "an eye",
+                      [&](std::size_t v) { return head.role(v) == role || is_lid(head, v, eye); });
   // In words: the pupil goes to the face's left (+x), or down (-y).
   const auto pupil = head.vertex_of(left ? "3.5" : "3.6");
   ASSERT_TRUE(pupil.has_value());
@@ -233,7 +289,9 @@ void check_thrust(const Subject& head, int number, float value) {
     expect_near(moved[v] - head.rest(v), displacement, head.tolerance(), "eye");
     if (::testing::Test::HasFailure()) return;
   }
-  expect_others_still(head, moved, "an eye", [&](std::size_t v) { return head.role(v) == role; });
+  const std::size_t eye = number == 27 ? 0 : 1;
+  expect_others_still(head, moved, "an eye",
+                      [&](std::size_t v) { return head.role(v) == role || is_lid(head, v, eye); });
 }
 
 void check_pupil(const Subject& head, int number, float value) {
@@ -318,7 +376,11 @@ void check_head_turn(const Subject& head, int number, float value) {
   const std::vector<glm::vec3> moved = head.moved(number, value);
   const glm::vec3 pivot = head.position_of("7.1");
   for (std::size_t v = 0; v < head.count(); ++v) {
-    expect_near(moved[v], turned(head.rest(v), pivot, axis_of(number), value * 1e-5), 2.0F * head.tolerance(), "head");
+    // A share of the rotation: normalized linear interpolation of quaternions.
+    const double share = head.rig().turn_of_vertex.empty() ? 1.0 : head.rig().turn_of_vertex[v] / 255.0;
+    const double half = 0.5 * value * 1e-5;
+    const double angle = 2.0 * std::atan2(share * std::sin(half), (1.0 - share) + share * std::cos(half));
+    expect_near(moved[v], turned(head.rest(v), pivot, axis_of(number), angle), 2.0F * head.tolerance(), "head");
     if (::testing::Test::HasFailure()) return;
   }
   const auto nose = head.vertex_of("9.3");

@@ -55,7 +55,8 @@ struct Checker {
   json file;
   std::vector<float> viseme, expression, rest, rest_normals, weights;
   std::vector<std::uint32_t> offsets{0}, triangles, joined, scratch;
-  std::vector<std::uint8_t> points, rigid;
+  std::vector<std::uint8_t> points, rigid, turn;
+  std::vector<semblante_companion> companions;
   semblante_rig rig{};
   semblante_face face{};
   semblante_triangles mesh{};
@@ -89,11 +90,28 @@ struct Checker {
     rig.tongue.half_width = tongue["half_width"];
     rig.tongue.roll_limit = tongue["roll_limit"];
 
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const json& lids = r["lids"][eye];
+      semblante_lids& to = rig.lids[eye];
+      copy(lids["gaze"], to.gaze);
+      to.slit = lids["slit"];
+      to.opening = lids["opening"];
+      copy(lids["gaze_share"], to.gaze_share);
+      copy(lids["ball"], to.ball);
+    }
+    for (const auto* const list : {"companions", "lower_lip"}) {
+      const auto is_choice = static_cast<std::uint8_t>(std::string(list) == "lower_lip" ? 1 : 0);
+      for (const json& c : r[list]) companions.push_back({c[0], c[1], is_choice, 0, c[2]});
+    }
+    rig.companion = companions.data();
+    rig.companion_count = static_cast<std::uint32_t>(companions.size());
+
     const json& f = file["face"];
     rest = numbers<float>(f["rest"]);
     rest_normals = numbers<float>(f["normals"]);
     triangles = numbers<std::uint32_t>(f["triangles"]);
     rigid = numbers<std::uint8_t>(f["rigid"]);
+    turn = numbers<std::uint8_t>(f["turn"]);
     for (const json& row : f["rows"]) {
       for (const json& entry : row) {
         points.push_back(entry[0]);
@@ -102,7 +120,7 @@ struct Checker {
       offsets.push_back(static_cast<std::uint32_t>(points.size()));
     }
     const auto count = static_cast<std::uint32_t>(rigid.size());
-    face = {count, rest.data(), offsets.data(), points.data(), weights.data(), rigid.data()};
+    face = {count, rest.data(), offsets.data(), points.data(), weights.data(), rigid.data(), turn.data()};
     joined.resize(count);
     scratch.resize(semblante_join_scratch(count));
     semblante_join_seams(count, rest.data(), rest_normals.data(), scratch.data(), joined.data());
@@ -120,8 +138,10 @@ struct Checker {
     f.expression2 = source["expression"]["select2"];
     f.intensity2 = source["expression"]["intensity2"];
     for (const auto& [number, value] : source["faps"].items()) f.fap[std::stoul(number)] = value;
+    semblante_rig chosen = rig;
+    chosen.lip_share = file["cases"][index].value("jaw_takes_lip", false) ? 1.0F : 0.0F;
     semblante_pose p;
-    semblante_evaluate(&rig, &f, &p);
+    semblante_evaluate(&chosen, &f, &p);
     return p;
   }
 

@@ -26,11 +26,13 @@ float round_off(double value) { return static_cast<float>(std::nearbyint(value *
 struct Builder {
   GoldenFace& face;
   Numbers numbers;
+  std::uint8_t turn = SEMBLANTE_TURN_FULL;  ///< of the vertices to come
 
   std::uint32_t vertex(double x, double y, double z, std::array<double, 3> normal, std::uint8_t part) {
     for (const double value : {x, y, z}) face.rest.push_back(round_off(value));
     for (const double value : normal) face.normals.push_back(round_off(value));
     face.rigid.push_back(part);
+    face.turn.push_back(turn);
     return static_cast<std::uint32_t>(face.rigid.size() - 1);
   }
 
@@ -70,6 +72,7 @@ struct Builder {
     for (int side = 0; side < 2; ++side) {
       const auto first = static_cast<std::uint32_t>(face.rigid.size());
       for (int r = 0; r < 8; ++r) {
+        turn = static_cast<std::uint8_t>(std::min(255, r * 73));  // the lower rows are the neck, the lowest stays
         for (int c = 0; c < 6; ++c) {
           const double x = (side == 0 ? c - 5 : c) * 0.2;
           const double y = r * 0.25 - 0.9;
@@ -115,6 +118,31 @@ struct Builder {
     }
   }
 
+  /// A sheet in front of an eye, bent about its pivot and partly under the surface of the ball: its rows follow the
+  /// lids' points with shares that fall off upwards and downwards, and other points as well.
+  void lids(int eye) {
+    const auto first = static_cast<std::uint32_t>(face.rigid.size());
+    const float* const pivot = face.rig.eye_pivot[eye];
+    for (int r = 0; r < 6; ++r) {
+      for (int c = 0; c < 6; ++c) {
+        const double angle = 0.25 * r - 0.6;
+        const double radius = 0.19 + 0.008 * ((r + c) % 4);
+        vertex(pivot[0] + 0.06 * (c - 2.5), pivot[1] + radius * std::sin(angle), pivot[2] + radius * std::cos(angle),
+               {0, std::sin(angle), std::cos(angle)},
+               static_cast<std::uint8_t>(eye == 0 ? SEMBLANTE_RIGID_LEFT_LIDS : SEMBLANTE_RIGID_RIGHT_LIDS));
+        const double share = 1.0 - 0.25 * (r < 3 ? 2 - r : r - 3);
+        face.points.push_back(static_cast<std::uint8_t>((r < 3 ? 16 : 14) + eye));
+        face.weights.push_back(static_cast<float>(share));
+        if (share < 1.0) {
+          face.points.push_back(static_cast<std::uint8_t>(28 + eye));
+          face.weights.push_back(static_cast<float>(1.0 - share));
+        }
+        face.offsets.push_back(static_cast<std::uint32_t>(face.points.size()));
+      }
+    }
+    grid(first, 6, 6);
+  }
+
   void tongue() {
     const auto first = static_cast<std::uint32_t>(face.rigid.size());
     for (int r = 0; r < 3; ++r) {
@@ -149,6 +177,10 @@ GoldenFace::GoldenFace() {
     const float pivot[3] = {eye == 0 ? 0.375F : -0.375F, 0.25F, 0.5F};
     std::copy(std::begin(pivot), std::end(pivot), rig.eye_pivot[eye]);
     rig.iris[eye] = {{0.0F, 0.0F, 1.0F}, 0.03125F, 0.09375F, -2.5F};
+    semblante_lids& lids = rig.lids[eye];
+    lids = {{0.0F, 0.0F, 1.0F}, 0.625F, 0.125F, {0.75F, 0.25F}, {}};
+    // A cornea.
+    for (int k = 0; k < SEMBLANTE_BALL_PLACES; ++k) lids.ball[k] = k < 2 ? 0.20703125F : 0.19921875F;
   }
   rig.head_pivot[1] = -0.75F;
   rig.head_pivot[2] = -0.25F;
@@ -160,7 +192,13 @@ GoldenFace::GoldenFace() {
   builder.skin();
   builder.eye(0);
   builder.eye(1);
+  builder.lids(0);
+  builder.lids(1);
   builder.tongue();
+  companions = {{9, 0, 0, 0, 0.96875F},  {34, 0, 0, 0, 0.25F},  {34, 45, 0, 0, 0.5F},
+                {26, 14, 0, 0, 0.4375F}, {2, 0, 1, 0, 0.9375F}, {45, 0, 1, 0, 0.4375F}};
+  rig.companion = companions.data();
+  rig.companion_count = static_cast<std::uint32_t>(companions.size());
   rig.viseme = visemes.data();
   rig.expression = expressions.data();
 }
@@ -171,7 +209,8 @@ semblante_face GoldenFace::view() const {
           offsets.data(),
           points.data(),
           weights.data(),
-          rigid.data()};
+          rigid.data(),
+          turn.data()};
 }
 
 std::vector<GoldenFrame> golden_frames() {
@@ -220,6 +259,15 @@ std::vector<GoldenFrame> golden_frames() {
   parts("pupils in turned eyes", {{23, -15000}, {26, 10000}, {29, 200}, {30, 400}});
   parts("tongue rolled", {{47, 60000}});
   parts("tongue rolled downwards and out", {{47, -80000}, {43, 300}, {44, 500}});
+  parts("a blink, the other eye half", {{19, 1024}, {20, 512}});
+  parts("lids meet half way and do not cross", {{19, 700}, {20, 400}, {21, 500}, {22, 800}});
+  parts("lids wide, and looking up", {{19, -500}, {20, -1080}, {21, -200}, {25, -30000}, {26, -40000}});
+  parts("looking down through half closed lids", {{19, 512}, {25, 40000}, {26, 40000}, {28, 300}});
+  parts("jaw alone, with its companions", {{3, 600}});
+  parts("jaw, with companions that go their own way", {{3, 600}, {18, 100}, {39, 200}, {53, 300}});
+  parts("jaw that takes the lower lip along", {{3, 600}, {16, 200}});
+  frames.back().jaw_takes_lip = true;
+  high("jaw over a viseme that has its companions", {7, 0, 63}, {0, 0, 0, 0}).fap[3] = 500;
   parts("head", {{48, 20000}, {49, -30000}, {50, 15000}});
   semblante_frame& all = high("everything at once", {2, 9, 25}, {5, 60, 2, 20});
   for (int n = 3; n <= 68; ++n) set(all, n);

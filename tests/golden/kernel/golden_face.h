@@ -9,16 +9,18 @@
 
 namespace semblante::testing {
 
-/// A face of some 170 vertices that has one of everything: skin with a UV seam and a hard edge, two eyes with irises, a
-/// tongue, vertices without influence; and the frames that exercise it. Coordinates are about 1, FAPUs about 1/1000.
+/// A face of some 240 vertices that has one of everything: skin with a UV seam and a hard edge, a neck below it, two
+/// eyes with irises and lids, a tongue, vertices without influence; and the frames that exercise it. Coordinates are
+/// about 1, FAPUs about 1/1000.
 struct GoldenFace {
   std::vector<float> rest, normals;  ///< #V by 3
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> offsets{0};
-  std::vector<std::uint8_t> points, rigid;
+  std::vector<std::uint8_t> points, rigid, turn;
   std::vector<float> weights;
   std::vector<float> visemes = std::vector<float>(15 * 84 * 3);
   std::vector<float> expressions = std::vector<float>(7 * 84 * 3);
+  std::vector<semblante_companion> companions;
   semblante_rig rig{};
 
   GoldenFace();
@@ -30,6 +32,7 @@ struct GoldenFace {
 struct GoldenFrame {
   std::string name;
   semblante_frame frame{};
+  bool jaw_takes_lip = false;
 };
 
 /// Every group of FAPs, visemes, expressions, what overlaps, and each motion of a part.

@@ -86,6 +86,21 @@ void print_rig(const GoldenFace& face) {
   std::printf("    \"tongue\": {\"origin\":%s,\"left\":%s,\"up\":%s,\"half_width\":%s,\"roll_limit\":%s},\n",
               list(rig.tongue.origin, 3).c_str(), list(rig.tongue.left, 3).c_str(), list(rig.tongue.up, 3).c_str(),
               exact(rig.tongue.half_width).c_str(), exact(rig.tongue.roll_limit).c_str());
+  std::printf("    \"lids\": [%s],\n", each(rig.lids, ",\n      ", [](const semblante_lids& lids) {
+                                         return "{\"gaze\":" + list(lids.gaze, 3) + ",\"slit\":" + exact(lids.slit) +
+                                                ",\"opening\":" + exact(lids.opening) +
+                                                ",\"gaze_share\":" + list(lids.gaze_share, 2) +
+                                                ",\"ball\":" + list(lids.ball, SEMBLANTE_BALL_PLACES) + "}";
+                                       }).c_str());
+  for (const int is_choice : {0, 1}) {
+    std::string entries;
+    for (const semblante_companion& c : face.companions) {
+      if (c.is_choice != is_choice) continue;
+      entries += (entries.empty() ? "[" : ",[") + std::to_string(c.point) + "," + std::to_string(c.leader) + "," +
+                 exact(c.share) + "]";
+    }
+    std::printf("    \"%s\": [%s],\n", is_choice != 0 ? "lower_lip" : "companions", entries.c_str());
+  }
   std::printf("    \"visemes\": [\n      %s],\n    \"expressions\": [\n      %s]\n  },\n", sets(face.visemes).c_str(),
               sets(face.expressions).c_str());
 }
@@ -105,8 +120,9 @@ void print_face(const GoldenFace& face) {
     }
     rows += (v == 0 ? "" : ",") + ("[" + row + "]");
   }
-  std::printf("    \"rows\": [%s],\n    \"rigid\": [%s]\n  },\n", rows.c_str(),
-              each(face.rigid, ",", [](std::uint8_t r) { return std::to_string(r); }).c_str());
+  const auto number = [](std::uint8_t value) { return std::to_string(value); };
+  std::printf("    \"rows\": [%s],\n    \"rigid\": [%s],\n    \"turn\": [%s]\n  },\n", rows.c_str(),
+              each(face.rigid, ",", number).c_str(), each(face.turn, ",", number).c_str());
 }
 
 /// Positions and normals of a pose, as the end of a case.
@@ -171,6 +187,10 @@ oracle::Pose middle(const oracle::Pose& a, const oracle::Pose& b) {
     out.pupil_growth[eye] = (a.pupil_growth[eye] + b.pupil_growth[eye]) / 2.0;
   }
   out.tongue_roll = (a.tongue_roll + b.tongue_roll) / 2.0;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    for (std::size_t lid = 0; lid < 2; ++lid)
+      out.lid_closure[eye][lid] = (a.lid_closure[eye][lid] + b.lid_closure[eye][lid]) / 2.0;
+  }
   out.head = a.head * half_of(transposed(a.head) * b.head);
   return out;
 }
@@ -185,10 +205,13 @@ void print() {
   std::map<std::string, std::pair<std::size_t, oracle::Pose>> poses;
   std::string cases;
   for (const GoldenFrame& frame : testing::golden_frames()) {
-    const oracle::Pose pose = oracle::evaluate(face.rig, frame.frame);
+    semblante_rig rig = face.rig;
+    rig.lip_share = frame.jaw_takes_lip ? 1.0F : 0.0F;
+    const oracle::Pose pose = oracle::evaluate(rig, frame.frame);
     poses.emplace(frame.name, std::pair{poses.size(), pose});
     cases += (cases.empty() ? "" : ",\n    ") + ("{\"name\": \"" + frame.name + "\",\n      \"frame\": ") +
-             frame_text(frame.frame) + ",\n      " + results(face, pose);
+             frame_text(frame.frame) + (frame.jaw_takes_lip ? ",\n      \"jaw_takes_lip\": true" : "") + ",\n      " +
+             results(face, pose);
   }
   std::string middles;
   for (const auto& [from, to] : testing::golden_middles()) {

@@ -198,7 +198,7 @@ TEST(RigidMotion, SharesOfTheRollAreInSteps) {
     EXPECT_DOUBLE_EQ(tongue_share(tongue_motion(step / 128.0)), step / 128.0);
     EXPECT_TRUE(is_rigid_motion(static_cast<std::uint8_t>(tongue_motion(step / 128.0))));
   }
-  EXPECT_FALSE(is_rigid_motion(5));
+  EXPECT_FALSE(is_rigid_motion(7));
   EXPECT_FALSE(is_rigid_motion(127));
 }
 

@@ -94,14 +94,14 @@ TEST(VmcValues, ManyExpressions_TheTwoStrongestAreShown) {
   EXPECT_EQ(frame.intensity2, 44);  // 44.1
 }
 
-TEST(VmcValues, EyesByBonesAlone_TakeTheLidsAlong) {
+TEST(VmcValues, EyesByBonesAlone_LeaveTheLidsToTheFace) {
   Values values;
   values.eyes[0] = values.eyes[1] = to_rotation({0.0, 20 * degree, 0.0});
   values.eye_bones = true;
   const semblante_frame frame = frame_of(values);
   EXPECT_NEAR(frame.fap[25], 20 * degree * 1e5, 0.1);
-  EXPECT_GT(frame.fap[19], 100.0F) << "who looks down lowers the upper lid";
-  EXPECT_EQ(frame.fap[19], frame.fap[20]);
+  EXPECT_EQ(frame.fap[19], 0.0F) << "the face's own lids follow its gaze";
+  EXPECT_EQ(frame.fap[20], 0.0F);
 }
 
 TEST(VmcValues, OfAFace_SayExpressionsByPresetsAloneAndTheRestByPerfectSync) {

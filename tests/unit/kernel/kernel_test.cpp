@@ -192,7 +192,7 @@ TEST(Kernel_Frame, NumbersWithoutAFapMoveNothing) {
 std::vector<float> one_vertex(const TestRig& rig, const semblante_frame& frame, std::vector<float> at,
                               std::uint8_t rigid = 0) {
   const std::uint32_t offsets[2] = {0, 0};
-  const semblante_face face = {1, at.data(), offsets, nullptr, nullptr, &rigid};
+  const semblante_face face = {1, at.data(), offsets, nullptr, nullptr, &rigid, nullptr};
   const semblante_pose pose = rig.pose(frame);
   std::vector<float> out(3);
   semblante_deform(&face, &pose, out.data());
@@ -245,6 +245,130 @@ TEST(Kernel_Eyes, AreThrustForwardAsAWhole_ThenTurnWithTheHead) {
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 2), {3, 0, 1});
   frame.fap[49] = quarter_turn;  // head last: (3, 0, 4) -> (4, 0, -3)
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 1), {4, 0, -3});
+}
+
+/// FPs by dense index.
+constexpr int jaw = 0, lower_lip = 2, chin = 9, upper_lid = 14, lower_lid = 16, fold = 26;
+
+float y_of(const semblante_pose& pose, int fp) { return pose.fp[fp * 3 + 1]; }
+
+TEST(Kernel_Companions, FollowTheirLeader_ExceptOnTheAxisOfAFapOfTheirOwn) {
+  TestRig rig;
+  const semblante_companion companions[] = {{chin, jaw, 0, 0, 0.5F}, {lower_lip, jaw, 1, 0, 0.25F}};
+  rig.rig.companion = companions;
+  rig.rig.companion_count = 2;
+  semblante_frame frame{};
+  frame.fap[3] = 2.0F;   // 2.1 down by 16
+  frame.fap[14] = 1.0F;  // and forward by 8
+  semblante_pose pose = rig.pose(frame);
+  EXPECT_EQ(y_of(pose, chin), -8.0F);
+  EXPECT_EQ(pose.fp[chin * 3 + 2], 4.0F);
+  EXPECT_EQ(y_of(pose, lower_lip), 0.0F) << "by the standard, FAP 3 does not part the lips";
+  rig.rig.lip_share = 1.0F;
+  EXPECT_EQ(y_of(rig.pose(frame), lower_lip), -4.0F);
+  frame.fap[18] = 0.125F;  // 2.10 up by 1: wins, on its axis alone
+  pose = rig.pose(frame);
+  EXPECT_EQ(y_of(pose, chin), 1.0F);
+  EXPECT_EQ(pose.fp[chin * 3 + 2], 4.0F);
+}
+
+TEST(Kernel_Companions, OfASetThatMovesThem_FollowOnlyWhatFapsAdd) {
+  TestRig rig;
+  const semblante_companion companions[] = {{chin, jaw, 0, 0, 0.5F}, {fold, jaw, 0, 0, 0.5F}};
+  rig.rig.companion = companions;
+  rig.rig.companion_count = 2;
+  component(rig.viseme, 1, jaw, 1) = -8.0F;
+  component(rig.viseme, 1, chin, 1) = -1.0F;
+  semblante_frame frame{};
+  frame.viseme1 = 1;
+  frame.viseme_blend = 63;
+  EXPECT_EQ(y_of(rig.pose(frame), chin), -1.0F);
+  EXPECT_EQ(y_of(rig.pose(frame), fold), -4.0F) << "the set does not move it";
+  frame.fap[3] = 2.0F;  // the jaw from -8 to -16
+  EXPECT_EQ(y_of(rig.pose(frame), chin), -5.0F);
+  EXPECT_EQ(y_of(rig.pose(frame), fold), -8.0F);
+}
+
+/// Lids of the left eye: the pivot at the origin, the slit half a radian and 4 high.
+TestRig& with_lids(TestRig& rig) {
+  rig.rig.lids[0] = {{0, 0, 1}, 0.5F, 4.0F, {0.5F, 0.25F}, {}};
+  return rig;
+}
+
+/// Where a vertex of the left lids goes that follows one of their points.
+std::vector<float> on_lid(const TestRig& rig, const semblante_frame& frame, std::vector<float> at, int point,
+                          float weight = 1.0F) {
+  const std::uint32_t offsets[2] = {0, 1};
+  const auto id = static_cast<std::uint8_t>(point);
+  const std::uint8_t rigid = SEMBLANTE_RIGID_LEFT_LIDS;
+  const semblante_face face = {1, at.data(), offsets, &id, &weight, &rigid, nullptr};
+  const semblante_pose pose = rig.pose(frame);
+  std::vector<float> out(3);
+  semblante_deform(&face, &pose, out.data());
+  return out;
+}
+
+/// On a circle of radius 10 about the eye's axis.
+std::vector<float> on_circle(float x, double y) {
+  return {x, static_cast<float>(y), static_cast<float>(std::sqrt(100.0 - y * y))};
+}
+
+TEST(Kernel_Lids, SlideRoundTheEye_ToTheHeightOfEq7_AndMeet) {
+  TestRig rig;
+  with_lids(rig);
+  semblante_frame frame{};
+  frame.fap[19] = 8.0F;  // 8 * IRISD = 4 = the opening
+  for (const float weight : {1.0F, 0.75F, 0.25F, 0.0F}) {
+    expect_near(on_lid(rig, frame, on_circle(2.0F, 3.0), upper_lid, weight), on_circle(2.0F, 3.0 - 4.0 * weight),
+                1e-5F);
+  }
+  frame.fap[19] = 6.0F;
+  frame.fap[21] = 6.0F;  // both three quarters: they meet half way and do not cross
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 1.0), 1e-5F);
+  expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, 1.0), 1e-5F);
+}
+
+TEST(Kernel_Lids, FollowTheGaze_AsFarAsTheyAreOpen) {
+  TestRig rig;
+  with_lids(rig);
+  semblante_frame frame{};
+  frame.fap[25] = 20000.0F;  // 0.2 rad down: 0.4 of the slit
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 2.2), 1e-5F);
+  expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, -1.4), 1e-5F);
+  frame.fap[19] = 8.0F;  // shut stays shut, wherever the eye looks
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, -1.0), 1e-5F);
+}
+
+TEST(Kernel_Lids, KeepOffTheBall_AndStayWhereTheyLieWithin) {
+  TestRig rig;
+  with_lids(rig);
+  for (float& radius : rig.rig.lids[0].ball) radius = 9.8F;
+  std::fill_n(rig.rig.lids[0].ball, 4, 12.0F);  // a cornea, in front
+  const semblante_frame neutral{};
+  expect_near(on_lid(rig, neutral, on_circle(0.0F, 1.0), upper_lid), on_circle(0.0F, 1.0));
+  semblante_frame frame{};
+  frame.fap[19] = 8.0F;
+  const std::vector<float> shut = on_lid(rig, frame, on_circle(0.0F, 5.0), upper_lid);
+  EXPECT_NEAR(std::hypot(shut[1], shut[2]), 12.294, 1e-3);
+  EXPECT_NEAR(shut[1], 1.0, 1e-5);  // forwards, at its height
+}
+
+TEST(Kernel_Head, TurnsAVertexByItsShare) {
+  TestRig rig;
+  semblante_frame frame{};
+  frame.fap[49] = quarter_turn;
+  const semblante_pose pose = rig.pose(frame);
+  const float at[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+  const std::uint32_t offsets[4] = {0, 0, 0, 0};
+  const std::uint8_t turn[3] = {0, 128, 255};
+  const semblante_face face = {3, at, offsets, nullptr, nullptr, nullptr, turn};
+  float out[9];
+  semblante_deform(&face, &pose, out);
+  EXPECT_EQ(out[0], 0.0F);
+  EXPECT_EQ(out[2], 1.0F);
+  EXPECT_NEAR(std::atan2(out[3], out[5]), std::numbers::pi / 4, 0.01);
+  EXPECT_NEAR(std::hypot(out[3], out[5]), 1.0, 1e-6);  // about the axis, not through it
+  EXPECT_NEAR(out[6], 1.0F, 1e-6F);
 }
 
 /// Looks along +z, pupil 1 and iris 3 wide, eyes at x = 10 and -10; the left one curves back like a ball of radius 5.
@@ -326,7 +450,7 @@ TEST(Kernel_Eq7, SumsTheRow) {
   const std::uint32_t offsets[] = {0, 2, 2};
   const std::uint8_t points[] = {0, 5};
   const float weights[] = {0.25F, 0.75F};
-  const semblante_face face = {2, rest, offsets, points, weights, nullptr};
+  const semblante_face face = {2, rest, offsets, points, weights, nullptr, nullptr};
   semblante_pose pose = rig.pose({});
   pose.fp[1] = -8.0F;     // FP 0: (0, -8, 0)
   pose.fp[5 * 3] = 4.0F;  // FP 5: (4, 0, 0)
@@ -390,7 +514,7 @@ struct RandomCase {
       for (unsigned e = 0; e < entries; ++e) weights[weights.size() - 1 - e] /= sum;
       offsets.push_back(static_cast<std::uint32_t>(points.size()));
     }
-    face = {count, rest.data(), offsets.data(), points.data(), weights.data(), rigid.data()};
+    face = {count, rest.data(), offsets.data(), points.data(), weights.data(), rigid.data(), nullptr};
   }
 
   semblante_frame frame() {

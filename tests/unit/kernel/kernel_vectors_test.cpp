@@ -52,7 +52,8 @@ struct Vectors {
             offsets.data(),
             points.data(),
             weights.data(),
-            rigid.data()};
+            rigid.data(),
+            nullptr};
   }
 
   static std::vector<float> table(const json& sets) {

@@ -17,15 +17,18 @@ namespace semblante::testing {
 /// come in stretches, some end to end. No framework: other machines' tests use it too.
 class RandomFace {
  public:
-  enum PoseKind : unsigned { neutral, points, head, eyes, pupils, tongue, everything, other, pose_kinds };
+  enum PoseKind : unsigned { neutral, points, head, eyes, pupils, tongue, lids, everything, other, pose_kinds };
 
   RandomFace(std::uint32_t vertices, unsigned seed) : random_(seed) {
     std::vector<std::uint8_t> set;
     std::uint8_t part = SEMBLANTE_RIGID_NONE;
+    std::uint8_t turn = SEMBLANTE_TURN_FULL;
     for (std::uint32_t v = 0; v < vertices; ++v) {
       if (v % 37 == 0) {
-        static constexpr std::uint8_t parts[] = {0, 0, 0, 1, 3, 1, 2, 4, 4, 255, 200, 128};
-        part = parts[random_() % 12];
+        static constexpr std::uint8_t parts[] = {0, 0, 0, 1, 3, 1, 2, 4, 4, 255, 200, 128, 5, 6};
+        part = parts[random_() % 14];
+        static constexpr std::uint8_t turns[] = {255, 255, 255, 0, 90};
+        turn = turns[random_() % 5];
       }
       if (v == 0 || random_() % 3 == 0) change(set);
       for (int i = 0; i < 3; ++i) rest_.push_back(unit());
@@ -35,8 +38,9 @@ class RandomFace {
       }
       offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
       rigid_.push_back(random_() % 50 == 0 ? std::uint8_t{0} : part);
+      turn_.push_back(turn);
     }
-    face_ = {vertices, rest_.data(), offsets_.data(), points_.data(), weights_.data(), rigid_.data()};
+    face_ = {vertices, rest_.data(), offsets_.data(), points_.data(), weights_.data(), rigid_.data(), turn_.data()};
   }
   RandomFace(const RandomFace&) = delete;
   RandomFace& operator=(const RandomFace&) = delete;
@@ -46,6 +50,12 @@ class RandomFace {
   std::uint32_t influences(std::uint32_t vertex, std::uint8_t point) const {
     return static_cast<std::uint32_t>(
         std::count(points_.begin() + offsets_[vertex], points_.begin() + offsets_[vertex + 1], point));
+  }
+
+  /// The vertices that turn with the head.
+  std::uint32_t turning() const {
+    return static_cast<std::uint32_t>(turn_.size()) -
+           static_cast<std::uint32_t>(std::count(turn_.begin(), turn_.end(), std::uint8_t{0}));
   }
 
   void swap_two_points_of_a_row() {
@@ -63,6 +73,10 @@ class RandomFace {
     for (int eye = 0; eye < 2; ++eye) {
       p.eye_pivot[eye][0] = eye == 0 ? 0.3F : -0.3F;
       p.iris[eye] = {{0.0F, 0.0F, 1.0F}, 0.2F, 0.6F, -0.4F};
+    }
+    for (semblante_lids& of_eye : p.lids) {
+      of_eye = {{0.0F, 0.0F, 1.0F}, 0.7F, 0.2F, {0.75F, 0.25F}, {}};
+      for (float& radius : of_eye.ball) radius = 0.4F;
     }
     p.head_pivot[1] = -0.5F;
     p.tongue = {{0.0F, -0.2F, 0.1F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.4F, 1.0F};
@@ -83,6 +97,10 @@ class RandomFace {
     }
     if (kind == pupils || all) p.pupil_growth[1] = 0.1F;
     if (kind == tongue || all) p.tongue_roll = 0.7F;
+    if (kind == lids || all) {
+      p.lid_closure[0][0] = 0.9F;
+      p.lid_closure[1][1] = 0.4F;
+    }
     return p;
   }
 
@@ -107,7 +125,7 @@ class RandomFace {
   std::mt19937 random_;
   std::vector<float> rest_, weights_;
   std::vector<std::uint32_t> offsets_{0};
-  std::vector<std::uint8_t> points_, rigid_;
+  std::vector<std::uint8_t> points_, rigid_, turn_;
   semblante_face face_{};
 };
 

@@ -1,7 +1,7 @@
 // The kernel's WebAssembly module with its structs laid out by hand, as any JavaScript client does it.
 // Offsets are those of semblante_kernel.h on a machine with 32-bit pointers.
 const FP = 84;
-const POSE_BYTES = 1220;
+const POSE_BYTES = 1428;
 
 export class WasmKernel {
   constructor(bytes) {
@@ -24,7 +24,8 @@ export class WasmKernel {
     return new DataView(this.exports.memory.buffer); // made anew: growth detaches the old one
   }
 
-  rig({ fapu, eye_pivot, head_pivot, viseme_share, visemes, expressions, irises = [null, null], tongue = null }) {
+  rig({ fapu, eye_pivot, head_pivot, viseme_share, visemes, expressions, ...parts }) {
+    const { irises = [null, null], tongue = null, lids = [null, null], companions = [], lower_lip = [] } = parts;
     const table = (sets) => {
       const all = new Float32Array(sets.length * FP * 3);
       sets.forEach((set, s) => {
@@ -34,8 +35,14 @@ export class WasmKernel {
     };
     const viseme = table(visemes);
     const expression = table(expressions);
-    const at = this.alloc(160);
+    const followers = [...companions, ...lower_lip];
+    const followersAt = this.alloc(followers.length * 8);
+    const at = this.alloc(364);
     const view = this.view();
+    followers.forEach(([point, leader, share], i) => {
+      [point, leader, i < companions.length ? 0 : 1, 0].forEach((b, k) => view.setUint8(followersAt + 8 * i + k, b));
+      view.setFloat32(followersAt + 8 * i + 4, share, true);
+    });
     view.setUint32(at, viseme, true);
     view.setUint32(at + 4, expression, true);
     const numbers = [...fapu, ...eye_pivot.flat(), ...head_pivot, viseme_share];
@@ -45,7 +52,21 @@ export class WasmKernel {
     numbers.push(...(tongue ? [...tongue.origin, ...tongue.left, ...tongue.up] : new Array(9).fill(0)));
     numbers.push(tongue?.half_width ?? 0, tongue?.roll_limit ?? 0);
     numbers.forEach((x, i) => view.setFloat32(at + 8 + 4 * i, x, true));
+    view.setUint32(at + 160, followersAt, true);
+    view.setUint32(at + 164, followers.length, true);
+    this.setLipShare(at, 0);
+    const lidNumbers = lids.flatMap((l) =>
+      l
+        ? [...l.gaze, l.slit, l.opening, ...l.gaze_share, ...l.ball]
+        : new Array(24).fill(0),
+    );
+    lidNumbers.forEach((x, i) => view.setFloat32(at + 172 + 4 * i, x, true));
     return at;
+  }
+
+  /** Whether FAP 3 alone takes the lower lip along: 0 or 1. */
+  setLipShare(rig, share) {
+    this.view().setFloat32(rig + 168, share, true);
   }
 
   frame({ viseme, expression, faps }) {
@@ -58,21 +79,23 @@ export class WasmKernel {
     return at;
   }
 
-  face({ rest, rows, rigid }) {
+  face({ rest, rows, rigid, turn = null }) {
     const restAt = this.floats(rest.flat());
     const entries = rows.flat();
     const offsetsAt = this.alloc(4 * (rows.length + 1));
     const pointsAt = this.alloc(entries.length);
     const weightsAt = this.floats(entries.map((e) => e[1]));
     const rigidAt = this.alloc(rigid.length);
+    const turnAt = turn ? this.alloc(turn.length) : 0;
     const memory = this.exports.memory.buffer;
     const offsets = new Uint32Array(memory, offsetsAt, rows.length + 1);
     rows.forEach((row, v) => (offsets[v + 1] = offsets[v] + row.length));
     new Uint8Array(memory, pointsAt, entries.length).set(entries.map((e) => e[0]));
     new Uint8Array(memory, rigidAt, rigid.length).set(rigid);
-    const at = this.alloc(24);
+    if (turn) new Uint8Array(memory, turnAt, turn.length).set(turn);
+    const at = this.alloc(28);
     const view = this.view();
-    [rest.length, restAt, offsetsAt, pointsAt, weightsAt, rigidAt].forEach((x, i) => view.setUint32(at + 4 * i, x, true));
+    [rest.length, restAt, offsetsAt, pointsAt, weightsAt, rigidAt, turnAt].forEach((x, i) => view.setUint32(at + 4 * i, x, true));
     return at;
   }
 

@@ -54,9 +54,13 @@ TEST_F(Propose, FromTheQuickSetGivesOrExplainsEveryOtherPointOnce) {
   for (const Proposal& p : proposals->points) ++seen[p.point.id.value()];
   for (const NotProposed& p : proposals->not_proposed) ++seen[p.id.value()];
   EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
-  ASSERT_EQ(proposals->not_proposed.size(), 1U);
-  EXPECT_EQ(to_string(proposals->not_proposed[0].id), "11.5");
-  EXPECT_NE(proposals->not_proposed[0].reason.find("hair"), std::string::npos);
+  std::string names;
+  for (const NotProposed& p : proposals->not_proposed) names += to_string(p.id) + ": " + p.reason + "; ";
+  // The fold of the right lid is nearest to a vertex that has its edge already: the lids of this head are shells.
+  ASSERT_EQ(proposals->not_proposed.size(), 2U) << names;
+  EXPECT_EQ(to_string(proposals->not_proposed[0].id), "3.14");
+  EXPECT_EQ(to_string(proposals->not_proposed[1].id), "11.5");
+  EXPECT_NE(proposals->not_proposed[1].reason.find("hair"), std::string::npos);
 }
 
 TEST_F(Propose, LiesNearThePointsTheHeadWasMadeWith) {

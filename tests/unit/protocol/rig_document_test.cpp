@@ -162,6 +162,57 @@ TEST(RigDocument, Read_InvalidMovingParts_AreNamedByTheirPointer) {
   refused("/tongue/roll_limit", ErrorCode::out_of_range, [](json& j) { j["tongue"]["roll_limit"] = 8; });
 }
 
+RigDocument with_lids_and_companions() {
+  RigDocument rig = sample();
+  Lids lids;
+  lids.gaze = {0.0F, 0.6F, 0.8F};
+  lids.opening = 0.5F;
+  lids.slit = 0.75F;
+  lids.ball.fill(2.0F);
+  rig.lids[1] = lids;
+  const auto id = [](const char* name) { return *parse_feature_point(name); };
+  rig.companions = {{id("2.10"), id("2.1"), 0.95F, false},
+                    {id("5.1"), id("2.1"), 0.25F, false},
+                    {id("5.1"), id("8.3"), 0.5F, false},
+                    {id("2.3"), id("2.1"), 0.9F, true}};
+  return rig;
+}
+
+TEST(RigDocument, LidsAndCompanions_AreThereOnlyWhereTheHeadHasThem) {
+  for (const char* member : {"lids", "companions", "lower_lip"})
+    EXPECT_FALSE(json::parse(write_rig(sample())).contains(member)) << member;
+  const std::string text = write_rig(with_lids_and_companions());
+  const auto rig = read_rig(text);
+  ASSERT_TRUE(rig.ok()) << rig.error().where << " " << rig.error().message;
+  EXPECT_EQ(write_rig(*rig), text);
+  EXPECT_FALSE(rig->lids[0].has_value());
+  EXPECT_EQ(rig->lids[1]->slit, 0.75F);
+  ASSERT_EQ(rig->companions.size(), 4U);
+  EXPECT_EQ(rig->companions[2].leader, *parse_feature_point("8.3"));
+  EXPECT_TRUE(rig->companions[3].is_choice);
+}
+
+TEST(RigDocument, Read_InvalidLidsAndCompanions_AreNamedByTheirPointer) {
+  const json good = json::parse(write_rig(with_lids_and_companions()));
+  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
+    json changed = good;
+    change(changed);
+    const auto result = read_rig(changed.dump());
+    ASSERT_FALSE(result.ok()) << pointer;
+    EXPECT_EQ(result.error().where, pointer) << result.error().message;
+    EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
+  };
+  refused("/lids", ErrorCode::out_of_range, [](json& j) { j["lids"].erase(0); });
+  refused("/lids/1/gaze", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["gaze"] = {0, 0, 0.8}; });
+  refused("/lids/1/opening", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["opening"] = 0; });
+  refused("/lids/1/slit", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["slit"] = -0.1; });
+  refused("/lids/1/ball", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["ball"].erase(0); });
+  refused("/lids/1/ball/16", ErrorCode::malformed, [](json& j) { j["lids"][1]["ball"][16] = "round"; });
+  refused("/companions/2.10/2.1", ErrorCode::out_of_range, [](json& j) { j["companions"]["2.10"]["2.1"] = 11; });
+  refused("/companions/2.15", ErrorCode::invalid_argument, [](json& j) { j["companions"]["2.15"] = {{"2.1", 1}}; });
+  refused("/lower_lip/2.3/jaw", ErrorCode::invalid_argument, [](json& j) { j["lower_lip"]["2.3"]["jaw"] = 1; });
+}
+
 TEST(RigDocument, Levels_AreThereOnlyWhereThereAreSeveral) {
   RigDocument rig = sample();
   EXPECT_FALSE(json::parse(write_rig(rig)).contains("levels"));

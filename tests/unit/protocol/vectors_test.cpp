@@ -157,13 +157,14 @@ TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
 }
 
 TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
-  for (const char* name : {"weights-8", "weights-12", "weights-16", "../v2/weights-12"}) {
+  for (const char* name : {"weights-8", "weights-12", "weights-16", "../v2/weights-12", "../v3/weights-12"}) {
     const std::string file = read(std::string(name) + ".bin");
     const json meaning = json::parse(read(std::string(name) + ".json"));
     const auto table = decode_weights(Bytes(file.begin(), file.end()));
     ASSERT_TRUE(table.ok()) << name << ": " << table.error().message;
     EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256").get<std::string>());
     EXPECT_EQ(json(table->rigid), meaning.at("rigid"));
+    EXPECT_EQ(json(table->turn), meaning.value("turn", json::array()));
     const double total = std::pow(2.0, meaning.at("bits").get<int>()) - 1;
     json rows = json::array();
     for (std::size_t v = 0; v < table->vertex_count; ++v) {
@@ -178,7 +179,7 @@ TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
 }
 
 TEST(Vectors, Rig_ReadAndWritten_IsTheSame) {
-  for (const char* name : {"rig.json", "../v2/rig.json"}) {
+  for (const char* name : {"rig.json", "../v2/rig.json", "../v3/rig.json"}) {
     const std::string text = read(name);
     const auto rig = read_rig(text);
     ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;

@@ -103,7 +103,8 @@ TEST(WeightsFormat, Decode_InvalidHeader_IsRefusedByField) {
   expect_refused({}, ErrorCode::truncated, "header");
   expect_refused(Bytes(good.begin(), good.begin() + 63), ErrorCode::truncated, "header");
   expect_refused(changed(0, 'X', 1), ErrorCode::malformed, "magic");
-  expect_refused(changed(at_version, 3, 2), ErrorCode::unsupported, "version");
+  expect_refused(changed(at_version, 4, 2), ErrorCode::unsupported, "version");
+  expect_refused(changed(at_version, 3, 2), ErrorCode::truncated, "turn");
   expect_refused(changed(at_bits, 7, 1), ErrorCode::out_of_range, "bits");
   expect_refused(changed(at_bits, 17, 1), ErrorCode::out_of_range, "bits");
   expect_refused(changed(at_reserved, 1, 1), ErrorCode::malformed, "reserved");
@@ -167,6 +168,30 @@ TEST(WeightsFormat, Encode_PartsBeyondTheEyes_MakeVersion2) {
   as_version_1[at_version] = 1;
   fix_checksum(as_version_1);
   expect_refused(as_version_1, ErrorCode::out_of_range, "rigid");
+}
+
+TEST(WeightsFormat, Encode_LidsOrSharesOfTheHeadsRotation_MakeVersion3) {
+  InfluenceTable turning = small_table();
+  turning.turn.assign(turning.vertex_count, 255);
+  EXPECT_EQ(encode_weights(turning)[at_version], 1) << "all turn fully, as without the table";
+  turning.turn[3] = 0;
+  turning.turn[4] = 128;
+  const Bytes bytes = encode_weights(turning);
+  EXPECT_EQ(bytes[at_version], 3);
+  const auto decoded = decode_weights(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.error().message;
+  EXPECT_EQ(decoded->turn, turning.turn);
+
+  InfluenceTable lids = small_table();
+  add_row(lids, {{14, 1.0F}}, static_cast<std::uint8_t>(RigidMotion::left_lids));
+  const auto with_lids = decode_weights(encode_weights(lids));
+  ASSERT_TRUE(with_lids.ok()) << with_lids.error().message;
+  EXPECT_EQ(with_lids->rigid, lids.rigid);
+  EXPECT_EQ(with_lids->turn, std::vector<std::uint8_t>(lids.vertex_count, 255));
+  Bytes as_version_2 = encode_weights(lids);
+  as_version_2[at_version] = 2;
+  fix_checksum(as_version_2);
+  expect_refused(as_version_2, ErrorCode::out_of_range, "rigid");
 }
 
 TEST(WeightsFormat, Decode_EveryPrefix_IsRefused) {

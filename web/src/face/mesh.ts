@@ -24,8 +24,10 @@ export interface DrawableMesh {
   rowOffsets: Uint32Array;
   rowPoints: Uint8Array;
   rowWeights: Float32Array;
-  /** #V: 0 none, 1 left eye, 2 right eye */
+  /** #V: values of `rigidMotion` */
   rigid: Uint8Array;
+  /** #V: 255ths of the head's rotation */
+  turn: Uint8Array;
 }
 
 /** Area-weighted vertex normals, averaged over the vertices at one position; for meshes without normals. */

@@ -37,8 +37,8 @@ export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
   const normals = mesh.normals ?? smoothNormals(positions, triangles, joinSeams(positions, null));
   normalize(normals);
   const { indices, groups } = sortByMaterial(triangles, mesh.materials, rig.materials.length);
-  const { vertexCount, rowOffsets, rowPoints, rowWeights, rigid } = influence;
-  return { vertexCount, positions, normals, uvs, indices, groups, rowOffsets, rowPoints, rowWeights, rigid };
+  const { vertexCount, rowOffsets, rowPoints, rowWeights, rigid, turn } = influence;
+  return { vertexCount, positions, normals, uvs, indices, groups, rowOffsets, rowPoints, rowWeights, rigid, turn };
 }
 
 /** Normalizes in place: quantized normals decode to slightly other lengths, and the shader assumes unit length. */

@@ -8,8 +8,8 @@ import {
   type IUniform,
   type Material,
 } from 'three';
-import type { Pose } from '@client/index.ts';
-import { rigidMotion } from '@protocol/weights_format.ts';
+import { ballPlaces, lidFields, lidPoints, type Pose } from '@client/index.ts';
+import { fullTurn, rigidMotion } from '@protocol/weights_format.ts';
 import { featurePointCount } from '../face/mesh.ts';
 import type { TangentTable } from '../face/tangent_table.ts';
 
@@ -34,6 +34,12 @@ export interface DeformUniforms {
   faceTongueLeft: IUniform<Vector3>;
   faceTongueUp: IUniform<Vector3>;
   faceTongueHalfWidth: IUniform<number>;
+  faceLidGaze: IUniform<Vector3[]>;
+  /** left, right; 0: the lids do not slide */
+  faceLidOpening: IUniform<Float32Array>;
+  /** left upper, left lower, right upper, right lower */
+  faceLidClosure: IUniform<Float32Array>;
+  faceLidBall: IUniform<Float32Array>;
 }
 
 export function makeDeformUniforms(table: TangentTable): DeformUniforms {
@@ -60,6 +66,10 @@ export function makeDeformUniforms(table: TangentTable): DeformUniforms {
     faceTongueLeft: { value: new Vector3(1, 0, 0) },
     faceTongueUp: { value: new Vector3(0, 1, 0) },
     faceTongueHalfWidth: { value: 0 },
+    faceLidGaze: { value: [new Vector3(0, 0, 1), new Vector3(0, 0, 1)] },
+    faceLidOpening: { value: new Float32Array(2) },
+    faceLidClosure: { value: new Float32Array(4) },
+    faceLidBall: { value: new Float32Array(2 * ballPlaces) },
   };
 }
 
@@ -71,7 +81,14 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
     uniforms.faceEyeTranslation.value[eye]!.fromArray(pose.eyeTranslations, eye * 3);
     uniforms.faceIrisAxis.value[eye]!.fromArray(pose.irises, eye * 6);
     uniforms.faceIrisShape.value[eye]!.fromArray(pose.irises, eye * 6 + 3);
+    const lids = eye * lidFields.count;
+    uniforms.faceLidGaze.value[eye]!.fromArray(pose.lids, lids + lidFields.gaze);
+    uniforms.faceLidOpening.value[eye] = pose.lids[lids + lidFields.opening]!;
+    for (let k = 0; k < ballPlaces; k += 1) {
+      uniforms.faceLidBall.value[eye * ballPlaces + k] = pose.lids[lids + lidFields.ball + k]!;
+    }
   }
+  uniforms.faceLidClosure.value.set(pose.lidClosures);
   uniforms.faceHeadRotation.value.fromArray(pose.headRotation);
   uniforms.faceHeadPivot.value.fromArray(pose.headPivot);
   uniforms.facePupilGrowth.value.set(pose.pupilGrowth);
@@ -84,7 +101,7 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
 
 /**
  * Eq. 7 and the rigid motion of parts in GLSL: the same as semblante_deform in core/kernel. `faceRow` is
- * (first entry, count + rigid << 16). The normal is computed from the slopes of the weights: see face/tangent_table.ts.
+ * (first entry, count + rigid << 16 + turn << 24). The normal is computed from the slopes of the weights: see face/tangent_table.ts.
  */
 export const deformDeclarations = /* glsl */ `
 attribute uvec2 faceRow;
@@ -103,6 +120,10 @@ uniform vec3 faceTongueOrigin;
 uniform vec3 faceTongueLeft;
 uniform vec3 faceTongueUp;
 uniform float faceTongueHalfWidth;
+uniform vec3 faceLidGaze[2];
+uniform float faceLidClosure[4];
+uniform float faceLidOpening[2];
+uniform float faceLidBall[${2 * ballPlaces}];
 
 vec3 faceRotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
@@ -153,10 +174,40 @@ void faceRollTongue(float roll, vec3 rest, inout vec3 p, inout vec3 n) {
   n += (-versine * nu - s * nv) * faceTongueLeft + (s * nu - versine * nv) * faceTongueUp;
 }
 
+/** The radius of the eyeball in the direction d about its pole. */
+float faceBallRadius(int eye, vec3 pole, vec3 d) {
+  float at = sqrt(1.0 - clamp(dot(d, pole) / length(d), 0.0, 1.0)) * ${ballPlaces - 1}.0;
+  int k = min(int(at), ${ballPlaces - 2}) + eye * ${ballPlaces};
+  return mix(faceLidBall[k], faceLidBall[k + 1], at - float(k - eye * ${ballPlaces}));
+}
+
+/** Keeps a vertex of lids off the eyeball; \`way\`: by which its height changes. See clear_ball in core/kernel/lids.c. */
+void faceClearBall(int eye, float way, vec3 rest, inout vec3 p) {
+  float radius = faceLidBall[(eye + 1) * ${ballPlaces} - 1];
+  float wanted = 0.03 * radius;
+  vec3 r = rest - faceEyePivot[eye];
+  vec3 d = p - faceEyePivot[eye] - faceEyeTranslation[eye];
+  float distance = length(d);
+  if (wanted <= 0.0 || dot(r, r) <= 0.0 || distance <= 0.0) return;
+  float clearance = length(r) - faceBallRadius(eye, faceLidGaze[eye], r);
+  vec3 pole = faceRotate(faceEyeRotation[eye], faceLidGaze[eye]);
+  float gained = (abs(way) / radius + length(pole - faceLidGaze[eye])) / 0.1;
+  if (clearance >= wanted) clearance = wanted;
+  else if (clearance > -wanted) clearance = mix(clearance, wanted, min(gained, 1.0));
+  float least = faceBallRadius(eye, pole, d) + clearance;
+  if (distance >= least) return;
+  float square = least * least - dot(d.xy, d.xy);
+  if (d.z > 0.0 && square > 0.25 * least * least) p.z += sqrt(square) - d.z;
+  else p += d * ((least - distance) / distance);
+}
+
 void faceDeform(inout vec3 p, inout vec3 n) {
   vec3 rest = p;
   uint count = faceRow.y & 0xffffu;
-  uint rigid = faceRow.y >> 16u;
+  uint rigid = (faceRow.y >> 16u) & 0xffu;
+  uint turn = faceRow.y >> 24u;
+  int lids = rigid == ${rigidMotion.leftLids}u ? 0 : rigid == ${rigidMotion.rightLids}u ? 1 : -1;
+  if (lids >= 0 && faceLidOpening[lids] <= 0.0) lids = -1;
   if (count > 0u) {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (s + n.z);
@@ -164,21 +215,47 @@ void faceDeform(inout vec3 p, inout vec3 n) {
     vec3 t1 = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
     vec3 t2 = vec3(b, s + n.y * n.y * a, -n.y);
     vec3 moved = vec3(0.0);
+    vec3 rolls = vec3(0.0); // of a lid: the share of its roll upwards, and the slopes of that
     for (uint k = faceRow.x; k < faceRow.x + count; ++k) {
       vec4 entry = texelFetch(faceEntries, ivec2(int(k % ${tableWidth}u), int(k / ${tableWidth}u)), 0);
-      vec3 d = facePoints[int(entry.x)];
+      int point = int(entry.x);
+      vec3 d = facePoints[point];
+      if (lids >= 0 && (point == ${lidPoints.upper} + lids || point == ${lidPoints.lower} + lids)) {
+        bool isUpper = point == ${lidPoints.upper} + lids;
+        rolls += entry.yzw * (isUpper ? -faceLidClosure[lids * 2] : faceLidClosure[lids * 2 + 1]);
+        continue;
+      }
       moved += entry.y * d;
       t1 += entry.z * d;
       t2 += entry.w * d;
     }
     p += moved;
+    if (lids >= 0) {
+      // The height of Eq. 7, on the circle round the line through the pivot along x.
+      vec3 way = faceLidOpening[lids] * rolls;
+      vec2 from = p.yz - faceEyePivot[lids].yz;
+      float least = 0.05 * length(from);
+      vec2 to = vec2(from.x + way.x, from.y);
+      if (from.y > least && way.x != 0.0) to.y = sqrt(max(dot(from, from) - to.x * to.x, least * least));
+      p.yz = faceEyePivot[lids].yz + to;
+      vec2 risen = vec2(t1.y, t2.y) + way.yz;
+      if (from.y > least) {
+        // Along a tangent the depth changes so that the place stays on its circle.
+        vec2 deep = (from.x * vec2(t1.y, t2.y) + from.y * vec2(t1.z, t2.z) - to.x * risen) / max(to.y, least);
+        t1.z = deep.x;
+        t2.z = deep.y;
+      }
+      t1.y = risen.x;
+      t2.y = risen.y;
+      faceClearBall(lids, way.x, rest, p);
+    }
     vec3 turned = cross(t1, t2);
     float size = length(turned);
     if (size > 1e-12) n = turned / size;
   }
   if (rigid >= ${rigidMotion.tongue}u) {
     faceRollTongue(float(rigid - ${rigidMotion.tongue - 1}u) / 128.0 * faceTongueRoll, rest, p, n);
-  } else if (rigid > 0u) {
+  } else if (rigid > 0u && rigid <= ${rigidMotion.rightIris}u) {
     int eye = (rigid & 1u) == 1u ? 0 : 1;
     if (rigid >= ${rigidMotion.leftIris}u && facePupilGrowth[eye] != 0.0 && faceIrisShape[eye].x > 0.0) {
       p += faceIris(eye, rest);
@@ -186,8 +263,14 @@ void faceDeform(inout vec3 p, inout vec3 n) {
     p = faceRotate(faceEyeRotation[eye], p - faceEyePivot[eye]) + faceEyePivot[eye] + faceEyeTranslation[eye];
     n = faceRotate(faceEyeRotation[eye], n);
   }
-  p = faceRotate(faceHeadRotation, p - faceHeadPivot) + faceHeadPivot;
-  n = faceRotate(faceHeadRotation, n);
+  vec4 head = faceHeadRotation;
+  if (turn < ${fullTurn}u) {
+    float share = float(turn) / ${fullTurn}.0;
+    float side = head.w < 0.0 ? -share : share;
+    head = normalize(vec4(side * head.xyz, (1.0 - share) + side * head.w));
+  }
+  p = faceRotate(head, p - faceHeadPivot) + faceHeadPivot;
+  n = faceRotate(head, n);
 }
 `;
 

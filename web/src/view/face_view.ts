@@ -96,7 +96,7 @@ function rowAttribute(mesh: DrawableMesh, table: TangentTable): Uint32BufferAttr
   const rows = new Uint32Array(mesh.vertexCount * 2);
   for (let v = 0; v < mesh.vertexCount; v += 1) {
     rows[v * 2] = table.offsets[v]!;
-    rows[v * 2 + 1] = (table.offsets[v + 1]! - table.offsets[v]!) | (mesh.rigid[v]! << 16);
+    rows[v * 2 + 1] = (table.offsets[v + 1]! - table.offsets[v]!) | (mesh.rigid[v]! << 16) | (mesh.turn[v]! << 24);
   }
   return new Uint32BufferAttribute(rows, 2);
 }

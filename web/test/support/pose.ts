@@ -1,4 +1,4 @@
-import type { Pose } from '@client/index.ts';
+import { lidFields, type Pose } from '@client/index.ts';
 
 /** A pose in plain memory, as the kernel makes one of the neutral frame. */
 export function neutralPose(): Pose {
@@ -13,5 +13,7 @@ export function neutralPose(): Pose {
     tongueRoll: new Float32Array(1),
     irises: new Float32Array(12),
     tongue: new Float32Array(11),
+    lidClosures: new Float32Array(4),
+    lids: new Float32Array(2 * lidFields.count),
   };
 }

@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { compileKernel, Kernel, neutralFrame, type Face, type FaceFrame } from '../../../../clients/js/index.ts';
-import { rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
+import { fullTurn, rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
 import { featurePoints } from '../../../../protocol/ts/generated/mpeg4.ts';
 
 // The module is made by the C++ build (target semblante-kernel-wasm).
@@ -11,6 +11,8 @@ const modulePath =
   fileURLToPath(new URL('../../../../build/wasm/semblante_kernel.wasm', import.meta.url));
 
 type Sparse = Record<string, Vec3>;
+/** Dense numbers of point and leader, share. */
+type Followers = [number, number, number][];
 interface Vectors {
   rig: {
     fapu: number[];
@@ -18,14 +20,18 @@ interface Vectors {
     head_pivot: Vec3;
     irises?: RigDocument['irises'];
     tongue?: RigDocument['tongue'];
+    lids?: RigDocument['lids'];
+    companions?: Followers;
+    lower_lip?: Followers;
     viseme_share: number;
     visemes: Sparse[];
     expressions: Sparse[];
   };
-  face: { rest: Vec3[]; normals?: Vec3[]; triangles?: Vec3[]; rows: [number, number][][]; rigid: number[] };
+  face: { rest: Vec3[]; normals?: Vec3[]; triangles?: Vec3[]; rows: [number, number][][]; rigid: number[]; turn?: number[] };
   cases: {
     name: string;
     frame: Pick<FaceFrame, 'viseme' | 'expression'> & { faps: Record<string, number> };
+    jaw_takes_lip?: boolean;
     displacements: Sparse;
     positions: number[];
   }[];
@@ -47,6 +53,8 @@ function faceOf({ rig, face }: Vectors): Face {
     name: '',
     displacements: Object.fromEntries(Object.entries(set).map(([fp, by]) => [featurePoints[Number(fp)]!.id, by])),
   });
+  const followers = (list: Followers = []) =>
+    list.map(([point, leader, share]) => ({ point: featurePoints[point]!.id, leader: featurePoints[leader]!.id, share }));
   const offsets = [0];
   for (const row of face.rows) offsets.push(offsets.at(-1)! + row.length);
   return {
@@ -56,6 +64,9 @@ function faceOf({ rig, face }: Vectors): Face {
       head_pivot: rig.head_pivot,
       irises: rig.irises ?? [null, null],
       tongue: rig.tongue ?? null,
+      lids: rig.lids ?? [null, null],
+      companions: followers(rig.companions),
+      lower_lip: followers(rig.lower_lip),
       viseme_share: rig.viseme_share,
       visemes: rig.visemes.map(named),
       expressions: rig.expressions.map(named),
@@ -71,6 +82,7 @@ function faceOf({ rig, face }: Vectors): Face {
       rowPoints: Uint8Array.from(face.rows.flat().map(([point]) => point)),
       rowWeights: Float32Array.from(face.rows.flat().map(([, weight]) => weight)),
       rigid: Uint8Array.from(face.rigid),
+      turn: face.turn ? Uint8Array.from(face.turn) : new Uint8Array(face.rest.length).fill(fullTurn),
     } as Face['influence'],
   };
 }
@@ -150,6 +162,7 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
       expect(worstAngle(kernel.normals, normals), name).toBeLessThan(golden.tolerance.normal_degrees);
     };
     golden.cases.forEach((each, pose) => {
+      kernel.setJawTakesLip(each.jaw_takes_lip ?? false);
       const [frame, steps] = frameOf(each.frame);
       kernel.evaluate(frame, pose, steps);
       check(each.name, pose, each.positions, each.vertex_normals);

@@ -93,12 +93,46 @@ describe('readRig', () => {
     expect(errorOf(withParts)).toEqual({ where, code });
   });
 
+  it('Read_LidsAndCompanions', () => {
+    const rig = readRig(JSON.stringify(vectorJson('../v3/rig.json')));
+    const [left, right] = rig.lids;
+    expect(right).toBeNull();
+    expect(left).toMatchObject({ gaze: [0, -0.6, 0.8], slit: 0.5, opening: 0.01, gaze_share: [0.75, 0.3] });
+    expect([left!.ball.length, left!.ball[1]]).toEqual([17, 0.3125]);
+    expect(rig.companions).toEqual([
+      { point: '2.10', leader: '2.1', share: 0.95 },
+      { point: '5.1', leader: '2.1', share: 0.25 },
+      { point: '5.1', leader: '8.3', share: 0.5 },
+    ]);
+    expect(rig.lower_lip).toEqual([{ point: '2.3', leader: '2.1', share: 0.9 }]);
+  });
+
+  it.each([
+    ['/lids', 'out_of_range', []],
+    ['/lids/0/gaze', 'out_of_range', [0.8, 0, 0]],
+    ['/lids/0/opening', 'out_of_range', 0],
+    ['/lids/0/slit', 'out_of_range', 4],
+    ['/lids/0/ball', 'out_of_range', [1]],
+    ['/lids/0/ball/8', 'out_of_range', -1],
+    ['/companions/2.10/2.1', 'out_of_range', 11],
+    ['/companions/2.15', 'invalid_argument', { '2.1': 1 }],
+    ['/companions/2.10/jaw', 'invalid_argument', 1],
+    ['/lower_lip/2.3', 'malformed', 1],
+  ])('Read_InvalidLidsAndCompanions_AreNamedByTheirPointer: %s %s', (where, code, value) => {
+    const withParts = (json: Json): void => {
+      Object.assign(json, vectorJson('../v3/rig.json'));
+      set(where, value)(json);
+    };
+    expect(errorOf(withParts)).toEqual({ where, code });
+  });
+
   it('Read_Golden_GivesItsMembers', () => {
     const rig = readRig(JSON.stringify(good));
     const { format, version, ...members } = good as Record<string, unknown>;
     expect([format, version]).toEqual(['semblante.rig', 1]);
     // A document of before there were levels is the full mesh alone; one of before irises and tongue moved has none.
-    expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...members });
+    const later = { lids: [null, null], companions: [], lower_lip: [] };
+    expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...later, ...members });
   });
 });
 

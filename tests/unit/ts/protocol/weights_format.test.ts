@@ -1,7 +1,7 @@
 import { deflateSync, inflateSync } from 'node:zlib';
 import { describe, expect, it } from 'vitest';
 import { crc32 } from '../../../../protocol/ts/crc32.ts';
-import { decodeWeights, ProtocolError } from '../../../../protocol/ts/index.ts';
+import { decodeWeights, fullTurn, ProtocolError } from '../../../../protocol/ts/index.ts';
 import { vectorBytes, vectorJson } from './vectors.ts';
 
 interface Meaning {
@@ -9,6 +9,7 @@ interface Meaning {
   mesh_sha256: string;
   rows: [number, number][][];
   rigid: number[];
+  turn?: number[];
 }
 
 const good = vectorBytes('weights-12.bin');
@@ -55,7 +56,8 @@ describe('decodeWeights', () => {
   it.each([
     ['header', 'truncated', good.subarray(0, 63)],
     ['magic', 'malformed', changed(0, 0, 1)],
-    ['version', 'unsupported', changed(4, 3, 2)],
+    ['version', 'unsupported', changed(4, 4, 2)],
+    ['turn', 'truncated', changed(4, 3, 2)],
     ['bits', 'out_of_range', changed(6, 17, 1)],
     ['reserved', 'malformed', changed(7, 1, 1)],
     ['vertex_count', 'missing', changed(12, 0, 4)],
@@ -107,7 +109,7 @@ describe('decodeWeights', () => {
     expect((await decodeWeights(withChecksum(known))).rigid.at(-1)).toBe(128);
   });
 
-  it.each(['weights-8', 'weights-12', 'weights-16', '../v2/weights-12'])('Decode_Golden_%s_GivesItsMeaning', async (name) => {
+  it.each(['weights-8', 'weights-12', 'weights-16', '../v2/weights-12', '../v3/weights-12'])('Decode_Golden_%s_GivesItsMeaning', async (name) => {
     const meaning = vectorJson(`${name}.json`) as Meaning;
     const { bits } = meaning;
     const table = await decodeWeights(vectorBytes(`${name}.bin`));
@@ -115,6 +117,7 @@ describe('decodeWeights', () => {
     expect(table.meshSha256).toBe(meaning.mesh_sha256);
     expect(table.vertexCount).toBe(meaning.rows.length);
     expect(Array.from(table.rigid)).toEqual(meaning.rigid);
+    expect(Array.from(table.turn)).toEqual(meaning.turn ?? meaning.rigid.map(() => fullTurn));
     const rows = meaning.rows.map((_, v) =>
       Array.from(table.rowPoints.subarray(table.rowOffsets[v], table.rowOffsets[v + 1]), (point, i) => [
         point,

@@ -802,8 +802,11 @@ export interface components {
                 values: number[];
             }[];
         };
-        /** @enum {unknown} */
-        PartRole: "skin" | "left_eye" | "right_eye" | "upper_teeth" | "lower_teeth" | "tongue" | "attached" | "rest";
+        /**
+         * @description How a part moves: skin by its feature points, attached with the skin beneath it, rest with the head, body not at all; the others as what they are.
+         * @enum {unknown}
+         */
+        PartRole: "skin" | "left_eye" | "right_eye" | "upper_teeth" | "lower_teeth" | "tongue" | "attached" | "rest" | "body";
         Vector: [
             number,
             number,
@@ -1110,6 +1113,77 @@ export interface components {
                 up: components["schemas"]["Vector"];
                 half_width: number;
                 roll_limit: number;
+            };
+            /** @description Left, right; null: the lids of the eye move by their weights alone. Left out: those of both */
+            lids?: [
+                {
+                    gaze: components["schemas"]["Vector"];
+                    slit: number;
+                    opening: number;
+                    gaze_share: [
+                        number,
+                        number
+                    ];
+                    ball: [
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number
+                    ];
+                } | null,
+                {
+                    gaze: components["schemas"]["Vector"];
+                    slit: number;
+                    opening: number;
+                    gaze_share: [
+                        number,
+                        number
+                    ];
+                    ball: [
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number,
+                        number
+                    ];
+                } | null
+            ];
+            /** @description Feature points that follow others: the share of each leader, by id */
+            companions?: {
+                [key: string]: {
+                    [key: string]: number;
+                };
+            };
+            /** @description Those that follow the jaw only if the player chooses so */
+            lower_lip?: {
+                [key: string]: {
+                    [key: string]: number;
+                };
             };
             parts: {
                 name: string;

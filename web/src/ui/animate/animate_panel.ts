@@ -24,6 +24,8 @@ export interface AnimatePanelOptions {
   onChange: () => void;
   /** Called when idle life is switched on or off. */
   onIdle: (on: boolean) => void;
+  /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
+  onJawTakesLip: (takes: boolean) => void;
 }
 
 /** How long a blink keeps the eyes closed, ms; the face eases to and from the closed pose. */
@@ -62,7 +64,11 @@ export class AnimatePanel {
         ),
       ),
     );
-    this.faps = new FapSliders({ frame: options.frame, onChange: () => this.changed() });
+    this.faps = new FapSliders({
+      frame: options.frame,
+      onChange: () => this.changed(),
+      onJawTakesLip: options.onJawTakesLip,
+    });
     this.resetAll = h(
       'button',
       { type: 'button', class: 'quiet', on: { click: () => this.reset() } },

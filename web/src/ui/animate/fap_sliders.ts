@@ -9,6 +9,8 @@ import { Slider } from '../shared/slider.ts';
 export interface FapSlidersOptions {
   frame: FaceFrame;
   onChange: () => void;
+  /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
+  onJawTakesLip: (takes: boolean) => void;
 }
 
 /** FAPs without effect on this face, because it has no iris or no tongue; their sliders are hidden. */
@@ -31,6 +33,13 @@ export class FapSliders {
   constructor(private readonly options: FapSlidersOptions) {
     const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
     this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
+    const lip = h('input', {
+      type: 'checkbox',
+      id: 'jaw-takes-lip',
+      on: { change: () => options.onJawTakesLip(lip.checked) },
+    });
+    const hint = 'FAP 3 alone does not part the lips in the standard. Sliders of the lip itself win in both cases.';
+    this.element.append(h('label', { class: 'check', title: hint }, lip, 'The jaw takes the lower lip along'));
     for (const group of fapGroups)
       if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
   }

@@ -43,6 +43,7 @@ export const roleTitles: Record<string, string> = {
   tongue: 'Tongue',
   attached: 'Attached',
   rest: 'Rest',
+  body: 'Body',
 };
 
 export const stageTitles: Record<string, string> = {

@@ -39,6 +39,7 @@ export class SceneView {
   private wanted: 'preview' | 'face' = 'face';
   private path: DeformPath = 'gpu';
   private wire = false;
+  private lipFollows = false;
   private opening: AbortController | null = null;
   private model: Model | null = null;
   private shown = '';
@@ -207,6 +208,7 @@ export class SceneView {
     if (face) {
       this.stage.scene.add(face.view.object);
       face.view.usePath(this.path);
+      face.loaded.kernel.setJawTakesLip(this.lipFollows);
       const performer = new Performer(face.loaded.kernel);
       this.pose(face.view, performer);
       this.performer.set(performer);
@@ -216,6 +218,12 @@ export class SceneView {
     this.wireframe = this.wire;
     if (another) this.stage.frameObject(preview.object);
     this.show(this.wanted);
+  }
+
+  /** Whether FAP 3 alone takes the lower lip along, on this face and those to come. */
+  set jawTakesLip(takes: boolean) {
+    this.lipFollows = takes;
+    this.performer.value?.kernel.setJawTakesLip(takes);
   }
 
   private clear(): void {

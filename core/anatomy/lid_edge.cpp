@@ -1,0 +1,64 @@
+#include "core/anatomy/lid_edge.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+
+#include "core/geometry/shortest_path.h"
+
+namespace semblante {
+namespace {
+
+/// Maximum distance of a corner from the lid's part if it is not a vertex of that part, as a fraction of the eye's
+/// width.
+constexpr double greatest_step_to_corner = 0.25;
+
+const SurfacePoint* find(std::span<const SurfacePoint> points, std::string_view name) {
+  const auto at = std::find_if(points.begin(), points.end(),
+                               [&](const SurfacePoint& p) { return p.id == parse_feature_point(name); });
+  return at != points.end() ? &*at : nullptr;
+}
+
+SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::dvec3& to) {
+  const auto members = surface.members_of(part);
+  return *std::min_element(members.begin(), members.end(), [&](SurfaceVertexId a, SurfaceVertexId b) {
+    return glm::distance(surface.positions[a.value()], to) < glm::distance(surface.positions[b.value()], to);
+  });
+}
+
+std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfacePoint> points, std::string_view middle,
+                                const std::array<std::string_view, 2>& corners) {
+  const SurfacePoint* const at_middle = find(points, middle);
+  const std::array<const SurfacePoint*, 2> at_corners = {find(points, corners[0]), find(points, corners[1])};
+  if (at_middle == nullptr || at_corners[0] == nullptr || at_corners[1] == nullptr) return std::nullopt;
+  LidEdge edge;
+  edge.middle = *at_middle;
+  edge.corners = {*at_corners[0], *at_corners[1]};
+  const PartId part = surface.part_of[edge.middle.vertex.value()];
+  const double width = glm::distance(edge.corners[0].position, edge.corners[1].position);
+  for (std::size_t c = 0; c < 2; ++c) {
+    SurfaceVertexId end = edge.corners[c].vertex;
+    edge.ends_at_corner[c] = surface.part_of[end.value()] == part;
+    if (!edge.ends_at_corner[c]) {
+      end = nearest_of_part(surface, part, edge.corners[c].position);
+      const double step = glm::distance(surface.positions[end.value()], edge.corners[c].position);
+      if (step > greatest_step_to_corner * width) return std::nullopt;
+    }
+    edge.to_corner[c] = shortest_path(surface, edge.middle.vertex, end);
+  }
+  return edge;
+}
+
+}  // namespace
+
+std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye) {
+  const std::array<std::string_view, 2> corners =
+      eye == 0 ? std::array<std::string_view, 2>{"3.11", "3.7"} : std::array<std::string_view, 2>{"3.12", "3.8"};
+  auto upper = lid_edge(surface, points, eye == 0 ? "3.1" : "3.2", corners);
+  auto lower = lid_edge(surface, points, eye == 0 ? "3.3" : "3.4", corners);
+  if (!upper || !lower) return std::nullopt;
+  return EyeEdges{*std::move(upper), *std::move(lower)};
+}
+
+}  // namespace semblante

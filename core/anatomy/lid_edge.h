@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/geometry/surface.h"
+
+namespace semblante {
+
+/// The edge of a lid from corner to corner, through its middle point.
+struct LidEdge {
+  SurfacePoint middle;
+  std::array<SurfacePoint, 2> corners;
+  std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< shortest paths from the middle
+  std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
+};
+
+/// Both edges of one eye. Points are those of the standard (left: 3.1, 3.3, corners 3.11 and 3.7).
+struct EyeEdges {
+  LidEdge upper, lower;
+};
+
+/// The edges of an eye (0 left, 1 right). Empty if a point is not on the surface, or if a corner is too far from the
+/// part of a lid.
+std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye);
+
+}  // namespace semblante

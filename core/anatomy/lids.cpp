@@ -1,0 +1,111 @@
+#include "core/anatomy/lids.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace semblante {
+namespace {
+
+/// The slit in the middle, radians: below, the eye is closed; above, its pivot is not behind it.
+constexpr double least_slit = 0.03;
+constexpr double greatest_slit = 2.4;
+
+/// The angle of a place about the line through the pivot along x, from straight ahead upwards.
+double angle_of(const glm::dvec3& p, const glm::dvec3& pivot) { return std::atan2(p.y - pivot.y, p.z - pivot.z); }
+
+/// Places on the edges of the eyeball, as coordinate of the profile and distance from the pivot.
+struct Profile {
+  std::array<double, Lids::ball_places> sum{}, weight{};
+
+  void add(const glm::dvec3& d, const glm::dvec3& pole) {
+    const double distance = glm::length(d);
+    if (!(distance > 0.0)) return;
+    const double cosine = glm::dot(d, pole) / distance;
+    if (cosine < 0.0) return;
+    const double at = std::sqrt(std::max(0.0, 1.0 - cosine)) * (Lids::ball_places - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), Lids::ball_places - 2);
+    for (const std::size_t place : {k, k + 1}) {
+      const double share = 1.0 - std::abs(at - static_cast<double>(place));
+      sum[place] += share * distance;
+      weight[place] += share;
+    }
+  }
+
+  /// The mean distance at each place; places that no edge crosses are interpolated. All zero for what is no ball: a
+  /// disc or a shell ends before the equator.
+  [[nodiscard]] std::array<float, Lids::ball_places> radii() const {
+    std::array<float, Lids::ball_places> result{};
+    constexpr double least = 0.05;  // a weight below says little
+    std::vector<std::size_t> known;
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      if (weight[k] > least) known.push_back(k);
+    }
+    if (known.size() < 3 || known.back() < 3 * weight.size() / 4) return result;
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      const auto after = std::lower_bound(known.begin(), known.end(), k);
+      const std::size_t b = after == known.end() ? known.back() : *after;
+      const std::size_t a = after == known.begin() ? known.front() : b == k ? k : *(after - 1);
+      const double t = a == b ? 0.0 : (static_cast<double>(k) - static_cast<double>(a)) / static_cast<double>(b - a);
+      result[k] = static_cast<float>(sum[a] / weight[a] + t * (sum[b] / weight[b] - sum[a] / weight[a]));
+    }
+    return result;
+  }
+};
+
+/// The outermost parts of the eye count: a cornea lies in front of an iris.
+std::array<float, Lids::ball_places> ball_of(const Surface& surface, std::span<const Part> parts, PartRole role,
+                                             const glm::dvec3& pivot, const glm::dvec3& pole) {
+  std::array<float, Lids::ball_places> outermost{};
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != role) continue;
+    Profile profile;
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
+      for (const Surface::Step& step : surface.steps_from(v)) {
+        const glm::dvec3 from = surface.positions[v.value()] - pivot;
+        const glm::dvec3 to = surface.positions[step.to.value()] - pivot;
+        for (const double t : {0.0, 0.25, 0.5, 0.75}) profile.add(from + t * (to - from), pole);
+      }
+    }
+    const auto radii = profile.radii();
+    for (std::size_t k = 0; k < outermost.size(); ++k) outermost[k] = std::max(outermost[k], radii[k]);
+  }
+  return outermost;
+}
+
+glm::dvec3 pole_of(const Rig& rig, std::size_t eye, const glm::dvec3& pivot) {
+  constexpr glm::dvec3 ahead(0.0, 0.0, 1.0);
+  if (rig.irises[eye]) return rig.irises[eye]->axis;
+  const FeaturePoint* const pupil = find_point(rig.points, eye == 0 ? "3.5" : "3.6");
+  if (pupil == nullptr) return ahead;
+  const glm::dvec3 to_pupil = glm::dvec3(pupil->position) - pivot;
+  return glm::length(to_pupil) > 0.0 ? glm::normalize(to_pupil) : ahead;
+}
+
+}  // namespace
+
+std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye) {
+  const glm::dvec3 pivot(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot);
+  const glm::dvec3& upper = edges.upper.middle.position;
+  const glm::dvec3& lower = edges.lower.middle.position;
+  // Behind the axis a lid would slide the other way.
+  if (upper.z <= pivot.z || lower.z <= pivot.z) return std::nullopt;
+  const double slit = angle_of(upper, pivot) - angle_of(lower, pivot);
+  if (slit < least_slit || slit > greatest_slit) return std::nullopt;
+  Lids lids;
+  lids.slit = static_cast<float>(slit);
+  // FAP 1024 closes the eye: IRISD is the mean of both eyes, unless it was given by hand.
+  const double own = upper.y - lower.y;
+  const double opening = rig.fapu[FapuUnit::irisd] ? 1024.0 * *rig.fapu[FapuUnit::irisd] : own;
+  if (!(own > 0.0) || !(opening > 0.0)) return std::nullopt;
+  lids.opening = static_cast<float>(opening);
+  const glm::dvec3 pole = pole_of(rig, eye, pivot);
+  lids.gaze = pole;
+  lids.ball = ball_of(surface, rig.parts, eye == 0 ? PartRole::left_eye : PartRole::right_eye, pivot, pole);
+  return lids;
+}
+
+}  // namespace semblante

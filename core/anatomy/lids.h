@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "core/anatomy/lid_edge.h"
+#include "core/geometry/surface.h"
+#include "core/types/feature_points.h"
+#include "core/types/rig.h"
+
+namespace semblante {
+
+/// How the lids of one eye (0 left, 1 right) roll on the eyeball. Empty if their edges are not known, or if the eye is
+/// closed on the neutral face, so that there is no way to roll. Reads the rig's parts, points, FAPUs, pivots and
+/// irises.
+std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye);
+
+}  // namespace semblante

@@ -1,0 +1,272 @@
+#include "core/anatomy/neck.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/anatomy/smooth_step.h"
+#include "core/geometry/edge_path_search.h"
+#include "core/geometry/nearest_point.h"
+
+namespace semblante {
+namespace {
+
+// Lengths in units of the height from the chin to the eyes. Human proportions; the shoulders are measured.
+constexpr double step_down = 0.05;          ///< between the sections of the neck
+constexpr double first_section = 0.15;      ///< below the chin: above it a section cuts the jaw
+constexpr double longest_neck = 1.6;        ///< the narrowest section is no farther below the chin
+constexpr double shoulders_within = 3.0;    ///< and the shoulders begin no farther below it
+constexpr double shortest_neck = 0.3;       ///< a cut nearer to the chin: the head turns as a whole
+constexpr double nape_below_eyes = 0.6;     ///< the head ends there at the back
+constexpr double shoulder_widening = 1.45;  ///< shoulders begin where the neck is wider than its least by this
+constexpr double beyond_neck = 1.5;         ///< radii of the neck from its axis: not neck, whatever its height
+constexpr double chin_below_mouth = 0.6;    ///< in heights of the eyes above the mouth, without a point of the chin
+constexpr double border_height = 0.04;      ///< of the lower border of a neck that is cut
+/// Ends of the smooth step from the shoulders (0) to the head (1): outside, vertices stay or turn fully.
+constexpr double still_until = 0.04;
+constexpr double full_from = 0.98;
+
+constexpr std::array<std::string_view, 2> pupil_points = {"3.5", "3.6"};
+constexpr std::array<std::string_view, 8> lid_points = {"3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12"};
+
+struct Landmarks {
+  glm::dvec3 chin{0.0};
+  double height = 0.0;  ///< from the chin to the eyes
+  glm::dvec3 nape{0.0};
+};
+
+/// y of the eyes: of the pupils, else of the corners and edges of the lids, else of the eyeballs.
+std::optional<double> eye_height(const FeaturePointSet& points, std::span<const Part> parts) {
+  for (const auto& names :
+       {std::span<const std::string_view>(pupil_points), std::span<const std::string_view>(lid_points)}) {
+    double sum = 0.0;
+    int count = 0;
+    for (const std::string_view name : names) {
+      if (const FeaturePoint* const point = find_point(points, name)) sum += point->position.y, ++count;
+    }
+    if (count > 0) return sum / count;
+  }
+  for (const Part& part : parts) {
+    if (part.role == PartRole::left_eye || part.role == PartRole::right_eye)
+      return 0.5 * (static_cast<double>(part.box_min.y) + part.box_max.y);
+  }
+  return std::nullopt;
+}
+
+std::optional<glm::dvec3> chin_place(const FeaturePointSet& points, double eyes) {
+  for (const std::string_view name : {"2.1", "2.10"}) {
+    if (const FeaturePoint* const point = find_point(points, name)) return glm::dvec3(point->position);
+  }
+  for (const std::string_view name : {"8.2", "2.3", "2.2"}) {
+    const FeaturePoint* const lip = find_point(points, name);
+    if (lip == nullptr) continue;
+    return glm::dvec3(lip->position) - glm::dvec3(0.0, chin_below_mouth * (eyes - lip->position.y), 0.0);
+  }
+  return std::nullopt;
+}
+
+std::optional<Landmarks> landmarks_of(const FeaturePointSet& points, std::span<const Part> parts,
+                                      const glm::vec3& head_pivot) {
+  const std::optional<double> eyes = eye_height(points, parts);
+  if (!eyes) return std::nullopt;
+  const std::optional<glm::dvec3> chin = chin_place(points, *eyes);
+  if (!chin) return std::nullopt;
+  Landmarks marks;
+  marks.chin = *chin;
+  marks.height = *eyes - marks.chin.y;
+  if (!(marks.height > 0.0)) return std::nullopt;
+  marks.nape = {head_pivot.x, *eyes - nape_below_eyes * marks.height,
+                std::min<double>(head_pivot.z, marks.chin.z - 0.5 * marks.height)};
+  return marks;
+}
+
+/// Whether a place is above the line from the chin to the nape, seen from the side.
+bool above_jaw(const Landmarks& marks, const glm::dvec3& p) {
+  const double t = (p.z - marks.chin.z) / (marks.nape.z - marks.chin.z);
+  const double line = marks.chin.y + std::clamp(t, 0.0, 1.0) * (marks.nape.y - marks.chin.y);
+  return p.y >= line - step_down * marks.height;
+}
+
+/// The vertices of the head: those above the jaw that are joined to the face above it, so that raised hands are none.
+std::vector<SurfaceVertexId> head_vertices(const Surface& surface, std::span<const SurfaceVertexId> seeds,
+                                           const Landmarks& marks) {
+  std::vector<bool> seen(surface.vertex_count(), false);
+  std::vector<SurfaceVertexId> head;
+  const auto visit = [&](SurfaceVertexId v) {
+    if (seen[v.value()] || !above_jaw(marks, surface.positions[v.value()])) return;
+    seen[v.value()] = true;
+    head.push_back(v);
+  };
+  for (const SurfaceVertexId seed : seeds) visit(seed);
+  for (std::size_t next = 0; next < head.size(); ++next) {
+    for (const Surface::Step& step : surface.steps_from(head[next])) visit(step.to);
+  }
+  return head;
+}
+
+/// A horizontal section of the skin near the neck's axis.
+struct NeckSection {
+  double low = std::numeric_limits<double>::infinity(), high = -low;       ///< x
+  double front = -std::numeric_limits<double>::infinity(), back = -front;  ///< z
+  [[nodiscard]] double width() const { return high - low; }
+};
+
+struct Neck {
+  glm::dvec3 axis{0.0};  ///< its middle at the narrowest section
+  double radius = 0.0;
+  double shoulders = 0.0;  ///< y where they begin, or of the border of a cut neck
+  bool is_cut = false;
+};
+
+/// The sections from the chin down, `step_down` apart.
+std::vector<NeckSection> neck_sections(const Surface& surface, const std::vector<bool>& is_skin,
+                                       const Landmarks& marks) {
+  const double step = step_down * marks.height;
+  std::vector<NeckSection> sections(static_cast<std::size_t>(shoulders_within / step_down) + 1);
+  const auto last = static_cast<double>(sections.size() - 1);
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (!is_skin[s]) continue;
+    const glm::dvec3& a = surface.positions[s];
+    for (const Surface::Step& edge : surface.steps_from(SurfaceVertexId(s))) {
+      const glm::dvec3& b = surface.positions[edge.to.value()];
+      if (b.y >= a.y) continue;  // each edge once, downwards
+      const double from = std::clamp(std::ceil((marks.chin.y - a.y) / step), 0.0, last + 1.0);
+      const double to = std::clamp(std::floor((marks.chin.y - b.y) / step), -1.0, last);
+      for (double k = from; k <= to; k += 1.0) {
+        const glm::dvec3 p = a + (b - a) * ((a.y - (marks.chin.y - k * step)) / (a.y - b.y));
+        NeckSection& section = sections[static_cast<std::size_t>(k)];
+        section.low = std::min(section.low, p.x);
+        section.high = std::max(section.high, p.x);
+        section.front = std::max(section.front, p.z);
+        section.back = std::min(section.back, p.z);
+      }
+    }
+  }
+  return sections;
+}
+
+std::optional<Neck> find_neck(const Surface& surface, const std::vector<bool>& is_skin, const Landmarks& marks) {
+  const std::vector<NeckSection> sections = neck_sections(surface, is_skin, marks);
+  const double step = step_down * marks.height;
+  const auto first = static_cast<std::size_t>(first_section / step_down);
+  const auto lowest = static_cast<std::size_t>(longest_neck / step_down);
+  std::optional<std::size_t> narrowest;
+  std::size_t end = first;
+  for (; end < sections.size() && sections[end].width() > 0.0; ++end) {
+    if (end > lowest) continue;
+    if (!narrowest || sections[end].width() < sections[*narrowest].width()) narrowest = end;
+  }
+  if (!narrowest) return std::nullopt;
+  const NeckSection& waist = sections[*narrowest];
+  Neck neck;
+  neck.axis = {0.5 * (waist.low + waist.high), marks.chin.y - static_cast<double>(*narrowest) * step,
+               0.5 * (waist.front + waist.back)};
+  neck.radius = 0.5 * waist.width();
+  for (std::size_t k = *narrowest; k < end; ++k) {
+    if (sections[k].width() <= shoulder_widening * waist.width()) continue;
+    neck.shoulders = marks.chin.y - static_cast<double>(k) * step;
+    return neck;
+  }
+  neck.is_cut = true;
+  double lowest_skin = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < is_skin.size(); ++s) {
+    if (is_skin[s]) lowest_skin = std::min(lowest_skin, surface.positions[s].y);
+  }
+  neck.shoulders = lowest_skin + border_height * marks.height;
+  if (marks.chin.y - neck.shoulders < shortest_neck * marks.height) return std::nullopt;
+  return neck;
+}
+
+bool is_still(const Neck& neck, const Landmarks& marks, const glm::dvec3& p) {
+  if (p.y <= neck.shoulders) return true;
+  if (neck.is_cut || p.y >= marks.chin.y) return false;
+  return std::hypot(p.x - neck.axis.x, p.z - neck.axis.z) > beyond_neck * neck.radius &&
+         p.y < marks.chin.y - first_section * marks.height;
+}
+
+std::uint8_t in_255ths(double share) { return static_cast<std::uint8_t>(std::lround(255.0 * share)); }
+
+/// The parts that are skin of the face: those with the role, so that a face of several surfaces turns alike.
+std::vector<bool> skin_of(const Surface& surface, std::span<const Part> parts) {
+  std::vector<bool> is_skin(surface.vertex_count());
+  for (std::size_t s = 0; s < is_skin.size(); ++s) {
+    is_skin[s] = parts[surface.part_of[s].value()].role == PartRole::skin;
+  }
+  return is_skin;
+}
+
+/// Whether a part hangs on the body: most of it is below the chin, and most of the skin beneath it does not turn.
+bool hangs_on_body(const Surface& surface, PartId part, const NearestPoint& skin,
+                   std::span<const std::uint8_t> turn_of_skin, const Landmarks& marks) {
+  double turn = 0.0;
+  std::size_t below = 0;
+  const auto members = surface.members_of(part);
+  for (const SurfaceVertexId v : members) {
+    const glm::dvec3& p = surface.positions[v.value()];
+    turn += turn_of_skin[skin.nearest(p).index];
+    below += p.y < marks.chin.y ? 1 : 0;
+  }
+  const auto count = static_cast<double>(members.size());
+  return 2 * below > members.size() && turn < 0.5 * 255.0 * count;
+}
+
+bool may_be_body(const Part& part) {
+  return !part.role_by_user && (part.role == PartRole::attached || part.role == PartRole::rest);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part> parts, const FeaturePointSet& points,
+                                         const glm::vec3& head_pivot) {
+  const std::optional<Landmarks> marks = landmarks_of(points, parts, head_pivot);
+  if (!marks) return {};
+  const std::vector<bool> is_skin = skin_of(surface, parts);
+  const std::optional<Neck> neck = find_neck(surface, is_skin, *marks);
+  if (!neck) return {};
+
+  std::vector<SurfaceVertexId> seeds;
+  for (const SurfacePoint& point : surface_points(surface, points)) {
+    if (is_skin[point.vertex.value()]) seeds.push_back(point.vertex);
+  }
+  std::vector<SurfaceVertexId> still;
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (is_skin[s] && is_still(*neck, *marks, surface.positions[s])) still.emplace_back(s);
+  }
+  EdgePathSearch search(surface);
+  const auto from_head_view = search.from(head_vertices(surface, seeds, *marks));
+  const std::vector<double> from_head(from_head_view.begin(), from_head_view.end());
+  const auto from_still = search.from(still);
+
+  std::vector<std::uint8_t> turn(surface.vertex_count(), 255);
+  std::vector<glm::dvec3> skin;
+  std::vector<std::uint8_t> turn_of_skin;
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (!is_skin[s]) continue;
+    const double down = from_head[s];
+    const double up = from_still[s];
+    if (std::isinf(down)) {
+      turn[s] = std::isinf(up) ? 255 : 0;
+    } else if (!std::isinf(up)) {
+      turn[s] = down + up > 0.0 ? in_255ths(smooth_step(still_until, full_from, up / (down + up))) : 255;
+    }
+    skin.push_back(surface.positions[s]);
+    turn_of_skin.push_back(turn[s]);
+  }
+  const NearestPoint nearest(skin);
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (may_be_body(parts[p]) && hangs_on_body(surface, PartId(p), nearest, turn_of_skin, *marks)) {
+      parts[p].role = PartRole::body;
+    }
+    if (parts[p].role != PartRole::body) continue;
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) turn[v.value()] = 0;
+  }
+  return turn;
+}
+
+}  // namespace semblante

@@ -1,0 +1,137 @@
+#include "core/anatomy/neck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "core/anatomy/part_roles.h"
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::uint32_t slices = 24;
+
+/// A surface of revolution about y from `top` down to `bottom` in rings 0.1 apart. Vertex (ring, slice) is ring *
+/// slices + slice; slice 0 is in front, at +z.
+Model revolution(double top, double bottom, const std::function<double(double)>& radius) {
+  const auto rings = static_cast<std::uint32_t>(std::lround((top - bottom) / 0.1)) + 1;
+  std::vector<glm::vec3> positions;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t r = 0; r < rings; ++r) {
+    const double y = top - 0.1 * r;
+    for (std::uint32_t s = 0; s < slices; ++s) {
+      const double angle = 2.0 * std::numbers::pi * s / slices;
+      positions.emplace_back(radius(y) * std::sin(angle), y, radius(y) * std::cos(angle));
+    }
+  }
+  for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+    for (std::uint32_t s = 0; s < slices; ++s) {
+      const std::uint32_t a = r * slices + s;
+      const std::uint32_t b = r * slices + (s + 1) % slices;
+      triangles.push_back({a, a + slices, b});
+      triangles.push_back({b, a + slices, b + slices});
+    }
+  }
+  return testing::make_model(positions, triangles, "head");
+}
+
+/// A head of radius 1 about y = 1, a neck of radius 0.5 below y = 0.1, shoulders of radius 2 from y = -0.9 down.
+double figure(double y) {
+  if (y > 0.1) return std::max(0.45, std::sqrt(std::max(0.0, 1.0 - (y - 1.0) * (y - 1.0))));
+  if (y > -0.9) return 0.5;
+  return std::min(2.0, 0.5 + 3.0 * (-0.9 - y));
+}
+
+struct Figure {
+  Model model;
+  Surface surface;
+  FeaturePointSet points;
+  std::vector<Part> parts;
+  std::vector<std::uint8_t> turn;
+
+  explicit Figure(double bottom) : model(revolution(1.9, bottom, figure)) {}
+
+  void find() {
+    surface = build_surface(model);
+    points = testing::points_at(model, {{"2.1", 18 * slices}, {"9.3", 9 * slices}});
+    for (const auto& [id, x] : {std::pair("3.5", 0.3F), std::pair("3.6", -0.3F)}) {
+      points.push_back({testing::fp(id), std::nullopt, glm::vec3(x, 1.1F, 0.9F)});
+    }
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    parts = describe_parts(model, surface, points);
+    turn = turn_with_head(surface, parts, points, glm::vec3(0.0F, 0.6F, -0.2F));
+  }
+  [[nodiscard]] int at(std::uint32_t ring, std::uint32_t slice = 0) const {
+    return turn[surface.surface_of[ring * slices + slice].value()];
+  }
+};
+
+TEST(TurnWithHead, FallsOffAlongTheNeck_AndIsNothingBelow) {
+  Figure figure(-4.0);
+  figure.find();
+  ASSERT_FALSE(figure.turn.empty());
+  for (std::uint32_t slice = 0; slice < slices; ++slice) {
+    for (std::uint32_t ring = 0; ring < 12; ++ring) EXPECT_EQ(figure.at(ring, slice), 255) << ring;
+    for (std::uint32_t ring = 31; ring < 60; ++ring) EXPECT_EQ(figure.at(ring, slice), 0) << ring;
+    int between = 0;
+    for (std::uint32_t ring = 12; ring < 31; ++ring) {
+      EXPECT_LE(figure.at(ring, slice), figure.at(ring - 1, slice));
+      between += figure.at(ring, slice) > 0 && figure.at(ring, slice) < 255 ? 1 : 0;
+    }
+    EXPECT_GT(between, 4);
+  }
+}
+
+TEST(TurnWithHead, EndsAtTheBorderOfACutNeck) {
+  Figure figure(-0.7);
+  figure.find();
+  ASSERT_FALSE(figure.turn.empty());
+  EXPECT_EQ(figure.at(0), 255);
+  EXPECT_EQ(figure.at(26), 0);
+  EXPECT_GT(figure.at(22), 60);
+}
+
+TEST(TurnWithHead, IsTheWholeModel_WithoutANeck) {
+  Figure figure(0.0);
+  figure.find();
+  EXPECT_TRUE(figure.turn.empty());
+}
+
+TEST(TurnWithHead, TakesHairAlong_AndLeavesTheCollar) {
+  Figure figure(-4.0);
+  const auto ring_of = [](double top, double bottom, double radius) {
+    return revolution(top, bottom, [radius](double) { return radius; });
+  };
+  const std::uint32_t collar = testing::append(figure.model, ring_of(-0.5, -0.9, 0.7), "collar");
+  // Longer than the neck, but most of it is on the head.
+  const std::uint32_t hair = testing::append(figure.model, ring_of(1.8, -0.8, 1.1), "hair");
+  figure.find();
+  const PartId collar_part = figure.surface.part_of[figure.surface.surface_of[collar].value()];
+  const PartId hair_part = figure.surface.part_of[figure.surface.surface_of[hair].value()];
+  EXPECT_EQ(figure.parts[collar_part.value()].role, PartRole::body);
+  EXPECT_NE(figure.parts[hair_part.value()].role, PartRole::body);
+  for (const SurfaceVertexId v : figure.surface.members_of(collar_part)) EXPECT_EQ(figure.turn[v.value()], 0);
+  for (const SurfaceVertexId v : figure.surface.members_of(hair_part)) EXPECT_EQ(figure.turn[v.value()], 255);
+}
+
+TEST(TurnWithHead, KeepsTheRoleThatTheUserSet) {
+  Figure figure(-4.0);
+  const std::uint32_t collar =
+      testing::append(figure.model, revolution(-0.5, -0.9, [](double) { return 0.7; }), "collar");
+  figure.find();
+  const PartId part = figure.surface.part_of[figure.surface.surface_of[collar].value()];
+  std::vector<std::optional<PartRole>> by_user(figure.parts.size());
+  by_user[part.value()] = PartRole::rest;
+  std::vector<Part> parts = describe_parts(figure.model, figure.surface, figure.points, by_user);
+  const auto turn = turn_with_head(figure.surface, parts, figure.points, glm::vec3(0.0F, 0.6F, -0.2F));
+  EXPECT_EQ(parts[part.value()].role, PartRole::rest);
+  EXPECT_EQ(turn[figure.surface.surface_of[collar].value()], 255);
+}
+
+}  // namespace
+}  // namespace semblante
