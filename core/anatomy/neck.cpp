@@ -253,7 +253,7 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
     if (std::isinf(down)) {
       turn[s] = std::isinf(up) ? 255 : 0;
     } else if (!std::isinf(up)) {
-      turn[s] = down + up > 0.0 ? in_255ths(smooth_step(still_until, full_from, up / (down + up))) : 255;
+      turn[s] = down + up > 0.0 ? in_255ths(rounded_ramp(still_until, full_from, up / (down + up))) : 255;
     }
     skin.push_back(surface.positions[s]);
     turn_of_skin.push_back(turn[s]);

@@ -57,9 +57,19 @@ void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePo
   }
 }
 
+std::vector<Displacement> articulated(const DisplacementSet& set, double articulation) {
+  std::vector<Displacement> result(set.displacements.begin(), set.displacements.end());
+  const auto more = static_cast<float>((articulation - usual_articulation) * set.jaw_open);
+  for (const Displacement& jaw : jaw_open_action().displacements) {
+    if (Displacement* const moved = find(result, jaw.point)) moved->value += more * jaw.value;
+  }
+  return result;
+}
+
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
-                           const std::optional<LipGaps>& gaps) {
-  ModelDisplacements result = to_model_units(set, fapu);
+                           const std::optional<LipGaps>& gaps, double articulation) {
+  const std::vector<Displacement> displacements = articulated(set, articulation);
+  ModelDisplacements result = to_model_units({set.name, displacements}, fapu);
   if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
   if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/expressions/library.h"
+#include "core/types/articulation.h"
 #include "core/types/facing_lips.h"
 #include "core/types/feature_points.h"
 
@@ -26,9 +27,12 @@ void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePo
 inline constexpr double share_to_teeth = 0.85;
 inline constexpr double most_to_teeth = 2.5;
 
-/// A displacement set of the library on one head: in model units, scaled to meet the teeth if the set does, stopped at
-/// contact.
+/// The set with its opening of the jaw multiplied by `articulation`, at the points that it moves. FAPU units.
+std::vector<Displacement> articulated(const DisplacementSet& set, double articulation);
+
+/// A displacement set of the library on one head: in model units, articulated, scaled to meet the teeth if the set
+/// does, stopped at contact.
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
-                           const std::optional<LipGaps>& gaps = std::nullopt);
+                           const std::optional<LipGaps>& gaps = std::nullopt, double articulation = usual_articulation);
 
 }  // namespace semblante

@@ -29,7 +29,7 @@ std::vector<float> dense(std::span<const DisplacementSet> sets, const Rig& rig) 
   std::vector<float> table;
   table.reserve(sets.size() * feature_point_count * 3);
   for (const DisplacementSet& set : sets) {
-    const auto row = to_dense(on_face(set, rig.fapu, rig.points, rig.lip_gaps).displacements);
+    const auto row = to_dense(on_face(set, rig.fapu, rig.points, rig.lip_gaps, rig.articulation).displacements);
     table.insert(table.end(), row.begin(), row.end());
   }
   return table;

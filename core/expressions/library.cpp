@@ -28,8 +28,8 @@ Library build(const std::array<generated::Set, N>& source) {
       library.displacements.push_back({FeaturePointId(entry.point), {entry.x, entry.y, entry.z}});
     }
     // Reserved above, so the array does not move and the spans stay valid.
-    library.sets.push_back(
-        {set.name, std::span<const Displacement>(library.displacements).subspan(first), set.meets_upper_teeth});
+    library.sets.push_back({set.name, std::span<const Displacement>(library.displacements).subspan(first),
+                            set.meets_upper_teeth, set.jaw_open});
   }
   return library;
 }
@@ -53,6 +53,11 @@ std::span<const DisplacementSet> viseme_library() {
 std::span<const DisplacementSet> expression_library() {
   static const Library library = build(generated::expressions);
   return library.sets;
+}
+
+const DisplacementSet& jaw_open_action() {
+  static const Library library = build(generated::jaw_open);
+  return library.sets.front();
 }
 
 FapuUnit fapu_of(FeaturePointId point, int axis) {

@@ -23,6 +23,7 @@ struct DisplacementSet {
   std::string_view name;
   std::span<const Displacement> displacements;
   bool meets_upper_teeth = false;  ///< the lower lip moves to the edge of the upper teeth of each head
+  double jaw_open = 0.0;           ///< the amount of jaw_open_action() in a viseme of the library
 };
 
 /// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Static
@@ -30,6 +31,9 @@ struct DisplacementSet {
 std::span<const DisplacementSet> viseme_library();
 /// The expressions of FAP 2, by number: none joy sadness anger fear disgust surprise. Static lifetime.
 std::span<const DisplacementSet> expression_library();
+
+/// The opening of the jaw that visemes contain, at full strength; FAPU units. Static lifetime.
+const DisplacementSet& jaw_open_action();
 
 /// The FAPU of an FP along an axis (0 x, 1 y, 2 z): that of the FAP that moves it along this axis, else that of its
 /// region (mouth and jaw: MW, MNS; eyes: ES, IRISD; all else: ES, ENS).

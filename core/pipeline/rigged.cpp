@@ -17,6 +17,7 @@ Result<RiggedHead> rig_head(MarkedHead head, const RigRequest& request, const Pr
   RiggedHead rigged{std::move(head), std::move(*rig)};
   rigged.warnings.rig = std::move(rigged.rig.warnings);
   rigged.rig.warnings.clear();
+  rigged.rig.articulation = request.articulation;
   return rigged;
 }
 

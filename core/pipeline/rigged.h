@@ -2,6 +2,7 @@
 
 #include "core/parametrize/weight_method.h"
 #include "core/pipeline/marked.h"
+#include "core/types/articulation.h"
 
 namespace semblante {
 
@@ -14,6 +15,8 @@ struct RiggedHead : MarkedHead {
 struct RigRequest {
   WeightMethod weights = WeightMethod::paper;
   DistanceMetric metric = DistanceMetric::edge;
+  /// least_articulation to most_articulation.
+  double articulation = usual_articulation;
 };
 
 /// Errors: those of parametrize.

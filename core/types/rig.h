@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/types/articulation.h"
 #include "core/types/facing_lips.h"
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
@@ -63,6 +64,7 @@ struct Rig {
   std::optional<Tongue> tongue;               ///< empty: the head has no tongue that can roll
   std::array<std::optional<Lids>, 2> lids;    ///< left, right; empty: the lids move by Eq. 7 alone
   glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
+  double articulation = usual_articulation;   ///< the multiple of the library's opening of the jaw in visemes
   std::vector<std::string> warnings;          ///< texts: what is missing, and what does not move without it
 };
 

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/types/articulation.h"
 #include "core/types/companion.h"
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
@@ -100,7 +101,8 @@ struct RigDocument {
   std::vector<PartInfo> parts;
   std::array<std::optional<Lids>, 2> lids;  ///< left, right; empty: the lids move by the sum of step 4 alone
   std::vector<Companion> companions;
-  double viseme_share = 0.85;                                 ///< of Eq. 5
+  double viseme_share = 0.85;                ///< of Eq. 5
+  double articulation = usual_articulation;  ///< the multiple of the usual opening of the jaw that `visemes` contain
   std::array<DisplacementSet, viseme_count> visemes;          ///< entry 0 "sil"
   std::array<DisplacementSet, expression_count> expressions;  ///< entry 0 "none", empty
   glm::vec3 bounds_min{0.0F}, bounds_max{0.0F};

@@ -265,6 +265,9 @@ Result<RigDocument> read_rig(std::string_view text) {
   if (const auto at = root.optional_member("companions")) read_companions(*at, false, rig.companions);
   if (const auto at = root.optional_member("lower_lip")) read_companions(*at, true, rig.companions);
   rig.viseme_share = root.member("viseme_share").number(0.0, 1.0);
+  if (const auto at = root.optional_member("articulation")) {
+    rig.articulation = at->number(least_articulation, most_articulation);
+  }
   displacement_sets(root.member("visemes"), rig.visemes);
   displacement_sets(root.member("expressions"), rig.expressions);
   rig.bounds_min = vec3(root.member("bounds").member("min"));

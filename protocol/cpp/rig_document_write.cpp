@@ -168,6 +168,7 @@ std::string write_rig(const RigDocument& rig) {
     if (!companions.empty()) json[is_choice ? "lower_lip" : "companions"] = std::move(companions);
   }
   json["viseme_share"] = rig.viseme_share;
+  if (rig.articulation != usual_articulation) json["articulation"] = rig.articulation;
   json["visemes"] = sets_of(rig.visemes);
   json["expressions"] = sets_of(rig.expressions);
   json["bounds"] = {{"min", vector_of(rig.bounds_min)}, {"max", vector_of(rig.bounds_max)}};

@@ -88,7 +88,8 @@ RigDocument::MaterialInfo describe(const Material& material, std::span<const Ima
 RigDocument::DisplacementSet on_this_face(const DisplacementSet& set, const Rig& rig) {
   RigDocument::DisplacementSet out;
   out.name = set.name;
-  for (const Displacement& displacement : on_face(set, rig.fapu, rig.points, rig.lip_gaps).displacements) {
+  for (const Displacement& displacement :
+       on_face(set, rig.fapu, rig.points, rig.lip_gaps, rig.articulation).displacements) {
     const bool marked = std::any_of(rig.points.begin(), rig.points.end(),
                                     [&](const FeaturePoint& p) { return p.id == displacement.point; });
     if (marked) out.displacements.push_back({displacement.point, displacement.value});
@@ -170,6 +171,7 @@ RigDocument common_document(const Rig& rig, const MaterialAssignment& materials,
   document.fapu = rig.fapu;
   document.eye_pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
   document.head_pivot = rig.head_pivot;
+  document.articulation = rig.articulation;
   document.irises = rig.irises;
   document.tongue = rig.tongue;
   document.lids = rig.lids;

@@ -43,6 +43,8 @@ export interface RigDocument {
   parts: RigPart[];
   /** Viseme share of Eq. 5. */
   viseme_share: number;
+  /** The multiple of the usual opening of the jaw that `visemes` contain already. */
+  articulation: number;
   /** 15; entry 0 is silence. */
   visemes: DisplacementSet[];
   /** 7; entry 0 is none. */
@@ -257,6 +259,7 @@ export function readRig(json: string): RigDocument {
     lower_lip: readCompanions(root.optional('lower_lip')),
     parts: list('parts', maxList, readPart),
     viseme_share: root.member('viseme_share').number(0, 1),
+    articulation: root.optional('articulation')?.number(0.25, 4) ?? 1,
     visemes: root.member('visemes').elements(visemeCount, visemeCount).map(readSet),
     expressions: root.member('expressions').elements(expressionCount, expressionCount).map(readSet),
     bounds: { min: vec3(root.member('bounds').member('min')), max: vec3(root.member('bounds').member('max')) },

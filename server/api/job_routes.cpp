@@ -54,6 +54,12 @@ jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) 
       refuse("invalid-field", "it must be a whole number from 8 to 16", "/weight_bits");
     options.weight_bits = bits.get<int>();
   }
+  if (body.contains("articulation")) {
+    const auto& articulation = body["articulation"];
+    if (!articulation.is_number() || !is_articulation(articulation.get<double>()))
+      refuse("invalid-field", "it must be a number from 0.25 to 4", "/articulation");
+    options.articulation = articulation.get<double>();
+  }
   if (body.contains("lods")) options.lods = read_budgets(body["lods"], vertices);
   return options;
 }

@@ -55,13 +55,13 @@ std::optional<store::JobRecord> make_package_again(Context& context, const store
     if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*latest)) return jobs::new_record(*asked, model.id);
   }
   if (!model.package) return std::nullopt;
-  jobs::ParametrizeJob again;
+  if (const auto before = context.store.job(model.package->parametrization)) {
+    if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*before)) return jobs::new_record(*asked, model.id);
+  }
+  jobs::ParametrizeJob again;  // the job was removed: what the package's record tells
   again.metric = model.package->metric;
   again.weights = model.package->weights;
   again.weight_bits = model.package->weight_bits;
-  if (const auto before = context.store.job(model.package->parametrization)) {
-    if (const auto asked = jobs::read_job_as<jobs::ParametrizeJob>(*before)) again.lods = asked->lods;
-  }
   return jobs::new_record(again, model.id);
 }
 

@@ -73,8 +73,8 @@ void add_placing_options(CLI::App& command, HeadOptions& options) {
       ->envname("SEMBLANTE_FRONT");
 }
 
-/// --weights and --metric.
-void add_weight_options(CLI::App& command, HeadOptions& options) {
+/// --weights, --metric and --articulation.
+void add_rig_options(CLI::App& command, HeadOptions& options) {
   command
       .add_option("--weights", options.weights,
                   "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
@@ -87,6 +87,12 @@ void add_weight_options(CLI::App& command, HeadOptions& options) {
       ->check(CLI::IsMember({"edge", "unfolded"}))
       ->capture_default_str()
       ->envname("SEMBLANTE_METRIC");
+  command
+      .add_option("--articulation", options.articulation,
+                  "How far the jaw opens in visemes, as a multiple of the usual opening")
+      ->check(CLI::Range(least_articulation, most_articulation))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_ARTICULATION");
 }
 
 }  // namespace
@@ -110,7 +116,7 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
 
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points) {
   add_file_options(command, options, points);
-  add_weight_options(command, options);
+  add_rig_options(command, options);
 }
 
 void add_named_head_options(CLI::App& command, HeadOptions& options) {
@@ -125,7 +131,7 @@ void add_named_head_options(CLI::App& command, HeadOptions& options) {
       ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_MODEL_FORMAT");
   add_placing_options(command, options);
-  add_weight_options(command, options);
+  add_rig_options(command, options);
 }
 
 void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
@@ -161,7 +167,7 @@ RiggedHead rig(MarkedHead head, const HeadOptions& options) {
 
 RigRequest rig_request(const HeadOptions& options) {
   return {parse_weight_method(options.weights).value_or(WeightMethod::paper),
-          parse_distance_metric(options.metric).value_or(DistanceMetric::edge)};
+          parse_distance_metric(options.metric).value_or(DistanceMetric::edge), options.articulation};
 }
 
 Head load_head(const HeadOptions& options) {

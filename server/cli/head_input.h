@@ -5,6 +5,7 @@
 
 #include "core/pipeline/points_file.h"
 #include "core/pipeline/rigged.h"
+#include "core/types/articulation.h"
 
 namespace CLI {
 class App;
@@ -19,6 +20,7 @@ struct HeadOptions {
   std::string format;             ///< empty: detected from content and name
   std::string weights = "paper";  ///< a name of weight_method_names
   std::string metric = "edge";    ///< a name of distance_metric_names
+  double articulation = usual_articulation;
   std::string unit, up, front;  ///< of the model file, values of length_unit_names and direction_names; empty: guessed
   bool quiet = false;
 };
@@ -28,7 +30,7 @@ enum class PointsOption : bool { required, optional };
 /// Declares MODEL, --feature-points, --format, --unit, --up, --front and --quiet.
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
-/// The same, and --weights and --metric.
+/// The same, and --weights, --metric and --articulation.
 void add_head_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
 
 /// The same for a command whose argument is another file: --model, --model-format and the other options except --quiet,

@@ -25,7 +25,7 @@ Result<RigRequest> rig_request(const ParametrizeJob& options) {
     return Error{ErrorCode::invalid_argument, "/weights", "there are no weights \"" + options.weights + "\""};
   const auto metric = parse_distance_metric(options.metric);
   if (!metric) return Error{ErrorCode::invalid_argument, "/metric", "there is no metric \"" + options.metric + "\""};
-  return RigRequest{*weights, *metric};
+  return RigRequest{*weights, *metric, options.articulation};
 }
 
 /// The sets were checked before they were stored: one that cannot be read is an internal error.
@@ -114,12 +114,14 @@ std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome o
 
 void to_json(nlohmann::json& json, const ParametrizeJob& job) {
   json = {{"metric", job.metric}, {"weights", job.weights}, {"weight_bits", job.weight_bits}, {"lods", job.lods}};
+  if (job.articulation != usual_articulation) json["articulation"] = job.articulation;
 }
 
 void from_json(const nlohmann::json& json, ParametrizeJob& job) {
   json.at("metric").get_to(job.metric);
   json.at("weights").get_to(job.weights);
   json.at("weight_bits").get_to(job.weight_bits);
+  job.articulation = json.value("articulation", usual_articulation);
   json.at("lods").get_to(job.lods);
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/extract/named_set.h"
+#include "core/types/articulation.h"
 #include "core/types/progress.h"
 #include "core/types/result.h"
 #include "server/jobs/model_source.h"
@@ -25,6 +26,7 @@ struct ParametrizeJob {
   std::string metric = "edge";
   std::string weights = "paper";
   int weight_bits = 12;
+  double articulation = usual_articulation;
   std::vector<std::uint32_t> lods;  ///< vertex budgets of the levels of detail, decreasing
 
   struct Request;

@@ -48,9 +48,11 @@ std::map<std::string, Displacements> read_actions(const std::string& path) {
   return actions;
 }
 
+constexpr const char* jaw_open = "jaw_open";
+
 AuthoredSet read_set(const json& entry, const std::map<std::string, Displacements>& actions) {
-  AuthoredSet set{entry.at("name"), {}, entry.value("meets_upper_teeth", false)};
   const json amounts = entry.value("actions", json::object());
+  AuthoredSet set{entry.at("name"), {}, entry.value("meets_upper_teeth", false), amounts.value(jaw_open, 0.0)};
   for (const auto& [name, amount] : amounts.items()) {
     const auto action = actions.find(name);
     if (action == actions.end()) throw std::runtime_error(set.name + ": no action " + name);
@@ -105,7 +107,10 @@ Sets read_sets(const std::string& data_folder) {
   const auto actions = read_actions(data_folder + "/actions.json");
   std::vector<AuthoredSet> visemes = read_list(data_folder + "/visemes.json", "visemes", mpeg4::visemes, actions);
   for (AuthoredSet& viseme : visemes) leave_to_expressions(viseme);
-  return {std::move(visemes), read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions)};
+  std::vector<AuthoredSet> expressions =
+      read_list(data_folder + "/expressions.json", "expressions", mpeg4::expressions, actions);
+  for (AuthoredSet& expression : expressions) expression.jaw_open = 0.0;
+  return {{jaw_open, actions.at(jaw_open)}, std::move(visemes), std::move(expressions)};
 }
 
 std::string render_header(const Sets& sets) {
@@ -116,7 +121,7 @@ std::string render_header(const Sets& sets) {
     tables << "inline constexpr std::array<Set, " << list.size() << "> " << name << " = {{\n";
     for (const AuthoredSet& set : list) {
       tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size()
-             << (set.meets_upper_teeth ? ", true},\n" : ", false},\n");
+             << (set.meets_upper_teeth ? ", true, " : ", false, ") << set.jaw_open << "},\n";
       entries << "    // " << set.name << "\n";
       for (const auto& [point, d] : set.displacements) {
         entries << "    {" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
@@ -126,6 +131,7 @@ std::string render_header(const Sets& sets) {
     }
     tables << "}};\n\n";
   };
+  table("jaw_open", {sets.jaw_open});
   table("visemes", sets.visemes);
   table("expressions", sets.expressions);
 
@@ -135,7 +141,8 @@ std::string render_header(const Sets& sets) {
       << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
       << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  float x, y, z;      ///< FAPU units\n};\n\n"
       << "/// displacements[first] .. displacements[first + count - 1]\n"
-      << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n  bool meets_upper_teeth;\n};\n\n"
+      << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n  bool meets_upper_teeth;\n  double "
+         "jaw_open;  ///< amount of the action\n};\n\n"
       << "inline constexpr std::array<Entry, " << count << "> displacements = {{\n"
       << entries.str() << "}};\n\n"
       << tables.str() << "}  // namespace semblante::generated\n";

@@ -17,9 +17,11 @@ struct AuthoredSet {
   std::string name;
   std::map<FeaturePointId, Vec3> displacements;
   bool meets_upper_teeth = false;
+  double jaw_open = 0.0;  ///< amount of the action `jaw_open` in a viseme, which `articulation` multiplies
 };
 
 struct Sets {
+  AuthoredSet jaw_open;  ///< the action
   std::vector<AuthoredSet> visemes;
   std::vector<AuthoredSet> expressions;  ///< entry 0 is "none"
 };

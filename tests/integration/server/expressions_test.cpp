@@ -387,7 +387,8 @@ TEST_F(ExpressionRoutes, AModelWearsASet_AsItWas_UntilItIsTakenOff) {
   const auto early = patch({{"joy", set}});
   ASSERT_EQ(early.status, 200) << early.body;
   EXPECT_EQ(json_of(early)["expressions"]["joy"], (json{{"expression", set}, {"name", "Grin"}, {"revision", 1}}));
-  const auto made = json_of(request(port(), "POST", path + "/parametrizations", R"({"weight_bits":10})", json_type));
+  const auto made =
+      json_of(request(port(), "POST", path + "/parametrizations", R"({"weight_bits":10,"articulation":2})", json_type));
   ASSERT_EQ(wait_for_job(port(), made["id"]).value("state", ""), "done");
   // 256 units of 4 / 1024, and of 2 / 1024.
   EXPECT_EQ(worn("expressions", "joy"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
@@ -403,6 +404,7 @@ TEST_F(ExpressionRoutes, AModelWearsASet_AsItWas_UntilItIsTakenOff) {
   EXPECT_EQ(job["kind"], "parametrize");
   ASSERT_EQ(wait_for_job(port(), job["id"]).value("state", ""), "done");
   EXPECT_EQ(json_of(request(port(), "GET", path))["package"]["weight_bits"], 10);
+  EXPECT_EQ(json_of(rig())["articulation"], 2);
   EXPECT_EQ(worn("visemes", "a"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
   EXPECT_EQ(worn("expressions", "joy"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
   EXPECT_NE(rig().headers.at("etag"), with_joy.headers.at("etag"));

@@ -391,6 +391,11 @@ TEST_F(Routes, BadRequests_NameTheField) {
   expect_problem(
       request(port(), "POST", "/v1/models/" + model + "/parametrizations", R"({"weight_bits":20})", json_type), 422,
       "invalid-field", "/weight_bits");
+  for (const char* const wrong : {"0.2", "4.1", "-1", "1e300", "\"2\"", "null"}) {
+    expect_problem(request(port(), "POST", "/v1/models/" + model + "/parametrizations",
+                           std::string(R"({"articulation":)") + wrong + "}", json_type),
+                   422, "invalid-field", "/articulation");
+  }
   const auto patch = [&](const std::string& text) {
     return request(port(), "PATCH", "/v1/models/" + model, text, json_type);
   };

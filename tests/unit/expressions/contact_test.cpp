@@ -133,6 +133,32 @@ TEST(OnFace, ShutsTheLipsInPbmHoweverFarTheyAreApart) {
   }
 }
 
+TEST(OnFace, ArticulationMultipliesTheOpeningOfTheJawInVisemes) {
+  Fapu fapu;
+  fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};
+  const auto jaw = to_model_units(jaw_open_action(), fapu).displacements;
+  const auto at = [&](const DisplacementSet& set, double articulation) {
+    return on_face(set, fapu, {}, std::nullopt, articulation).displacements;
+  };
+  const DisplacementSet& a = viseme_library()[10];
+  ASSERT_EQ(a.name, "a");
+  ASSERT_GT(a.jaw_open, 0.3);
+  for (const char* const point : {"2.1", "2.3", "2.10", "8.2"}) {
+    for (const double articulation : {least_articulation, 0.5, most_articulation}) {
+      const double more = (articulation - 1.0) * a.jaw_open * static_cast<double>(y_of(jaw, point));
+      EXPECT_NEAR(y_of(at(a, articulation), point), static_cast<double>(y_of(at(a, 1.0), point)) + more, 1e-5)
+          << point << " " << articulation;
+    }
+  }
+  // No point joins the set: by Eq. 5 it would take that point from an expression.
+  EXPECT_EQ(at(a, 2.0).size(), a.displacements.size());
+}
+
+TEST(OnFace, ArticulationLeavesClosedLipsAndExpressionsAsTheyAre) {
+  EXPECT_EQ(viseme_library()[1].jaw_open, 0.0) << "p_b_m";
+  for (const DisplacementSet& set : expression_library()) EXPECT_EQ(set.jaw_open, 0.0) << set.name;
+}
+
 TEST(OnFace, IsTheSetInModelUnits_WherePointsAreUnknown) {
   Fapu fapu;
   fapu.value = {1.0 / 1024, 6.0 / 1024, 4.5 / 1024, mouth_nose / 1024, 5.0 / 1024};

@@ -120,6 +120,21 @@ TEST(RigDocument, RoundTrip_GivesTheSameText) {
   EXPECT_EQ(rig->visemes[3].displacements[1].by, glm::vec3(1, 2, 3));
 }
 
+TEST(RigDocument, Articulation_IsThereIfItIsNotTheUsual) {
+  EXPECT_FALSE(json::parse(write_rig(sample())).contains("articulation"));
+  RigDocument rig = sample();
+  rig.articulation = 2.5;
+  json written = json::parse(write_rig(rig));
+  EXPECT_EQ(written["articulation"], 2.5);
+  EXPECT_EQ(read_rig(written.dump())->articulation, 2.5);
+  for (const json& wrong : {json(0.2), json(4.5), json("2"), json()}) {
+    written["articulation"] = wrong;
+    const auto read = read_rig(written.dump());
+    ASSERT_FALSE(read.ok()) << wrong;
+    EXPECT_EQ(read.error().where, "/articulation");
+  }
+}
+
 RigDocument with_moving_parts() {
   RigDocument rig = sample();
   rig.irises[1] = Iris{{0.0F, 0.6F, 0.8F}, 0.1F, 0.3F, -2.0F};

@@ -42,6 +42,7 @@ describe('readRig', () => {
     ['/feature_points/1/id', 'malformed', '2.1'],
     ['/parts/1/role', 'invalid_argument', 'hat'],
     ['/viseme_share', 'out_of_range', 1.5],
+    ['/articulation', 'out_of_range', 5],
     ['/visemes', 'out_of_range', []],
     ['/visemes/3/displacements/99.1', 'invalid_argument', [0, 0, 0]],
     ['/materials', 'out_of_range', []],
@@ -131,7 +132,7 @@ describe('readRig', () => {
     const { format, version, ...members } = good as Record<string, unknown>;
     expect([format, version]).toEqual(['semblante.rig', 1]);
     // A document of before there were levels is the full mesh alone; one of before irises and tongue moved has none.
-    const later = { lids: [null, null], companions: [], lower_lip: [] };
+    const later = { lids: [null, null], companions: [], lower_lip: [], articulation: 1 };
     expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...later, ...members });
   });
 });

@@ -1192,6 +1192,8 @@ export interface components {
                 triangles: number;
             }[];
             viseme_share: number;
+            /** @description The multiple of the usual opening of the jaw that `visemes` contain; 1 if left out */
+            articulation?: number;
             visemes: [
                 components["schemas"]["RigSet"],
                 components["schemas"]["RigSet"],
@@ -2443,6 +2445,11 @@ export interface operations {
                     weights?: "paper" | "smooth";
                     /** @default 12 */
                     weight_bits?: number;
+                    /**
+                     * @description How far the jaw opens in the library's visemes, as a multiple of the usual opening
+                     * @default 1
+                     */
+                    articulation?: number;
                     /**
                      * @description The most vertices of each level of detail beside the full mesh, falling. Feature points, borders of lips and lids, borders and seams stay, so a level may have more (a warning says so), and one that would hardly be smaller is left out. auto: those of 50000, 20000, 10000, 5000 and 2500 that are at most half of the model, none for a model of 10000 vertices or less
                      * @default []

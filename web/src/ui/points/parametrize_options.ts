@@ -15,6 +15,12 @@ const metricChoices: readonly Choice[] = [
   { value: 'edge', title: 'Along edges', note: 'As in the paper; fastest.' },
   { value: 'unfolded', title: 'Across triangles', note: 'Closer to the true distance over the skin.' },
 ];
+const articulationChoices: readonly Choice[] = [
+  { value: '0.5', title: 'Quiet', note: 'The jaw opens half as far in speech.' },
+  { value: '1', title: 'Usual', note: 'The jaw opens as far as that of an adult who talks.' },
+  { value: '1.5', title: 'Clear', note: 'The jaw opens half as far again.' },
+  { value: '2.5', title: 'Cartoon', note: 'The jaw opens two and a half times as far.' },
+];
 const levelChoices: readonly Choice[] = [
   { value: 'auto', title: 'Automatic', note: 'Several levels with fewer vertices, for phones and crowds.' },
   { value: 'none', title: 'None', note: 'Only the full mesh.' },
@@ -43,6 +49,9 @@ export class ParametrizeOptions {
   private readonly metric = this.field('Distances', metricChoices, (value) =>
     this.parametrizer.set({ metric: value as ChosenOptions['metric'] }),
   );
+  private readonly articulation = this.field('Articulation', articulationChoices, (value) =>
+    this.parametrizer.set({ articulation: Number(value) }),
+  );
   private readonly levels = this.field('Levels', levelChoices, (value) => this.setLevels(value));
 
   constructor(private readonly parametrizer: Parametrizer) {
@@ -52,12 +61,14 @@ export class ParametrizeOptions {
       h('summary', { class: 'small' }, h('span', {}, 'Options'), this.summary),
       this.weights.element,
       this.metric.element,
+      this.articulation.element,
       this.levels.element,
       this.budgets,
     );
     parametrizer.options.watch((options) => {
       const levels = options.lods === 'auto' ? 'auto' : options.lods.length === 0 ? 'none' : 'own';
       const titles = [this.weights.show(options.weights), this.metric.show(options.metric)];
+      this.articulation.show(String(options.articulation));
       this.levels.show(levels);
       this.budgets.hidden = levels !== 'own';
       setText(this.summary, titles.join(' · '));

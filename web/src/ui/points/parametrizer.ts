@@ -10,7 +10,7 @@ export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>
 
 /** Starts parametrizations with the chosen options and reports the outcome. */
 export class Parametrizer {
-  readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', lods: 'auto' });
+  readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', articulation: 1, lods: 'auto' });
 
   constructor(
     private readonly studio: Studio,

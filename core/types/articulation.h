@@ -1,0 +1,11 @@
+#pragma once
+
+namespace semblante {
+
+/// How far a face articulates: the multiple of the library's opening of the jaw in its visemes.
+inline constexpr double usual_articulation = 1.0;
+inline constexpr double least_articulation = 0.25;
+inline constexpr double most_articulation = 4.0;
+constexpr bool is_articulation(double value) { return value >= least_articulation && value <= most_articulation; }
+
+}  // namespace semblante
