@@ -3,12 +3,14 @@
 #include <utility>
 
 #include "core/lod/lod_poses.h"
+#include "core/materials/painted_eyes.h"
 
 namespace semblante {
 
 Result<LevelledHead> level_head(RiggedHead rigged, std::vector<std::uint32_t> budgets, const Progress& progress) {
   LevelledHead head{std::move(rigged), {}, {}, {}, {}};
-  head.materials = materials_of_rig(head.model, head.surface, head.rig);
+  paint_eyes(head.model, head.surface, head.rig.parts, eyes_of(head.rig));
+  head.materials = assign_materials(head.model, head.surface, head.rig.parts);
   if (budgets.empty()) return head;
   head.poses = lod_poses(head.rig, head.model);
   LodOptions options;

@@ -273,7 +273,7 @@ Result<std::vector<FacePackage>> build_packages(const Model& model, const Surfac
 
 Result<FacePackage> build_package(const Model& model, const Surface& surface, const Rig& rig,
                                   const PackageOptions& options) {
-  auto packages = build_packages(model, surface, rig, materials_of_rig(model, surface, rig), {}, options);
+  auto packages = build_packages(model, surface, rig, assign_materials(model, surface, rig.parts), {}, options);
   if (!packages) return packages.error();
   return std::move(packages->front());
 }

@@ -52,7 +52,7 @@ Result<FacePackage> build_package(const Model& model, const Surface& surface, co
                                   const PackageOptions& options);
 
 /// The same of the model (first) and of each of its levels; their rig.json name one another. Images are with the first.
-/// `materials` are materials_of_rig: the levels were made with them.
+/// `materials`: as the levels were made with them.
 Result<std::vector<FacePackage>> build_packages(const Model& model, const Surface& surface, const Rig& rig,
                                                 const MaterialAssignment& materials,
                                                 std::span<const LevelOfDetail> levels, const PackageOptions& options);

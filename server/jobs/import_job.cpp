@@ -6,6 +6,7 @@
 
 #include "core/anatomy/part_roles.h"
 #include "core/doctor/examine.h"
+#include "core/materials/painted_eyes.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"
@@ -25,7 +26,7 @@ Result<ImportJob::Request> ImportJob::request(const store::JobRecord& job, const
 Result<ImportJob::Outcome> ImportJob::run(const Request& request, ResultFiles& files, const Progress& progress) {
   auto imported = import_source(request.model, part_of(progress, 0.05, 0.5));
   if (!imported) return imported.error();
-  const auto head = stand_head(std::move(*imported), {request.model.frame_wish, {}, {}}, part_of(progress, 0.5, 0.6));
+  auto head = stand_head(std::move(*imported), {request.model.frame_wish, {}, {}}, part_of(progress, 0.5, 0.6));
   if (!head) return head.error();
 
   Outcome outcome;
@@ -52,6 +53,7 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, ResultFiles& f
   if (auto written = files.write_report(report, head->frame, request.model.frame_wish); !written)
     return written.error();
   if (auto told = report_progress(progress, 0.7, "preview"); !told) return told.error();
+  paint_eyes(head->model, head->surface, parts, guessed_eyes(parts));
   if (auto written = files.write_preview(*head, parts); !written) return written.error();
   return outcome;
 }

@@ -8,7 +8,9 @@
 #include "clients/native/render/renderer.h"
 #include "clients/native/tools/run_tool.h"
 #include "clients/native/tools/shots.h"
+#include "core/anatomy/part_roles.h"
 #include "core/import/model_formats.h"
+#include "core/materials/painted_eyes.h"
 #include "core/pipeline/standing.h"
 #include "tests/pictures/contact_sheet.h"
 #include "tests/pictures/posed_head.h"
@@ -39,13 +41,15 @@ Status run(const Arguments& arguments) {
   if (!imported) {
     return std::move(imported).error();
   }
-  const auto head = stand_head(*std::move(imported), {});
+  auto head = stand_head(*std::move(imported), {});
   if (!head) {
     return head.error();
   }
   for (const std::string& warning : head->warnings.all()) {
     std::cerr << "semblante-render: " << warning << '\n';
   }
+  const std::vector<Part> parts = describe_parts(head->model, head->surface, {}, {});
+  paint_eyes(head->model, head->surface, parts, guessed_eyes(parts));
   auto scene = render::build_scene(head->model);
   if (!scene) {
     return std::move(scene).error();

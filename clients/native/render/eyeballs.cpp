@@ -1,14 +1,9 @@
 #include "clients/native/render/eyeballs.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace semblante::render {
 
-Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
-                       const std::vector<bool>& is_eye) {
-  Eyeballs eyeballs;
-  eyeballs.place.assign(positions.size(), glm::vec4(0.0F));
+std::optional<std::array<Box, 2>> find_eyeballs(std::span<const glm::vec3> positions,
+                                                std::span<const Triangle> triangles, const std::vector<bool>& is_eye) {
   // Shells of one eye (sclera, cornea) may have no common edges, so the two eyes are distinguished by side: relative to
   // the middle between the outermost eye vertices, which also works for a head that is not at x = 0.
   Box both;
@@ -20,7 +15,7 @@ Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Tri
     }
   }
   if (both.empty()) {
-    return eyeballs;
+    return std::nullopt;
   }
   const float middle = both.centre().x;
   std::array<Box, 2> boxes;
@@ -36,22 +31,9 @@ Eyeballs find_eyeballs(std::span<const glm::vec3> positions, std::span<const Tri
     }
   }
   if (boxes[0].empty() || boxes[1].empty() || boxes[0].min.x <= boxes[1].max.x) {
-    return eyeballs;  // one eye, or not a pair of eyes
+    return std::nullopt;  // one eye, or not a pair of eyes
   }
-  eyeballs.pair = boxes;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!is_eye[t]) {
-      continue;
-    }
-    const Box& box = boxes[side_of(triangles[t])];
-    const float radius = std::max(box.size().x, box.size().y) / 2;
-    // Measured from the front, because many eyeballs are only the visible half.
-    const glm::vec3 centre(box.centre().x, box.centre().y, box.max.z - radius);
-    for (const std::uint32_t v : triangles[t]) {
-      eyeballs.place[v] = glm::vec4((positions[v] - centre) / std::max(radius, 1e-20F), 1.0F);
-    }
-  }
-  return eyeballs;
+  return boxes;
 }
 
 }  // namespace semblante::render

@@ -68,13 +68,6 @@ bool says_nothing(const Material& material) {
   return material.base_color_image < 0 && spread < 0.02F && c.a > 0.99F && c.r > 0.3F;
 }
 
-/// Any near-white colour: it cannot be an iris, so one may be painted.
-bool is_eye_white(const Material& material) {
-  const glm::vec4& c = material.base_color;
-  const float low = std::min({c.r, c.g, c.b});
-  return material.base_color_image < 0 && c.a > 0.99F && low > 0.6F && std::max({c.r, c.g, c.b}) - low < 0.12F;
-}
-
 }  // namespace
 
 std::optional<Substance> substance_by_name(std::string_view name) {
@@ -117,10 +110,7 @@ Look look_of(const Model& model, const Primitive& primitive, std::optional<PartR
   look.roughness = appearance.roughness;
   look.specular = appearance.specular;
   if (material != nullptr && !says_nothing(*material)) {
-    // With a chosen colour no iris is painted.
-    if ((look.substance == Substance::eyeball && !is_eye_white(*material)) || look.substance == Substance::film) {
-      look.substance = Substance::plain;
-    }
+    if (look.substance == Substance::film) look.substance = Substance::plain;
     look.color = glm::vec3(material->base_color);
     look.alpha = material->base_color.a;
     look.roughness = std::clamp(material->roughness, 0.08F, 1.0F);

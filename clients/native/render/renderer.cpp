@@ -32,7 +32,6 @@ struct DynamicVertex {
 
 struct StaticVertex {
   glm::vec2 uv;
-  glm::vec4 eye;
 };
 
 template <class T>
@@ -150,15 +149,14 @@ struct Renderer::Impl {
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(DynamicVertex), offset_of(offsetof(DynamicVertex, normal)));
     std::vector<StaticVertex> fixed(scene.file_vertex.size());
     for (std::size_t r = 0; r < fixed.size(); ++r) {
-      fixed[r] = {scene.uvs[r], scene.eye[r]};
+      fixed[r] = {scene.uvs[r]};
     }
     glGenBuffers(1, &static_buffer);
     glBindBuffer(GL_ARRAY_BUFFER, static_buffer);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(fixed.size() * sizeof(StaticVertex)), fixed.data(),
                  GL_STATIC_DRAW);
     glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(StaticVertex), offset_of(offsetof(StaticVertex, uv)));
-    glVertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, sizeof(StaticVertex), offset_of(offsetof(StaticVertex, eye)));
-    for (GLuint attribute = 0; attribute < 4; ++attribute) {
+    for (GLuint attribute = 0; attribute < 3; ++attribute) {
       glEnableVertexAttribArray(attribute);
     }
     glGenBuffers(1, &index_buffer);
@@ -234,7 +232,6 @@ struct Renderer::Impl {
     glUniform1f(uniform("roughness"), look.roughness);
     glUniform1f(uniform("specular"), look.specular);
     glUniform1i(uniform("is_skin"), look.substance == Substance::skin || look.substance == Substance::gums ? 1 : 0);
-    glUniform1i(uniform("is_eye"), look.substance == Substance::eyeball ? 1 : 0);
     glUniform1i(uniform("has_texture"), run.texture >= 0 ? 1 : 0);
     glUniform1f(uniform("alpha_cutoff"), look.alpha_mode == Material::AlphaMode::mask ? look.alpha_cutoff : 0.004F);
     glActiveTexture(GL_TEXTURE0);

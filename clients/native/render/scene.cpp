@@ -126,11 +126,9 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
         }
       });
 
-  const Eyeballs eyeballs = find_eyeballs(model.positions, model.triangles, is_eye);
   Scene scene{.rest = model.positions,
               .file_vertex = {},
               .uvs = {},
-              .eye = {},
               .triangles = {},
               .runs = std::move(runs),
               .textures = std::move(textures),
@@ -150,13 +148,12 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
       if (is_new) {
         scene.file_vertex.push_back(vertex);
         scene.uvs.push_back(uv < model.uvs.size() ? model.uvs[uv] : glm::vec2(0.0F));
-        scene.eye.push_back(eyeballs.place[vertex]);
         all.add(model.positions[vertex]);
       }
       scene.triangles[t][corner] = entry->second;
     }
   }
-  scene.subjects = find_subjects(all, options.points, eyeballs.pair);
+  scene.subjects = find_subjects(all, options.points, find_eyeballs(model.positions, model.triangles, is_eye));
   return scene;
 }
 

@@ -39,7 +39,6 @@ struct Scene {
   std::vector<glm::vec3> rest;             ///< #V: file vertices of the neutral head
   std::vector<std::uint32_t> file_vertex;  ///< #R: the file vertex with the position and normal of a drawn vertex
   std::vector<glm::vec2> uvs;              ///< #R
-  std::vector<glm::vec4> eye;              ///< #R: Eyeballs::place
   std::vector<Triangle> triangles;         ///< #T, drawn vertices
   std::vector<Run> runs;
   std::vector<Texture> textures;

@@ -17,7 +17,6 @@ inline constexpr const char* face_vertex = R"(#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 3) in vec4 eye;
 uniform mat4 to_clip;
 uniform mat4 to_light;
 uniform mat4 to_front_light;
@@ -25,14 +24,12 @@ uniform float shadow_offset;
 out vec3 at;
 out vec3 across;
 out vec2 texture_at;
-out vec4 eye_at;
 out vec4 in_light;
 out vec4 in_front_light;
 void main() {
   at = position;
   across = normal;
   texture_at = uv;
-  eye_at = eye;
   // Offset from the surface, so that the flat triangles of a coarse head do not shadow each other.
   vec4 above = vec4(position + normal * shadow_offset, 1.0);
   in_light = to_light * above;
@@ -48,7 +45,6 @@ precision highp sampler2DShadow;
 in vec3 at;
 in vec3 across;
 in vec2 texture_at;
-in vec4 eye_at;
 in vec4 in_light;
 in vec4 in_front_light;
 uniform vec3 camera;
@@ -59,7 +55,6 @@ uniform vec4 base_color;
 uniform float roughness;
 uniform float specular;
 uniform int is_skin;
-uniform int is_eye;
 uniform int has_texture;
 uniform float alpha_cutoff;
 uniform sampler2D base_texture;
@@ -77,19 +72,6 @@ float lit(sampler2DShadow map, vec4 place, float slope) {
     for (int x = -1; x <= 1; ++x)
       sum += texture(map, vec3(p.xy + vec2(x, y) * 2.2 * texel, p.z - bias));
   return sum / 9.0;
-}
-
-// Paints a dark ring, an iris with a lighter inner part, and a pupil, by the sine of the angle from the eye's axis.
-vec3 paint_eye(vec3 white, vec3 place) {
-  float r = length(place.xy) / max(length(place), 1e-4);
-  if (place.z <= 0.0) return white;
-  float angle = atan(place.y, place.x);
-  float fibres = 0.82 + 0.18 * sin(angle * 23.0) * sin(angle * 9.0 + 1.0);
-  vec3 iris = mix(vec3(0.20, 0.24, 0.22), vec3(0.055, 0.095, 0.125), smoothstep(0.2, 0.46, r)) * fibres;
-  vec3 c = mix(iris, vec3(0.02), smoothstep(0.41, 0.47, r));
-  c = mix(vec3(0.006), c, smoothstep(0.17, 0.20, r));
-  vec3 veined = mix(white, white * vec3(0.86, 0.66, 0.62), smoothstep(0.55, 1.0, r));
-  return mix(c, veined, smoothstep(0.465, 0.505, r));
 }
 
 vec3 shade(vec3 n, vec3 v, vec3 l, vec3 light, vec3 albedo, float shadow) {
@@ -114,7 +96,6 @@ void main() {
   vec3 v = normalize(camera - at);
   if (!gl_FrontFacing) n = -n;
   vec3 albedo = base.rgb;
-  if (is_eye == 1 && eye_at.w > 0.5) albedo = paint_eye(albedo, eye_at.xyz);
   // Little light enters a mouth: surfaces in the shadow of the front light also get less ambient light.
   float key = lit(key_shadow, in_light, 1.0 - max(dot(n, key_direction), 0.0));
   float open = lit(front_shadow, in_front_light, 1.0 - max(dot(n, fill_direction), 0.0));

@@ -152,22 +152,6 @@ TEST(Materials, AColourThatIsLost_IsThatOfTheRole_AndClothNeverLooksLikeSkin) {
   EXPECT_EQ(look("N00_000_00_FaceEyeline_00_FACE", PartRole::attached, true), "lashes");
 }
 
-TEST(Materials, PlainEyeball_GetsAnIrisAroundThePupil) {
-  const Model model = make_model();
-  const Surface surface = build_surface(model);
-  std::vector<Part> parts(surface.part_count());
-  parts[0].role = PartRole::right_eye;
-  EyeLook eyes;
-  eyes.pupils[1] = glm::vec3(2.0F, 2.0F, std::sin(2.0F) * std::cos(2.0F));
-  eyes.iris_diameter = 4.0F;
-  const MaterialAssignment assigned = assign_materials(model, surface, parts, eyes);
-  const auto name_at = [&](std::size_t triangle) { return assigned.materials[assigned.of_triangle[triangle]].name; };
-  // Two triangles a square, eight squares a row: triangle 2 (y 8 + x). The one with corners (2,2) (3,2) (3,3) has its
-  // centre 0.9 from the pupil in the plane; a third of the radius is 0.67.
-  EXPECT_EQ(name_at(2 * (2 * 8 + 2)), "iris");
-  EXPECT_EQ(name_at(2 * (7 * 8 + 7)), "sclera");
-}
-
 TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {
   const Model model = make_model();
   const RenderMesh mesh = render(model, build_surface(model));

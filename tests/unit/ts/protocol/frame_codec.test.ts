@@ -71,10 +71,13 @@ describe('FrameDecoder', () => {
     }
   });
 
-  it('Decode_EveryFlippedBit_IsRefusedOrValid', () => {
+  it('Decode_EveryFlippedBit_IsRefusedOrValid', async () => {
+    // The test runner gives up on a worker that does not answer for a minute, which on a busy machine this loop takes.
+    const letTheRunnerIn = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
     for (const [index, { binary }] of vectors.entries()) {
       const good = fromHex(binary);
       for (let bit = 0; bit < good.length * 8; ++bit) {
+        if (bit % 256 === 0) await letTheRunnerIn();
         const bytes = good.slice();
         bytes[bit >> 3]! ^= 1 << (bit & 7);
         const decoder = new FrameDecoder();

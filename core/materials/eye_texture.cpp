@@ -1,0 +1,78 @@
+#include "core/materials/eye_texture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <stb/stb_image_write.h>
+
+namespace semblante {
+namespace {
+
+constexpr int samples = 4;  // a pixel is the mean of samples by samples places
+
+// Linear RGB.
+const glm::vec3 white(0.85F, 0.84F, 0.81F);
+const glm::vec3 inner(0.20F, 0.25F, 0.24F);
+const glm::vec3 outer(0.07F, 0.12F, 0.15F);
+const glm::vec3 border(0.02F);
+const glm::vec3 black(0.006F);
+
+float smooth(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+/// At a place in radii of the iris.
+glm::vec3 color_at(float x, float y, float pupil) {
+  const float r = std::hypot(x, y);
+  if (r > 1.1F) return white;
+  const float angle = std::atan2(y, x);
+  const float fibres = 0.84F + 0.16F * std::sin(angle * 23.0F) * std::sin(angle * 9.0F + 1.0F);
+  glm::vec3 color = glm::mix(inner, outer, smooth(pupil, 0.95F, r)) * fibres;
+  color = glm::mix(color, border, smooth(0.84F, 0.98F, r));
+  color = glm::mix(black, color, smooth(pupil - 0.03F, pupil + 0.03F, r));
+  return glm::mix(color, white, smooth(0.96F, 1.05F, r));
+}
+
+std::uint8_t srgb(float linear) {
+  const float s = linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(s, 0.0F, 1.0F)));
+}
+
+void append(void* bytes, void* data, int size) {
+  const auto* const begin = static_cast<const std::uint8_t*>(data);
+  auto& to = *static_cast<std::vector<std::uint8_t>*>(bytes);
+  to.insert(to.end(), begin, begin + size);
+}
+
+}  // namespace
+
+Image eye_texture(float span, float pupil) {
+  assert(span >= 1.0F && pupil > 0.0F && pupil < 1.0F);
+  constexpr int channels = 3;
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(static_cast<std::size_t>(eye_texture_size) * eye_texture_size * channels);
+  constexpr int across = eye_texture_size * samples;
+  const auto place = [&](int sample) {
+    return span * (2.0F * (static_cast<float>(sample) + 0.5F) / static_cast<float>(across) - 1.0F);
+  };
+  for (int row = 0; row < eye_texture_size; ++row) {
+    for (int column = 0; column < eye_texture_size; ++column) {
+      glm::vec3 sum(0.0F);
+      for (int s = 0; s < samples * samples; ++s)
+        sum += color_at(place(column * samples + s % samples), -place(row * samples + s / samples), pupil);
+      for (int c = 0; c < channels; ++c) pixels.push_back(srgb(sum[c] / (samples * samples)));
+    }
+  }
+  Image image;
+  image.mime_type = "image/png";
+  stbi_write_png_to_func(append, &image.bytes, eye_texture_size, eye_texture_size, channels, pixels.data(),
+                         eye_texture_size * channels);
+  return image;
+}
+
+}  // namespace semblante

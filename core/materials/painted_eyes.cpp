@@ -1,0 +1,296 @@
+#include "core/materials/painted_eyes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/materials/eye_texture.h"
+#include "core/materials/plain_materials.h"
+
+namespace semblante {
+namespace {
+
+constexpr float usual_pupil = 1.0F / 3.0F;        ///< of the iris, as in the neutral face
+constexpr float iris_of_ball = 0.49F;             ///< radius of the iris by that of the eyeball, of adults
+constexpr float widest_span = 4.0F;               ///< radii of the iris that the texture shows at most
+constexpr glm::vec2 black_place(0.5F, 0.5F);      ///< the pupil
+constexpr glm::vec2 white_place(0.004F, 0.004F);  ///< a corner of the texture
+
+enum class Paint : std::uint8_t { none, eye, film };
+
+/// A place in the frame of an eye: across its axis to the face's left and up, and along it.
+struct EyePlace {
+  glm::vec2 across{0.0F};
+  float along = 0.0F;
+};
+
+EyePlace place_of(const PaintedEye& eye, const glm::vec3& p) {
+  const glm::vec3 left = glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), eye.axis));
+  const glm::vec3 up = glm::cross(eye.axis, left);
+  const glm::vec3 d = p - eye.pivot;
+  return {{glm::dot(d, left), glm::dot(d, up)}, glm::dot(d, eye.axis)};
+}
+
+bool can_be_painted(const PaintedEye& eye) {
+  // An axis along y has no left; no eye looks there at rest.
+  return eye.iris_radius > 0.0F && eye.pupil_radius > 0.0F && eye.pupil_radius < eye.iris_radius &&
+         std::abs(eye.axis.y) < 0.9F;
+}
+
+/// The white of an eye: an opaque colour near white, without an image.
+bool is_eye_white(const Material& material) {
+  const glm::vec4& c = material.base_color;
+  const float low = std::min({c.r, c.g, c.b});
+  return material.base_color_image < 0 && c.a > 0.99F && low > 0.6F && std::max({c.r, c.g, c.b}) - low < 0.12F;
+}
+
+/// A cornea or a film of tears, through which the eye is seen.
+bool is_film(const Material& material) {
+  return (material.alpha_mode == Material::AlphaMode::blend && material.base_color.a < 0.5F) ||
+         plain_of(material.name, {}, PartRole::rest) == Plain::fluid;
+}
+
+bool moves_as_iris(RigidMotion motion) { return motion == RigidMotion::left_iris || motion == RigidMotion::right_iris; }
+
+struct PaintedTriangle {
+  const PaintedEye* eye = nullptr;
+  Paint paint = Paint::none;
+  bool is_inside = false;  ///< of an iris in front of the eye's inside, which is dark
+};
+
+/// The painting of a model's eyes.
+class EyePainter {
+ public:
+  EyePainter(const Model& model, const Surface& surface, std::span<const Part> parts, const EyeLook& look)
+      : model_(model), surface_(surface), parts_(parts), look_(look) {
+    for (const Primitive& primitive : model.primitives) {
+      const Material* const own = material_of(primitive);
+      if (own == nullptr || says_nothing(*own) || is_eye_white(*own) || is_film(*own)) continue;
+      const std::size_t end = std::size_t{primitive.first_triangle} + primitive.triangle_count;
+      for (std::size_t t = primitive.first_triangle; t < end; ++t) {
+        if (const auto side = side_of(model.triangles[t])) has_own_iris_[*side] = true;
+      }
+    }
+  }
+
+  /// Without an eye if the triangle is not of a plain eyeball.
+  [[nodiscard]] PaintedTriangle painted(const Primitive& primitive, const Triangle& corners) const {
+    const auto side = side_of(corners);
+    if (!side || has_own_iris_[*side]) return {};
+    const Material* const own = material_of(primitive);
+    if (own != nullptr && is_film(*own)) return {};
+    const PartRole role = *side == 0 ? PartRole::left_eye : PartRole::right_eye;
+    const Plain plain =
+        plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
+    if (plain != Plain::sclera && plain != Plain::iris) return {};
+    const std::optional<PaintedEye>& eye = look_.eyes[*side];
+    if (!eye || !can_be_painted(*eye)) return {};
+    return {&*eye, paint_of(*eye, corners), plain == Plain::iris};
+  }
+
+  /// In radii of the iris; nothing of the front of an eye is farther from its axis.
+  [[nodiscard]] float reach(const PaintedEye& eye, const Triangle& corners) const {
+    float farthest = 1.0F;
+    for (const std::uint32_t v : corners) {
+      const EyePlace place = place_of(eye, model_.positions[v]);
+      if (place.along > 0.0F) farthest = std::max(farthest, glm::length(place.across) / eye.iris_radius);
+    }
+    return farthest;
+  }
+
+  /// On a texture that shows `span` radii of the iris. Empty behind the pivot: there a place would be that of one in
+  /// front.
+  [[nodiscard]] std::optional<glm::vec2> texture_place(const PaintedEye& eye, std::uint32_t vertex, float span) const {
+    const EyePlace place = place_of(eye, model_.positions[vertex]);
+    if (place.along <= 0.0F) return std::nullopt;
+    const glm::vec2 p = place.across / (eye.iris_radius * span);
+    return glm::clamp(glm::vec2(0.5F + 0.5F * p.x, 0.5F - 0.5F * p.y), glm::vec2(0.0F), glm::vec2(1.0F));
+  }
+
+ private:
+  [[nodiscard]] const Material* material_of(const Primitive& primitive) const {
+    const bool named =
+        primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size();
+    return named ? &model_.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
+  }
+
+  /// 0 left, 1 right; empty if the triangle is not of an eye.
+  [[nodiscard]] std::optional<std::size_t> side_of(const Triangle& corners) const {
+    const PartId part = surface_.part_of[surface_.surface_of[corners[0]].value()];
+    if (part.value() >= parts_.size()) return std::nullopt;
+    const PartRole role = parts_[part.value()].role;
+    if (role == PartRole::left_eye) return 0;
+    if (role == PartRole::right_eye) return 1;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Paint paint_of(const PaintedEye& eye, const Triangle& corners) const {
+    if (look_.motion.empty()) return Paint::eye;
+    const glm::vec3 sum = model_.positions[corners[0]] + model_.positions[corners[1]] + model_.positions[corners[2]];
+    const EyePlace center = place_of(eye, sum / 3.0F);
+    if (center.along <= 0.0F || glm::length(center.across) >= eye.iris_radius) return Paint::eye;
+    const bool of_iris =
+        std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return moves_as_iris(look_.motion[v]); });
+    return of_iris || !has_iris(eye) ? Paint::eye : Paint::film;
+  }
+
+  /// Whether any vertex moves as the iris of this eye.
+  [[nodiscard]] bool has_iris(const PaintedEye& eye) const {
+    const bool is_left = look_.eyes[0] && &*look_.eyes[0] == &eye;
+    const RigidMotion wanted = is_left ? RigidMotion::left_iris : RigidMotion::right_iris;
+    return std::find(look_.motion.begin(), look_.motion.end(), wanted) != look_.motion.end();
+  }
+
+  const Model& model_;
+  const Surface& surface_;
+  std::span<const Part> parts_;
+  const EyeLook& look_;
+  std::array<bool, 2> has_own_iris_{};  ///< left, right: of the file
+};
+
+/// Texture coordinates of single corners, in a model that may have none.
+class CornerUvs {
+ public:
+  explicit CornerUvs(Model& model) : model_(model) {
+    if (model_.uv_triangles.empty()) {
+      model_.uv_triangles.assign(model_.triangles.size(), {Model::no_index, Model::no_index, Model::no_index});
+    }
+    of_vertex_.assign(model_.positions.size(), Model::no_index);
+  }
+
+  void set(std::size_t triangle, int corner, std::uint32_t vertex, const glm::vec2& place) {
+    std::uint32_t& index = of_vertex_[vertex];
+    if (index == Model::no_index) index = add(place);
+    model_.uv_triangles[triangle][static_cast<std::size_t>(corner)] = index;
+  }
+
+  /// The same place for the three corners.
+  void set_all(std::size_t triangle, const glm::vec2& place) {
+    std::uint32_t& index = of_place_.try_emplace({place.x, place.y}, Model::no_index).first->second;
+    if (index == Model::no_index) index = add(place);
+    model_.uv_triangles[triangle] = {index, index, index};
+  }
+
+ private:
+  std::uint32_t add(const glm::vec2& place) {
+    model_.uvs.push_back(place);
+    return static_cast<std::uint32_t>(model_.uvs.size() - 1);
+  }
+
+  Model& model_;
+  std::vector<std::uint32_t> of_vertex_;
+  std::map<std::pair<float, float>, std::uint32_t> of_place_;
+};
+
+/// Divides the primitives where the paint changes.
+std::vector<Primitive> divided(const Model& model, std::span<const PaintedTriangle> painted, int eye_material,
+                               int film_material) {
+  std::vector<Primitive> runs;
+  for (const Primitive& primitive : model.primitives) {
+    const std::uint32_t end = primitive.first_triangle + primitive.triangle_count;
+    for (std::uint32_t t = primitive.first_triangle; t < end;) {
+      Primitive run = primitive;
+      run.first_triangle = t;
+      const Paint paint = painted[t].paint;
+      while (t < end && painted[t].paint == paint) ++t;
+      run.triangle_count = t - run.first_triangle;
+      if (paint == Paint::eye) run.material = eye_material;
+      if (paint == Paint::film) run.material = film_material;
+      runs.push_back(std::move(run));
+    }
+    if (primitive.triangle_count == 0) runs.push_back(primitive);
+  }
+  return runs;
+}
+
+}  // namespace
+
+EyeLook eyes_of(const Rig& rig) {
+  static const std::array<FeaturePointId, 2> pupils = {*parse_feature_point("3.5"), *parse_feature_point("3.6")};
+  const std::array<glm::vec3, 2> pivots = {rig.left_eye_pivot, rig.right_eye_pivot};
+  EyeLook look;
+  look.motion = rig.rigid_of_vertex;
+  for (std::size_t e = 0; e < 2; ++e) {
+    if (const std::optional<Iris>& iris = rig.irises[e]) {
+      look.eyes[e] = PaintedEye{pivots[e], iris->axis, iris->iris_radius, iris->pupil_radius};
+      continue;
+    }
+    const auto pupil = std::find_if(rig.points.begin(), rig.points.end(),
+                                    [&](const FeaturePoint& point) { return point.id == pupils[e]; });
+    const auto diameter = rig.fapu[FapuUnit::irisd];
+    if (pupil == rig.points.end() || !diameter) continue;
+    const glm::vec3 gaze = pupil->position - pivots[e];
+    if (!(glm::length(gaze) > 0.0F)) continue;
+    const auto radius = static_cast<float>(512.0 * *diameter);
+    look.eyes[e] = PaintedEye{pivots[e], glm::normalize(gaze), radius, usual_pupil * radius};
+  }
+  return look;
+}
+
+EyeLook guessed_eyes(std::span<const Part> parts) {
+  EyeLook look;
+  for (std::size_t e = 0; e < 2; ++e) {
+    glm::vec3 low(std::numeric_limits<float>::infinity());
+    glm::vec3 high = -low;
+    for (const Part& part : parts) {
+      if (part.role != (e == 0 ? PartRole::left_eye : PartRole::right_eye)) continue;
+      low = glm::min(low, part.box_min);
+      high = glm::max(high, part.box_max);
+    }
+    const float radius = 0.5F * std::max(high.x - low.x, high.y - low.y);
+    if (!(radius > 0.0F)) continue;
+    // From the front, since many eyeballs are only their visible half.
+    const glm::vec3 center(0.5F * (low.x + high.x), 0.5F * (low.y + high.y), high.z - radius);
+    look.eyes[e] = PaintedEye{center, {0.0F, 0.0F, 1.0F}, iris_of_ball * radius, iris_of_ball * usual_pupil * radius};
+  }
+  return look;
+}
+
+void paint_eyes(Model& model, const Surface& surface, std::span<const Part> parts, const EyeLook& look) {
+  const EyePainter painter(model, surface, parts, look);
+  std::vector<PaintedTriangle> painted(model.triangles.size());
+  float span = 1.0F;
+  float pupil = 0.0F;
+  for (const Primitive& primitive : model.primitives) {
+    for (std::size_t t = primitive.first_triangle; t < std::size_t{primitive.first_triangle} + primitive.triangle_count;
+         ++t) {
+      painted[t] = painter.painted(primitive, model.triangles[t]);
+      if (painted[t].eye == nullptr) continue;
+      const PaintedEye& eye = *painted[t].eye;
+      span = std::max(span, painter.reach(eye, model.triangles[t]));
+      pupil = eye.pupil_radius / eye.iris_radius;
+    }
+  }
+  if (pupil == 0.0F) return;
+  span = std::min(1.02F * span, widest_span);
+
+  CornerUvs uvs(model);
+  for (std::size_t t = 0; t < painted.size(); ++t) {
+    if (painted[t].paint != Paint::eye) continue;
+    std::array<std::optional<glm::vec2>, 3> places;
+    for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
+    if (!places[0] || !places[1] || !places[2]) {
+      uvs.set_all(t, painted[t].is_inside ? black_place : white_place);
+      continue;
+    }
+    for (std::size_t c = 0; c < 3; ++c) uvs.set(t, static_cast<int>(c), model.triangles[t][c], *places[c]);
+  }
+  model.images.push_back(eye_texture(span, pupil));
+  Material eye = plain_material(Plain::sclera);
+  eye.name = "eye";
+  eye.base_color = glm::vec4(1.0F);
+  eye.base_color_image = static_cast<int>(model.images.size() - 1);
+  model.materials.push_back(eye);
+  model.materials.push_back(plain_material(Plain::fluid));
+  const auto film = static_cast<int>(model.materials.size() - 1);
+  model.primitives = divided(model, painted, film - 1, film);
+}
+
+}  // namespace semblante

@@ -1,0 +1,239 @@
+// The eyes that are painted where a file has none.
+#include "core/materials/painted_eyes.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+
+#include "core/materials/eye_texture.h"
+#include "core/materials/materials.h"
+
+namespace semblante {
+namespace {
+
+constexpr int rings = 12;
+constexpr int segments = 16;
+constexpr float ball = 12.0F;
+
+void add_ball(Model& model, const glm::vec3& center) {
+  const auto first = static_cast<std::uint32_t>(model.positions.size());
+  const auto at = [&](int ring, int segment) {
+    return first + static_cast<std::uint32_t>(ring * segments + segment % segments);
+  };
+  const float pi = std::acos(-1.0F);
+  for (int ring = 0; ring <= rings; ++ring) {
+    const float polar = pi * (static_cast<float>(ring) + 0.01F) / (static_cast<float>(rings) + 0.02F);
+    for (int segment = 0; segment < segments; ++segment) {
+      const float turn = 2.0F * pi * static_cast<float>(segment) / static_cast<float>(segments);
+      model.positions.push_back(center + ball * glm::vec3(std::sin(polar) * std::cos(turn),
+                                                          std::sin(polar) * std::sin(turn), std::cos(polar)));
+    }
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int segment = 0; segment < segments; ++segment) {
+      model.triangles.push_back({at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1)});
+      model.triangles.push_back({at(ring, segment), at(ring + 1, segment + 1), at(ring, segment + 1)});
+    }
+  }
+}
+
+/// Two eyeballs in one primitive, the left first.
+struct Eyes {
+  Model model;
+  Surface surface;
+  std::vector<Part> parts;
+  EyeLook look;
+
+  explicit Eyes(const glm::vec3& gaze = {0.0F, 0.0F, 1.0F}) {
+    add_ball(model, {30.0F, 0.0F, 0.0F});
+    add_ball(model, {-30.0F, 0.0F, 0.0F});
+    model.primitives.push_back({"", -1, 0, static_cast<std::uint32_t>(model.triangles.size())});
+    surface = build_surface(model);
+    parts.resize(surface.part_count());
+    for (std::size_t v = 0; v < model.positions.size(); ++v) {
+      Part& part = parts[surface.part_of[surface.surface_of[v].value()].value()];
+      part.role = model.positions[v].x > 0.0F ? PartRole::left_eye : PartRole::right_eye;
+    }
+    for (const std::size_t e : {0U, 1U})
+      look.eyes[e] = PaintedEye{{e == 0 ? 30.0F : -30.0F, 0.0F, 0.0F}, glm::normalize(gaze), 6.0F, 2.0F};
+  }
+
+  void paint() { paint_eyes(model, surface, parts, look); }
+};
+
+struct Pixels {
+  int width = 0, height = 0;
+  std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> rgb{nullptr, &stbi_image_free};
+
+  explicit Pixels(const Image& image) {
+    int channels = 0;
+    rgb.reset(
+        stbi_load_from_memory(image.bytes.data(), static_cast<int>(image.bytes.size()), &width, &height, &channels, 3));
+  }
+  /// Mean of the channels at texture coordinates.
+  [[nodiscard]] double at(const glm::vec2& uv) const {
+    const int x = std::min(width - 1, static_cast<int>(uv.x * static_cast<float>(width)));
+    const int y = std::min(height - 1, static_cast<int>(uv.y * static_cast<float>(height)));
+    const stbi_uc* const pixel = rgb.get() + 3 * (y * width + x);
+    return (pixel[0] + pixel[1] + pixel[2]) / 3.0;
+  }
+};
+
+/// What a viewer shows at places `r` from the axis of the left eye, in the triangles that cover them.
+std::vector<double> brightness_at(const Eyes& eyes, float r, const glm::vec3& gaze) {
+  const Pixels pixels(eyes.model.images.back());
+  const glm::vec3 axis = glm::normalize(gaze);
+  const glm::vec3 left = glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), axis));
+  const glm::vec3 up = glm::cross(axis, left);
+  std::vector<double> seen;
+  for (int k = 0; k < 48; ++k) {
+    const float turn = 0.1309F * static_cast<float>(k) + 0.05F;
+    const glm::vec2 at(r * std::cos(turn), r * std::sin(turn));
+    for (std::size_t t = 0; t < eyes.model.triangles.size(); ++t) {
+      std::array<glm::vec2, 3> flat;
+      bool is_front = true;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const glm::vec3 d = eyes.model.positions[eyes.model.triangles[t][c]] - glm::vec3(30.0F, 0.0F, 0.0F);
+        flat[c] = {glm::dot(d, left), glm::dot(d, up)};
+        is_front = is_front && glm::dot(d, axis) > 0.0F && glm::length(d) < 2.0F * ball;
+      }
+      if (!is_front) continue;
+      const auto cross = [](const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; };
+      const float area = cross(flat[1] - flat[0], flat[2] - flat[0]);
+      const float b = cross(at - flat[0], flat[2] - flat[0]) / area;
+      const float c = cross(flat[1] - flat[0], at - flat[0]) / area;
+      if (b < 0.0F || c < 0.0F || b + c > 1.0F) continue;
+      const auto& corners = eyes.model.uv_triangles[t];
+      seen.push_back(pixels.at((1.0F - b - c) * eyes.model.uvs[corners[0]] + b * eyes.model.uvs[corners[1]] +
+                               c * eyes.model.uvs[corners[2]]));
+      break;
+    }
+  }
+  return seen;
+}
+
+TEST(PaintedEyes, PupilAndIris_AreRound_OnACoarseBall_AroundTheGaze) {
+  for (const glm::vec3& gaze : {glm::vec3(0.0F, 0.0F, 1.0F), glm::vec3(0.2F, -0.1F, 1.0F)}) {
+    Eyes eyes(gaze);
+    eyes.paint();
+    for (const float pupil : {0.2F, 1.6F}) {
+      const auto seen = brightness_at(eyes, pupil, gaze);
+      ASSERT_GT(seen.size(), 40U);
+      for (const double value : seen) EXPECT_LT(value, 40.0) << pupil;
+    }
+    for (const double value : brightness_at(eyes, 3.5F, gaze)) {
+      EXPECT_GT(value, 60.0);
+      EXPECT_LT(value, 160.0);
+    }
+    for (const double value : brightness_at(eyes, 6.9F, gaze)) EXPECT_GT(value, 220.0);
+  }
+}
+
+TEST(PaintedEyes, TheBackIsWhite) {
+  Eyes eyes;
+  eyes.paint();
+  const Pixels pixels(eyes.model.images.back());
+  for (std::size_t t = 0; t < eyes.model.triangles.size(); ++t) {
+    bool is_behind = true;
+    for (const std::uint32_t v : eyes.model.triangles[t]) is_behind = is_behind && eyes.model.positions[v].z <= 0.0F;
+    if (!is_behind) continue;
+    glm::vec2 middle(0.0F);
+    for (const std::uint32_t uv : eyes.model.uv_triangles[t]) middle += eyes.model.uvs[uv] / 3.0F;
+    EXPECT_GT(pixels.at(middle), 220.0);
+  }
+}
+
+TEST(PaintedEyes, Primitives_StillCoverAllTrianglesInOrder_AndTheTextureIsSmall) {
+  Eyes eyes;
+  eyes.paint();
+  std::uint32_t next = 0;
+  for (const Primitive& primitive : eyes.model.primitives) {
+    EXPECT_EQ(primitive.first_triangle, next);
+    next += primitive.triangle_count;
+  }
+  EXPECT_EQ(next, eyes.model.triangles.size());
+  const auto assigned = assign_materials(eyes.model, eyes.surface, eyes.parts);
+  ASSERT_EQ(assigned.materials.size(), 1U);
+  EXPECT_EQ(assigned.materials[0].name, "eye");
+  EXPECT_LE(eyes.model.images.back().bytes.size(), 48U * 1024U);
+}
+
+TEST(PaintedEyes, EyesOfTheFile_StayAsTheyAre) {
+  const auto paints = [](const char* name, const glm::vec4& color, int image) {
+    Eyes eyes;
+    Material material;
+    material.name = name;
+    material.base_color = color;
+    material.base_color_image = image;
+    eyes.model.materials.push_back(material);
+    if (image >= 0) eyes.model.images.emplace_back();
+    eyes.model.primitives[0].material = 0;
+    eyes.paint();
+    return eyes.model.materials.size() > 1;
+  };
+  EXPECT_TRUE(paints("Eyes", glm::vec4(1.0F), -1));
+  EXPECT_TRUE(paints("Eyes", {0.9F, 0.88F, 0.85F, 1.0F}, -1)) << "the white of an eye";
+  EXPECT_FALSE(paints("Eyes", glm::vec4(1.0F), 0)) << "a texture";
+  EXPECT_FALSE(paints("Eyes", {0.2F, 0.1F, 0.05F, 1.0F}, -1)) << "a colour";
+}
+
+TEST(PaintedEyes, AnIrisOfTheFile_BesideAWhite_IsEnough) {
+  Eyes eyes;
+  Material brown;
+  brown.base_color = {0.2F, 0.1F, 0.05F, 1.0F};
+  eyes.model.materials = {brown};
+  // The first rings of the left eye are its iris; the right eye has none.
+  Primitive iris = eyes.model.primitives[0];
+  iris.material = 0;
+  iris.triangle_count = 2 * segments;
+  Primitive white = eyes.model.primitives[0];
+  white.first_triangle = iris.triangle_count;
+  white.triangle_count -= iris.triangle_count;
+  eyes.model.primitives = {iris, white};
+  eyes.paint();
+  const std::uint32_t of_one = static_cast<std::uint32_t>(eyes.model.triangles.size()) / 2;
+  for (const Primitive& primitive : eyes.model.primitives)
+    EXPECT_EQ(primitive.material > 0, primitive.first_triangle >= of_one) << primitive.first_triangle;
+}
+
+TEST(PaintedEyes, ACorneaInFrontOfAnIris_BecomesClear) {
+  Eyes eyes;
+  std::vector<RigidMotion> motion(eyes.model.positions.size(), RigidMotion::left_eye);
+  // The second ball stands in for an iris that moves; the first is in front of nothing that does.
+  for (std::size_t v = motion.size() / 2; v < motion.size(); ++v) motion[v] = RigidMotion::left_iris;
+  eyes.look.motion = motion;
+  eyes.paint();
+  const auto assigned = assign_materials(eyes.model, eyes.surface, eyes.parts);
+  EXPECT_EQ(assigned.materials[assigned.of_triangle[0]].name, "fluid");
+  EXPECT_EQ(assigned.materials[assigned.of_triangle[eyes.model.triangles.size() / 2 - 1]].name, "eye") << "the back";
+}
+
+TEST(PaintedEyes, AHeadWithoutEyes_StaysAsItIs) {
+  Eyes eyes;
+  for (Part& part : eyes.parts) part.role = PartRole::skin;
+  eyes.paint();
+  EXPECT_TRUE(eyes.model.materials.empty());
+  EXPECT_TRUE(eyes.model.images.empty());
+  EXPECT_TRUE(eyes.model.uv_triangles.empty());
+}
+
+TEST(GuessedEyes, LookAhead_FromTheFrontOfTheirBalls) {
+  std::vector<Part> parts(3);
+  parts[0].role = PartRole::left_eye;
+  parts[0].box_min = {18.0F, -12.0F, 0.0F};  // half a ball
+  parts[0].box_max = {42.0F, 12.0F, 12.0F};
+  const EyeLook look = guessed_eyes(parts);
+  ASSERT_TRUE(look.eyes[0]);
+  EXPECT_FALSE(look.eyes[1]);
+  EXPECT_EQ(look.eyes[0]->pivot, glm::vec3(30.0F, 0.0F, 0.0F));
+  EXPECT_EQ(look.eyes[0]->axis, glm::vec3(0.0F, 0.0F, 1.0F));
+  EXPECT_NEAR(look.eyes[0]->iris_radius, 5.9F, 0.1F);
+}
+
+}  // namespace
+}  // namespace semblante
