@@ -23,4 +23,9 @@ std::vector<SurfacePoint> surface_points(const Surface& surface, const FeaturePo
   return found;
 }
 
+bool is_pupil(FeaturePointId id) {
+  const std::string name = to_string(id);
+  return name == "3.5" || name == "3.6";
+}
+
 }  // namespace semblante

@@ -13,6 +13,9 @@ namespace semblante {
 /// The marked point of that name ("2.1"), or null. `name` must be one of the 84.
 const FeaturePoint* find_point(const FeaturePointSet& points, std::string_view name);
 
+/// 3.5 and 3.6, which without a vertex are bare positions.
+bool is_pupil(FeaturePointId id);
+
 /// A marked point that moves the surface: one with a vertex.
 struct SurfacePoint {
   FeaturePointId id;

@@ -79,7 +79,13 @@ Report examine_mesh(const Model& model, const Surface& surface, std::span<const 
 
 Report examine(const Model& model, const Surface& surface, const Rig& rig, WeightMethod method) {
   const MeshSides mesh = sort_sides(model, surface);
-  const Subject head{model, surface, mesh, rig, method, fit_face_axes(rig.points)};
+  const Subject head{model,
+                     surface,
+                     mesh,
+                     rig,
+                     method,
+                     fit_face_axes(rig.points),
+                     find_misplaced_rim_points(surface, surface_points(surface, rig.points))};
   Report report;
   for (const auto check : {find_wrong_way_round, find_points_on_wrong_surface, find_unit_faults, find_joined_rims,
                            find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,

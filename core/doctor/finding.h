@@ -29,12 +29,14 @@ enum class FindingCode : std::uint8_t {
   missing_points,
   unit_not_positive,
   unit_implausible,
+  unit_by_hand,
   point_refused,
   point_on_no_surface,
   point_on_wrong_part,
   skin_in_pieces,
   points_on_one_vertex,
   point_on_inside,
+  point_on_other_rim,
   point_out_of_order,
   point_off_mirror,
   lips_joined,
@@ -67,12 +69,14 @@ inline constexpr std::array finding_code_names = std::to_array<std::string_view>
     "missing-points",
     "unit-not-positive",
     "unit-implausible",
+    "unit-by-hand",
     "point-refused",
     "point-on-no-surface",
     "point-on-wrong-part",
     "skin-in-pieces",
     "points-on-one-vertex",
     "point-on-inside",
+    "point-on-other-rim",
     "point-out-of-order",
     "point-off-mirror",
     "lips-joined",
@@ -118,6 +122,13 @@ struct Place {
   std::optional<glm::dvec3> position;  ///< where to look; model units, MPEG-4 frame
 };
 
+/// The place to which a point should be moved.
+struct Move {
+  FeaturePointId point;
+  VertexId vertex;           ///< of the file
+  glm::dvec3 position{0.0};  ///< of that vertex; model units, MPEG-4 frame
+};
+
 /// A measured value, and the threshold of the finding.
 struct Measurement {
   std::string what;  ///< with its unit: "distance as a fraction of ES0"
@@ -133,6 +144,7 @@ struct Finding {
   std::string remedy;  ///< what to do about it, in the same form
   Place place;
   std::optional<Measurement> measured;
+  std::optional<Move> move = std::nullopt;  ///< set if moving one point to this place is the remedy
 };
 
 }  // namespace semblante

@@ -35,6 +35,8 @@ std::optional<Crossing> shortest_crossing(const Subject& head, const Opening& op
     const SurfacePoint* const upper = point_named(points, opening.upper[i]);
     const SurfacePoint* const lower = point_named(points, opening.lower[i]);
     if (upper == nullptr || lower == nullptr || upper->vertex == lower->vertex) continue;
+    // With a point on the other rim the path does not cross the gap.
+    if (is_misplaced(head.misplaced, upper->id) || is_misplaced(head.misplaced, lower->id)) continue;
     // Straight lines to the corner and back: a lower bound of the path around it, independent of the mesh.
     double round = std::numeric_limits<double>::infinity();
     for (const std::string_view name : opening.corners) {
@@ -53,11 +55,12 @@ std::optional<Crossing> shortest_crossing(const Subject& head, const Opening& op
 }
 
 /// Opposite points at the same vertex: the rims are fused.
-std::optional<Crossing> fused(const Opening& opening, std::span<const SurfacePoint> points) {
+std::optional<Crossing> fused(const Subject& head, const Opening& opening, std::span<const SurfacePoint> points) {
   for (std::size_t i = 0; i < opening.upper.size(); ++i) {
     const SurfacePoint* const upper = point_named(points, opening.upper[i]);
     const SurfacePoint* const lower = point_named(points, opening.lower[i]);
-    if (upper != nullptr && lower != nullptr && upper->vertex == lower->vertex)
+    if (upper == nullptr || lower == nullptr || upper->vertex != lower->vertex) continue;
+    if (!is_misplaced(head.misplaced, upper->id) && !is_misplaced(head.misplaced, lower->id))
       return Crossing{upper, lower, 0.0, {upper->vertex}};
   }
   return std::nullopt;
@@ -70,7 +73,7 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   EdgePathSearch search(head.surface);
   for (const Opening& opening : openings) {
-    std::optional<Crossing> crossing = fused(opening, points);
+    std::optional<Crossing> crossing = fused(head, opening, points);
     if (!crossing) crossing = shortest_crossing(head, opening, points, search);
     if (!crossing || !(crossing->share < shortest_share)) continue;
     Finding finding;

@@ -102,6 +102,10 @@ std::vector<Finding> find_leaks(const Subject& head) {
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   EdgePathSearch search(head.surface);
   for (const Opening& opening : openings) {
+    // A point on the other rim makes that rim follow it, which has a finding of its own.
+    if (std::any_of(head.misplaced.begin(), head.misplaced.end(),
+                    [&](const MisplacedRimPoint& m) { return m.opening == &opening; }))
+      continue;
     const Ids upper = ids_of(opening.upper_flesh);
     const Ids lower = ids_of(opening.lower_flesh);
     Ids corners = ids_of(opening.corners);

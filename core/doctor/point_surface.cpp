@@ -173,6 +173,27 @@ void find_points_on_the_inside(const Subject& head, std::span<const SurfacePoint
   if (findings.size() * 2 < normals.size()) std::move(findings.begin(), findings.end(), std::back_inserter(out));
 }
 
+void find_points_on_other_rim(const Subject& head, std::vector<Finding>& out) {
+  for (const MisplacedRimPoint& misplaced : head.misplaced) {
+    const auto& [point, opening, is_upper, nearest] = misplaced;
+    Finding finding = at_point(head, point, FindingCode::point_on_other_rim, Severity::error);
+    const std::string own(is_upper ? opening->upper_name : opening->lower_name);
+    const std::string other(is_upper ? opening->lower_name : opening->upper_name);
+    finding.words = to_string(point.id) + " lies on the " + other + ", but it is a point of the " + own + "; the " +
+                    other + " follows both, and the " + (opening->is_mouth ? "mouth" : "eye") +
+                    " cannot open or close cleanly";
+    if (nearest) {
+      const VertexId vertex = head.surface.file_vertex_of[nearest->value()];
+      finding.move = Move{point.id, vertex, head.surface.positions[nearest->value()]};
+      finding.remedy = "move " + to_string(point.id) + " to vertex " + std::to_string(vertex.value()) +
+                       ", the nearest of the " + own;
+    } else {
+      finding.remedy = "move " + to_string(point.id) + " to the " + own;
+    }
+    out.push_back(std::move(finding));
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> find_points_on_wrong_surface(const Subject& head) {
@@ -181,6 +202,7 @@ std::vector<Finding> find_points_on_wrong_surface(const Subject& head) {
   find_wrong_parts(head, points, findings);
   find_shared_vertices(head, points, findings);
   find_points_on_the_inside(head, points, findings);
+  find_points_on_other_rim(head, findings);
   return findings;
 }
 

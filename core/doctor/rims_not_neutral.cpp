@@ -6,6 +6,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
+#include "core/parametrize/fapu.h"
 
 namespace semblante {
 namespace {
@@ -53,12 +54,17 @@ std::vector<Finding> find_rims_not_neutral(const Subject& head) {
   for (const auto& [upper, lower, side] : {std::array<std::string_view, 3>{"3.1", "3.3", "left"},
                                            std::array<std::string_view, 3>{"3.2", "3.4", "right"}}) {
     const auto eye = gap(upper, lower);
-    if (!eye || *eye >= closed_eye || *eye <= 0.0) continue;
+    const bool is_closed = head.rig.fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)] == FapuOrigin::closed_eyes;
+    if (!eye || *eye >= closed_eye || (*eye <= 0.0 && !is_closed)) continue;
     Finding finding = between(head, upper, lower);
     finding.code = FindingCode::eye_not_open;
-    finding.words = "the " + std::string(side) + " eye is not open: its lids are " + percent(*eye) +
-                    " of the eye distance apart, but in the neutral face they are tangent to the iris; "
-                    "IRISD is too small, and a blink at full strength does not close the eye";
+    finding.words = "the " + std::string(side) + " eye is " + (is_closed ? "closed" : "not open") + ": its lids are " +
+                    percent(*eye) +
+                    " of the eye distance apart, but in the neutral face they are tangent to the iris; " +
+                    (is_closed ? "IRISD is taken as " + percent(iris_share) +
+                                     " of ES0, and ES0 as the distance between the centres of the eyes' corners; the "
+                                     "eye opens with negative values of FAPs 19 to 22, and a blink has nothing to close"
+                               : std::string("IRISD is too small for every FAP in that unit"));
     finding.remedy = "export the model with its eyes open, or check that " + std::string(upper) + " and " +
                      std::string(lower) + " are on the rims of the lids; IRISD can also be set explicitly";
     finding.measured = {"distance of the lids as a fraction of ES0", *eye, closed_eye};

@@ -2,6 +2,7 @@
 
 #include "core/doctor/face_axes.h"
 #include "core/doctor/mesh_sides.h"
+#include "core/doctor/rim_points.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_method.h"
 #include "core/types/model.h"
@@ -17,6 +18,7 @@ struct Subject {
   const Rig& rig;
   WeightMethod method;
   FaceAxes frame;
+  std::vector<MisplacedRimPoint> misplaced = {};  ///< of find_misplaced_rim_points
 };
 
 }  // namespace semblante

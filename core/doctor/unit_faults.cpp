@@ -5,6 +5,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
+#include "core/parametrize/fapu.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {
@@ -54,6 +55,22 @@ Finding about(const Subject& head, std::size_t unit) {
   return finding;
 }
 
+/// A unit that was set by hand, and what the points give.
+Finding by_hand(const Subject& head, std::size_t unit) {
+  const std::string name(fapu_unit_names[unit]);
+  const double length = 1024.0 * *head.rig.fapu.value[unit];
+  const std::optional<double> measured = compute_fapu(head.rig.points).value[unit];
+  Finding finding = about(head, unit);
+  finding.code = FindingCode::unit_by_hand;
+  finding.severity = Severity::note;
+  finding.words = name + ", the " + std::string(mpeg4::fapus[unit].meaning) + ", is set by hand to " +
+                  two_digits(length) + " model units; " +
+                  (measured ? "its points are " + two_digits(1024.0 * *measured) + " apart"
+                            : std::string("its points give no value"));
+  finding.remedy = "none is needed, if that is intended; without the value by hand the points give the unit";
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Finding> find_unit_faults(const Subject& head) {
@@ -78,6 +95,7 @@ std::vector<Finding> find_unit_faults(const Subject& head) {
       findings.push_back(std::move(finding));
       continue;
     }
+    if (head.rig.fapu.origin[unit] == FapuOrigin::user) findings.push_back(by_hand(head, unit));
     if (!head.frame.eye_separation) continue;
     const double share = *value * 1024.0 / *head.frame.eye_separation;
     const bool is_es = unit == static_cast<std::size_t>(FapuUnit::es);

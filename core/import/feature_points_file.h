@@ -6,6 +6,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "core/types/fapu.h"
 #include "core/types/marked_point.h"
 #include "core/types/result.h"
 
@@ -18,6 +19,7 @@ struct FeaturePointsFile {
   std::vector<MarkedPoint> points;  ///< in rising order of id; positions still in the FILE's axes
   /// "to_mpeg4_axes", rows as written: MPEG-4 position = matrix * file position. See axes.h.
   std::optional<glm::dmat3> to_mpeg4_axes;
+  Fapu fapu_by_user;  ///< units given by hand: not from the file, for the stage that places the points
 };
 
 /// Parses strictly; error.where is a JSON pointer such as "/points/2.1/vertex", or a byte offset for invalid JSON.

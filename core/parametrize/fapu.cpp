@@ -1,9 +1,10 @@
 #include "core/parametrize/fapu.h"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
-#include <span>
+#include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/anatomy/point_lookup.h"
 
@@ -46,20 +47,88 @@ std::optional<double> measure(const Span& span, const FeaturePointSet& points) {
   return static_cast<double>(from->position[span.axis]) - static_cast<double>(to->position[span.axis]);
 }
 
+constexpr std::size_t index_of(FapuUnit unit) { return static_cast<std::size_t>(unit); }
+
+std::optional<double> compute_unit(const Definition& definition, const FeaturePointSet& points) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Span& span : definition.spans) {
+    const std::optional<double> length = measure(span, points);
+    if (!length) continue;
+    sum += *length;
+    ++count;
+  }
+  return count > 0 && sum > 0.0 ? std::optional(sum / count / divisor) : std::nullopt;
+}
+
+/// The points with each pupil at the centre between the corners of its lids, if the lids are closed; else empty.
+std::optional<FeaturePointSet> with_centres_of_closed_eyes(const FeaturePointSet& points) {
+  const std::array<const FeaturePoint*, 4> corners = {find_point(points, "3.7"), find_point(points, "3.11"),
+                                                      find_point(points, "3.12"), find_point(points, "3.8")};
+  if (std::find(corners.begin(), corners.end(), nullptr) != corners.end()) return std::nullopt;
+  const auto centre = [](const FeaturePoint& a, const FeaturePoint& b) { return 0.5F * (a.position + b.position); };
+  const glm::vec3 left = centre(*corners[0], *corners[1]);
+  const glm::vec3 right = centre(*corners[2], *corners[3]);
+  const double separation = static_cast<double>(left.x) - static_cast<double>(right.x);
+  double sum = 0.0;
+  int count = 0;
+  for (const Span& span : definitions[index_of(FapuUnit::irisd)].spans) {
+    const std::optional<double> gap = measure(span, points);
+    if (!gap) continue;
+    sum += *gap;
+    ++count;
+  }
+  // A lower lid clearly above the upper one is a fault of marking: the doctor reports it.
+  if (count == 0 || !(separation > 0.0) || std::abs(sum / count) >= closed_lids * separation) return std::nullopt;
+  FeaturePointSet visible = points;
+  for (const auto& [name, place] : {std::pair("3.5", left), std::pair("3.6", right)}) {
+    const FeaturePointId id = *parse_feature_point(name);
+    const auto at = std::lower_bound(visible.begin(), visible.end(), id,
+                                     [](const FeaturePoint& p, FeaturePointId wanted) { return p.id < wanted; });
+    if (at != visible.end() && at->id == id)
+      at->position = place;
+    else
+      visible.insert(at, {id, std::nullopt, place});
+  }
+  return visible;
+}
+
 }  // namespace
 
-Fapu compute_fapu(const FeaturePointSet& points) {
+Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user) {
   Fapu fapu;
+  const std::optional<FeaturePointSet> visible = with_centres_of_closed_eyes(points);
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
-    double sum = 0.0;
-    int count = 0;
-    for (const Span& span : definitions[unit].spans) {
-      const std::optional<double> length = measure(span, points);
-      if (!length) continue;
-      sum += *length;
-      ++count;
-    }
-    if (count > 0 && sum > 0.0) fapu.value[unit] = sum / count / divisor;
+    fapu.value[unit] = compute_unit(definitions[unit], visible ? *visible : points);
+    if (visible && (unit == index_of(FapuUnit::es) || unit == index_of(FapuUnit::ens)))
+      fapu.origin[unit] = FapuOrigin::closed_eyes;
+  }
+  if (visible && fapu[FapuUnit::es]) {
+    fapu.value[index_of(FapuUnit::irisd)] = iris_share * *fapu[FapuUnit::es];
+    fapu.origin[index_of(FapuUnit::irisd)] = FapuOrigin::closed_eyes;
+  }
+  for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
+    if (!by_user.value[unit]) continue;
+    fapu.value[unit] = by_user.value[unit];
+    fapu.origin[unit] = FapuOrigin::user;
+  }
+  return fapu;
+}
+
+Result<Fapu> fapu_from_lengths(const FapuLengths& lengths) {
+  Fapu fapu;
+  for (const auto& [name, length] : lengths) {
+    const auto* const found = std::find(fapu_unit_names.begin(), fapu_unit_names.end(), name);
+    if (found == fapu_unit_names.end())
+      return Error{ErrorCode::invalid_argument, "",
+                   "this is not a unit that depends on the face: IRISD, ES, ENS, MNS or MW"};
+    constexpr double least = 1e-6;
+    constexpr double greatest = 1e6;
+    if (!(length >= least && length <= greatest))
+      return Error{ErrorCode::out_of_range, "", name + " must be a length in model units, from 1e-6 to 1e6"};
+    const auto unit = static_cast<std::size_t>(found - fapu_unit_names.begin());
+    fapu.value[unit] = length / divisor;
+    fapu.origin[unit] = FapuOrigin::user;
   }
   return fapu;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
+#include "core/types/result.h"
 
 namespace semblante {
 
@@ -17,7 +19,25 @@ namespace semblante {
 ///     MW     8.3.x - 8.4.x
 ///
 /// A unit whose points are missing, or whose points are swapped so that it would not be positive, stays empty.
-Fapu compute_fapu(const FeaturePointSet& points);
+///
+/// Closed eyes: if the lids are less than `closed_lids` of ES0 apart (and all corners of the lids are marked), the
+/// centre between the corners of each eye replaces its pupil, which the lids hide, and IRISD is `iris_share` of ES0.
+/// These values have the origin `closed_eyes`.
+///
+/// Units in `by_user` replace the computed ones; their origin is `user`.
+Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user = {});
+
+/// Distance of the lids below which the eyes are closed, as a fraction of ES0: a third of the diameter of an iris.
+inline constexpr double closed_lids = 0.06;
+/// Mean diameter of the iris of human adults (11.8 mm) as a fraction of ES0 (63 mm).
+inline constexpr double iris_share = 0.187;
+
+/// Lengths of units given by hand: model units, NOT divided by 1024 (ES0, not ES), by name ("ES").
+using FapuLengths = std::map<std::string, double>;
+
+/// Checks lengths given by hand and converts them. Errors: `invalid_argument` for an unknown name; `out_of_range` for a
+/// length that is not finite, not positive or absurd (outside 1e-6 to 1e6).
+Result<Fapu> fapu_from_lengths(const FapuLengths& lengths);
 
 /// One sentence for each unit that `compute_fapu` leaves empty: its name, why, and what does not work without it.
 /// `fapu` may have been completed by hand; only units still empty are explained.

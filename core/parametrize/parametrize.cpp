@@ -131,10 +131,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   const std::vector<SurfacePoint> on_surface = surface_points(surface, points);
   Rig rig;
   rig.points = points;
-  rig.fapu = compute_fapu(points);
-  for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
-    if (options.fapu_by_user.value[unit]) rig.fapu.value[unit] = options.fapu_by_user.value[unit];
-  }
+  rig.fapu = compute_fapu(points, options.fapu_by_user);
   WeightOptions weight_options;
   weight_options.method = options.weights;
   weight_options.eye_separation = 1024.0 * rig.fapu[FapuUnit::es].value_or(0.0);

@@ -122,10 +122,7 @@ class Placement {
   double diagonal_ = 0.0;
 };
 
-bool may_be_bare(FeaturePointId id) {
-  const std::string name = to_string(id);
-  return name == "7.1" || name == "3.5" || name == "3.6";
-}
+bool may_be_bare(FeaturePointId id) { return to_string(id) == "7.1"; }
 
 std::optional<Error> find_fault(const Model& model, std::span<const MarkedPoint> marked) {
   std::array<bool, feature_point_count> seen{};
@@ -217,7 +214,9 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
       return std::nullopt;
     }
     const glm::dvec3& position = *point.position;
-    if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position, own_side)) {
+    if (!point.vertex && is_pupil(point.id)) {
+      points.push_back({point.id, std::nullopt, glm::vec3(position)});
+    } else if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position, own_side)) {
       points.push_back(placement.at_vertex(point.id, *vertex));
     } else if (point.vertex) {
       points.push_back(placement.at_vertex(point.id, *point.vertex));  // its vertex agrees with its position

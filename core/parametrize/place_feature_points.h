@@ -19,8 +19,9 @@ namespace semblante {
 /// - A vertex: that file vertex. If positions are given too and some disagree (more than 1e-3 of the box diagonal away)
 ///   while every disagreeing point has a vertex at its position (within 1e-4), the file's vertices were renumbered and
 /// the positions win. Otherwise the vertices win. Both cases give a warning in `warnings`.
-/// - A position alone: a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
-///   then the lowest file vertex). Otherwise 7.1, 3.5 and 3.6 stay bare positions, and any other point snaps to the
+/// - A position alone: pupils (3.5, 3.6) stay bare positions, because they move with the eyeball and not the surface.
+///   For the others a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
+///   then the lowest file vertex). Otherwise 7.1 stays a bare position, and any other point snaps to the
 ///   nearest vertex within 5 % of the diagonal, with a warning.
 /// - The position of a point of a lip or lid where the rims touch: of the vertices at its position one on its own side.
 /// Nor

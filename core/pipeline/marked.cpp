@@ -46,7 +46,7 @@ void turn(MarkedHead& head, const glm::dmat3& turn) {
 
 Result<MarkedHead> mark_head(StandingHead standing, MarkRequest request, const Progress& progress) {
   if (auto told = report_progress(progress, 0.0, "feature points"); !told) return told.error();
-  MarkedHead head{std::move(standing), {}, std::move(request.roles_by_user), {}, std::nullopt};
+  MarkedHead head{std::move(standing), {}, std::move(request.roles_by_user), request.fapu_by_user, {}, std::nullopt};
   if (auto placed = place(head, request); !placed) return placed.error();
   const Axes before = head.frame.axes;
   head.frame = frame_by_points(head);

@@ -13,7 +13,8 @@ Result<MarkedHead> mark_by_file(ImportedHead head, FeaturePointsFile file, const
   auto standing = stand_head(std::move(head), {wish, {}, file.to_mpeg4_axes}, progress);
   if (!standing) return standing.error();
   turn_points(file.points, standing->to_mpeg4);
-  return mark_head(std::move(*standing), {std::move(file.points), {}, leaves_out_refused}, part_of(progress, 0.5, 1.0));
+  return mark_head(std::move(*standing), {std::move(file.points), {}, leaves_out_refused, file.fapu_by_user},
+                   part_of(progress, 0.5, 1.0));
 }
 
 }  // namespace semblante

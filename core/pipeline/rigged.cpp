@@ -9,6 +9,7 @@ namespace semblante {
 Result<RiggedHead> rig_head(MarkedHead head, const RigRequest& request, const Progress& progress) {
   ParametrizeOptions options;
   options.roles_by_user = head.roles_by_user;
+  options.fapu_by_user = head.fapu_by_user;
   options.weights = request.weights;
   options.metric = request.metric;
   options.progress = progress;

@@ -13,7 +13,7 @@ namespace semblante {
 namespace {
 
 // In ES0, as the coordinates of FaceSurface.
-constexpr double beside = 0.03;     ///< maximum distance from the axis of an eye for a vertex at its pupil
+constexpr double beside = 0.03;     ///< maximum distance from the pupil expected by proportions for a vertex there
 constexpr double believable = 0.2;  ///< maximum distance from the pupil expected by proportions
 constexpr double cornea = 0.12;     ///< radius of the cornea seen from the front
 
@@ -33,30 +33,26 @@ std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> par
 
 }  // namespace
 
-Spot find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess) {
+glm::dvec3 find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess) {
   if (const std::optional<Sphere> ball = ball_of(face, parts, eye)) {
     const auto off_axis = [&](std::uint32_t v) {
       return std::hypot(face.at(v).x - ball->center.x, face.at(v).y - ball->center.y);
     };
     double front = -std::numeric_limits<double>::infinity();
-    std::optional<std::uint32_t> vertex;
     for (const std::uint32_t v : face.with_role(eye)) {
-      if (face.at(v).z < ball->center.z || off_axis(v) > cornea) continue;
-      front = std::max(front, face.at(v).z);
-      if (off_axis(v) < beside && (!vertex || face.at(v).z > face.at(*vertex).z)) vertex = v;
+      if (face.at(v).z >= ball->center.z && off_axis(v) <= cornea) front = std::max(front, face.at(v).z);
     }
-    Spot pupil{{ball->center.x, ball->center.y, front}, vertex};
-    if (vertex) pupil.place = face.at(*vertex);
-    if (std::isfinite(front) && glm::distance(pupil.place, guess) < believable) return pupil;
+    const glm::dvec3 pupil(ball->center.x, ball->center.y, front);
+    if (std::isfinite(front) && glm::distance(pupil, guess) < believable) return pupil;
   }
-  Spot nearest{guess, std::nullopt};
+  glm::dvec3 nearest = guess;
   double least = beside;
   for (std::size_t role = 0; role < part_role_names.size(); ++role) {
     for (const std::uint32_t v : face.with_role(static_cast<PartRole>(role))) {
       const double away = glm::distance(face.at(v), guess);
       if (away >= least) continue;
       least = away;
-      nearest = {face.at(v), v};
+      nearest = face.at(v);
     }
   }
   return nearest;

@@ -12,15 +12,9 @@
 
 namespace semblante {
 
-/// A position, with the surface vertex there, if any.
-struct Spot {
-  glm::dvec3 place{0.0};
-  std::optional<std::uint32_t> vertex;
-};
-
-/// The pupil of a neutral eye: the frontmost point of its eyeball. Without a ball (a disc as iris, an eye painted on
-/// the skin) the vertex at `guess`, if any, else only the position.
-Spot find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess);
+/// The pupil of a neutral eye: the frontmost point on the axis of its eyeball. Without a ball (a disc as iris, an eye
+/// painted on the skin) the position of the vertex at `guess`, if any, else `guess`.
+glm::dvec3 find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess);
 
 /// Whether the tongue is a separate piece; if it is one piece with the gums, its ends cannot be identified.
 bool is_tongue_alone(const FaceSurface& face);

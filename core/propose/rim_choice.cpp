@@ -5,16 +5,20 @@
 namespace semblante {
 
 std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
-                                            const MirrorPlane* on) {
+                                            const MirrorPlane* on, const FaceSurface::Filter& is_free) {
   const RimSides& sides = sides_of(*rim.opening);
   const auto side = [&](std::uint32_t v) { return sides.side(SurfaceVertexId(v), rim.is_upper); };
+  const auto nearest_with = [&](const auto& has_side) {
+    return face_.nearest(role, place, on,
+                         [&](std::uint32_t v) { return (!is_free || is_free(v)) && has_side(side(v)); });
+  };
   const auto off = [&](std::uint32_t v) { return glm::distance(face_.at(v), place); };
   const std::string both =
       "the " + std::string(rim.opening->upper_name) + " from the " + std::string(rim.opening->lower_name);
 
-  const auto own = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) > 0.0; });
-  const auto other = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) < 0.0; });
-  const auto apart = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) == 0.0; });
+  const auto own = nearest_with([](double s) { return s > 0.0; });
+  const auto other = nearest_with([](double s) { return s < 0.0; });
+  const auto apart = nearest_with([](double s) { return s == 0.0; });
   // A separate piece of unknown side, such as a lid behind the fold, is treated like the nearest vertex.
   if (apart && (!own || off(*apart) < off(*own)) && (!other || own || off(*apart) < off(*other)))
     return RimVertex{*apart, sides.have_anchors() ? "no placed point on this piece distinguishes " + both
@@ -26,7 +30,7 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
   if (side(*own) >= RimSides::clear) return RimVertex{*own, {}};
   // If the other side is about as near, prefer a slightly farther vertex whose side is certain.
   const bool is_contested = other && off(*other) < off(*own) + error;
-  const auto clear = face_.nearest(role, place, on, [&](std::uint32_t v) { return side(v) >= RimSides::clear; });
+  const auto clear = nearest_with([](double s) { return s >= RimSides::clear; });
   if (is_contested && clear && off(*clear) < off(*own) + error) return RimVertex{*clear, {}};
   return RimVertex{*own, "the surface connects both directly here and does not distinguish " + both};
 }

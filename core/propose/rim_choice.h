@@ -26,9 +26,10 @@ class RimChoice {
   RimChoice(const FaceSurface& face, const std::vector<SurfacePoint>& anchors) : face_(face), anchors_(anchors) {}
 
   /// The vertex of `role` for a point of an opening, expected at `place` within about `error`. If the surface does not
-  /// show which vertices are on the point's side, the nearest vertex, with `doubt` set. Empty if no part has this role.
+  /// show which vertices are on the point's side, the nearest vertex, with `doubt` set. Considers only vertices that
+  /// pass `is_free`, if given. Empty if the role has no such vertex.
   std::optional<RimVertex> nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
-                                   const MirrorPlane* on);
+                                   const MirrorPlane* on, const FaceSurface::Filter& is_free = {});
 
  private:
   const RimSides& sides_of(const mpeg4::Opening& opening);

@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/anatomy/rim_sides.h"
 #include "core/json/json_pointer.h"
+#include "core/parametrize/fapu.h"
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
@@ -88,14 +90,17 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
   return point;
 }
 
-std::vector<store::FeaturePointRecord> read_points(const JsonBody& body, std::uint32_t vertices) {
-  if (!body.contains("points")) refuse("invalid-field", "the field \"points\" is missing", "/points");
+/// Reads "points" into `points`: replaces those that are given and, where `removes`, removes those that are null.
+void read_points(const JsonBody& body, std::uint32_t vertices, bool removes,
+                 std::vector<store::FeaturePointRecord>& points) {
   if (!body["points"].is_object()) refuse("invalid-field", "it must be an object", "/points");
   std::vector<http::Fault> faults;
-  std::vector<store::FeaturePointRecord> points;
   for (const auto& [id, value] : body["points"].items()) {
-    if (auto point = read_point(id, value, vertices, faults)) points.push_back(std::move(*point));
+    const bool is_removed = removes && value.is_null() && parse_feature_point(id);
+    auto point = is_removed ? std::nullopt : read_point(id, value, vertices, faults);
     if (faults.size() == max_faults) break;
+    std::erase_if(points, [&id = id](const auto& p) { return p.id == id; });
+    if (point) points.push_back(std::move(*point));
   }
   if (!faults.empty()) {
     auto problem = http::make_problem("invalid-feature-point", faults.front().detail, faults.front().pointer);
@@ -104,7 +109,6 @@ std::vector<store::FeaturePointRecord> read_points(const JsonBody& body, std::ui
   }
   std::sort(points.begin(), points.end(),
             [](const auto& a, const auto& b) { return *parse_feature_point(a.id) < *parse_feature_point(b.id); });
-  return points;
 }
 
 /// A file of feature points may state its axes and the base of its vertex indices. The server does not convert them: it
@@ -124,7 +128,7 @@ answer::FeaturePoints::PointsValue represent_point(const store::FeaturePointReco
   auto vertex = point.vertex;
   // On touching lips either vertex could be meant: a client that sends the answer back must not choose one by chance.
   const bool on_rim = rim_of_point(*parse_feature_point(point.id)).opening != nullptr;
-  if (!vertex && point.position)
+  if (!vertex && point.position && !is_pupil(*parse_feature_point(point.id)))
     vertex = on_rim ? positions.only_one_at(*point.position) : positions.at(*point.position);
   answer::FeaturePoints::PointsValue value{.vertex = vertex, .position = point.position};
   if (!point.position) value.position = positions.of(*point.vertex);
@@ -138,14 +142,52 @@ answer::FeaturePoints::PointsValue represent_point(const store::FeaturePointReco
   return value;
 }
 
+/// Reads "fapu", lengths by name, into `lengths`: null removes all of them and, where `removes`, as a value one.
+void read_fapu(const JsonBody& fapu, bool removes, store::FapuByUser& lengths) {
+  if (fapu.is_null()) return lengths.clear();
+  if (!fapu.is_object()) refuse("invalid-field", "it must be an object of lengths by unit", "/fapu");
+  for (const auto& [name, value] : fapu.items()) {
+    const auto at = std::string("/fapu/").append(pointer_segment(name));
+    const bool is_removed = removes && value.is_null();
+    if (!is_removed && !value.is_number()) refuse("invalid-field", "it must be a number", at);
+    const double length = is_removed ? 1.0 : value.get<double>();
+    if (const auto checked = fapu_from_lengths({{name, length}}); !checked)
+      refuse("invalid-field", checked.error().message, at);
+    if (is_removed)
+      lengths.erase(name);
+    else
+      lengths[name] = length;
+  }
+}
+
 http::Response represent_points(Context& context, const store::ModelRecord& model) {
   const VertexPositions positions(context, model);
-  answer::FeaturePoints answer{.model = model.id, .points = {}};
+  answer::FeaturePoints answer{.model = model.id, .fapu = {}, .points = {}};
+  answer.fapu.assign(model.fapu.begin(), model.fapu.end());
   for (const auto& point : context.store.feature_points(model.id))
     answer.points.emplace_back(point.id, represent_point(point, positions));
   auto response = json_response(200, answer);
   response.headers["ETag"] = points_etag(model);
   return response;
+}
+
+/// The model of the request, whose points may be changed now.
+store::ModelRecord editable_model(Context& context, http::Request& request) {
+  auto model = model_of(context, request);
+  if (model.state == store::ModelState::importing)
+    refuse("conflict", "the model is still being imported: its vertices are not known yet");
+  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
+  check_if_match(request, points_etag(model));
+  return model;
+}
+
+/// Stores what was read for `model`, if nobody changed its points in the meantime.
+http::Response store_points(Context& context, http::Request& request, const store::ModelRecord& model,
+                            const std::vector<store::FeaturePointRecord>& points,
+                            const std::optional<store::FapuByUser>& fapu) {
+  if (!context.store.put_points_and_fapu(model.id, points, fapu, model.feature_points_revision))
+    refuse("conflict", "another request changed the points at the same time: read them and try again");
+  return represent_points(context, model_of(context, request));
 }
 
 }  // namespace
@@ -155,21 +197,29 @@ http::Response get_feature_points(Context& context, http::Request& request) {
 }
 
 http::Response put_feature_points(Context& context, http::Request& request) {
-  const auto model = model_of(context, request);
-  if (model.state == store::ModelState::importing)
-    refuse("conflict", "the model is still being imported: its vertices are not known yet");
-  if (model.state == store::ModelState::failed) refuse("conflict", "the import of this model failed");
-  check_if_match(request, points_etag(model));
+  const auto model = editable_model(context, request);
   const auto body = body_object(request);
   refuse_other_frames(body);
-  auto points = read_points(body, model.vertices);
+  if (!body.contains("points")) refuse("invalid-field", "the field \"points\" is missing", "/points");
+  std::vector<store::FeaturePointRecord> points;
+  read_points(body, model.vertices, false, points);
+  std::optional<store::FapuByUser> fapu;  // of a client that does not know them they stay as they are
+  if (body.contains("fapu")) read_fapu(body["fapu"], false, fapu.emplace());
   if (const auto fill = request.query_value("fill")) {
     if (*fill != "mirror") refuse("invalid-argument", "the only way to fill is \"mirror\"", "?fill");
     fill_by_mirror(points, VertexPositions(context, model));
   }
-  if (!context.store.put_feature_points(model.id, points, model.feature_points_revision))
-    refuse("conflict", "another request changed the points at the same time: read them and try again");
-  return represent_points(context, model_of(context, request));
+  return store_points(context, request, model, points, fapu);
+}
+
+http::Response patch_feature_points(Context& context, http::Request& request) {
+  const auto model = editable_model(context, request);
+  const auto body = body_object(request);
+  auto points = context.store.feature_points(model.id);
+  if (body.contains("points")) read_points(body, model.vertices, true, points);
+  std::optional<store::FapuByUser> fapu;
+  if (body.contains("fapu")) read_fapu(body["fapu"], true, fapu.emplace(model.fapu));
+  return store_points(context, request, model, points, fapu);
 }
 
 }  // namespace semblante::api

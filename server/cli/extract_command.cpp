@@ -78,7 +78,7 @@ void run(const ExtractCommand& options) {
   const Shapes shapes =
       options.target.empty() ? Shapes{head.model.positions, std::move(expression)} : shapes_of_targets(options, head);
   std::vector<std::string> warnings = head.warnings.all();
-  const Fapu fapu = compute_fapu(head.points);
+  const Fapu fapu = compute_fapu(head.points, head.fapu_by_user);
   const auto extraction = extract_displacements(head.points, fapu, shapes.neutral, shapes.expression, options.options);
   if (!extraction) {
     fail(options.expression.empty() ? options.head.model_path : options.expression, without_field(extraction.error()));

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "core/parametrize/fapu.h"
 #include "core/propose/propose.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/files.h"
@@ -73,6 +75,35 @@ void add_placing_options(CLI::App& command, HeadOptions& options) {
       ->envname("SEMBLANTE_FRONT");
 }
 
+/// --fapu.
+void add_fapu_option(CLI::App& command, HeadOptions& options) {
+  command
+      .add_option("--fapu", options.fapu,
+                  "A unit by hand instead of measured between points, as NAME=LENGTH: IRISD, ES, ENS, MNS or MW, in "
+                  "MODEL's unit, not divided by 1024 (ES=62.5); may be repeated")
+      ->delimiter(',')
+      ->envname("SEMBLANTE_FAPU");
+}
+
+/// Parses the values of --fapu.
+Fapu fapu_of(const HeadOptions& options) {
+  FapuLengths lengths;
+  for (const std::string& text : options.fapu) {
+    const auto refuse = [&](const std::string& why) {
+      throw CommandFailure(CommandFailure::bad_input, "--fapu: '" + text + "': " + why);
+    };
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos) refuse("it must be NAME=LENGTH, such as ES=62.5");
+    double length = 0.0;
+    const auto [end, fault] = std::from_chars(text.data() + sign + 1, text.data() + text.size(), length);
+    if (fault != std::errc{} || end != text.data() + text.size()) refuse("the length is not a number");
+    const std::string name = text.substr(0, sign);
+    if (const auto checked = fapu_from_lengths({{name, length}}); !checked) refuse(checked.error().message);
+    if (!lengths.emplace(name, length).second) refuse(name + " is given twice");
+  }
+  return *fapu_from_lengths(lengths);
+}
+
 /// --weights, --metric and --articulation.
 void add_rig_options(CLI::App& command, HeadOptions& options) {
   command
@@ -111,6 +142,7 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
       ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_FORMAT");
   add_placing_options(command, options);
+  add_fapu_option(command, options);
   command.add_flag("--quiet", options.quiet, "No warnings and no progress on stderr")->envname("SEMBLANTE_QUIET");
 }
 
@@ -131,6 +163,7 @@ void add_named_head_options(CLI::App& command, HeadOptions& options) {
       ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_MODEL_FORMAT");
   add_placing_options(command, options);
+  add_fapu_option(command, options);
   add_rig_options(command, options);
 }
 
@@ -147,6 +180,7 @@ HeadFiles read_head(const HeadOptions& options) {
     if (!parsed) fail(options.feature_points_path, parsed.error());
     files.points = std::move(*parsed);
   }
+  files.points.fapu_by_user = fapu_of(options);
   files.wish = wish_of(options);
   files.head = import_file(options);
   return files;

@@ -22,6 +22,7 @@ struct HeadOptions {
   std::string metric = "edge";    ///< a name of distance_metric_names
   double articulation = usual_articulation;
   std::string unit, up, front;  ///< of the model file, values of length_unit_names and direction_names; empty: guessed
+  std::vector<std::string> fapu;  ///< "ES=62.5"
   bool quiet = false;
 };
 

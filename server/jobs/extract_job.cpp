@@ -144,7 +144,8 @@ Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, ResultFiles&
     for (glm::vec3& p : expression) p = glm::vec3(head->to_mpeg4 * glm::dvec3(p));
   }
   const ExtractOptions options{wish.align, wish.least, wish.strength};
-  auto extraction = extract_displacements(head->points, compute_fapu(head->points), *neutral, expression, options);
+  auto extraction = extract_displacements(head->points, compute_fapu(head->points, head->fapu_by_user), *neutral,
+                                          expression, options);
   if (!extraction) {
     // An empty set is an error of the field that names the expression.
     Error error = extraction.error();

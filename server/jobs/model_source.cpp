@@ -30,7 +30,7 @@ Result<ModelSource> source_of(const store::ModelRecord& model, const JobSources&
 Result<MarkedSource> marked_source_of(const store::ModelRecord& model, const JobSources& sources) {
   auto source = source_of(model, sources);
   if (!source) return source.error();
-  return MarkedSource{std::move(*source), sources.store.feature_points(model.id), model.parts};
+  return MarkedSource{std::move(*source), sources.store.feature_points(model.id), model.parts, model.fapu};
 }
 
 void to_json(nlohmann::json& json, const ModelSource& source) {
@@ -47,13 +47,14 @@ void from_json(const nlohmann::json& json, ModelSource& source) {
 }
 
 void to_json(nlohmann::json& json, const MarkedSource& source) {
-  json = {{"model", source.model}, {"points", source.points}, {"parts", source.parts}};
+  json = {{"model", source.model}, {"points", source.points}, {"parts", source.parts}, {"fapu", source.fapu}};
 }
 
 void from_json(const nlohmann::json& json, MarkedSource& source) {
   json.at("model").get_to(source.model);
   json.at("points").get_to(source.points);
   json.at("parts").get_to(source.parts);
+  json.at("fapu").get_to(source.fapu);
 }
 
 }  // namespace semblante::jobs

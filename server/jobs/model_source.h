@@ -29,6 +29,7 @@ struct MarkedSource {
   ModelSource model;
   std::vector<store::FeaturePointRecord> points;
   std::vector<store::PartRecord> parts;  ///< of the import; roles set by the user are kept
+  store::FapuByUser fapu;
 
   bool operator==(const MarkedSource&) const = default;
 };

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/parametrize/fapu.h"
+
 namespace semblante::jobs {
 namespace {
 
@@ -58,11 +60,13 @@ Result<ImportedHead> import_source(const ModelSource& source, const Progress& pr
 Result<MarkedHead> mark_source(ImportedHead head, const MarkedSource& source, const Progress& progress) {
   auto points = marked_points(source.points);
   if (!points) return points.error();
+  auto fapu = fapu_from_lengths(source.fapu);
+  if (!fapu) return Error{fapu.error().code, "/fapu", fapu.error().message};
   // The positions of the points are in the frame of the model's import; without a frame, in that of the file.
   auto standing =
       stand_head(std::move(head), {source.model.frame_wish, source.model.frame.value_or(ModelFrame{}), {}}, progress);
   if (!standing) return standing.error();
-  return mark_head(std::move(*standing), {std::move(*points), roles_by_user(source.parts)},
+  return mark_head(std::move(*standing), {std::move(*points), roles_by_user(source.parts), false, *fapu},
                    part_of(progress, 0.5, 1.0));
 }
 

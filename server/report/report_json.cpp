@@ -24,6 +24,12 @@ Json to_value(const Finding& finding) {
   json["severity"] = severity_names[static_cast<std::size_t>(finding.severity)];
   json["words"] = finding.words;
   json["remedy"] = finding.remedy;
+  if (finding.move) {
+    const glm::dvec3& to = finding.move->position;
+    json["move"] = {{"point", to_string(finding.move->point)},
+                    {"vertex", finding.move->vertex.value()},
+                    {"position", {to.x, to.y, to.z}}};
+  }
   json["place"] = to_value(finding.place);
   json["measured"] = nullptr;
   if (finding.measured)

@@ -33,6 +33,7 @@ std::string write_facts(const ModelRecord& model) {
   if (model.frame) json["frame"] = frame_to_json(*model.frame, model.frame_wish);
   if (model.frame_wish != FrameWish{}) json["frame_wish"] = wish_to_json(model.frame_wish);
   json["morph_targets"] = model.morph_targets;
+  if (!model.fapu.empty()) json["fapu"] = model.fapu;
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -49,12 +50,14 @@ void read_facts(std::string_view text, ModelRecord& model) {
     if (json.contains("frame")) model.frame = frame_from_json(json["frame"]);  // absent in older stores
     if (json.contains("frame_wish")) model.frame_wish = wish_from_json(json["frame_wish"]);
     if (json.contains("morph_targets")) json["morph_targets"].get_to(model.morph_targets);
+    if (json.contains("fapu")) json["fapu"].get_to(model.fapu);
   } catch (const nlohmann::json::exception&) {
     model.parts.clear();
     model.findings.reset();
     model.frame.reset();
     model.frame_wish = {};
     model.morph_targets.clear();
+    model.fapu.clear();
     model.warnings.clear();
   }
 }

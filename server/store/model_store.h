@@ -46,8 +46,13 @@ class ModelStore {
   virtual std::optional<std::vector<std::string>> remove_model(std::string_view id) = 0;
   virtual std::vector<FeaturePointRecord> feature_points(std::string_view model) = 0;
   /// Replaces all points. False when the model does not exist or the revision of its points is another.
-  virtual bool put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
-                                  std::uint64_t expected_revision) = 0;
+  bool put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
+                          std::uint64_t expected_revision) {
+    return put_points_and_fapu(model, points, std::nullopt, expected_revision);
+  }
+  /// The same, and in the same transaction replaces all units given by hand, if `fapu` is not empty.
+  virtual bool put_points_and_fapu(std::string_view model, const std::vector<FeaturePointRecord>& points,
+                                   const std::optional<FapuByUser>& fapu, std::uint64_t expected_revision) = 0;
 };
 
 }  // namespace semblante::store

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -109,6 +110,9 @@ struct WornSet {
   bool operator==(const WornSet&) const = default;
 };
 
+/// Lengths of units given by hand, by name: model units, not divided by 1024.
+using FapuByUser = std::map<std::string, double>;
+
 struct ModelRecord {
   std::string id, name;
   ModelState state = ModelState::importing;
@@ -128,6 +132,7 @@ struct ModelRecord {
   FrameWish frame_wish;             ///< the user's settings for it
   std::uint32_t feature_point_count = 0;
   std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
+  FapuByUser fapu;                            ///< set together with the feature points
   std::optional<PackageRecord> package;
   std::vector<WornSet> worn;  ///< by slot name, without displacements
 

@@ -113,8 +113,8 @@ std::vector<FeaturePointRecord> SqliteModelStore::feature_points(std::string_vie
   return read_points(db_, model);
 }
 
-bool SqliteModelStore::put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
-                                          std::uint64_t expected_revision) {
+bool SqliteModelStore::put_points_and_fapu(std::string_view model, const std::vector<FeaturePointRecord>& points,
+                                           const std::optional<FapuByUser>& fapu, std::uint64_t expected_revision) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(db_);
   Statement(db_,
@@ -124,6 +124,11 @@ bool SqliteModelStore::put_feature_points(std::string_view model, const std::vec
       .run();
   if (db_.changes() == 0) return false;
   write_points(db_, model, points);
+  if (fapu) {
+    auto record = find_model(db_, model);
+    record->fapu = *fapu;
+    Statement(db_, "UPDATE models SET facts = ? WHERE id = ?").bind(write_facts(*record), model).run();
+  }
   transaction.commit();
   return true;
 }

@@ -33,8 +33,8 @@ class SqliteModelStore : public virtual ModelStore, private SqlitePart {
   std::vector<WornSet> worn_sets(std::string_view model) override;
   std::optional<std::vector<std::string>> remove_model(std::string_view id) override;
   std::vector<FeaturePointRecord> feature_points(std::string_view model) override;
-  bool put_feature_points(std::string_view model, const std::vector<FeaturePointRecord>& points,
-                          std::uint64_t expected_revision) override;
+  bool put_points_and_fapu(std::string_view model, const std::vector<FeaturePointRecord>& points,
+                           const std::optional<FapuByUser>& fapu, std::uint64_t expected_revision) override;
 };
 
 }  // namespace semblante::store

@@ -29,6 +29,14 @@ describe('actions', () => {
     expect(actionFor(finding('eye-cannot-turn'), true)).toMatchObject({ kind: 'role', part: null });
   });
 
+  test('Action_PointOnTheOtherLip_MovesIt', () => {
+    const move = { point: '2.8', vertex: 17, position: [1, 2, 3] as [number, number, number] };
+    expect(actionFor({ ...finding('point-on-other-rim', { points: ['2.8'] }), move }, true)).toMatchObject({
+      kind: 'move',
+      move,
+    });
+  });
+
   test('Action_MeshFault_HasNone', () => expect(actionFor(finding('degenerate-triangles'), true)).toBeNull());
 
   test('Action_OtherKinds_LeadToTheirScreen', () => {

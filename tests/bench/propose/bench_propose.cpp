@@ -86,6 +86,53 @@ void print_random_sets(std::span<const ProposalStudy> studies) {
   }
 }
 
+/// The errors from the quick set and from random sets of one head.
+std::vector<ProposalError> errors_of_sets(const ProposalStudy& study) {
+  std::vector<ProposalError> all = errors_from(study, {quick_set.begin(), quick_set.end()});
+  std::mt19937 random(3);
+  for (int draw = 0; draw < 40; ++draw) {
+    const auto errors = errors_from(study, random_names(study, 15 + random() % 26, random));
+    all.insert(all.end(), errors.begin(), errors.end());
+  }
+  return all;
+}
+
+/// Whether nine in ten proposals lie within the radius that they claim. The last column is the factor for all claims
+/// that the OTHER heads give: with a calibrated claim it is about 1.
+void print_calibration(std::span<const ProposalStudy> studies) {
+  std::printf("\nWithin the claimed radius, %% of the proposals; no head is measured against its own proportions\n");
+  std::printf("  %-24s %9s %9s   %6s %6s %6s   %s\n", "", "quick set", "random", "high", "medium", "low",
+              "factor from the others");
+  std::vector<std::vector<ProposalError>> of_heads;
+  for (const ProposalStudy& study : studies) of_heads.push_back(errors_of_sets(study));
+  std::vector<ProposalError> all;
+  for (std::size_t head = 0; head <= studies.size(); ++head) {
+    const bool is_sum = head == studies.size();
+    const std::vector<ProposalError>& errors = is_sum ? all : of_heads[head];
+    std::vector<ProposalError> others;
+    for (std::size_t other = 0; other < of_heads.size(); ++other) {
+      // The family of one head counts as one.
+      if (!is_sum && studies[other].family == studies[head].family) continue;
+      others.insert(others.end(), of_heads[other].begin(), of_heads[other].end());
+    }
+    const std::string name = is_sum ? "all" : studies[head].name;
+    if (is_sum)
+      std::printf("  %-24s %9s", name.c_str(), "");
+    else
+      std::printf("  %-24s %9.1f", name.c_str(),
+                  100 * share_within_claim(errors_from(studies[head], {quick_set.begin(), quick_set.end()})));
+    std::printf(" %9.1f  ", 100 * share_within_claim(errors));
+    for (const Confidence c : {Confidence::high, Confidence::medium, Confidence::low}) {
+      std::vector<ProposalError> some;
+      std::copy_if(errors.begin(), errors.end(), std::back_inserter(some),
+                   [&](const ProposalError& e) { return e.confidence == c; });
+      std::printf(" %6.1f", 100 * share_within_claim(some));
+    }
+    std::printf("   %.2f\n", factor_for_nine_in_ten(others));
+    if (!is_sum) all.insert(all.end(), errors.begin(), errors.end());
+  }
+}
+
 void print_time(const ProposalStudy& study) {
   double best = 1e9;
   const FeaturePointSet known = some_points(study, {quick_set.begin(), quick_set.end()});
@@ -121,6 +168,9 @@ int main(int argc, char** argv) {
   print_set(set, studies, by_point);
   if (quick) {
     print_random_sets(studies);
+    std::vector<ProposalStudy> heads = make_sample_studies();
+    heads.insert(heads.begin(), studies.begin(), studies.end());
+    print_calibration(heads);
     std::printf("\nTime\n");
     for (const ProposalStudy& study : studies) print_time(study);
   }

@@ -13,6 +13,7 @@
 #include "core/parametrize/place_feature_points.h"
 #include "core/tables/mpeg4.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante::bench {
 namespace {
@@ -21,6 +22,7 @@ ProposalStudy read_study(std::string name, const std::string& own_proportions, c
                          const std::filesystem::path& points, const std::filesystem::path& other_positions = {}) {
   ProposalStudy study;
   study.name = std::move(name);
+  study.family = own_proportions;
   study.model = oracle::import_head(obj);
   std::vector<MarkedPoint> marked = oracle::read_trusted_points(points);
   if (!other_positions.empty()) {
@@ -68,6 +70,39 @@ std::vector<ProposalStudy> read_proposal_studies(const std::filesystem::path& fa
   return studies;
 }
 
+std::vector<ProposalStudy> make_sample_studies() {
+  std::vector<ProposalStudy> studies;
+  for (const testing::FamilyMember& member : testing::sample_family()) {
+    ProposalStudy study;
+    study.name = member.name;
+    study.family = "sample-head";
+    study.model = testing::sample_head_model(member.traits);
+    study.surface = build_surface(study.model);
+    study.placed = testing::sample_head_points(member.traits);
+    for (const FeaturePoint& point : study.placed) study.placed_confidence[point.id.value()] = Confidence::high;
+    study.eye_separation =
+        std::abs(find_point(study.placed, "3.5")->position.x - find_point(study.placed, "3.6")->position.x);
+    for (const ReferenceHead& head : reference_heads()) {
+      if (head.name != "sample-head") study.other_heads.push_back(head);
+    }
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+double share_within_claim(const std::vector<ProposalError>& errors) {
+  const auto within =
+      std::count_if(errors.begin(), errors.end(), [](const ProposalError& e) { return e.error <= e.claimed; });
+  return errors.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(errors.size());
+}
+
+double factor_for_nine_in_ten(const std::vector<ProposalError>& errors) {
+  std::vector<double> factors;
+  for (const ProposalError& e : errors) factors.push_back(e.error / e.claimed);
+  std::sort(factors.begin(), factors.end());
+  return factors.empty() ? 0.0 : factors[(factors.size() * 9 + 9) / 10 - 1];
+}
+
 FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::string_view>& names) {
   FeaturePointSet some;
   for (const std::string_view name : names) {
@@ -86,7 +121,7 @@ std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::ve
     if (placed == nullptr) continue;
     const double off = glm::distance(glm::dvec3(proposal.point.position), glm::dvec3(placed->position));
     errors.push_back({proposal.point.id, off / study.eye_separation, proposal.method, proposal.confidence,
-                      study.placed_confidence.at(proposal.point.id.value())});
+                      proposal.expected_error, study.placed_confidence.at(proposal.point.id.value())});
   }
   return errors;
 }

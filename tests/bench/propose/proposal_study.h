@@ -16,6 +16,7 @@ namespace semblante::bench {
 /// A real head with points that somebody placed on it, to hold proposals against.
 struct ProposalStudy {
   std::string name;
+  std::string family;  ///< of the head: those of one family are not independent
   Model model;
   Surface surface;
   FeaturePointSet placed;
@@ -34,8 +35,18 @@ struct ProposalError {
   double error = 0.0;  ///< distance of the proposed from the placed point, in ES0
   ProposalMethod method = ProposalMethod::proportion;
   Confidence confidence = Confidence::low;
+  double claimed = 0.0;  ///< expected_error of the proposal
   Confidence placed = Confidence::low;
 };
+
+/// The family of our own sample head; none is measured against the sample head's.
+std::vector<ProposalStudy> make_sample_studies();
+
+/// The share of proposals that lie within what they claim: their expected_error.
+double share_within_claim(const std::vector<ProposalError>& errors);
+
+/// The factor for all claims with which nine in ten of the proposals lie within theirs.
+double factor_for_nine_in_ten(const std::vector<ProposalError>& errors);
 
 /// The placed points of those names, as far as the head has them.
 FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::string_view>& names);

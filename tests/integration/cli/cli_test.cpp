@@ -66,6 +66,20 @@ struct Sheet : ::testing::Test {
   }
 };
 
+TEST_F(Sheet, Fapu_ReplacesTheMeasuredUnitAndHostileOnesAreRefused) {
+  const auto parametrize = [&](const std::string& fapu) {
+    return run_semblante({"parametrize", model, "--points", points, "--fapu", fapu, "--out", work.path("package")});
+  };
+  ASSERT_EQ(parametrize("MW=8").exit_code, 0);
+  EXPECT_EQ(json::parse(read_text(work.path("package/rig.json")))["fapu"]["MW"].get<double>() * 1024, 8.0);
+  for (const char* const bad :
+       {"MW=0", "MW=-1", "MW=nan", "MW=inf", "MW=1e300", "MW=8x", "MW=", "MW", "AU=1", "mw=8"}) {
+    const Outcome outcome = parametrize(bad);
+    EXPECT_NE(outcome.exit_code, 0) << bad;
+    EXPECT_NE(outcome.err.find("--fapu: '" + std::string(bad) + "'"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Sheet, Propose_WritesAllPointsMarked_AndAgainFromThePlacedOnes) {
   const std::string enough = work.write("enough.json", R"({"points": {"9.3": {"vertex": 58}, "2.1": {"vertex": 13},
     "8.3": {"vertex": 33}, "8.4": {"vertex": 29}, "2.2": {"vertex": 40}, "8.1": {"vertex": 49},

@@ -87,11 +87,11 @@ TEST_F(ProposalRoutes, QuickSet_BecomesAFullSetWithMarks) {
   const auto job = proposed();
   ASSERT_EQ(job.value("state", ""), "done") << job;
   EXPECT_EQ(job["kind"], "propose");
-  EXPECT_EQ(job["result"]["proposed"], 62);  // all but the thickness of the hair and the fold of a lid
+  EXPECT_EQ(job["result"]["proposed"], 63);  // all but the thickness of the hair
   EXPECT_THAT(job["result"]["not_proposed"]["11.5"].get<std::string>(), HasSubstr("hair"));
 
   const auto after = points();
-  ASSERT_EQ(after.size(), 82U);
+  ASSERT_EQ(after.size(), 83U);
   for (const auto& [id, point] : placed.items()) EXPECT_EQ(after[id], point) << "placed points are not touched: " << id;
   EXPECT_EQ(after["8.4"]["proposed"], true);
   EXPECT_EQ(after["8.4"]["method"], "mirror");
@@ -186,6 +186,48 @@ TEST_F(ProposalRoutes, BadRequests_NameTheFault) {
   EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";
   placed["points"]["2.1"]["proposed"] = nullptr;
   EXPECT_EQ(put(placed).status, 200) << "remarks of placed points are nobody's business";
+}
+
+TEST_F(ProposalRoutes, UnitsByHand_AreKeptWithThePointsAndReachThePackage) {
+  auto body = points_of(quick_set);
+  body["fapu"] = {{"ES", 0.07}};
+  ASSERT_EQ(json_of(put(body))["fapu"], json({{"ES", 0.07}}));
+  EXPECT_EQ(json_of(put(points_of(quick_set)))["fapu"], json({{"ES", 0.07}})) << "of a client that does not know them";
+  const auto job = json_of(request(port(), "POST", "/v1/models/" + model_ + "/parametrizations"));
+  ASSERT_EQ(wait_for_job(port(), job["id"]).value("state", ""), "done");
+  const auto rig = json_of(request(port(), "GET", "/v1/models/" + model_ + "/rig.json"));
+  EXPECT_NEAR(rig["fapu"]["ES"].get<double>() * 1024, 0.07, 1e-9);
+  EXPECT_THAT(request(port(), "GET", "/v1/models/" + model_ + "/report").body, HasSubstr("unit-by-hand"));
+  body["fapu"] = nullptr;
+  EXPECT_EQ(json_of(put(body))["fapu"], json::object());
+}
+
+TEST_F(ProposalRoutes, HostileUnits_AreRefused) {
+  const auto with = [](const char* unit, const json& value) {
+    auto body = points_of(quick_set);
+    body["fapu"] = {{unit, value}};
+    return body;
+  };
+  for (const json& value : {json(0), json(-1), json(1e300), json(1e-300), json("63"), json(nullptr)})
+    expect_problem(put(with("ES", value)), 422, "invalid-field", "/fapu/ES");
+  expect_problem(put(with("AU", 1)), 422, "invalid-field", "/fapu/AU");
+  auto body = points_of(quick_set);
+  body["fapu"] = 3;
+  expect_problem(put(body), 422, "invalid-field", "/fapu");
+}
+
+TEST_F(ProposalRoutes, Patch_SetsAndRemovesSinglePoints) {
+  const auto patch = [&](const json& body) { return request(port(), "PATCH", points_path(), body.dump(), json_type); };
+  const auto before = json_of(put(points_of(quick_set)))["points"];
+  const auto changed =
+      json_of(patch({{"points", {{"2.8", {{"vertex", 7}}}, {"2.1", nullptr}}}, {"fapu", {{"MW", 0.05}}}}));
+  EXPECT_EQ(changed["points"]["2.8"]["vertex"], 7);
+  EXPECT_FALSE(changed["points"].contains("2.1"));
+  EXPECT_EQ(changed["points"]["9.15"], before["9.15"]);
+  EXPECT_EQ(changed["fapu"], json({{"MW", 0.05}}));
+  EXPECT_EQ(json_of(patch({{"fapu", {{"MW", nullptr}}}}))["fapu"], json::object());
+  expect_problem(patch({{"points", {{"2.8", {{"vertex", -1}}}}}}), 422, "invalid-feature-point", "/points/2.8/vertex");
+  expect_problem(patch({{"points", {{"1.9", nullptr}}}}), 422, "invalid-feature-point", "/points/1.9");
 }
 
 TEST_F(ProposalRoutes, IdempotencyKey_MakesOneJob) {

@@ -1,5 +1,8 @@
 #include "core/parametrize/fapu.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +38,48 @@ TEST(Fapu, WholeFace_GivesDifferencesOfOneCoordinateOver1024) {
 TEST(Fapu, OneEyeAlone_GivesIrisd) {
   const FeaturePointSet points = {bare("3.2", {-3, 1.75F, 8}), bare("3.4", {-3, 0.25F, 8})};
   EXPECT_DOUBLE_EQ(compute_fapu(points)[FapuUnit::irisd].value() * 1024, 1.5);
+}
+
+TEST(Fapu, GivenByHand_ReplacesTheMeasuredValue) {
+  const auto by_user = fapu_from_lengths({{"ES", 8.0}});
+  ASSERT_TRUE(by_user);
+  const Fapu fapu = compute_fapu(whole_face, *by_user);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::es].value() * 1024, 8.0);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::mw].value() * 1024, 4.75);
+  EXPECT_EQ(fapu.origin[static_cast<std::size_t>(FapuUnit::es)], FapuOrigin::user);
+  EXPECT_EQ(fapu.origin[static_cast<std::size_t>(FapuUnit::mw)], FapuOrigin::points);
+}
+
+TEST(Fapu, HostileLengths_AreRefused) {
+  for (const double length :
+       {0.0, -1.0, 1e300, 1e-300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    const auto fapu = fapu_from_lengths({{"ES", length}});
+    ASSERT_FALSE(fapu) << length;
+    EXPECT_EQ(fapu.error().code, ErrorCode::out_of_range);
+    EXPECT_THAT(fapu.error().message, HasSubstr("ES"));
+  }
+  const auto unknown = fapu_from_lengths({{"AU", 1.0}});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code, ErrorCode::invalid_argument);
+}
+
+TEST(Fapu, ClosedEyes_AreMeasuredBetweenTheCornersOfTheLids) {
+  FeaturePointSet points = whole_face;
+  std::erase_if(points, [](const FeaturePoint& p) { return p.id == testing::fp("3.6"); });
+  for (FeaturePoint& p : points) {
+    if (p.id == testing::fp("3.1") || p.id == testing::fp("3.3")) p.position.y = 1.0F;
+    if (p.id == testing::fp("3.2") || p.id == testing::fp("3.4")) p.position.y = 1.1F;
+  }
+  const auto corners = {bare("3.7", {4, 1, 7}), bare("3.11", {2, 1.5F, 8}), bare("3.8", {-2, 1, 8}),
+                        bare("3.12", {-4, 1, 7})};
+  points.insert(points.end(), corners.begin(), corners.end());
+  std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
+  const Fapu fapu = compute_fapu(points);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::es].value() * 1024, 6.0);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::irisd].value() * 1024, iris_share * 6.0);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::ens].value() * 1024, 1.75);
+  EXPECT_EQ(fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)], FapuOrigin::closed_eyes);
+  EXPECT_TRUE(explain_missing_fapu(fapu, points).empty());
 }
 
 TEST(Fapu, MissingPoints_LeaveTheUnitEmptyAndAreNamed) {

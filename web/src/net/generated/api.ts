@@ -192,7 +192,8 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /** Set some points, remove some; the others stay */
+        patch: operations["patchFeaturePoints"];
         trace?: never;
     };
     "/v1/models/{model}/feature-points/proposals": {
@@ -1003,6 +1004,13 @@ export interface components {
             words: string;
             /** @description What to do about it */
             remedy: string;
+            /** @description Only where moving one feature point is the remedy: its place afterwards. A PATCH of the feature points with this vertex applies it */
+            move?: {
+                point: string;
+                /** @description Of the file */
+                vertex: number;
+                position: components["schemas"]["Vector"];
+            };
             place: {
                 /** @description Index into the model's parts */
                 part: number | null;
@@ -1276,6 +1284,19 @@ export interface components {
             name: string;
             displacements: components["schemas"]["Displacements"];
         };
+        FeaturePointsEdit: {
+            /** @description By id; members as in FeaturePointsBody. null: the point is removed; absent: it stays */
+            points?: {
+                [key: string]: {
+                    vertex?: number | null;
+                    position?: components["schemas"]["Vector"] | null;
+                } | null;
+            };
+            /** @description As in FeaturePointsBody, but by unit: null: the unit is measured; absent: it stays */
+            fapu?: {
+                [key: string]: number | null;
+            } | null;
+        };
         FeaturePointsBody: {
             /** @description By id, "2.1" to "11.6" */
             points: {
@@ -1288,12 +1309,16 @@ export interface components {
                     method?: unknown;
                     /** @description Of a proposed point: high, medium or low */
                     confidence?: unknown;
-                    /** @description Of a proposed point: its distance to a carefully placed one, expected, in ES0 */
+                    /** @description Of a proposed point: a radius in ES0; nine in ten proposals lie within theirs of a carefully placed point */
                     expected_error?: number;
                     /** @description Of a proposed point: what else makes it unsure, such as lips that the surface joins */
                     remark?: string;
                 };
             };
+            /** @description Units given by hand, IRISD, ES, ENS, MNS or MW: lengths in model units, not divided by 1024, from 1e-6 to 1e6. They replace those measured between the points. Absent: as they are; null: none */
+            fapu?: {
+                [key: string]: number;
+            } | null;
             /** @description As files of feature points have it; taken when it is the identity, as the model must stand in MPEG-4's axes */
             to_mpeg4_axes?: components["schemas"]["Vector"][] | null;
             /** @constant */
@@ -1301,6 +1326,10 @@ export interface components {
         };
         FeaturePoints: {
             model: string;
+            /** @description Units given by hand: lengths in model units, not divided by 1024 */
+            fapu: {
+                [key: string]: number;
+            };
             points: {
                 [key: string]: {
                     vertex: number | null;
@@ -1313,11 +1342,11 @@ export interface components {
                      */
                     method?: "mirror" | "proportion" | "shape";
                     /**
-                     * @description Of a proposed point: how sure it is
+                     * @description Of a proposed point: high where expected_error is below 0.07, medium below 0.15, else low
                      * @enum {unknown}
                      */
                     confidence?: "high" | "medium" | "low";
-                    /** @description Of a proposed point: its distance to a carefully placed one, expected, in ES0 */
+                    /** @description Of a proposed point: a radius in ES0; nine in ten proposals lie within theirs of a carefully placed point */
                     expected_error?: number;
                     /** @description Of a proposed point: what else makes it unsure, such as lips that the surface joins */
                     remark?: string;
@@ -2331,6 +2360,71 @@ export interface operations {
                  *     }
                  */
                 "application/json": components["schemas"]["FeaturePointsBody"];
+            };
+        };
+        responses: {
+            /** @description As stored */
+            200: {
+                headers: {
+                    /** @description The new tag */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FeaturePoints"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            404: components["responses"]["Problem"];
+            409: components["responses"]["Problem"];
+            411: components["responses"]["Problem"];
+            412: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    patchFeaturePoints: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Only if the resource still has this tag; 412 otherwise */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description Id of a model */
+                model: components["parameters"]["model"];
+            };
+            cookie?: never;
+        };
+        /** @description The points to set by id; null removes a point. `move` of a finding is such a point */
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "points": {
+                 *         "2.8": {
+                 *           "vertex": 1705
+                 *         },
+                 *         "2.9": null
+                 *       }
+                 *     }
+                 */
+                "application/json": components["schemas"]["FeaturePointsEdit"];
+                /**
+                 * @example {
+                 *       "points": {
+                 *         "2.8": {
+                 *           "vertex": 1705
+                 *         },
+                 *         "2.9": null
+                 *       }
+                 *     }
+                 */
+                "application/merge-patch+json": components["schemas"]["FeaturePointsEdit"];
             };
         };
         responses: {

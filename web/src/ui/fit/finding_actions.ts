@@ -7,7 +7,8 @@ export type FindingAction =
   | { kind: 'axes'; label: string }
   | { kind: 'role'; part: number | null; label: string }
   | { kind: 'exchange'; label: string }
-  | { kind: 'point'; point: string; label: string };
+  | { kind: 'point'; point: string; label: string }
+  | { kind: 'move'; move: NonNullable<Finding['move']>; label: string };
 
 const aboutAxes = new Set(['upside-down', 'facing-away', 'not-upright']);
 const aboutRoles = new Set(['idle-part', 'second-skin', 'eye-cannot-turn', 'point-on-wrong-part']);
@@ -20,7 +21,8 @@ const neverProposed = new Set(['11.5']);
  * that made it. `enough`: enough points are placed for the server to make proposals.
  */
 export function actionFor(finding: Finding, enough: boolean): FindingAction | null {
-  const { code, place } = finding;
+  const { code, place, move } = finding;
+  if (move) return { kind: 'move', move, label: `Move point ${move.point}` };
   if (aboutAxes.has(code)) return { kind: 'axes', label: 'Correct the axes' };
   if (code === 'missing-points' || code === 'no-points') {
     if (enough && (code === 'no-points' || place.points.some((id) => !neverProposed.has(id))))

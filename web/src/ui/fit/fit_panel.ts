@@ -57,6 +57,9 @@ export class FitPanel {
       case 'point':
         studio.tab.set('points');
         return points.chosen.set(action.point);
+      case 'move':
+        studio.tab.set('points');
+        return points.move(action.move.point, action.move.vertex, action.move.position);
       case 'exchange':
         studio.tab.set('points');
         return points.exchange(finding.place.points);

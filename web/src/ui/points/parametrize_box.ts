@@ -8,6 +8,7 @@ import type { Studio } from '../shared/studio.ts';
 /** The footer of a panel: options, Save, Parametrize and its progress. */
 export class ParametrizeBox {
   readonly element: HTMLElement;
+  private readonly fapu = h('p', { class: 'small muted' });
   private readonly progress = h('div', { class: 'progress-slot' });
   private readonly save: HTMLButtonElement | null;
   private readonly go: HTMLButtonElement;
@@ -25,6 +26,7 @@ export class ParametrizeBox {
       { class: 'panel-foot' },
       this.progress,
       new ParametrizeOptions(parametrizer).element,
+      this.fapu,
       h('div', { class: 'row' }, this.save, this.go),
     );
     points.changed.watch(() => this.draw());
@@ -38,6 +40,12 @@ export class ParametrizeBox {
     const model = this.studio.selected.value;
     const activity = model ? this.studio.activities.value.get(model.id) : undefined;
     const busy = this.points.busy.value || activity !== undefined;
+    const fapu = Object.entries(this.points.fapu);
+    this.fapu.hidden = fapu.length === 0;
+    setText(
+      this.fapu,
+      `Units set by hand: ${fapu.map(([unit, length]) => `${unit} = ${Number(length.toPrecision(5))}`).join(', ')}`,
+    );
     const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');
     if (this.save) {
       this.save.disabled = busy || !usable || draft.changes === 0;

@@ -19,6 +19,8 @@ export class PointsModel {
   readonly guided = new Signal(true);
   /** The reasons why points could not be proposed, by id; of the last proposal job. */
   notProposed: ReadonlyMap<string, string> = new Map();
+  /** Units set by hand, lengths in model units by name; the server keeps them when points are saved. */
+  fapu: FeaturePointSet['fapu'] = {};
   private guidedByUser = false;
   private etag: string | null = null;
   private model: Model | null = null;
@@ -39,6 +41,7 @@ export class PointsModel {
     this.clearProblems();
     this.draft.reset([]);
     this.notProposed = new Map();
+    this.fapu = {};
     this.guidedByUser = false;
     this.etag = null;
     this.touch();
@@ -57,6 +60,14 @@ export class PointsModel {
     this.forgive(id);
     this.touch();
     if (isNew && this.guided.value) this.chooseNext();
+  }
+
+  /** Moves a placed point, and selects it. */
+  move(id: string, vertex: number, position: readonly [number, number, number]): void {
+    this.draft.place(id, { vertex, position });
+    this.forgive(id);
+    this.chosen.set(id);
+    this.touch();
   }
 
   toggle(id: string): void {
@@ -246,6 +257,7 @@ export class PointsModel {
       const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
       placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
     }
+    this.fapu = set.fapu;
     this.draft.reset(placed);
     // With points beyond the quick set, or with proposals to review, the user needs the whole list.
     if (!this.guidedByUser) {

@@ -20,6 +20,8 @@ const titles: Record<string, string> = {
   'left-right-swapped': 'Left and right exchanged',
   'unit-not-positive': 'A unit of zero',
   'unit-implausible': 'An implausible unit',
+  'unit-by-hand': 'A unit set by hand',
+  'point-on-other-rim': 'A point on the other lip or lid',
 };
 
 /** "lips-joined" -> "Lips joined". */

@@ -1,0 +1,83 @@
+// Points of one lip or lid that are marked on the other.
+
+#include "core/doctor/rim_points.h"
+
+#include <algorithm>
+#include <array>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/doctor/heads.h"
+#include "tests/unit/doctor/spoil.h"
+
+namespace semblante::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Puts a point at the nearest vertex to `like`, a point of the other rim, that has no point.
+void misplace(Head& head, std::string_view name, std::string_view like) {
+  const Surface surface = build_surface(head.model);
+  const SurfaceVertexId there = surface.surface_of[point(head, like).vertex->value()];
+  const SurfaceVertexId beside = surface.steps_from(there).front().to;
+  FeaturePoint& moved = point(head, name);
+  moved.vertex = surface.file_vertex_of[beside.value()];
+  moved.position = head.model.positions[moved.vertex->value()];
+}
+
+const Finding* find_code(const Report& report, FindingCode code) {
+  const auto found =
+      std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.code == code; });
+  return found == report.findings.end() ? nullptr : &*found;
+}
+
+class RimPoints : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RimPoints, OfAnUnchangedHeadAreOnTheirOwnSide) {
+  const auto head = head_named(GetParam());
+  if (!head) GTEST_SKIP() << "no folder of real heads";
+  EXPECT_EQ(find_code(examine_without_weights(*head), FindingCode::point_on_other_rim), nullptr);
+}
+
+TEST_P(RimPoints, OnTheOtherLipAreMovedBackByTheRemedy) {
+  for (const auto& [name, like, words] : {std::array<const char*, 3>{"2.8", "2.6", "2.8 lies on the upper lip"},
+                                          std::array<const char*, 3>{"2.3", "2.2", "2.3 lies on the upper lip"},
+                                          std::array<const char*, 3>{"2.7", "2.9", "2.7 lies on the lower lip"}}) {
+    auto head = head_named(GetParam());
+    if (!head) GTEST_SKIP() << "no folder of real heads";
+    if (find_code(examine_without_weights(*head), FindingCode::lips_joined) != nullptr)
+      GTEST_SKIP() << "its lips are joined";
+    misplace(*head, name, like);
+    const Report before = examine_without_weights(*head);
+    const Finding* const finding = find_code(before, FindingCode::point_on_other_rim);
+    ASSERT_NE(finding, nullptr) << name;
+    EXPECT_THAT(finding->words, HasSubstr(words));
+    EXPECT_EQ(find_code(before, FindingCode::lips_joined), nullptr) << "nothing of the mesh is to be deleted";
+    ASSERT_TRUE(finding->move);
+    EXPECT_EQ(to_string(finding->move->point), name);
+    FeaturePoint& moved = point(*head, name);
+    moved.vertex = finding->move->vertex;
+    moved.position = head->model.positions[moved.vertex->value()];
+    EXPECT_EQ(glm::vec3(finding->move->position), moved.position);
+    const Report after = examine_without_weights(*head);
+    EXPECT_EQ(find_code(after, FindingCode::point_on_other_rim), nullptr) << name;
+    EXPECT_EQ(find_code(after, FindingCode::lips_joined), nullptr) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Heads, RimPoints,
+                         ::testing::Values("sample", "pressed lips", "broad", "closed eyes", "ict-facekit", "makehuman",
+                                           "mediapipe-canonical"));
+
+TEST(ClosedEyes, AreAWarningAndUnitsAreEstimated) {
+  const Report report = examine_without_weights(*head_named("closed eyes"));
+  const Finding* const finding = find_code(report, FindingCode::eye_not_open);
+  ASSERT_NE(finding, nullptr);
+  EXPECT_EQ(finding->severity, Severity::warning);
+  EXPECT_THAT(finding->words, HasSubstr("is closed"));
+  EXPECT_EQ(find_code(report, FindingCode::unit_not_positive), nullptr);
+}
+
+}  // namespace
+}  // namespace semblante::testing
