@@ -16,7 +16,7 @@ namespace semblante::bench {
 /// A real head with points that somebody placed on it, to hold proposals against.
 struct ProposalStudy {
   std::string name;
-  std::string family;  ///< of the head: those of one family are not independent
+  std::string family;  ///< of the head, by its own proportions; heads of one family are not independent
   Model model;
   Surface surface;
   FeaturePointSet placed;

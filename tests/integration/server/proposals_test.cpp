@@ -197,7 +197,7 @@ TEST_F(ProposalRoutes, UnitsByHand_AreKeptWithThePointsAndReachThePackage) {
   ASSERT_EQ(wait_for_job(port(), job["id"]).value("state", ""), "done");
   const auto rig = json_of(request(port(), "GET", "/v1/models/" + model_ + "/rig.json"));
   EXPECT_NEAR(rig["fapu"]["ES"].get<double>() * 1024, 0.07, 1e-9);
-  EXPECT_THAT(request(port(), "GET", "/v1/models/" + model_ + "/report").body, HasSubstr("unit-by-hand"));
+  EXPECT_THAT(request(port(), "GET", "/v1/models/" + model_ + "/report.json").body, HasSubstr("unit-by-hand"));
   body["fapu"] = nullptr;
   EXPECT_EQ(json_of(put(body))["fapu"], json::object());
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/parametrize/place_feature_points.h"
 #include "core/propose/quick_set.h"
 #include "tests/bench/propose/proposal_study.h"
@@ -51,9 +53,10 @@ void expect_accepted(const std::string& name, const Model& model, const FeatureP
   for (const Proposal& p : proposals->points) {
     marked.push_back({p.point.id, p.point.vertex ? std::optional(p.point.vertex->value()) : std::nullopt,
                       glm::dvec3(p.point.position)});
-    if (p.point.vertex)
+    if (p.point.vertex) {
       EXPECT_TRUE(taken.insert(surface.surface_of[p.point.vertex->value()].value()).second)
           << name << ": " << to_string(p.point.id) << " shares its vertex";
+    }
     EXPECT_TRUE(!is_pupil(p.point.id) || !p.point.vertex) << name << ": a pupil is a bare position";
   }
   for (const NotProposed& p : proposals->not_proposed)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,11 +17,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Puts a point at the nearest vertex to `like`, a point of the other rim, that has no point.
+/// Puts a point at a vertex beside `like`, a point of the other rim: the one nearest to the middle of the face, because
+/// at the corners the sides are uncertain.
 void misplace(Head& head, std::string_view name, std::string_view like) {
   const Surface surface = build_surface(head.model);
   const SurfaceVertexId there = surface.surface_of[point(head, like).vertex->value()];
-  const SurfaceVertexId beside = surface.steps_from(there).front().to;
+  const auto steps = surface.steps_from(there);
+  const SurfaceVertexId beside =
+      std::min_element(steps.begin(), steps.end(), [&](const auto& a, const auto& b) {
+        const auto off = [&](const auto& s) { return std::abs(surface.positions[s.to.value()].x); };
+        return off(a) < off(b);
+      })->to;
   FeaturePoint& moved = point(head, name);
   moved.vertex = surface.file_vertex_of[beside.value()];
   moved.position = head.model.positions[moved.vertex->value()];
