@@ -182,14 +182,10 @@ void find_points_on_other_rim(const Subject& head, std::vector<Finding>& out) {
     finding.words = to_string(point.id) + " lies on the " + other + ", but it is a point of the " + own + "; the " +
                     other + " follows both, and the " + (opening->is_mouth ? "mouth" : "eye") +
                     " cannot open or close cleanly";
-    if (nearest) {
-      const VertexId vertex = head.surface.file_vertex_of[nearest->value()];
-      finding.move = Move{point.id, vertex, head.surface.positions[nearest->value()]};
-      finding.remedy = "move " + to_string(point.id) + " to vertex " + std::to_string(vertex.value()) +
-                       ", the nearest of the " + own;
-    } else {
-      finding.remedy = "move " + to_string(point.id) + " to the " + own;
-    }
+    const VertexId vertex = head.surface.file_vertex_of[nearest.value()];
+    finding.move = Move{point.id, vertex, head.surface.positions[nearest.value()]};
+    finding.remedy =
+        "move " + to_string(point.id) + " to vertex " + std::to_string(vertex.value()) + ", the nearest of the " + own;
     out.push_back(std::move(finding));
   }
 }

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/rim_sides.h"
+#include "core/doctor/surface_way.h"
+#include "core/geometry/edge_path_search.h"
 
 namespace semblante {
 namespace {
@@ -27,6 +29,19 @@ std::optional<SurfaceVertexId> nearest_on_side(const Surface& surface, const Rim
   return best;
 }
 
+/// Whether the surface joins the rims between two vertices: the path is shorter than half of that around the nearer
+/// corner.
+bool are_joined(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> points,
+                const SurfacePoint& from, SurfaceVertexId to, EdgePathSearch& search) {
+  const glm::dvec3& end = surface.positions[to.value()];
+  double round = std::numeric_limits<double>::infinity();
+  for (const std::string_view name : opening.corners) {
+    if (const SurfacePoint* const corner = point_named(points, name))
+      round = std::min(round, glm::distance(from.position, corner->position) + glm::distance(corner->position, end));
+  }
+  return search.from(from.vertex)[to.value()] < 0.5 * round;
+}
+
 }  // namespace
 
 std::vector<MisplacedRimPoint> find_misplaced_rim_points(const Surface& surface, std::span<const SurfacePoint> points) {
@@ -36,6 +51,7 @@ std::vector<MisplacedRimPoint> find_misplaced_rim_points(const Surface& surface,
     taken.insert(point.vertex.value());
     if (rim_of_point(point.id).opening == nullptr) anchors.push_back(point);
   }
+  EdgePathSearch search(surface);
   std::vector<MisplacedRimPoint> misplaced;
   for (const mpeg4::Opening& opening : mpeg4::openings) {
     const RimSides sides(surface, opening, anchors);
@@ -43,10 +59,24 @@ std::vector<MisplacedRimPoint> find_misplaced_rim_points(const Surface& surface,
       const RimOfPoint rim = rim_of_point(point.id);
       if (rim.opening != &opening || sides.side(point.vertex, rim.is_upper) > -RimSides::clear) continue;
       const auto nearest = nearest_on_side(surface, sides, point, rim.is_upper, taken);
-      if (nearest) taken.insert(nearest->value());
-      misplaced.push_back({point, &opening, rim.is_upper, nearest});
+      // Across a bridge the point is near its own side along the surface: then the mesh is at fault, not the point.
+      if (!nearest || are_joined(surface, opening, points, point, *nearest, search)) continue;
+      taken.insert(nearest->value());
+      misplaced.push_back({point, &opening, rim.is_upper, *nearest});
     }
   }
+  // If most points of a side seem to be on the other one, the surface is at fault: a bridge leads there.
+  std::erase_if(misplaced, [all = misplaced, points](const MisplacedRimPoint& m) {
+    const auto is_fellow = [&](FeaturePointId id) {
+      const RimOfPoint rim = rim_of_point(id);
+      return rim.opening == m.opening && rim.is_upper == m.is_upper;
+    };
+    const auto marked =
+        std::count_if(points.begin(), points.end(), [&](const SurfacePoint& p) { return is_fellow(p.id); });
+    const auto wrong =
+        std::count_if(all.begin(), all.end(), [&](const MisplacedRimPoint& p) { return is_fellow(p.point.id); });
+    return 2 * wrong > marked;
+  });
   return misplaced;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,8 +13,8 @@ namespace semblante {
 struct MisplacedRimPoint {
   SurfacePoint point;
   const mpeg4::Opening* opening = nullptr;
-  bool is_upper = false;                       ///< the side to which the point belongs
-  std::optional<SurfaceVertexId> nearest_own;  ///< the nearest vertex without a point on the right side
+  bool is_upper = false;        ///< the side to which the point belongs
+  SurfaceVertexId nearest_own;  ///< the nearest vertex without a point on the right side
 };
 
 /// The points of lips and lids that are certainly on the wrong side of their opening. The sides are determined along

@@ -181,10 +181,10 @@ std::vector<Defect> make_defects() {
   });
 
   // ---- units
-  add("upper_lids_on_the_lower", Code::unit_not_positive, [](Head& h) {
+  add("upper_lids_on_the_lower", Code::point_on_other_rim, [](Head& h) {
     mark(h, "3.1", vertex(h, "3.3"));
     mark(h, "3.2", vertex(h, "3.4"));
-    return Expected{ids({"3.1", "3.2", "3.3", "3.4"}), place(h, "3.3"), {}};
+    return Expected{ids({"3.1"}), place(h, "3.3"), {}};
   });
   add("base_of_the_nose_on_the_lip", Code::unit_implausible, [](Head& h) {
     mark(h, "9.15", skin_vertex_near(h, 0.5 * (place(h, "8.1") + place(h, "2.2"))));
