@@ -132,7 +132,7 @@ struct ModelRecord {
   FrameWish frame_wish;             ///< the user's settings for it
   std::uint32_t feature_point_count = 0;
   std::uint64_t feature_points_revision = 0;  ///< rises with every PUT; 0: never put
-  FapuByUser fapu;                            ///< set together with the feature points
+  FapuByUser fapu = {};                       ///< set together with the feature points
   std::optional<PackageRecord> package;
   std::vector<WornSet> worn;  ///< by slot name, without displacements
 
