@@ -1342,7 +1342,7 @@ export interface components {
                      */
                     method?: "mirror" | "proportion" | "shape";
                     /**
-                     * @description Of a proposed point: high where expected_error is below 0.07, medium below 0.15, else low
+                     * @description Of a proposed point: high where expected_error is below 0.12, medium below 0.26, else low
                      * @enum {unknown}
                      */
                     confidence?: "high" | "medium" | "low";
