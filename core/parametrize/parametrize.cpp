@@ -14,6 +14,7 @@
 #include "core/geometry/unfolded_surface.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
+#include "core/parametrize/own_shapes.h"
 
 namespace semblante {
 namespace {
@@ -123,6 +124,14 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
   for (const SurfaceVertexId vertex : surface.surface_of) rig.rigid_of_vertex.push_back(motion[vertex.value()]);
 }
 
+Error no_own_shapes(const Model& model) {
+  return {ErrorCode::missing, "/weights",
+          model.examples.empty()
+              ? "fitted weights need shapes of the head's own (morph targets), and the model has none: choose smooth"
+              : "fitted weights need shapes that move some feature points and leave others at rest, and none of the " +
+                    std::to_string(model.examples.size()) + " morph targets of the model does: choose smooth"};
+}
+
 }  // namespace
 
 Result<Rig> parametrize(const Model& model, const Surface& surface, const FeaturePointSet& points,
@@ -140,10 +149,19 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
     unfolded = with_unfolded_diagonals(surface, model.triangles);
     weight_options.distance_graph = &*unfolded;
   }
-  const Result<WeightTable<double>> weights = surface_weights(surface, on_surface, options.progress, weight_options);
-  if (!weights) return weights.error();
-
   rig.parts = describe_parts(model, surface, points, options.roles_by_user);
+  OwnShapes own;
+  if (options.weights == WeightMethod::fitted) {
+    own = own_shapes(model, surface, on_surface);
+    if (own.shapes.empty()) return no_own_shapes(model);
+    weight_options.shapes = own.shapes;
+    for (const Part& part : rig.parts) weight_options.fitted_parts.push_back(part.role == PartRole::skin);
+  }
+  Result<SurfaceWeights> weighed = surface_weights(surface, on_surface, options.progress, weight_options);
+  if (!weighed) return weighed.error();
+  const WeightTable<double>* const weights = &weighed->rows;
+  if (options.weights == WeightMethod::fitted) rig.fit = WeightFit{std::move(weighed->errors), std::move(own.ignored)};
+
   rig.head_pivot = head_pivot(rig.parts, points);
   const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot);
   rig.weights = rows_of_file_vertices(surface, *weights);
@@ -153,9 +171,9 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   for (const SurfaceVertexId vertex : surface.surface_of) {
     rig.part_of_vertex.push_back(surface.part_of[vertex.value()]);
   }
-  // Only for smooth weights: with those of Eq. 4 the skin between facing points follows the points of the other lip and
+  // Not with the weights of Eq. 4: the skin between facing points follows the points of the other lip and
   // of the outer lips as much, so the gaps would mean little.
-  if (options.weights == WeightMethod::smooth) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
+  if (are_shares(options.weights)) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
   rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
   rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);
   if (!turn.empty()) {
@@ -165,7 +183,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   rig.warnings = explain_missing_fapu(rig.fapu, points);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
-  find_moving_parts(model, surface, on_surface, options.weights == WeightMethod::smooth, rig);
+  find_moving_parts(model, surface, on_surface, are_shares(options.weights), rig);
   if (options.progress && !options.progress(1.0, "done")) {
     return Error{ErrorCode::cancelled, "", "stopped on request"};
   }

@@ -24,7 +24,8 @@ struct ParametrizeOptions {
 
 /// FAPUs, regions and weights (Eq. 1 to 4) of one model, and Eq. 7's quotient after applying the roles of parts.
 /// `surface` must be build_surface(model), `points` the result of place_feature_points on them. Fails with `empty` for
-/// a model without triangles and with `cancelled`; missing data become warnings of the rig.
+/// a model without triangles, with `missing` at "/weights" for `fitted` weights of a model without shapes of its own,
+/// and with `cancelled`; missing data become warnings of the rig.
 Result<Rig> parametrize(const Model& model, const Surface& surface, const FeaturePointSet& points,
                         const ParametrizeOptions& options = {});
 

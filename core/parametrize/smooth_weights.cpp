@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/parametrize/cavity_weights.h"
+#include "core/parametrize/greatest_weights.h"
 #include "core/parametrize/site_kriging.h"
 
 namespace semblante {
@@ -23,8 +24,6 @@ constexpr KrigingKernel at_edges = {0.07, 1.2, 0.05};
 /// root gets a share of (1 - sum / full_sum)^root_power, which begins and ends smoothly.
 constexpr double full_sum = 0.8;
 constexpr double root_power = 1.5;
-/// A weight below this has no visible effect and would only take space in the table.
-constexpr double least_weight = 1e-4;
 /// For heads without ES0: it is about this many times the root mean square distance of a face's points to their centre.
 constexpr double eye_separation_per_spread = 0.85;
 /// Parts with points close together (a tongue) get their own unit.
@@ -43,37 +42,6 @@ double unit_length(std::span<const KrigingSite> sites, double eye_separation) {
   const double spread = std::sqrt(sum / static_cast<double>(sites.size()));
   if (!(eye_separation > 0.0)) return eye_separation_per_spread * spread;
   return spread > 0.0 ? std::min(eye_separation, greatest_unit_per_spread * spread) : eye_separation;
-}
-
-/// Keeps the greatest weights and their sum. The greatest dropped weight is subtracted from all of them, so that a
-/// weight is zero when it is dropped. If that would leave almost nothing (many points equally far) no choice is
-/// continuous: then the greatest are kept unchanged, among equal ones those of lower ids.
-void keep_greatest(Row& weights, std::vector<std::size_t>& order) {
-  const auto positive = std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
-  if (static_cast<std::size_t>(positive) <= max_smooth_influences) return;
-  order.resize(weights.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::partial_sort(
-      order.begin(), order.begin() + max_smooth_influences + 1, order.end(),
-      [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
-  const double first_out = weights[order[max_smooth_influences]];
-  if (!(first_out > 0.0)) return;
-  const double all = sum_of(weights);
-  double kept = 0.0;
-  double lowered = 0.0;
-  for (std::size_t k = 0; k < max_smooth_influences; ++k) {
-    kept += weights[order[k]];
-    lowered += weights[order[k]] - first_out;
-  }
-  const double share = std::min(1.0, lowered / (all / 4.0));  // of the continuous choice
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    double& w = weights[order[k]];
-    if (k >= max_smooth_influences) {
-      w = 0.0;
-    } else {
-      w = all * ((share > 0.0 ? share * (w - first_out) / lowered : 0.0) + (1.0 - share) * w / kept);
-    }
-  }
 }
 
 /// Brings the sum to 1 - (1 - sum / full_sum)^root_power.
@@ -121,6 +89,10 @@ std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, st
 }
 
 }  // namespace
+
+double weight_unit(const PointDistances& distances, double eye_separation) {
+  return unit_length(point_sites(distances), eye_separation);
+}
 
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins, const WeightPrior& prior) {

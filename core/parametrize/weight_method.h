@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -11,8 +12,9 @@ namespace semblante {
 enum class WeightMethod : std::uint8_t {
   paper,   ///< W of Eq. 1 to 4, exactly; Eq. 7 divides them by their sum
   smooth,  ///< kriging without negative weights: continuous over the surface, at most 8 points per vertex
+  fitted,  ///< smooth weights, fitted to the head's own shapes
 };
-inline constexpr std::array<std::string_view, 2> weight_method_names = {"paper", "smooth"};
+inline constexpr std::array<std::string_view, 3> weight_method_names = {"paper", "smooth", "fitted"};
 
 /// Whether a row of weights is the shares by which a vertex follows its points, D_P = sum(w D), the remainder of a row
 /// to 1 belonging to points that never move. False: W of Eq. 4, which Eq. 7 divides by their sum.
@@ -27,8 +29,9 @@ inline constexpr std::array<std::string_view, 2> distance_metric_names = {"edge"
 
 /// The method or metric of that name; empty for any other.
 inline std::optional<WeightMethod> parse_weight_method(std::string_view name) {
-  if (name == weight_method_names[0]) return WeightMethod::paper;
-  if (name == weight_method_names[1]) return WeightMethod::smooth;
+  for (std::size_t i = 0; i < weight_method_names.size(); ++i) {
+    if (name == weight_method_names[i]) return static_cast<WeightMethod>(i);
+  }
   return std::nullopt;
 }
 inline std::optional<DistanceMetric> parse_distance_metric(std::string_view name) {

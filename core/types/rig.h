@@ -14,6 +14,7 @@
 #include "core/types/fapu.h"
 #include "core/types/feature_points.h"
 #include "core/types/moving_parts.h"
+#include "core/types/weight_fit.h"
 #include "core/types/weight_table.h"
 
 namespace semblante {
@@ -48,7 +49,8 @@ struct Part {
 struct Rig {
   FeaturePointSet points;
   Fapu fapu;
-  /// #V rows: W of Eq. 4, surface weights only, before roles and the quotient of Eq. 7; for `smooth` weights, shares.
+  /// #V rows: W of Eq. 4, surface weights only, before roles and the quotient of Eq. 7; shares where
+  /// are_shares(method).
   WeightTable<double> weights;
   WeightTable<float> influence;              ///< #V rows: normalized W/sum(W) of Eq. 7, with the roles of parts applied
   std::vector<RigidMotion> rigid_of_vertex;  ///< #V
@@ -65,6 +67,7 @@ struct Rig {
   std::array<std::optional<Lids>, 2> lids;    ///< left, right; empty: the lids move by Eq. 7 alone
   glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
   double articulation = usual_articulation;   ///< the multiple of the library's opening of the jaw in visemes
+  std::optional<WeightFit> fit;               ///< only of `fitted` weights
   std::vector<std::string> warnings;          ///< texts: what is missing, and what does not move without it
 };
 

@@ -27,7 +27,7 @@ WeightTable<double> weights_of(const Model& model, const FeaturePointSet& points
   const Surface surface = build_surface(model);
   const auto weights = surface_weights(surface, surface_points(surface, points));
   EXPECT_TRUE(weights);
-  return rows_of_file_vertices(surface, *weights);
+  return rows_of_file_vertices(surface, weights->rows);
 }
 
 std::map<FeaturePointId, double> row_of(const WeightTable<double>& table, std::size_t vertex) {

@@ -22,7 +22,7 @@ WeightTable<double> smooth(const Model& model, Marks marks, double eye_separatio
   auto table = surface_weights(surface, surface_points(surface, testing::points_at(model, marks)), {},
                                {WeightMethod::smooth, eye_separation, nullptr});
   EXPECT_TRUE(table);
-  return rows_of_file_vertices(surface, *table);
+  return rows_of_file_vertices(surface, table->rows);
 }
 
 double weight_of(const WeightTable<double>& table, std::uint32_t vertex, std::string_view name) {
@@ -121,7 +121,9 @@ TEST(SmoothWeights_Rows, HaveNoSteps) {
     for (FeaturePoint& p : points) p.vertex = VertexId(fine_at(p.vertex->value()));
     const Surface surface = build_surface(model);
     const auto table =
-        surface_weights(surface, surface_points(surface, points), {}, {WeightMethod::smooth, 25.0, nullptr}).value();
+        surface_weights(surface, surface_points(surface, points), {}, {WeightMethod::smooth, 25.0, nullptr})
+            .value()
+            .rows;
     double greatest = 0.0;
     for (std::uint32_t v = 0; v < table.row_count(); ++v) {
       for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(v))) {

@@ -32,7 +32,7 @@ WeightTable<double> weights_on(const Model& model,
   const Surface surface = build_surface(model);
   auto weights = surface_weights(surface, surface_points(surface, testing::points_at(model, marks)));
   EXPECT_TRUE(weights);
-  return rows_of_file_vertices(surface, *weights);
+  return rows_of_file_vertices(surface, weights->rows);
 }
 
 /// Points 2.1, 2.2, 2.3 at b0, b4, b8 of a strip of eight squares; t0 is vertex 9.
