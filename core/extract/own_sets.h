@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/extract/named_set.h"
+#include "core/types/feature_points.h"
+#include "core/types/model.h"
+#include "core/types/result.h"
+
+namespace semblante {
+
+/// The visemes and expressions of a head that its own shapes (morph targets) show.
+struct OwnSets {
+  std::vector<NamedSet> sets;      ///< with the library's names, in its order: visemes, then expressions
+  std::vector<std::string> words;  ///< what they were taken from, which are missing and why
+};
+
+/// Looks for each viseme of FAP 1 and each expression of FAP 2 among the model's shapes:
+///
+/// 1. a shape of its name: the names of Oculus Lipsync and VRM, as avatars spell them (viseme_PP, Fcl_MTH_A,
+/// Fcl_ALL_Joy),
+///    or the library's own;
+/// 2. else the sum of ARKit's shapes that arkit_from_frame gives for it, if the model has most of them.
+///
+/// `points`, `fapu`: of the neutral head. Errors: `missing` at "/expressions" for a model without any of them.
+Result<OwnSets> own_sets(const Model& model, const FeaturePointSet& points, const Fapu& fapu);
+
+/// Adds the sets whose names are not among `worn` yet: what a user chose by hand stays.
+void wear_own(std::vector<NamedSet>& worn, std::vector<NamedSet> own);
+
+}  // namespace semblante
