@@ -35,6 +35,16 @@ std::vector<std::uint32_t> read_budgets(const JsonBody& lods, std::uint32_t vert
   return budgets;
 }
 
+/// Whether the shapes fit is found by the worker; that there are none is known before.
+void refuse_without_shapes(const jobs::ParametrizeJob& options, const store::ModelRecord& model) {
+  if (!model.morph_targets.empty()) return;
+  const char* const asking = options.weights == "fitted"    ? "/weights"
+                             : options.expressions == "own" ? "/expressions"
+                                                            : nullptr;
+  if (asking != nullptr)
+    refuse("invalid-field", "it needs shapes of the head's own (morph targets), and the model has none", asking);
+}
+
 jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) {
   refuse_unknown_members(body, body_members::create_parametrization);
   jobs::ParametrizeJob options;
@@ -45,8 +55,13 @@ jobs::ParametrizeJob read_options(const JsonBody& body, std::uint32_t vertices) 
   }
   if (body.contains("weights")) {
     if (!body["weights"].is_string() || !parse_weight_method(body["weights"].get<std::string>()))
-      refuse("invalid-field", "it must be \"paper\" or \"smooth\"", "/weights");
+      refuse("invalid-field", "it must be \"paper\", \"smooth\" or \"fitted\"", "/weights");
     options.weights = body["weights"].get<std::string>();
+  }
+  if (body.contains("expressions")) {
+    if (body["expressions"] != "library" && body["expressions"] != "own")
+      refuse("invalid-field", "it must be \"library\" or \"own\"", "/expressions");
+    options.expressions = body["expressions"].get<std::string>();
   }
   if (body.contains("weight_bits")) {
     const auto& bits = body["weight_bits"];
@@ -84,6 +99,7 @@ http::Response create_parametrization(Context& context, http::Request& request) 
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) return earlier_job(context, *check.earlier);
   refuse_unless_imported(model);
+  refuse_without_shapes(options, model);
   if (model.feature_point_count == 0)
     refuse("missing-feature-points", "no feature point is marked on this model", "/points");
   refuse_unless_room(context.jobs);

@@ -108,8 +108,9 @@ Fapu fapu_of(const HeadOptions& options) {
 void add_rig_options(CLI::App& command, HeadOptions& options) {
   command
       .add_option("--weights", options.weights,
-                  "How the points' weights are computed: paper (Eq. 1 to 4), or smooth (no creases, 8 points a vertex)")
-      ->check(CLI::IsMember({"paper", "smooth"}))
+                  "How the points' weights are computed: paper (Eq. 1 to 4), smooth (no creases, 8 points a vertex), "
+                  "or fitted (smooth, fitted to the morph targets of the head)")
+      ->check(CLI::IsMember(std::vector<std::string>(weight_method_names.begin(), weight_method_names.end())))
       ->capture_default_str()
       ->envname("SEMBLANTE_WEIGHTS");
   command

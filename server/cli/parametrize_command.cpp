@@ -1,10 +1,13 @@
 #include <charconv>
 #include <filesystem>
+#include <iomanip>
+#include <iostream>
 #include <memory>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "core/extract/own_sets.h"
 #include "core/pipeline/levelled.h"
 #include "protocol/package/pack_head.h"
 #include "server/cli/command_failure.h"
@@ -24,6 +27,7 @@ struct ParametrizeCommand {
   std::string name;
   int weight_bits = 12;
   std::vector<std::string> lods;
+  std::string expressions = "library";
 };
 
 /// Writes one level's package as files, with the same names as in the URLs for clients.
@@ -62,8 +66,28 @@ std::vector<std::uint32_t> budgets_of(const ParametrizeCommand& options, const M
   return budgets;
 }
 
-std::vector<FacePackage> pack(const LevelledHead& head, const ParametrizeCommand& options, const Progress& progress) {
+/// The head's own visemes and expressions, if they are asked for; what was found becomes remarks of the command.
+std::vector<NamedSet> worn_by(const Head& head, const ParametrizeCommand& options, std::vector<std::string>& remarks) {
+  if (options.expressions != "own") return {};
+  auto own = own_sets(head.model, head.points, head.rig.fapu);
+  if (!own) fail("--expressions own", own.error());
+  remarks.insert(remarks.end(), own->words.begin(), own->words.end());
+  return std::move(own->sets);
+}
+
+/// "fitted to 19 shapes: ..." on stderr.
+void print_fit(const WeightFit& fit) {
+  std::cerr << std::fixed << std::setprecision(3) << "semblante: fitted to " << fit.shapes.size()
+            << " shapes of the head; mean error of a shape predicted by a fit to the others " << fit.error()
+            << " (smooth weights " << fit.smooth_error() << ", no motion 1)\n";
+  if (!fit.ignored.empty())
+    std::cerr << "semblante: not fitted to " << fit.ignored.size() << " shapes that move no feature point, or all\n";
+}
+
+std::vector<FacePackage> pack(const LevelledHead& head, const ParametrizeCommand& options, std::vector<NamedSet> worn,
+                              const Progress& progress) {
   PackageOptions package_options;
+  package_options.worn = std::move(worn);
   package_options.name =
       options.name.empty() ? std::filesystem::path(options.head.model_path).stem().string() : options.name;
   package_options.weight_bits = options.weight_bits;
@@ -76,12 +100,13 @@ void write_packages(Head& head, const ParametrizeCommand& options) {
   const ProgressLine line(options.head.quiet);
   const Progress progress = line.progress();
   auto budgets = budgets_of(options, head.model);
+  auto worn = worn_by(head, options, head.remarks);
   // What the stages made is moved; the command's remarks stay.
   auto levelled =
       level_head(std::move(static_cast<RiggedHead&>(head)), std::move(budgets), part_of(progress, 0.0, 0.5));
   if (!levelled) fail(options.head.model_path, levelled.error());
   const std::filesystem::path folder(options.out);
-  const auto packages = pack(*levelled, options, part_of(progress, 0.5, 1.0));
+  const auto packages = pack(*levelled, options, std::move(worn), part_of(progress, 0.5, 1.0));
   for (std::size_t lod = 0; lod < packages.size(); ++lod) {
     write_package(packages[lod], lod == 0 ? folder : folder / ("lod" + std::to_string(lod)));
   }
@@ -98,6 +123,7 @@ void run(const ParametrizeCommand& options) {
                [&](std::ostream& out) { write_weights_json(head.rig, rig_request(options.head), out); });
   }
   if (!options.out.empty()) write_packages(head, options);
+  if (head.rig.fit && !options.head.quiet) print_fit(*head.rig.fit);
   print_warnings(head.all_warnings(), options.head.quiet);
 }
 
@@ -117,6 +143,13 @@ void add_parametrize_command(CLI::App& app) {
   command->add_option("--out", options->out, "Write the face package into this folder")->envname("SEMBLANTE_OUT");
   command->add_option("--name", options->name, "Name of the model in the package; else that of its file")
       ->envname("SEMBLANTE_NAME");
+  command
+      ->add_option("--expressions", options->expressions,
+                   "Visemes and expressions of the package: library, or own, those of the head's own morph targets "
+                   "where it has them")
+      ->check(CLI::IsMember({"library", "own"}))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_EXPRESSIONS");
   command->add_option("--weight-bits", options->weight_bits, "Bits of a weight in the package")
       ->check(CLI::Range(8, 16))
       ->capture_default_str()

@@ -5,6 +5,10 @@
 #include <ostream>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
+#include "server/report/fit_json.h"
+
 namespace semblante {
 
 void write_weights_json(const Rig& rig, const RigRequest& made, std::ostream& out) {
@@ -14,9 +18,11 @@ void write_weights_json(const Rig& rig, const RigRequest& made, std::ostream& ou
   const auto name_of = [](const auto& names, auto value) {
     return std::string(names[static_cast<std::size_t>(value)]);
   };
+  constexpr auto replaced = nlohmann::ordered_json::error_handler_t::replace;
   std::string text = "{\"weights\": \"" + name_of(weight_method_names, made.weights);
   text += "\", \"metric\": \"" + name_of(distance_metric_names, made.metric);
   text += std::string("\", \"shares\": ") + (are_shares(made.weights) ? "true" : "false");
+  if (rig.fit) text += ",\n\"fit\": " + weight_fit_json(*rig.fit).dump(-1, ' ', false, replaced);
   text += ",\n\"points\": [";
   for (std::size_t i = 0; i < rig.points.size(); ++i) {
     if (i > 0) text += ", ";

@@ -6,12 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/doctor/examine.h"
+#include "core/extract/own_sets.h"
 #include "core/extract/set_file.h"
 #include "core/pipeline/levelled.h"
 #include "protocol/package/pack_head.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"
+#include "server/report/fit_json.h"
 #include "server/report/levels_json.h"
 #include "server/store/frame_json.h"
 #include "server/store/record_json.h"
@@ -74,16 +76,25 @@ Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, Resu
   Report report;
   const auto head = make_head(request, *rig, progress, report);
   if (!head) return head.error();
+  std::vector<NamedSet> worn = request.worn;
+  std::vector<std::string> own_words;
+  if (request.options.expressions == "own") {
+    auto own = own_sets(head->model, head->points, head->rig.fapu);
+    if (!own) return own.error();
+    wear_own(worn, std::move(own->sets));
+    own_words = std::move(own->words);
+  }
   const auto errors = measure_levels(*head, part_of(progress, 0.82, 0.86));
   if (!errors) return errors.error();
-  const auto packages =
-      pack_head(*head, {request.model_name, request.options.weight_bits, request.worn}, part_of(progress, 0.86, 0.96));
+  const auto packages = pack_head(*head, {request.model_name, request.options.weight_bits, std::move(worn)},
+                                  part_of(progress, 0.86, 0.96));
   if (!packages) return packages.error();
 
   if (auto told = report_progress(progress, 0.96, "writing"); !told) return told.error();
   Outcome outcome;
   outcome.parts = records_of(head->rig.parts);
   outcome.warnings = head->warnings.all();
+  outcome.warnings.insert(outcome.warnings.end(), own_words.begin(), own_words.end());
   outcome.findings = counts_of(report);
   outcome.frame.frame = head->frame;
   std::tie(outcome.frame.box_min, outcome.frame.box_max) = box_of(head->model);
@@ -91,8 +102,9 @@ Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, Resu
   if (auto written = files.write_packages(*packages); !written) return written.error();
   const double eye_separation = 1024.0 * head->rig.fapu[FapuUnit::es].value_or(0.0);
   auto levels = levels_of_detail_json(head->levels, *errors, head->poses, eye_separation, head->missed);
-  if (auto written = files.write_report(report, head->frame, request.head.model.frame_wish,
-                                        {{"levels_of_detail", std::move(levels)}});
+  std::vector<ReportSection> sections = {{"levels_of_detail", std::move(levels)}};
+  if (head->rig.fit) sections.push_back({"weight_fit", weight_fit_json(*head->rig.fit)});
+  if (auto written = files.write_report(report, head->frame, request.head.model.frame_wish, std::move(sections));
       !written)
     return written.error();
   if (head->turn) {
@@ -113,7 +125,11 @@ std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome o
 }
 
 void to_json(nlohmann::json& json, const ParametrizeJob& job) {
-  json = {{"metric", job.metric}, {"weights", job.weights}, {"weight_bits", job.weight_bits}, {"lods", job.lods}};
+  json = {{"metric", job.metric},
+          {"weights", job.weights},
+          {"weight_bits", job.weight_bits},
+          {"lods", job.lods},
+          {"expressions", job.expressions}};
   if (job.articulation != usual_articulation) json["articulation"] = job.articulation;
 }
 
@@ -123,6 +139,7 @@ void from_json(const nlohmann::json& json, ParametrizeJob& job) {
   json.at("weight_bits").get_to(job.weight_bits);
   job.articulation = json.value("articulation", usual_articulation);
   json.at("lods").get_to(job.lods);
+  job.expressions = json.value("expressions", "library");  // jobs of earlier versions do not say
 }
 
 void to_json(nlohmann::json& json, const ParametrizeJob::Request& request) {

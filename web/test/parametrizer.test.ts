@@ -18,5 +18,7 @@ test('Run_NothingChosen_AsksForTheLevelsThatSuitTheHead', async () => {
   const points = { draft: { changes: 0 } } as unknown as PointsModel;
   await new Parametrizer(studio, points).run();
   // Left out, `lods` means none: see openapi.json.
-  expect(asked).toEqual([{ weights: 'smooth', metric: 'edge', articulation: 1, lods: 'auto' }]);
+  expect(asked).toEqual([
+    { weights: 'smooth', metric: 'edge', articulation: 1, expressions: 'library', lods: 'auto' },
+  ]);
 });

@@ -1032,6 +1032,21 @@ export interface components {
                 threshold: number;
             } | null;
         };
+        /** @description How well fitted weights predict the model's own shapes, each by a fit to the others: sum of squared errors of the skin / sum of squared displacements. A member of report.json where weights are fitted */
+        WeightFit: {
+            /** @description Mean of the shapes; 1 is a face that does not move */
+            error: number;
+            /** @description The same of smooth weights */
+            smooth_error: number;
+            shapes: {
+                name: string;
+                /** @description Null for a shape that does not move the skin */
+                error: number | null;
+                smooth_error: number | null;
+            }[];
+            /** @description Shapes that move no point, or all */
+            ignored: string[];
+        };
         Report: {
             /** @constant */
             version: 1;
@@ -1040,6 +1055,7 @@ export interface components {
             findings: components["schemas"]["Finding"][];
             frame?: components["schemas"]["ModelFrame"];
             levels_of_detail?: components["schemas"]["LevelsOfDetail"];
+            weight_fit?: components["schemas"]["WeightFit"];
         };
         /** @description Lengths in model units, MPEG-4 axes. protocol/SPEC.md describes every member; unknown ones are to be skipped */
         Rig: {
@@ -2533,10 +2549,17 @@ export interface operations {
                      */
                     metric?: "edge" | "unfolded";
                     /**
+                     * @description fitted: smooth weights, fitted to the model's own shapes (morph targets) that move some feature points and leave others at rest; report.json has the error of each shape predicted by a fit to the others
                      * @default paper
                      * @enum {unknown}
                      */
-                    weights?: "paper" | "smooth";
+                    weights?: "paper" | "smooth" | "fitted";
+                    /**
+                     * @description own: visemes and expressions are those of the model's own shapes (morph targets), found by the names of Oculus Lipsync, VRM or ARKit; sets chosen for the model by hand stay, and warnings of rig.json say which were found. library: those of the server
+                     * @default library
+                     * @enum {unknown}
+                     */
+                    expressions?: "library" | "own";
                     /** @default 12 */
                     weight_bits?: number;
                     /**

@@ -9,6 +9,11 @@ interface Choice {
 
 const weightChoices: readonly Choice[] = [
   { value: 'smooth', title: 'Smooth skin', note: 'Weights fade out smoothly: looks best.' },
+  {
+    value: 'fitted',
+    title: 'Fitted to its own shapes',
+    note: 'Smooth weights, fitted to the morph targets of the model; a model without any is refused.',
+  },
   { value: 'paper', title: 'As in the paper', note: 'Weights exactly as published, Eq. 1 to 4.' },
 ];
 const metricChoices: readonly Choice[] = [
@@ -20,6 +25,14 @@ const articulationChoices: readonly Choice[] = [
   { value: '1', title: 'Usual', note: 'The jaw opens as far as that of an adult who talks.' },
   { value: '1.5', title: 'Clear', note: 'The jaw opens half as far again.' },
   { value: '2.5', title: 'Cartoon', note: 'The jaw opens two and a half times as far.' },
+];
+const expressionChoices: readonly Choice[] = [
+  { value: 'library', title: 'Of the library', note: 'Visemes and expressions that fit every head.' },
+  {
+    value: 'own',
+    title: 'Its own',
+    note: 'Visemes and expressions of the model (its morph targets), where it has them.',
+  },
 ];
 const levelChoices: readonly Choice[] = [
   { value: 'auto', title: 'Automatic', note: 'Several levels with fewer vertices, for phones and crowds.' },
@@ -51,6 +64,9 @@ export class ParametrizeOptions {
   );
   private readonly articulation = this.field('Articulation', articulationChoices, (value) =>
     this.parametrizer.set({ articulation: Number(value) }),
+];
+  private readonly expressions = this.field('Expressions', expressionChoices, (value) =>
+    this.parametrizer.set({ expressions: value as ChosenOptions['expressions'] }),
   );
   private readonly levels = this.field('Levels', levelChoices, (value) => this.setLevels(value));
 
@@ -62,6 +78,7 @@ export class ParametrizeOptions {
       this.weights.element,
       this.metric.element,
       this.articulation.element,
+      this.expressions.element,
       this.levels.element,
       this.budgets,
     );
@@ -69,6 +86,7 @@ export class ParametrizeOptions {
       const levels = options.lods === 'auto' ? 'auto' : options.lods.length === 0 ? 'none' : 'own';
       const titles = [this.weights.show(options.weights), this.metric.show(options.metric)];
       this.articulation.show(String(options.articulation));
+      this.expressions.show(options.expressions);
       this.levels.show(levels);
       this.budgets.hidden = levels !== 'own';
       setText(this.summary, titles.join(' · '));

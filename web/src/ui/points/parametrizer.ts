@@ -10,7 +10,13 @@ export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>
 
 /** Starts parametrizations with the chosen options and reports the outcome. */
 export class Parametrizer {
-  readonly options = new Signal<ChosenOptions>({ weights: 'smooth', metric: 'edge', articulation: 1, lods: 'auto' });
+  readonly options = new Signal<ChosenOptions>({
+    weights: 'smooth',
+    metric: 'edge',
+    articulation: 1,
+    expressions: 'library',
+    lods: 'auto',
+  });
 
   constructor(
     private readonly studio: Studio,
