@@ -66,7 +66,7 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
-  for (const glm::dvec3& t : near) touching += static_cast<std::size_t>(near_part.nearest(t).distance < touch);
+  for (const glm::dvec3& t : near) touching += static_cast<std::size_t>(near_part.has_within(t, touch));
   // Gums touch many vertices of the teeth (a quarter of them on the head used for tests); a tongue at rest touches them
   // only with its tip (one in fifty).
   if (touching * 10 < teeth.size()) return {};
@@ -75,7 +75,7 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t m = 0; m < members.size(); ++m) {
     // Half the distance, because the borders of the tongue are close to the teeth too.
-    if (near_teeth.nearest(positions[m]).distance < 0.5 * touch) sockets.push_back(members[m]);
+    if (near_teeth.has_within(positions[m], 0.5 * touch)) sockets.push_back(members[m]);
   }
   return sockets;
 }

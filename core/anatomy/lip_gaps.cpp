@@ -61,10 +61,15 @@ double share_of(const WeightTable<float>& rows, std::size_t vertex, FeaturePoint
   return at != points.end() ? rows.weights_of(vertex)[static_cast<std::size_t>(at - points.begin())] : 0.0;
 }
 
-double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, std::span<const std::string_view> names) {
+std::vector<FeaturePointId> ids_of_names(std::span<const std::string_view> names) {
+  std::vector<FeaturePointId> ids;
+  for (const std::string_view name : names) ids.push_back(*parse_feature_point(name));
+  return ids;
+}
+
+double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, std::span<const FeaturePointId> ids) {
   double sum = 0.0;
-  for (const std::string_view name : names) {
-    const FeaturePointId id = *parse_feature_point(name);
+  for (const FeaturePointId id : ids) {
     for (const std::uint32_t corner : t) sum += share_of(rows, corner, id);
   }
   return sum;
@@ -75,13 +80,15 @@ class Lips {
  public:
   Lips(const Model& model, const Rig& rig, double from_x, double to_x)
       : from_x_(from_x), step_((to_x - from_x) / static_cast<double>(columns - 1)) {
+    const std::vector<FeaturePointId> of_upper = ids_of_names(mpeg4::mouth.upper_flesh);
+    const std::vector<FeaturePointId> of_lower = ids_of_names(mpeg4::mouth.lower_flesh);
     for (const Triangle& t : model.triangles) {
       if (rig.parts[rig.part_of_vertex[t[0]].value()].role != PartRole::skin) continue;
       const auto [least, greatest] =
           std::minmax({model.positions[t[0]].x, model.positions[t[1]].x, model.positions[t[2]].x}, std::less<float>());
       if (least >= to_x || greatest <= from_x) continue;
-      const double upper = sum_of_shares(rig.influence, t, mpeg4::mouth.upper_flesh) / 3.0;
-      const double lower = sum_of_shares(rig.influence, t, mpeg4::mouth.lower_flesh) / 3.0;
+      const double upper = sum_of_shares(rig.influence, t, of_upper) / 3.0;
+      const double lower = sum_of_shares(rig.influence, t, of_lower) / 3.0;
       if (std::max(upper, lower) < least_share || upper == lower) continue;
       add(model, rig, t, upper > lower);
     }

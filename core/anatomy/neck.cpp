@@ -201,19 +201,24 @@ std::vector<bool> skin_of(const Surface& surface, std::span<const Part> parts) {
   return is_skin;
 }
 
-/// Whether a part hangs on the body: most of it is below the chin, and most of the skin beneath it does not turn.
+/// Whether most of a part is below the chin.
+bool is_below_chin(const Surface& surface, PartId part, const Landmarks& marks) {
+  const auto members = surface.members_of(part);
+  const auto below = std::count_if(members.begin(), members.end(),
+                                   [&](SurfaceVertexId v) { return surface.positions[v.value()].y < marks.chin.y; });
+  return 2 * static_cast<std::size_t>(below) > members.size();
+}
+
+/// Whether a part below the chin hangs on the body: most of the skin beneath it does not turn.
 bool hangs_on_body(const Surface& surface, PartId part, const NearestPoint& skin,
-                   std::span<const std::uint8_t> turn_of_skin, const Landmarks& marks) {
+                   std::span<const std::uint8_t> turn_of_skin) {
   double turn = 0.0;
-  std::size_t below = 0;
   const auto members = surface.members_of(part);
   for (const SurfaceVertexId v : members) {
-    const glm::dvec3& p = surface.positions[v.value()];
-    turn += turn_of_skin[skin.nearest(p).index];
-    below += p.y < marks.chin.y ? 1 : 0;
+    turn += turn_of_skin[skin.nearest(surface.positions[v.value()]).index];
   }
   const auto count = static_cast<double>(members.size());
-  return 2 * below > members.size() && turn < 0.5 * 255.0 * count;
+  return turn < 0.5 * 255.0 * count;
 }
 
 bool may_be_body(const Part& part) {
@@ -258,10 +263,11 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
     skin.push_back(surface.positions[s]);
     turn_of_skin.push_back(turn[s]);
   }
-  const NearestPoint nearest(skin);
+  std::optional<NearestPoint> nearest;  // made for the first part that needs it: most heads have none
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (may_be_body(parts[p]) && hangs_on_body(surface, PartId(p), nearest, turn_of_skin, *marks)) {
-      parts[p].role = PartRole::body;
+    if (may_be_body(parts[p]) && is_below_chin(surface, PartId(p), *marks)) {
+      if (!nearest) nearest.emplace(skin);
+      if (hangs_on_body(surface, PartId(p), *nearest, turn_of_skin)) parts[p].role = PartRole::body;
     }
     if (parts[p].role != PartRole::body) continue;
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) turn[v.value()] = 0;

@@ -50,8 +50,7 @@ glm::dvec3 length_axis(const Surface& surface, const std::vector<double>& share,
 }  // namespace
 
 std::optional<TongueOfHead> find_tongue(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const SurfacePoint> points) {
-  const std::vector<MouthShare> mouth = share_of_jaw(surface, parts, points);
+                                        std::span<const SurfacePoint> points, std::span<const MouthShare> mouth) {
   TongueOfHead tongue;
   tongue.share.resize(surface.vertex_count());
   double total = 0.0;

@@ -60,4 +60,13 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
   return {index, std::sqrt(squared)};
 }
 
+bool NearestPoint::has_within(const glm::dvec3& to, double distance) const {
+  // Equal to the bound is not nearer: index 0 has no lower one.
+  std::uint32_t index = 0;
+  const double bound = distance * distance;
+  double squared = bound;
+  search(0, nodes_.size(), 0, to, index, squared);
+  return squared < bound;
+}
+
 }  // namespace semblante

@@ -20,6 +20,8 @@ class NearestPoint {
   explicit NearestPoint(std::span<const glm::dvec3> points);
 
   [[nodiscard]] Hit nearest(const glm::dvec3& to) const;
+  /// Whether a point is nearer than `distance`: much faster than `nearest` where most are farther.
+  [[nodiscard]] bool has_within(const glm::dvec3& to, double distance) const;
 
  private:
   struct Node {

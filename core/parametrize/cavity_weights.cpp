@@ -22,8 +22,11 @@ constexpr Fade mouth_fade = {0.20, 0.22};
 constexpr double lip = 0.10;
 constexpr Fade socket_fade = {0.05, 0.055};
 /// Sweeps end when no weight changes by more; the start is close to the solution.
-constexpr double least_change = 1e-3;
+constexpr double least_change = 2e-3;
 constexpr int most_sweeps = 100;
+/// Steps go beyond each equation's own solution (successive over-relaxation), from the rim inwards: that converges in
+/// about a fifth of the sweeps.
+constexpr double over_relaxation = 1.6;
 
 /// The unknown rows and the equations between them.
 class Diffusion {
@@ -39,10 +42,7 @@ class Diffusion {
   void solve() {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       double change = 0.0;
-      const bool forward = sweep % 2 == 0;
-      for (std::size_t k = 0; k < order_.size(); ++k) {
-        change = std::max(change, relax(order_[forward ? k : order_.size() - 1 - k]));
-      }
+      for (const std::uint32_t member : order_) change = std::max(change, relax(member));
       if (change < least_change) break;
     }
   }
@@ -59,6 +59,7 @@ class Diffusion {
   struct Link {
     std::uint32_t row;  ///< of rows_
     double length;
+    double weight;  ///< 1 / length^2
   };
 
   /// Rows 0 to #members - 1 are the members'; those of the rim follow.
@@ -73,7 +74,8 @@ class Diffusion {
           row = rim.try_emplace(step.to, static_cast<std::uint32_t>(cavity_.members.size() + rim.size())).first->second;
           if (row - cavity_.members.size() == rim_.size()) rim_.push_back(step.to);
         }
-        links_.push_back({row, std::max(step.length / unit_, shortest_link)});
+        const double length = std::max(step.length / unit_, shortest_link);
+        links_.push_back({row, length, 1.0 / (length * length)});
       }
       link_offsets_.push_back(static_cast<std::uint32_t>(links_.size()));
     }
@@ -151,17 +153,17 @@ class Diffusion {
     sums_.assign(ids_.size(), 0.0);
     if (jaw_column_ < ids_.size()) sums_[jaw_column_] = pull * jaw_share_[m];
     for (const Link& link : links) {
-      const double weight = 1.0 / (link.length * link.length);
-      all += weight;
+      all += link.weight;
       const double* const other = &rows_[link.row * ids_.size()];
-      for (std::size_t c = 0; c < ids_.size(); ++c) sums_[c] += weight * other[c];
+      for (std::size_t c = 0; c < ids_.size(); ++c) sums_[c] += link.weight * other[c];
     }
     double* const own = &rows_[m * ids_.size()];
     double change = 0.0;
+    const double share = 1.0 / all;
     for (std::size_t c = 0; c < ids_.size(); ++c) {
-      const double value = sums_[c] / all;
-      change = std::max(change, std::abs(value - own[c]));
-      own[c] = value;
+      const double step = over_relaxation * (sums_[c] * share - own[c]);
+      change = std::max(change, std::abs(step));
+      own[c] += step;
     }
     return change;
   }

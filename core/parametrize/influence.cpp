@@ -116,12 +116,11 @@ class AttachedVertices {
 }  // namespace
 
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights,
-                                        WeightMethod method) {
+                                        std::span<const SurfacePoint> points, std::span<const MouthShare> mouth,
+                                        const WeightTable<double>& weights, WeightMethod method) {
   const std::optional<FeaturePointId> jaw = parse_feature_point("2.1");
   const bool has_jaw = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.id == *jaw; });
   const AttachedVertices attached(surface, parts);
-  const std::vector<MouthShare> mouth = share_of_jaw(surface, parts, points);
 
   WeightTable<float> table;
   InfluenceRow row(method);

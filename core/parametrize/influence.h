@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/anatomy/jaw_share.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_method.h"
@@ -25,7 +26,7 @@ namespace semblante {
 /// A part with both rows of teeth (gums with the tongue, joined at the throat) follows the jaw fully at the lower
 /// teeth, not at all at the upper ones, and in between by the distances to both.
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const SurfacePoint> points, const WeightTable<double>& weights,
-                                        WeightMethod method = WeightMethod::paper);
+                                        std::span<const SurfacePoint> points, std::span<const MouthShare> mouth,
+                                        const WeightTable<double>& weights, WeightMethod method = WeightMethod::paper);
 
 }  // namespace semblante

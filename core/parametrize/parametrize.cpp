@@ -88,8 +88,8 @@ void find_rolling_lids(const Surface& surface, const std::vector<SurfacePoint>& 
 }
 
 /// Data for the FAPs that move parts: the places and vertices of irises (FAPs 29, 30), lids and tongue (47).
-void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, bool rolls,
-                       Rig& rig) {
+void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
+                       std::span<const MouthShare> mouth, bool rolls, Rig& rig) {
   std::vector<RigidMotion> motion(surface.vertex_count(), RigidMotion::none);
   for (std::size_t s = 0; s < motion.size(); ++s)
     motion[s] = rigid_motion_of(rig.parts[surface.part_of[s].value()].role);
@@ -112,7 +112,7 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
     }
   }
   if (rolls) find_rolling_lids(surface, points, rig, motion);
-  if (const auto tongue = find_tongue(surface, rig.parts, points)) {
+  if (const auto tongue = find_tongue(surface, rig.parts, points, mouth)) {
     rig.tongue = tongue->shape;
     for (std::size_t s = 0; s < motion.size(); ++s) {
       if (tongue->share[s] > 0.0) motion[s] = tongue_motion(tongue->share[s]);
@@ -165,8 +165,9 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   rig.head_pivot = head_pivot(rig.parts, points);
   const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot);
   rig.weights = rows_of_file_vertices(surface, *weights);
-  rig.influence =
-      rows_of_file_vertices(surface, influence_with_roles(surface, rig.parts, on_surface, *weights, options.weights));
+  const std::vector<MouthShare> mouth = share_of_jaw(surface, rig.parts, on_surface);
+  rig.influence = rows_of_file_vertices(
+      surface, influence_with_roles(surface, rig.parts, on_surface, mouth, *weights, options.weights));
   rig.part_of_vertex.reserve(surface.surface_of.size());
   for (const SurfaceVertexId vertex : surface.surface_of) {
     rig.part_of_vertex.push_back(surface.part_of[vertex.value()]);
@@ -183,7 +184,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   rig.warnings = explain_missing_fapu(rig.fapu, points);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
-  find_moving_parts(model, surface, on_surface, are_shares(options.weights), rig);
+  find_moving_parts(model, surface, on_surface, mouth, are_shares(options.weights), rig);
   if (options.progress && !options.progress(1.0, "done")) {
     return Error{ErrorCode::cancelled, "", "stopped on request"};
   }

@@ -40,8 +40,9 @@ std::optional<FeaturePointId> parse_feature_point(std::string_view text) {
   int index = number - 1;
   for (int g = 0; g < slot; ++g) index += group_sizes[static_cast<std::size_t>(g)];
   const FeaturePointId id(static_cast<std::uint8_t>(index));
-  // Only the canonical spelling: "2.01" or "+2.1" would be a second key for the same point.
-  return to_string(id) == text ? std::optional(id) : std::nullopt;
+  // Only the canonical spelling: "2.01" would be a second key for the same point. from_chars reads no "+".
+  if (text.front() == '0' || dot.ptr[1] == '0') return std::nullopt;
+  return id;
 }
 
 std::string to_string(FeaturePointId id) {

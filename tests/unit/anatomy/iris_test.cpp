@@ -170,7 +170,7 @@ TEST(Tongue, IsASheetAlongZ_HeldAtItsRoot) {
   const Surface surface = build_surface(sheet);
   std::vector<Part> parts(1);
   parts[0].role = PartRole::tongue;
-  const auto tongue = find_tongue(surface, parts, {});
+  const auto tongue = find_tongue(surface, parts, {}, share_of_jaw(surface, parts, {}));
   ASSERT_TRUE(tongue.has_value());
   EXPECT_LT(glm::distance(tongue->shape.left, glm::vec3(1, 0, 0)), 1e-5F);
   EXPECT_LT(glm::distance(tongue->shape.up, glm::vec3(0, 1, 0)), 1e-5F);
@@ -187,7 +187,7 @@ TEST(Tongue, IsASheetAlongZ_HeldAtItsRoot) {
     }
   }
   parts[0].role = PartRole::skin;
-  EXPECT_FALSE(find_tongue(surface, parts, {}).has_value());
+  EXPECT_FALSE(find_tongue(surface, parts, {}, share_of_jaw(surface, parts, {})).has_value());
 }
 
 TEST(RigidMotion, SharesOfTheRollAreInSteps) {

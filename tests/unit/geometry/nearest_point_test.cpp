@@ -28,6 +28,8 @@ TEST(NearestPoint, RandomPoints_EqualTheScan) {
       const NearestPoint::Hit hit = tree.nearest(to);
       ASSERT_EQ(hit.index, expected);
       ASSERT_DOUBLE_EQ(hit.distance, glm::distance(points[expected], to));
+      ASSERT_FALSE(tree.has_within(to, 0.999 * hit.distance));
+      ASSERT_TRUE(tree.has_within(to, 1.001 * hit.distance));
     }
   }
 }

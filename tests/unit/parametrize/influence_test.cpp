@@ -30,7 +30,8 @@ class InfluenceOfRoles : public ::testing::Test {
     const auto weights = surface_weights(surface, points);
     std::vector<Part> parts(surface.part_count());
     parts[1].role = role;
-    const auto table = influence_with_roles(surface, parts, points, weights->rows);
+    const auto table =
+        influence_with_roles(surface, parts, points, share_of_jaw(surface, parts, points), weights->rows);
     std::vector<Row> rows(table.row_count());
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto ids = table.points_of(r);
@@ -111,7 +112,7 @@ TEST(InfluenceOfGums, BothRowsOfTeethInOnePart_AreToldApart) {
   parts[1].role = PartRole::tongue;
   parts[2].role = PartRole::upper_teeth;
   parts[3].role = PartRole::lower_teeth;
-  const auto table = influence_with_roles(surface, parts, points, weights->rows);
+  const auto table = influence_with_roles(surface, parts, points, share_of_jaw(surface, parts, points), weights->rows);
   const auto jaw = [&](std::uint32_t v) {
     const auto ids = table.points_of(v);
     return ids.empty() || ids[0] != testing::fp("2.1") ? 0.0F : table.weights_of(v)[0];
