@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/smooth_step.h"
+#include "core/geometry/nearest_point.h"
 #include "core/parametrize/greatest_weights.h"
 #include "core/parametrize/weight_row.h"
 
@@ -16,6 +18,8 @@ namespace {
 // Chosen by leave-one-out errors of two real heads (tests/bench/weights); both have a wide optimum.
 constexpr double smooth_ridge = 0.1;
 constexpr double ridge_length = 0.3;  ///< in units
+/// The edges of lips and lids hold the skin beside them up to this distance, in units.
+constexpr double held = 0.1;
 /// Coordinate descent ends when no weight changes by more.
 constexpr double least_descent = 1e-5;
 constexpr int most_descents = 60;
@@ -72,10 +76,11 @@ struct RowProblem {
 
 class PartFit {
  public:
-  PartFit(const PointDistances& distances, const WeightTable<double>& smooth, std::span<const Example> shapes,
-          double unit)
+  PartFit(const PointDistances& distances, const WeightTable<double>& smooth, std::span<const double> freedom,
+          std::span<const Example> shapes, double unit)
       : distances_(distances),
         smooth_(smooth),
+        freedom_(freedom),
         length_(ridge_length * unit),
         count_(distances.points.size()),
         all_(count_ * count_, 0.0),
@@ -123,7 +128,7 @@ class PartFit {
     const std::span<const double> wanted = std::span(wanted_).subspan((member - first_) * count_, count_);
     fitted_ = smooth_row_;
     RowProblem{wanted, smooth_row_, ridges_}.solve(all_, fitted_, slope_);
-    const WeightRow row = row_of(fitted_);
+    const WeightRow row = row_of(fitted_, freedom_[member]);
     for (std::size_t id = 0; id < row.size(); ++id) {
       if (row[id] >= least_weight) result_.rows.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);
     }
@@ -149,12 +154,13 @@ class PartFit {
     return lesson;
   }
 
-  WeightRow row_of(std::span<const double> weights) {
+  WeightRow row_of(std::span<const double> weights, double freedom) {
     WeightRow row{};
     double sum = 0.0;
     for (std::size_t f = 0; f < count_; ++f) {
-      row[distances_.points[f].id.value()] = weights[f];
-      sum += weights[f];
+      const double w = smooth_row_[f] + freedom * (weights[f] - smooth_row_[f]);
+      row[distances_.points[f].id.value()] = w;
+      sum += w;
     }
     if (sum > 1.0) {
       for (double& w : row) w /= sum;
@@ -172,7 +178,7 @@ class PartFit {
     for (std::size_t f = 0; f < count_; ++f) others_[f] -= glm::dot(truth, lesson.points[f]);
     left_out_ = fitted_;
     RowProblem{others_, smooth_row_, ridges_}.solve(without_[s], left_out_, slope_);
-    const WeightRow row = row_of(left_out_);
+    const WeightRow row = row_of(left_out_, freedom_[member]);
     glm::dvec3 wrong = -truth;
     glm::dvec3 smooth_wrong = -truth;
     for (std::size_t f = 0; f < count_; ++f) {
@@ -187,6 +193,7 @@ class PartFit {
 
   const PointDistances& distances_;
   const WeightTable<double>& smooth_;
+  std::span<const double> freedom_;
   double length_;
   std::size_t count_;
   std::array<std::size_t, feature_point_count> slot_of_{};
@@ -202,11 +209,26 @@ class PartFit {
 
 }  // namespace
 
+std::vector<double> freedom_of_members(const Surface& surface, const PointDistances& distances,
+                                       std::span<const MarginSite> margins, double unit) {
+  std::vector<double> freedom(distances.members.size(), 1.0);
+  std::vector<glm::dvec3> edges;
+  for (const MarginSite& margin : margins) edges.push_back(surface.positions[margin.vertex.value()]);
+  if (edges.empty()) return freedom;
+  const NearestPoint nearest(edges);
+  for (std::size_t m = 0; m < freedom.size(); ++m) {
+    const glm::dvec3& p = surface.positions[distances.members[m].value()];
+    if (nearest.has_within(p, held * unit)) freedom[m] = smooth_step(0.0, held, nearest.nearest(p).distance / unit);
+  }
+  return freedom;
+}
+
 Result<FittedWeights> fit_part_weights(const PointDistances& distances, const WeightTable<double>& smooth,
-                                       std::span<const Example> shapes, double unit, std::size_t sample_every,
-                                       const Progress& progress) {
-  assert(smooth.row_count() == distances.members.size() && unit > 0.0 && sample_every > 0);
-  PartFit fit(distances, smooth, shapes, unit);
+                                       std::span<const double> freedom, std::span<const Example> shapes, double unit,
+                                       std::size_t sample_every, const Progress& progress) {
+  assert(smooth.row_count() == distances.members.size() && freedom.size() == smooth.row_count() && unit > 0.0 &&
+         sample_every > 0);
+  PartFit fit(distances, smooth, freedom, shapes, unit);
   const std::size_t members = distances.members.size();
   for (std::size_t first = 0; first < members; first += fit_block) {
     if (progress && !progress(static_cast<double>(first) / static_cast<double>(members), "fit to own shapes"))

@@ -66,9 +66,10 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
       if (options.method == WeightMethod::fitted && options.fitted_parts[p]) {
         const double from = work == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(work);
         const double to = work == 0 ? 1.0 : static_cast<double>(done + share - share / 2) / static_cast<double>(work);
-        auto fitted =
-            fit_part_weights(distances, of_part[p], shapes_of_members(options.shapes, distances.members),
-                             weight_unit(distances, options.eye_separation), sample_every, part_of(progress, from, to));
+        const double unit = weight_unit(distances, options.eye_separation);
+        auto fitted = fit_part_weights(distances, of_part[p], freedom_of_members(surface, distances, margins, unit),
+                                       shapes_of_members(options.shapes, distances.members), unit, sample_every,
+                                       part_of(progress, from, to));
         if (!fitted) return fitted.error();
         of_part[p] = std::move(fitted->rows);
         add_errors(fitted->errors, result.errors);

@@ -73,7 +73,8 @@ void print_closure(const PosedFace& face) {
 
 void run(bool in_full) {
   for (const Head& head : known_heads()) {
-    for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth}) {
+    for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth, WeightMethod::fitted}) {
+      if (method == WeightMethod::fitted && head.model.examples.empty()) continue;
       const PosedFace face(head, method);
       std::printf("%s, %s\n", head.name.c_str(),
                   std::string(weight_method_names[static_cast<std::size_t>(method)]).c_str());

@@ -14,6 +14,7 @@
 #include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/candidate_weights.h"
 #include "tests/bench/weights/expression_study.h"
+#include "tests/bench/weights/fitted_shares.h"
 #include "tests/bench/weights/smooth_shares.h"
 
 namespace semblante::bench {
@@ -45,6 +46,14 @@ void print(const char* name, const ExpressionStudy& study, const Shares& shares)
 void print_columns() {
   std::printf("%-22s %6s %8s %9s %6s %5s %9s %9s %9s\n", "weights", "E", "visible", "rough", "infl", "max", "lip leak",
               "lid leak", "least");
+}
+
+/// Fitted to all shapes, and the mean errors of each shape left out.
+void print_fitted(const char* name, const ExpressionStudy& study, const ExpressionStudy& teacher,
+                  const WeightPrior& prior) {
+  const FittedShares fitted = fitted_shares(study, teacher, prior);
+  print(name, study, fitted.shares);
+  std::printf("  each shape left out: E %.3f, of smooth weights %.3f\n", fitted.fit.error(), fitted.fit.smooth_error());
 }
 
 template <class Work>
@@ -132,6 +141,7 @@ void run(const std::filesystem::path& folder) {
   const auto smooth = smooth_part_weights(study.surface, study.distances, study.eye_separation, margins);
   print("smooth", study, to_shares(study, smooth, false));
   print("smooth, no prior", study, smooth_shares(study, {}));
+  print_fitted("fitted", study, study, trained_weight_prior());
   const Surface unfolded = with_unfolded_diagonals(study.surface, study.model.triangles);
   const PartId part = study.surface.part_of[study.distances.members[0].value()];
   const PointDistances nearer = measure_distances(unfolded, part, study.distances.points);
@@ -155,6 +165,7 @@ void run(const std::filesystem::path& folder) {
                 true));
   print("smooth", other, smooth_shares(other, trained_weight_prior()));
   print("smooth, no prior", other, smooth_shares(other, {}));
+  print_fitted("fitted", other, other, trained_weight_prior());
   std::printf("\nseconds for all points, and whole parametrizations as multiples of the baseline's distances\n");
   std::printf("%-14s %8s %8s %9s %9s %7s %7s\n", "mesh", "vertices", "points", "baseline", "distances", "paper",
               "smooth");

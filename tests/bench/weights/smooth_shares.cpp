@@ -4,9 +4,7 @@
 
 namespace semblante::bench {
 
-Shares smooth_shares(const ExpressionStudy& study, const WeightPrior& prior) {
-  const WeightTable<double> table = smooth_part_weights(study.surface, study.distances, study.eye_separation,
-                                                        margin_sites(study.surface, study.distances.points), prior);
+Shares shares_of_table(const ExpressionStudy& study, const WeightTable<double>& table) {
   Shares shares(study.member_count() * study.point_count(), 0.0);
   for (std::size_t m = 0; m < study.member_count(); ++m) {
     for (std::size_t k = 0; k < table.points_of(m).size(); ++k) {
@@ -18,6 +16,11 @@ Shares smooth_shares(const ExpressionStudy& study, const WeightPrior& prior) {
     }
   }
   return shares;
+}
+
+Shares smooth_shares(const ExpressionStudy& study, const WeightPrior& prior) {
+  return shares_of_table(study, smooth_part_weights(study.surface, study.distances, study.eye_separation,
+                                                    margin_sites(study.surface, study.distances.points), prior));
 }
 
 }  // namespace semblante::bench

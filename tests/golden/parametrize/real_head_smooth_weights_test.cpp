@@ -10,7 +10,9 @@
 
 #include "core/anatomy/cavities.h"
 #include "core/parametrize/smooth_weights.h"
+#include "tests/bench/prior/training_head.h"
 #include "tests/bench/weights/expression_study.h"
+#include "tests/bench/weights/fitted_shares.h"
 #include "tests/bench/weights/smooth_shares.h"
 #include "tests/oracle/real_heads.h"
 
@@ -70,6 +72,37 @@ TEST(RealExpressions_SmoothWeights, AreCloserToAFaceByThePriorOfOthers) {
   const bench::Figures other_head = figures_of(makehuman, WeightPrior(without_makehuman));
   EXPECT_LE(other_head.error, 0.217);
   EXPECT_LE(other_head.roughness, 1.01 * makehuman_alone.roughness);
+}
+
+/// The skin of ict-facekit in shapes that weights fitted to the other shapes have not seen, nor has the prior.
+TEST(RealExpressions_FittedWeights, AreCloserToAFaceByItsOtherShapes) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) GTEST_SKIP() << "no folder of real heads";
+  const bench::ExpressionStudy measured = bench::read_expression_study(*faces / "ict-facekit");
+  const bench::ExpressionStudy others = bench::read_ict_shapes(
+      *faces / "ict-facekit", 0, [](const std::string& name) { return !bench::is_measured(name); });
+
+  const bench::FittedShares fitted = bench::fitted_shares(measured, others, WeightPrior(without_measured));
+
+  const bench::Figures figures = bench::measure(measured, fitted.shares);
+  EXPECT_LE(figures.error, 0.102);
+  EXPECT_LE(figures.visible_error, 0.08);
+  EXPECT_LE(figures.roughness, 0.008);
+  EXPECT_LE(figures.max_influences, 8U);
+  EXPECT_LE(figures.lip_leak, 0.10);
+  EXPECT_LE(figures.lid_leak, 0.10);
+  EXPECT_GE(figures.least, 0.0);
+  EXPECT_LT(fitted.fit.error(), 0.9 * fitted.fit.smooth_error());
+}
+
+TEST(RealExpressions_FittedWeights, AreCloserThanSmoothOnesInShapesLeftOut) {
+  const auto faces = oracle::faces_folder();
+  if (!faces) GTEST_SKIP() << "no folder of real heads";
+  const bench::ExpressionStudy makehuman =
+      bench::read_target_study(*faces / "makehuman/head.glb", *faces / "makehuman/makehuman.fps.json");
+  const bench::FittedShares fitted = bench::fitted_shares(makehuman, makehuman, WeightPrior(without_makehuman));
+  EXPECT_LE(fitted.fit.error(), 0.195);
+  EXPECT_GT(fitted.fit.smooth_error(), 0.21);
 }
 
 // Without a prior, sums are one between the points; the root takes all where no point is near: the neck, the back of

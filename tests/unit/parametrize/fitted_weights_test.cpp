@@ -28,6 +28,7 @@ class FittedWeights_OnSkin : public ::testing::Test {
     on_surface_ = surface_points(surface_, points_);
     distances_ = measure_distances(surface_, PartId(0), on_surface_);
     smooth_ = smooth_part_weights(surface_, distances_, length_unit, {}, {});
+    free_.assign(smooth_.row_count(), 1.0);
     add_shape("left forward", {0.0F, 0.0F, 1.0F});
     add_shape("left up", {0.0F, 2.0F, 0.0F});
     add_shape("left aside", {1.0F, 0.5F, 0.0F});
@@ -51,7 +52,7 @@ class FittedWeights_OnSkin : public ::testing::Test {
 
   [[nodiscard]] FittedWeights fit() const {
     const OwnShapes own = own_shapes(model_, surface_, on_surface_);
-    return fit_part_weights(distances_, smooth_, shapes_of_members(own.shapes, distances_.members), length_unit)
+    return fit_part_weights(distances_, smooth_, free_, shapes_of_members(own.shapes, distances_.members), length_unit)
         .value();
   }
 
@@ -74,6 +75,7 @@ class FittedWeights_OnSkin : public ::testing::Test {
   std::vector<SurfacePoint> on_surface_;
   PointDistances distances_;
   WeightTable<double> smooth_;
+  std::vector<double> free_;
 };
 
 TEST_F(FittedWeights_OnSkin, ComeNearTheHeadsOwnMotion) {
@@ -113,7 +115,7 @@ TEST_F(FittedWeights_OnSkin, AreSmoothWhereShapesTeachNothing) {
   Example shape{"far from all points", {place(0, 0)}, {glm::vec3(1.0F)}};
   const std::vector<Example> shapes = {shape};
 
-  const FittedWeights fitted = fit_part_weights(distances_, smooth_, shapes, length_unit).value();
+  const FittedWeights fitted = fit_part_weights(distances_, smooth_, free_, shapes, length_unit).value();
 
   EXPECT_EQ(fitted.rows.offsets, smooth_.offsets);
   EXPECT_EQ(fitted.rows.weights, smooth_.weights);
@@ -130,8 +132,30 @@ TEST_F(FittedWeights_OnSkin, LeaveEachShapeOutOfItsOwnError) {
   EXPECT_NEAR(fitted.errors[0].wrong, fitted.errors[0].smooth_wrong, 0.01 * fitted.errors[0].smooth_wrong);
 }
 
+TEST_F(FittedWeights_OnSkin, StaySmoothWhereTheyAreHeld) {
+  free_.assign(smooth_.row_count(), 0.0);
+
+  const FittedWeights fitted = fit();
+
+  ASSERT_EQ(fitted.rows.offsets, smooth_.offsets);
+  for (std::size_t k = 0; k < smooth_.weights.size(); ++k) {
+    EXPECT_DOUBLE_EQ(fitted.rows.weights[k], smooth_.weights[k]);
+  }
+}
+
+TEST_F(FittedWeights_OnSkin, AreHeldAtTheEdgesOfLipsAndLids) {
+  const std::vector<MarginSite> margins = {{SurfaceVertexId(place(10, 10)), {}}};
+
+  const std::vector<double> freedom = freedom_of_members(surface_, distances_, margins, 50.0);
+
+  EXPECT_EQ(freedom[place(10, 10)], 0.0);
+  EXPECT_GT(freedom[place(12, 10)], 0.1);
+  EXPECT_LT(freedom[place(12, 10)], 0.9);
+  EXPECT_EQ(freedom[place(17, 10)], 1.0);
+}
+
 TEST_F(FittedWeights_OnSkin, AreCancelled) {
-  const auto stopped = fit_part_weights(distances_, smooth_, model_.examples, length_unit, 1,
+  const auto stopped = fit_part_weights(distances_, smooth_, free_, model_.examples, length_unit, 1,
                                         [](double, std::string_view) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
