@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -122,8 +123,9 @@ void run(const ParametrizeCommand& options) {
     write_file(options.weights_json,
                [&](std::ostream& out) { write_weights_json(head.rig, rig_request(options.head), out); });
   }
+  const std::optional<WeightFit> fit = head.rig.fit;
   if (!options.out.empty()) write_packages(head, options);
-  if (head.rig.fit && !options.head.quiet) print_fit(*head.rig.fit);
+  if (fit && !options.head.quiet) print_fit(*fit);
   print_warnings(head.all_warnings(), options.head.quiet);
 }
 
