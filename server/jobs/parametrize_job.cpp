@@ -125,11 +125,8 @@ std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome o
 }
 
 void to_json(nlohmann::json& json, const ParametrizeJob& job) {
-  json = {{"metric", job.metric},
-          {"weights", job.weights},
-          {"weight_bits", job.weight_bits},
-          {"lods", job.lods},
-          {"expressions", job.expressions}};
+  json = {{"metric", job.metric}, {"weights", job.weights}, {"weight_bits", job.weight_bits}, {"lods", job.lods}};
+  if (job.expressions != "library") json["expressions"] = job.expressions;
   if (job.articulation != usual_articulation) json["articulation"] = job.articulation;
 }
 
@@ -139,7 +136,7 @@ void from_json(const nlohmann::json& json, ParametrizeJob& job) {
   json.at("weight_bits").get_to(job.weight_bits);
   job.articulation = json.value("articulation", usual_articulation);
   json.at("lods").get_to(job.lods);
-  job.expressions = json.value("expressions", "library");  // jobs of earlier versions do not say
+  job.expressions = json.value("expressions", "library");
 }
 
 void to_json(nlohmann::json& json, const ParametrizeJob::Request& request) {

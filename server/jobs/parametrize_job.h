@@ -26,9 +26,9 @@ struct ParametrizeJob {
   std::string metric = "edge";
   std::string weights = "paper";
   int weight_bits = 12;
-  double articulation = usual_articulation;
-  std::string expressions = "library";  ///< or "own": those of the head's own shapes, where it has them
   std::vector<std::uint32_t> lods;      ///< vertex budgets of the levels of detail, decreasing
+  std::string expressions = "library";  ///< or "own": those of the head's own shapes, where it has them
+  double articulation = usual_articulation;
 
   struct Request;
   struct Outcome;

@@ -54,7 +54,7 @@ std::string base64(std::string_view bytes) {
 }
 
 /// The grid as glTF with two morph targets: "smile" moves vertex 33 by 1 -0.5 0, "drop" vertex 13 by 0 -1 0.
-std::string gltf_with_targets() {
+std::string gltf_with_targets(const char* first = "smile", const char* second = "drop") {
   std::string bin;
   const auto put = [&](auto value) { bin.append(reinterpret_cast<const char*>(&value), sizeof value); };
   for (int v = 0; v < 81; ++v) {
@@ -101,7 +101,7 @@ std::string gltf_with_targets() {
   document["meshes"] = {
       {{"primitives",
         {{{"attributes", {{"POSITION", 0}}}, {"indices", 3}, {"targets", {{{"POSITION", 1}}, {{"POSITION", 2}}}}}}},
-       {"extras", {{"targetNames", {"smile", "drop"}}}}}};
+       {"extras", {{"targetNames", {first, second}}}}}};
   document["nodes"] = {{{"mesh", 0}}};
   document["scenes"] = {{{"nodes", {0}}}};
   document["scene"] = 0;
@@ -365,6 +365,50 @@ TEST_F(ExpressionRoutes, IdempotencyKeys_MakeASetOnce) {
   EXPECT_EQ(again.status, 202);
   EXPECT_EQ(json_of(job)["id"], json_of(again)["id"]);
   EXPECT_EQ(finished(job)["result"], finished(again)["result"]);
+}
+
+TEST_F(ExpressionRoutes, AModelWearsItsOwnShapes_ByOneRequest) {
+  const auto model = model_with(gltf_with_targets("happy", "viseme_aa"), "own.gltf", "model/gltf+json");
+  const auto path = "/v1/models/" + model;
+  const auto ask = [&](const std::string& of, const char* body, Fields fields = {}) {
+    fields.insert(fields.end(), json_type.begin(), json_type.end());
+    return request(port(), "POST", "/v1/models/" + of + "/parametrizations", body, fields);
+  };
+  const auto worn = [&](const char* list, const char* name) -> json {
+    const auto document = json_of(request(port(), "GET", path + "/rig.json"));
+    for (const auto& entry : document[list])
+      if (entry["name"] == name) return entry["displacements"];
+    return nullptr;
+  };
+  const auto* const wish = R"({"weights":"fitted","expressions":"own"})";
+  const auto made = json_of(ask(model, wish, {{"Idempotency-Key", "own"}}));
+  ASSERT_EQ(wait_for_job(port(), made["id"]).value("state", ""), "done") << made;
+  EXPECT_EQ(json_of(ask(model, wish, {{"Idempotency-Key", "own"}}))["id"], made["id"]);
+  EXPECT_EQ(worn("expressions", "joy"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
+  EXPECT_EQ(worn("visemes", "a"), (json{{"2.1", {0.0, -1.0, 0.0}}}));
+  const auto told = json_of(request(port(), "GET", path));
+  EXPECT_THAT(told["warnings"].dump(), HasSubstr("a (viseme_aa), joy (happy)"));
+  EXPECT_THAT(told["warnings"].dump(), HasSubstr("it has no shapes for p_b_m"));
+  const auto report = json_of(request(port(), "GET", path + "/report.json"));
+  ASSERT_EQ(report["weight_fit"]["shapes"].size(), 2U) << report;
+  EXPECT_EQ(report["weight_fit"]["shapes"][0]["name"], "happy");
+
+  // What is chosen by hand stays, and the rest stays its own when the package is made again.
+  const auto again =
+      request(port(), "PATCH", path, json({{"expressions", {{"joy", made_by_hand()}}}}).dump(), json_type);
+  ASSERT_EQ(again.status, 202) << again.body;
+  wait_for_job(port(), json_of(request(port(), "GET", again.headers.at("location")))["id"]);
+  EXPECT_EQ(worn("visemes", "a"), (json{{"2.1", {0.0, -1.0, 0.0}}}));
+  EXPECT_EQ(json_of(request(port(), "GET", path))["package"]["weights"], "fitted");
+
+  const auto bare = grid_model();
+  expect_problem(ask(bare, R"({"weights":"fitted"})"), 422, "invalid-field", "/weights");
+  expect_problem(ask(bare, R"({"expressions":"own"})"), 422, "invalid-field", "/expressions");
+  expect_problem(ask(bare, R"({"expressions":"mine"})"), 422, "invalid-field", "/expressions");
+  const auto unnamed = target_model();
+  const auto failed = wait_for_job(port(), json_of(ask(unnamed, R"({"expressions":"own"})"))["id"]);
+  EXPECT_EQ(failed.value("state", ""), "failed");
+  EXPECT_THAT(failed["problem"].dump(), HasSubstr("is a viseme or expression by its name"));
 }
 
 TEST_F(ExpressionRoutes, AModelWearsASet_AsItWas_UntilItIsTakenOff) {

@@ -33,7 +33,7 @@ const std::vector<Displacement> displacements = {{*parse_feature_point("2.1"), {
 
 template <>
 ParametrizeJob example() {
-  return {"unfolded", "smooth", 9, 2.5, {10000, 5000}};
+  return {"unfolded", "smooth", 9, {10000, 5000}, "own", 2.5};
 }
 template <>
 ExtractJob example() {

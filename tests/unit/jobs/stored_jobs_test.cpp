@@ -117,7 +117,7 @@ TEST_F(StoredJobsTest, EveryKind_IsReadAsItWasAskedFor) {
   for (int round = 0; round < 2; ++round) {
     EXPECT_TRUE(read_job_as<ImportJob>(*store_->job("import")));
     EXPECT_EQ(read_job_as<ParametrizeJob>(*store_->job("package")),
-              (ParametrizeJob{"unfolded", "smooth", 9, usual_articulation, {10000, 5000}}));
+              (ParametrizeJob{"unfolded", "smooth", 9, {10000, 5000}}));
     EXPECT_EQ(read_job_as<ParametrizeJob>(*store_->job("early")), ParametrizeJob{}) << "of before there were levels";
     EXPECT_TRUE(read_job_as<ProposeJob>(*store_->job("points")));
     ExtractJob extraction;

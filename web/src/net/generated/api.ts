@@ -2555,7 +2555,7 @@ export interface operations {
                      */
                     weights?: "paper" | "smooth" | "fitted";
                     /**
-                     * @description own: visemes and expressions are those of the model's own shapes (morph targets), found by the names of Oculus Lipsync, VRM or ARKit; sets chosen for the model by hand stay, and warnings of rig.json say which were found. library: those of the server
+                     * @description own: visemes and expressions are those of the model's own shapes (morph targets), found by the names of Oculus Lipsync, VRM or ARKit; sets chosen for the model by hand stay, and warnings of the model say which were found. library: those of the server
                      * @default library
                      * @enum {unknown}
                      */
