@@ -5,13 +5,16 @@
 #include <cmath>
 #include <map>
 
+#include "deploy/sample_head/body.h"
 #include "deploy/sample_head/emit.h"
 #include "deploy/sample_head/eyeballs.h"
 #include "deploy/sample_head/feature_points.h"
 #include "deploy/sample_head/hair.h"
 #include "deploy/sample_head/identity.h"
 #include "deploy/sample_head/mouth_parts.h"
+#include "deploy/sample_head/scan.h"
 #include "deploy/sample_head/shirt.h"
+#include "deploy/sample_head/skeleton.h"
 #include "deploy/sample_head/skin.h"
 #include "deploy/sample_head/textures.h"
 #include "deploy/sample_head/upper_lid.h"
@@ -34,7 +37,8 @@ enum Material : std::size_t {
   teeth_material,
   tongue_material,
   hair_material,
-  cloth_material
+  cloth_material,
+  trousers_material  ///< of a body alone
 };
 
 /// Adds parts to a head and numbers vertices as a reader of the file does.
@@ -84,6 +88,12 @@ class Assembly {
 }  // namespace
 
 SampleHead make_sample_head(const SampleHeadTraits& traits) {
+  if (traits.form == SampleHeadForm::scan) {
+    SampleHeadTraits scanned = traits;
+    scanned.form = SampleHeadForm::bust;
+    scanned.closed_eyes = true;
+    return scan_of(make_sample_head(scanned));
+  }
   SampleHead head;
   const Skin skin = make_skin(traits);
   head.images = {paint_skin(skin.mesh), paint_eye(), paint_teeth(), paint_hair()};
@@ -108,8 +118,22 @@ SampleHead make_sample_head(const SampleHeadTraits& traits) {
   assembly.add("hair", hair_material, hair.mesh, {{"11.5", hair.top}},
                [](const Vec3& p, const Paint&, Chart) { return hair_uv(p); });
   assembly.add("shirt", cloth_material, make_shirt(), {});
+  if (traits.form == SampleHeadForm::body) {
+    head.materials.push_back({"trousers", linear(0.22, 0.24, 0.3), 0.9F, std::nullopt, true});
+    for (const BodyPart& part : make_body_parts()) {
+      const UvOf plain = [&](const Vec3&, const Paint&, Chart) { return bare_skin_uv(); };
+      const Material material = part.look == BodyPart::Look::skin    ? skin_material
+                                : part.look == BodyPart::Look::shirt ? cloth_material
+                                                                     : trousers_material;
+      assembly.add(part.name, material, part.mesh, {}, plain);
+    }
+  }
   head.points.push_back({*parse_feature_point("7.1"), std::nullopt, glm::vec3(head_pivot * 0.01)});
   std::sort(head.points.begin(), head.points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  if (traits.form == SampleHeadForm::body) {
+    head.name = "sample-body";
+    add_skeleton(head);
+  }
   return head;
 }
 

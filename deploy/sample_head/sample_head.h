@@ -23,6 +23,8 @@ struct SampleHeadMesh {
   std::vector<glm::vec3> normals;
   std::vector<glm::vec2> uvs;  ///< origin top left
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint8_t, 4>> joints;  ///< #V, indices into SampleHead::joints; empty without a skeleton
+  std::vector<glm::vec4> joint_weights;             ///< #V, sum 1
 };
 
 struct SampleHeadImage {
@@ -45,15 +47,32 @@ struct SampleHeadPoint {
   glm::vec3 position{0.0F};
 };
 
-/// The project's own head: a neutral face in the MPEG-4 frame with all 84 feature points.
+/// A joint of the skeleton in its rest pose, which has no rotations.
+struct SampleHeadJoint {
+  std::string name;
+  int parent = -1;  ///< index into SampleHead::joints, less than the joint's own; -1: the root
+  glm::vec3 position{0.0F};
+};
+
+/// A morph target: displacements of the vertices, counted over all meshes in order.
+struct SampleHeadTarget {
+  std::string name;
+  std::vector<glm::vec3> displacements;
+};
+
+/// The project's own head: a neutral face in the MPEG-4 frame with its feature points.
 struct SampleHead {
+  std::string name = "sample-head";  ///< of its files, without an extension
+  bool is_symmetric = true;
   std::vector<SampleHeadMesh> meshes;
   std::vector<SampleHeadMaterial> materials;
   std::vector<SampleHeadImage> images;
-  std::vector<SampleHeadPoint> points;  ///< all 84, rising ids
+  std::vector<SampleHeadPoint> points;    ///< rising ids; all 84, but for a scan
+  std::vector<SampleHeadJoint> joints;    ///< of a body
+  std::vector<SampleHeadTarget> targets;  ///< none as made; the writer writes those that are added
 };
 
-/// Builds the head from tables and formulas. Deterministic; exactly symmetric in x.
+/// Builds the head from tables and formulas. Deterministic; exactly symmetric in x, but for a scan.
 SampleHead make_sample_head(const SampleHeadTraits& traits = {});
 
 }  // namespace semblante

@@ -1,5 +1,6 @@
 #include "deploy/sample_head/write_sample_head.h"
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <sstream>
@@ -51,6 +52,33 @@ class Buffer {
         accessor.maxValues.push_back(high[i]);
       }
     }
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  int add_joints(const std::vector<std::array<std::uint8_t, 4>>& joints) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(joints.data(), joints.size() * sizeof joints[0], TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+    accessor.count = joints.size();
+    accessor.type = TINYGLTF_TYPE_VEC4;
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  /// The inverses of matrices that only translate.
+  int add_inverse_binds(const std::vector<SampleHeadJoint>& joints) {
+    std::vector<float> matrices;
+    for (const SampleHeadJoint& joint : joints) {
+      const glm::vec3& p = joint.position;
+      for (const float value : {1.F, 0.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 0.F, 1.F, 0.F, -p.x, -p.y, -p.z, 1.F})
+        matrices.push_back(value);
+    }
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(matrices.data(), matrices.size() * sizeof(float), 0);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.count = joints.size();
+    accessor.type = TINYGLTF_TYPE_MAT4;
     model_.accessors.push_back(accessor);
     return static_cast<int>(model_.accessors.size()) - 1;
   }
@@ -111,6 +139,48 @@ tinygltf::Material material_of(const SampleHeadMaterial& material) {
   return out;
 }
 
+/// Adds a node for each joint and the skin of them all. The nodes of the meshes come first.
+void add_skin(tinygltf::Model& model, Buffer& buffer, tinygltf::Scene& scene, const SampleHead& head) {
+  const auto first = static_cast<int>(model.nodes.size());
+  tinygltf::Skin skin;
+  skin.inverseBindMatrices = buffer.add_inverse_binds(head.joints);
+  for (const SampleHeadJoint& joint : head.joints) {
+    tinygltf::Node node;
+    node.name = joint.name;
+    glm::dvec3 offset(joint.position);
+    if (joint.parent >= 0) offset -= glm::dvec3(head.joints[static_cast<std::size_t>(joint.parent)].position);
+    node.translation = {offset.x, offset.y, offset.z};
+    const auto number = static_cast<int>(model.nodes.size());
+    model.nodes.push_back(node);
+    skin.joints.push_back(number);
+    if (joint.parent < 0)
+      scene.nodes.push_back(number);
+    else
+      model.nodes[static_cast<std::size_t>(first + joint.parent)].children.push_back(number);
+  }
+  model.skins.push_back(skin);
+}
+
+/// Adds the targets of the head to a mesh whose vertices begin at `first`: all of them if any moves a vertex of it.
+void add_targets(tinygltf::Mesh& mesh, Buffer& buffer, const SampleHead& head, std::size_t first, std::size_t count) {
+  std::vector<std::vector<glm::vec3>> parts;
+  bool is_moved = false;
+  for (const SampleHeadTarget& target : head.targets) {
+    const auto begin = target.displacements.begin() + static_cast<std::ptrdiff_t>(first);
+    parts.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(count));
+    is_moved = is_moved || std::any_of(parts.back().begin(), parts.back().end(),
+                                       [](const glm::vec3& d) { return d != glm::vec3(0.0F); });
+  }
+  if (!is_moved) return;
+  tinygltf::Value::Array names;
+  for (std::size_t t = 0; t < parts.size(); ++t) {
+    mesh.primitives[0].targets.push_back({{"POSITION", buffer.add_vectors(parts[t], TINYGLTF_TYPE_VEC3, true)}});
+    names.emplace_back(head.targets[t].name);
+  }
+  mesh.weights.assign(parts.size(), 0.0);
+  mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
@@ -130,6 +200,7 @@ Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
 
   // A mesh and a node for each part: glTF gives names to these, not to primitives.
   tinygltf::Scene scene;
+  std::size_t first = 0;
   for (const auto& part : head.meshes) {
     if (part.positions.size() > 0xFFFF) return Error{ErrorCode::too_large, part.name, "over 65535 vertices in a part"};
     tinygltf::Primitive primitive;
@@ -138,17 +209,25 @@ Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
     primitive.attributes["POSITION"] = buffer.add_vectors(part.positions, TINYGLTF_TYPE_VEC3, true);
     primitive.attributes["NORMAL"] = buffer.add_vectors(part.normals, TINYGLTF_TYPE_VEC3, false);
     primitive.attributes["TEXCOORD_0"] = buffer.add_vectors(part.uvs, TINYGLTF_TYPE_VEC2, false);
+    if (!part.joints.empty()) {
+      primitive.attributes["JOINTS_0"] = buffer.add_joints(part.joints);
+      primitive.attributes["WEIGHTS_0"] = buffer.add_vectors(part.joint_weights, TINYGLTF_TYPE_VEC4, false);
+    }
     primitive.indices = buffer.add_indices(part.triangles);
     tinygltf::Mesh mesh;
     mesh.name = part.name;
     mesh.primitives.push_back(primitive);
+    add_targets(mesh, buffer, head, first, part.positions.size());
+    first += part.positions.size();
     tinygltf::Node node;
     node.name = part.name;
     node.mesh = static_cast<int>(model.meshes.size());
+    if (!part.joints.empty()) node.skin = 0;
     scene.nodes.push_back(static_cast<int>(model.nodes.size()));
     model.meshes.push_back(mesh);
     model.nodes.push_back(node);
   }
+  if (!head.joints.empty()) add_skin(model, buffer, scene, head);
   model.scenes.push_back(scene);
   model.defaultScene = 0;
 
@@ -163,13 +242,13 @@ Result<std::vector<std::uint8_t>> sample_head_glb(const SampleHead& head) {
 
 std::string sample_head_feature_points_json(const SampleHead& head) {
   nlohmann::ordered_json json;
-  json["head"] = "sample-head";
-  json["model"] = "sample-head.glb";
+  json["head"] = head.name;
+  json["model"] = head.name + ".glb";
   json["vertex_index_base"] = 0;
   json["to_mpeg4_axes"] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   json["unit"] = "metre";
   json["orientation"] = "already MPEG-4: +X to the face's own left, +Y up, +Z out of the face";
-  json["symmetric"] = true;
+  json["symmetric"] = head.is_symmetric;
   json["count"] = head.points.size();
   auto& points = json["points"];
   for (const auto& point : head.points) {

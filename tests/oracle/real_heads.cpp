@@ -17,7 +17,10 @@ std::optional<std::filesystem::path> faces_folder() {
   const char* const named = std::getenv("SEMBLANTE_FACES_DIR");
   const std::filesystem::path folder =
       named != nullptr && *named != '\0' ? named : std::filesystem::path(SEMBLANTE_SOURCE_DIR) / "../shared/faces";
-  return std::filesystem::is_directory(folder) ? std::optional(folder) : std::nullopt;
+  for (const char* const head : {"ict-facekit", "makehuman", "mediapipe-canonical"}) {
+    if (!std::filesystem::is_directory(folder / head)) return std::nullopt;
+  }
+  return folder;
 }
 
 Model read_trusted_obj(const std::filesystem::path& file) {

@@ -12,6 +12,8 @@ constexpr FamilyMember family[] = {
     {"long", {.jaw_width = 0.93, .face_length = 1.07, .nose_length = 1.2}},
     {"pressed lips", {.pressed_lips = true}},
     {"closed eyes", {.closed_eyes = true}},
+    {"body", {.form = SampleHeadForm::body}},
+    {"scan", {.form = SampleHeadForm::scan}},
 };
 
 /// Building a head takes a good part of a second and many tests want the same.

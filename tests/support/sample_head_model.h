@@ -18,7 +18,8 @@ struct FamilyMember {
   friend std::ostream& operator<<(std::ostream& out, const FamilyMember& member) { return out << member.name; }
 };
 
-/// The sample head itself, two other persons, and the sample head with pressed lips and with closed eyes.
+/// The sample head itself, two other persons, the sample head with pressed lips and with closed eyes, its body, and a
+/// scan of it.
 std::span<const FamilyMember> sample_family();
 
 /// Its name as the suffix of a test: `INSTANTIATE_TEST_SUITE_P(..., member_name)`.
