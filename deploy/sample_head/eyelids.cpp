@@ -23,7 +23,7 @@ constexpr double outer_corner_z = 0.62;
 
 /// Height of the lid edges over the middle of the slit: tangent to the iris for the standard; the painted rim of the
 /// iris goes on under them, because an eye whose whole iris is seen looks startled.
-constexpr double lid_height = 0.60;
+constexpr double lid_height = 0.57;
 /// Height of the fold under which the upper lid slides, at the middle.
 constexpr double fold_height = 0.92;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.

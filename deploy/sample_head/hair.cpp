@@ -42,11 +42,11 @@ double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
 double thickness(double a, double t, const Vec3& p) {
   const double front = 0.5 + 0.5 * std::cos(a);
-  const double body = 0.10 + 0.62 * glm::smoothstep(0.0, 0.5, t) +
+  const double body = 0.12 + 0.80 * glm::smoothstep(0.0, 0.45, t) +
                       1.25 * front * front * glm::smoothstep(0.0, 0.26, t) * (1.0 - glm::smoothstep(0.40, 1.0, t));
   const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
   const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
-  return body - 0.30 * groove;
+  return body - 0.38 * groove;
 }
 
 }  // namespace

@@ -24,12 +24,12 @@ struct LipPlace {
   bool upper;
 };
 
-/// Steps are wide beside the feature points, at 0, 1/2 and 1, and close between them, so that a point that moves alone
-/// makes a slope instead of a spike.
+/// Steps are a little wider beside the feature points, at 0, 1/2 and 1, than between them, so that a point that moves
+/// alone makes a slope instead of a spike. With much wider ones the lower lip of an open mouth is pointed in the middle.
 double spread(double along) {
   const double half = along < 0.5 ? 0.0 : 0.5;
   const double t = 4.0 * (along - half) - 1.0;  // -1 .. 1 from one point to the next
-  return half + 0.25 + 0.25 * t * std::abs(t);
+  return half + 0.25 + 0.25 * t * glm::mix(1.0, std::abs(t), 0.25);
 }
 
 LipPlace lip_place(int k) {
@@ -38,7 +38,7 @@ LipPlace lip_place(int k) {
 }
 
 /// The corners are a little higher than the middle: a mouth that is level in the mesh looks sad under light from above.
-double corner_rise(double s) { return 0.25 * std::pow(s, 2.4); }
+double corner_rise(double s) { return 0.33 * std::pow(s, 2.4); }
 
 /// Border of the red (8.x): cupid's bow above, a full curve below.
 Vec2 border(const LipPlace& place) {
@@ -49,7 +49,7 @@ Vec2 border(const LipPlace& place) {
     const double bow = -0.08 * std::exp(-std::pow(s / 0.12, 2.0));
     return {x, mouth_y + fall + bow + corner_rise(s)};
   }
-  return {x, mouth_y - 0.92 * std::pow(1.0 - std::pow(s, 2.0), 1.1) + corner_rise(s)};
+  return {x, mouth_y - 0.88 * std::pow(1.0 - std::pow(s, 2.9), 0.95) + corner_rise(s)};
 }
 
 /// Line where the lips meet (2.x), the same for both: a small tubercle in the middle, level corners.

@@ -109,7 +109,7 @@ MouthPart make_upper_teeth() {
 }
 
 MouthPart make_lower_teeth() {
-  MouthPart part = make_teeth({8.76, 2.42, 3.8, -8.35, -6.74}, lower_widths);
+  MouthPart part = make_teeth({8.76, 2.42, 3.8, -8.45, -6.84}, lower_widths);
   part.marks = {{"9.9", part.marks["root"]}, {"9.11", part.marks["edge"]}};
   return part;
 }
@@ -120,8 +120,8 @@ MouthPart make_tongue() {
     double z, width, top, thickness;
   };
   constexpr Section sections[] = {
-      {4.3, 1.3, -7.15, 0.7},  {4.8, 1.65, -6.85, 1.0}, {5.4, 1.85, -6.70, 1.15}, {6.1, 1.90, -6.68, 1.1},
-      {6.8, 1.75, -6.74, 0.9}, {7.4, 1.45, -6.80, 0.7}, {7.85, 1.05, -6.84, 0.5}, {8.12, 0.6, -6.88, 0.34},
+      {4.3, 1.3, -7.15, 0.7},  {4.8, 1.65, -6.85, 1.0}, {5.4, 1.85, -6.62, 1.15}, {6.1, 1.90, -6.57, 1.1},
+      {6.8, 1.75, -6.56, 0.9}, {7.4, 1.50, -6.55, 0.7}, {7.85, 1.15, -6.58, 0.5}, {8.12, 0.7, -6.64, 0.36},
   };
   constexpr std::size_t middle_section = 3;
   constexpr int steps = 12;  // half way round: top middle, side, bottom middle
@@ -143,7 +143,7 @@ MouthPart make_tongue() {
     before = ring;
     rings.push_back(ring);
   }
-  const int tip = mesh.add({0.0, -7.03, 8.24});
+  const int tip = mesh.add({0.0, -6.80, 8.24});
   close_with_fan(mesh, before, false, tip, Chart::outer);
   const int root = mesh.add({0.0, -7.5, 4.0});
   close_with_fan(mesh, rings[0], false, root, Chart::outer);

@@ -31,6 +31,12 @@ Vec3 turned(const Vec3& from, const Vec3& to, double share) {
   return (from * std::sin((1.0 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
 }
 
+/// The hem is level, and a little lower on chest and back than at the arms.
+Vec3 hem_line(double azimuth) {
+  const double height = -26.6 - 0.9 * std::pow(std::cos(azimuth), 2.0);
+  return cast_from_inside({0.0, height, centre.z}, {std::sin(azimuth), 0.0, std::cos(azimuth)});
+}
+
 }  // namespace
 
 Vec3 neckline(double azimuth) {
@@ -49,9 +55,7 @@ HalfMesh make_shirt() {
       const double azimuth = c == columns ? pi : pi * c / columns;
       const bool middle = c == 0 || c == columns;
       const Vec3 top = glm::normalize(neckline(azimuth) - centre);
-      // The hem is an arc: low on chest and back, higher at the arms.
-      const double hem_fall = glm::mix(0.36, 1.05, std::pow(std::cos(azimuth), 2.0));
-      const Vec3 hem = glm::normalize(Vec3(middle ? 0.0 : std::sin(azimuth), -hem_fall, std::cos(azimuth)));
+      const Vec3 hem = glm::normalize(hem_line(azimuth) - centre);
       Vec3 direction = turned(top, hem, row.fall);
       if (middle) direction.x = 0.0;
       const Vec3 foot = cast_from_inside(centre, direction);

@@ -26,7 +26,9 @@ class Shaper {
  public:
   explicit Shaper(const SampleHeadTraits& traits) : model_(sample_head_model(traits)) {
     const Surface surface = build_surface(model_);
-    auto rig = parametrize(model_, surface, sample_head_points(traits));
+    ParametrizeOptions options;
+    options.weights = WeightMethod::smooth;
+    auto rig = parametrize(model_, surface, sample_head_points(traits), options);
     if (!rig) throw std::runtime_error(rig.error().message);
     rig_ = *std::move(rig);
   }

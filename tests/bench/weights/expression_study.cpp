@@ -108,7 +108,11 @@ Expression expression_of(const ExpressionStudy& study, std::string name,
 ExpressionStudy read_target_study(const std::filesystem::path& model, const std::filesystem::path& points) {
   std::vector<MarkedPoint> marked = oracle::read_trusted_points(points);
   for (MarkedPoint& point : marked) point.vertex.reset();
-  ExpressionStudy study = study_of(oracle::import_head(model), marked);
+  return target_study(oracle::import_head(model), marked);
+}
+
+ExpressionStudy target_study(Model model, const std::vector<MarkedPoint>& marked) {
+  ExpressionStudy study = study_of(std::move(model), marked);
   for (const Example& example : study.model.examples) {
     study.expressions.push_back(
         expression_of(study, example.name, [&](std::uint32_t v) { return glm::dvec3(example.at(v)); }));

@@ -44,7 +44,9 @@ ExpressionStudy study_of(Model model, const std::vector<MarkedPoint>& points);
 Expression expression_of(const ExpressionStudy& study, std::string name,
                          const std::function<glm::dvec3(std::uint32_t file_vertex)>& displacement);
 
-/// A head with morph targets, which are its expressions, and the positions of its points; throws.
+/// A head with morph targets, which are its expressions.
+ExpressionStudy target_study(Model model, const std::vector<MarkedPoint>& points);
+/// The same from files, by the positions of its points; throws.
 ExpressionStudy read_target_study(const std::filesystem::path& model, const std::filesystem::path& points);
 /// Reads `folder`/{neutral.obj, ict-facekit.fps.json, expressions/*.obj}; throws where they cannot be read.
 ExpressionStudy read_expression_study(const std::filesystem::path& folder);

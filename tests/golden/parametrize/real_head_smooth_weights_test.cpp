@@ -9,12 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "core/anatomy/cavities.h"
+#include "core/import/import.h"
 #include "core/parametrize/smooth_weights.h"
 #include "tests/bench/prior/training_head.h"
 #include "tests/bench/weights/expression_study.h"
 #include "tests/bench/weights/fitted_shares.h"
 #include "tests/bench/weights/smooth_shares.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/sample_shapes.h"
 
 namespace semblante {
 namespace {
@@ -41,6 +43,28 @@ TEST(RealExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
 
   const bench::Figures figures = figures_of(study, trained_weight_prior());
 
+  EXPECT_LE(figures.roughness, 0.008);
+  EXPECT_LE(figures.max_influences, 8U);
+  EXPECT_LE(figures.lip_leak, 0.10);
+  EXPECT_LE(figures.lid_leak, 0.10);
+  EXPECT_GE(figures.least, 0.0);
+}
+
+// The targets of our own avatar are made with these weights, so they are met but for what is no linear motion of
+// points: lids that roll, whose targets are left out.
+TEST(FamilyExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
+  auto model = import_model(testing::sample_avatar_glb(), ModelFormat::glb);
+  ASSERT_TRUE(model);
+  std::vector<MarkedPoint> marked;
+  for (const SampleHeadPoint& point : testing::sample_avatar().points)
+    marked.push_back({point.id, point.vertex, glm::dvec3(point.position)});
+  bench::ExpressionStudy study = bench::target_study(*std::move(model), marked);
+  ASSERT_EQ(study.expressions.size(), testing::sample_avatar().targets.size());
+  std::erase_if(study.expressions, [](const bench::Expression& e) { return e.name.starts_with("eye"); });
+
+  const bench::Figures figures = figures_of(study, trained_weight_prior());
+
+  EXPECT_LE(figures.error, 0.002);
   EXPECT_LE(figures.roughness, 0.008);
   EXPECT_LE(figures.max_influences, 8U);
   EXPECT_LE(figures.lip_leak, 0.10);

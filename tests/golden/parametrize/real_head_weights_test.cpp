@@ -7,13 +7,16 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/surface.h"
+#include "core/import/import.h"
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "core/parametrize/point_distances.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/oracle/literal_weights.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/sample_head_model.h"
+#include "tests/support/sample_obj.h"
 
 namespace semblante {
 namespace {
@@ -166,6 +169,58 @@ ParametrizedHead parametrize_head(const std::filesystem::path& model_file, const
   return head;
 }
 
+ParametrizedHead parametrize_bytes(std::span<const std::uint8_t> bytes, ModelFormat format, const SampleHead& points) {
+  ParametrizedHead head;
+  auto model = import_model(bytes, format);
+  EXPECT_TRUE(model);
+  head.model = *std::move(model);
+  const Surface surface = build_surface(head.model);
+  std::vector<MarkedPoint> marked;
+  for (const SampleHeadPoint& point : points.points)
+    marked.push_back({point.id, std::nullopt, glm::dvec3(point.position)});
+  const auto placed = place_feature_points(head.model, surface, marked, nullptr);
+  EXPECT_TRUE(placed);
+  auto rig = parametrize(head.model, surface, *placed);
+  EXPECT_TRUE(rig);
+  head.rig = *std::move(rig);
+  return head;
+}
+
+void expect_same_weights_at_same_positions(const ParametrizedHead& obj, const ParametrizedHead& glb) {
+  std::map<std::array<float, 3>, std::vector<std::uint32_t>> at;
+  for (std::uint32_t v = 0; v < obj.model.positions.size(); ++v) {
+    const glm::vec3& p = obj.model.positions[v];
+    at[{p.x, p.y, p.z}].push_back(v);
+  }
+  std::size_t compared = 0;
+  for (std::uint32_t v = 0; v < glb.model.positions.size(); ++v) {
+    const glm::vec3& p = glb.model.positions[v];
+    const auto same = at.find({p.x + 0.0F, p.y + 0.0F, p.z + 0.0F});
+    ASSERT_NE(same, at.end());
+    if (same->second.size() > 1) continue;  // parts that touch: not told apart here
+    ++compared;
+    const std::uint32_t other = same->second.front();
+    const auto ids = glb.rig.weights.points_of(v);
+    const auto expected_ids = obj.rig.weights.points_of(other);
+    ASSERT_TRUE(std::equal(ids.begin(), ids.end(), expected_ids.begin(), expected_ids.end())) << "vertex " << v;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      ASSERT_NEAR(glb.rig.weights.weights_of(v)[k], obj.rig.weights.weights_of(other)[k], weight_tolerance);
+    }
+  }
+  EXPECT_GT(compared, glb.model.positions.size() * 9 / 10);
+}
+
+TEST(FamilyFormats, GlbAndObjOfOneHeadGiveTheSameWeightsAtTheSamePositions) {
+  for (const testing::FamilyMember& member : testing::sample_family()) {
+    SCOPED_TRACE(member.name);
+    const SampleHead head = make_sample_head(member.traits);
+    const std::string text = testing::obj_of(head);
+    const std::span obj(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    expect_same_weights_at_same_positions(parametrize_bytes(obj, ModelFormat::obj, head),
+                                          parametrize_bytes(sample_head_glb(head).value(), ModelFormat::glb, head));
+  }
+}
+
 TEST(RealHeadFormats, GlbAndObjOfOneHeadGiveTheSameWeightsAtTheSamePositions) {
   const auto folder = oracle::faces_folder();
   if (!folder) GTEST_SKIP() << "no folder of real heads";
@@ -174,22 +229,7 @@ TEST(RealHeadFormats, GlbAndObjOfOneHeadGiveTheSameWeightsAtTheSamePositions) {
   const ParametrizedHead glb = parametrize_head(*folder / "makehuman/head.glb", points);
   EXPECT_EQ(glb.rig.parts.size(), 10U);  // the seams that split the skin into five are stitched
 
-  std::map<std::array<float, 3>, std::uint32_t> at;
-  for (std::uint32_t v = 0; v < obj.model.positions.size(); ++v) {
-    const glm::vec3& p = obj.model.positions[v];
-    ASSERT_TRUE(at.emplace(std::array{p.x, p.y, p.z}, v).second) << "two vertices at one place: not told apart here";
-  }
-  for (std::uint32_t v = 0; v < glb.model.positions.size(); ++v) {
-    const glm::vec3& p = glb.model.positions[v];
-    const auto same = at.find({p.x, p.y, p.z});
-    ASSERT_NE(same, at.end());
-    const auto ids = glb.rig.weights.points_of(v);
-    const auto expected_ids = obj.rig.weights.points_of(same->second);
-    ASSERT_TRUE(std::equal(ids.begin(), ids.end(), expected_ids.begin(), expected_ids.end())) << "vertex " << v;
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      ASSERT_NEAR(glb.rig.weights.weights_of(v)[k], obj.rig.weights.weights_of(same->second)[k], weight_tolerance);
-    }
-  }
+  expect_same_weights_at_same_positions(obj, glb);
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/import/import.h"
+#include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/cli/program.h"
+#include "tests/support/sample_shapes.h"
 
 namespace semblante::test {
 namespace {
@@ -102,6 +104,31 @@ TEST_F(Extract, RefusesInOneLine_NamingWhatIsWrong) {
   };
   refused(deform(R"({"displacements": {"8.3": [1, 2]}})"), "/displacements/8.3");
   refused(deform(R"({"displacements": {"8.3": [1, 2, 3]}})", {"--expression", "joy"}), "give one of them");
+}
+
+TEST_F(Extract, ReadsMorphTargetsOfAnAvatar) {
+  const auto& bytes = testing::sample_avatar_glb();
+  const std::string model = work.write("avatar.glb", std::string(bytes.begin(), bytes.end()));
+  const std::string marked = work.write("avatar.fps.json", sample_head_feature_points_json(testing::sample_avatar()));
+  const auto take = [&](const std::string& target, const std::string& from) {
+    std::vector<std::string> arguments = {"extract",  model,  "--points", marked,
+                                          "--target", target, "--out",    work.path("set.json")};
+    if (!from.empty()) arguments.insert(arguments.end(), {"--from", from});
+    return run_semblante(arguments);
+  };
+  const Outcome blink = take("eyeBlinkLeft", "");
+  ASSERT_EQ(blink.exit_code, 0) << blink.err;
+  const json closing = set();
+  EXPECT_EQ(closing["name"], "eyeBlinkLeft");
+  EXPECT_LT(closing["displacements"]["3.1"][1], -300);
+  EXPECT_FALSE(closing["displacements"].contains("3.2"));
+  // From closed on the right to closed on the left: both lids move, against each other.
+  ASSERT_EQ(take("eyeBlinkLeft", "eyeBlinkRight").exit_code, 0);
+  EXPECT_LT(set()["displacements"]["3.1"][1], -300);
+  EXPECT_GT(set()["displacements"]["3.2"][1], 300);
+  const Outcome unknown = take("grin", "");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("viseme_aa"), std::string::npos) << unknown.err;
 }
 
 TEST_F(Extract, ReadsMorphTargetsOfAGlb) {

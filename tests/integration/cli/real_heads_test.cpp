@@ -13,6 +13,7 @@
 #include "core/import/import.h"
 #include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/cli/program.h"
+#include "tests/support/sample_obj.h"
 
 namespace semblante::test {
 namespace {
@@ -40,10 +41,11 @@ struct Heads : ::testing::Test {
     return {name, work.write(name + ".glb", std::string(glb->begin(), glb->end())),
             work.write(name + ".fps.json", sample_head_feature_points_json(head))};
   }
-  /// The sample, another person with pressed lips, and whichever real heads there are.
+  /// The sample, another person with pressed lips, a body, a scan, and whichever real heads there are.
   [[nodiscard]] std::vector<HeadFiles> all() const {
-    std::vector<HeadFiles> heads = {of_our_own("sample"),
-                                    of_our_own("other", {.jaw_width = 1.1, .face_length = 0.94, .pressed_lips = true})};
+    std::vector<HeadFiles> heads = {
+        of_our_own("sample"), of_our_own("other", {.jaw_width = 1.1, .face_length = 0.94, .pressed_lips = true}),
+        of_our_own("body", {.form = SampleHeadForm::body}), of_our_own("scan", {.form = SampleHeadForm::scan})};
     const auto faces = faces_directory();
     for (const auto& [folder, model] :
          std::vector<std::pair<std::string, std::string>>{{"ict-facekit", "neutral.obj"},
@@ -145,24 +147,39 @@ TEST_F(Heads, Package_IsWritten_UnderTheNamesClientsFetch) {
   EXPECT_EQ(neutral.triangles.size(), import_file(head.model).triangles.size());
 }
 
+// Several file vertices may share a position, on one surface or on two that touch: all rows of a place together.
+std::map<std::array<float, 3>, std::set<std::string>> rows_by_place(const Model& model, const json& weights) {
+  std::map<std::array<float, 3>, std::set<std::string>> rows;
+  for (std::size_t v = 0; v < model.positions.size(); ++v) {
+    const glm::vec3& p = model.positions[v];
+    rows[{p.x + 0.0F, p.y + 0.0F, p.z + 0.0F}].insert(weights["vertices"][v].dump());
+  }
+  return rows;
+}
+
+TEST_F(Heads, Glb_HasTheWeightsOfItsObj_AtTheSamePositions) {
+  const SampleHead head = make_sample_head();
+  HeadFiles glb = of_our_own("sample");
+  // The points by their positions: the OBJ has no seams, and so other numbers.
+  json by_place = json::parse(read_text(glb.points));
+  for (auto& [id, point] : by_place["points"].items()) point["vertex"] = nullptr;
+  glb.points = work.write("places.fps.json", by_place.dump());
+  const HeadFiles obj{"sample obj", work.write("sample.obj", testing::obj_of(head)), glb.points};
+  // As text, so to the last bit.
+  EXPECT_TRUE(rows_by_place(import_file(obj.model), weights_of(obj)) ==
+              rows_by_place(import_file(glb.model), weights_of(glb)));
+}
+
 TEST_F(Heads, GlbOfMakehuman_HasTheWeightsOfItsObj_AtTheSamePositions) {
   const auto folder = faces_directory() / "makehuman";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   const std::string points = (folder / "makehuman.fps.json").string();
-  // Several file vertices may share a position, on one surface or on two that touch: all rows of a place together.
-  const auto rows_by_place = [&](const char* file) {
+  const auto rows_of = [&](const char* file) {
     const HeadFiles head{file, (folder / file).string(), points};
-    const Model model = import_file(head.model);
-    const json weights = weights_of(head);
-    std::map<std::array<float, 3>, std::set<std::string>> rows;
-    for (std::size_t v = 0; v < model.positions.size(); ++v) {
-      const glm::vec3& p = model.positions[v];
-      rows[{p.x, p.y, p.z}].insert(weights["vertices"][v].dump());
-    }
-    return rows;
+    return rows_by_place(import_file(head.model), weights_of(head));
   };
-  const auto obj = rows_by_place("head.obj");
-  const auto glb = rows_by_place("head.glb");
+  const auto obj = rows_of("head.obj");
+  const auto glb = rows_of("head.glb");
   EXPECT_EQ(obj.size(), glb.size());
   // As text, so to the last bit.
   EXPECT_TRUE(obj == glb);

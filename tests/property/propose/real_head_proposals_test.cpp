@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/point_lookup.h"
 #include "core/propose/quick_set.h"
 #include "tests/bench/propose/proposal_study.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante::bench {
 namespace {
@@ -52,6 +54,54 @@ TEST(RealHeadProposals, FromRandomSetsAreNeverAbsurdUnlessTheySaySo) {
         EXPECT_LT(e.error, e.confidence == Confidence::high ? 0.25 : 0.5) << study.name << " " << to_string(e.id);
       }
     }
+  }
+}
+
+/// Persons of our own, with open and closed eyes, held against the proportions of others.
+std::vector<ProposalStudy> family_studies() {
+  std::vector<ProposalStudy> studies;
+  for (const testing::FamilyMember& member : testing::sample_family()) {
+    if (member.traits.form != SampleHeadForm::bust || member.traits.pressed_lips) continue;
+    ProposalStudy study;
+    study.name = member.name;
+    study.model = testing::sample_head_model(member.traits);
+    study.surface = build_surface(study.model);
+    study.placed = testing::sample_head_points(member.traits);
+    for (const FeaturePoint& point : study.placed) study.placed_confidence[point.id.value()] = Confidence::high;
+    study.eye_separation = find_point(study.placed, "3.5")->position.x - find_point(study.placed, "3.6")->position.x;
+    for (const ReferenceHead& head : reference_heads()) {
+      if (head.name != "sample-head") study.other_heads.push_back(head);
+    }
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+TEST(FamilyProposals, FromTheQuickSetAreWithinTheirBounds) {
+  for (const ProposalStudy& study : family_studies()) {
+    const auto errors = errors_from(study, {quick_set.begin(), quick_set.end()});
+    EXPECT_GE(errors.size(), 40U) << study.name;
+    EXPECT_LE(share_within(errors, 0.5), 0.05) << study.name;
+    EXPECT_LE(share_within(errors, 0.9), 0.22) << study.name;
+    EXPECT_LE(share_within(errors, 1.0), 0.55) << study.name;
+  }
+}
+
+// The lids' roots, 3.13 and 3.14, are behind the fold of these heads, where no other head has them.
+TEST(FamilyProposals, FromRandomSetsAreHardlyEverAbsurdUnlessTheySaySo) {
+  for (const ProposalStudy& study : family_studies()) {
+    std::mt19937 random(2);
+    int sure = 0;
+    int absurd = 0;
+    for (int draw = 0; draw < 15; ++draw) {
+      for (const ProposalError& e : errors_from(study, random_names(study, 15 + random() % 26, random))) {
+        if (e.confidence == Confidence::low) continue;
+        ++sure;
+        absurd += e.error < (e.confidence == Confidence::high ? 0.25 : 0.5) ? 0 : 1;
+      }
+    }
+    EXPECT_GT(sure, 200) << study.name;
+    EXPECT_LE(absurd, sure * 3 / 100) << study.name;
   }
 }
 

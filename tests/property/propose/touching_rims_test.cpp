@@ -136,6 +136,24 @@ TEST(TouchingRims, OfExpressionsAreOnTheirOwnSide) {
   }
 }
 
+TEST(TouchingRims, OfFacesOfTheFamilyAreOnTheirOwnSide) {
+  for (const ClosableHead& closable : closable_heads()) {
+    if (closable.head.name != "sample head") continue;
+    const PosedFace face(closable.head, WeightMethod::smooth);
+    for (const auto& [viseme, expression] : {std::pair(1, 0), {10, 0}, {13, 0}, {0, 1}, {0, 6}}) {
+      Head head = closable.head;
+      head.model.positions =
+          face.pose(frame_of(static_cast<std::uint8_t>(viseme), static_cast<std::uint8_t>(expression)));
+      head.surface = build_surface(head.model);
+      for (FeaturePoint& point : head.points) {
+        if (point.vertex) point.position = head.model.positions[point.vertex->value()];
+      }
+      expect_right_sides(closable, head, quick_without({}),
+                         "viseme " + std::to_string(viseme) + ", expression " + std::to_string(expression));
+    }
+  }
+}
+
 double way_of(const Head& head, const std::vector<glm::vec3>& moved, std::string_view name) {
   const std::uint32_t vertex = find_point(head.points, name)->vertex->value();
   return glm::distance(head.model.positions[vertex], moved[vertex]);

@@ -90,7 +90,8 @@ std::unique_ptr<TestFace> face_of(const Model& model, const FeaturePointSet& poi
   return face;
 }
 
-/// "sample paper", "sample smooth", "ict-facekit", "makehuman"; null where the real heads are not there.
+/// "sample paper", "sample smooth", "body", "scan", "ict-facekit", "makehuman"; null where the real heads are not
+/// there.
 const TestFace* test_face(const std::string& name) {
   static std::map<std::string, std::unique_ptr<TestFace>> made;
   const auto at = made.find(name);
@@ -99,6 +100,9 @@ const TestFace* test_face(const std::string& name) {
   if (name.starts_with("sample")) {
     face = face_of(testing::sample_head_model(), testing::sample_head_points(),
                    name == "sample paper" ? WeightMethod::paper : WeightMethod::smooth);
+  } else if (name == "body" || name == "scan") {
+    const SampleHeadTraits traits{.form = name == "body" ? SampleHeadForm::body : SampleHeadForm::scan};
+    face = face_of(testing::sample_head_model(traits), testing::sample_head_points(traits), WeightMethod::smooth);
   } else if (const auto faces = oracle::faces_folder()) {
     const Model model = oracle::import_head(*faces / name / (name == "makehuman" ? "head.glb" : "neutral.obj"));
     const Surface surface = build_surface(model);
@@ -180,7 +184,7 @@ class ClipOfHead : public ::testing::TestWithParam<const char*> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Heads, ClipOfHead,
-                         ::testing::Values("sample paper", "sample smooth", "ict-facekit", "makehuman"),
+                         ::testing::Values("sample paper", "sample smooth", "body", "scan", "ict-facekit", "makehuman"),
                          [](const auto& info) {
                            std::string name = info.param;
                            std::replace_if(

@@ -63,7 +63,8 @@ TEST_P(PlantedDefects, AreFound_AtTheirPlaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Doctor, PlantedDefects,
-                         ::testing::Values("sample", "broad", "long", "pressed lips", "ict-facekit", "makehuman"),
+                         ::testing::Values("sample", "broad", "long", "pressed lips", "body", "ict-facekit",
+                                           "makehuman"),
                          [](const auto& info) {
                            std::string name = info.param;
                            std::replace_if(

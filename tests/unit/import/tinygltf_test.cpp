@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "deploy/sample_head/write_sample_head.h"
+#include "tests/support/sample_shapes.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {
@@ -78,6 +79,8 @@ TEST(TinyGltf, SampleHead_IsReadTheSame) {
   ASSERT_TRUE(glb);
   expect_same(*glb);
 }
+
+TEST(TinyGltf, Avatar_IsReadTheSame) { expect_same(testing::sample_avatar_glb()); }
 
 TEST(TinyGltf, MakehumanHead_IsReadTheSame) {
   const char* const set = std::getenv("SEMBLANTE_FACES_DIR");
