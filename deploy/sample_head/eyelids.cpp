@@ -28,7 +28,7 @@ constexpr double lid_height = 0.57;
 constexpr double fold_height = 0.92;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
 constexpr double lower_thickness = 0.17;
-constexpr double fold_front = 1.60;
+constexpr double fold_front = 1.63;
 
 /// y of the line from corner to corner at x.
 double corner_line(double x) { return glm::mix(inner_corner_y, outer_corner_y, 0.5 + 0.5 * x / slit_half_width); }
@@ -151,7 +151,7 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
       const double at_edge = std::acos(std::clamp(p.z / glm::length(p), -1.0, 1.0));
       const double polar = glm::mix(at_edge + 0.05, 0.93 * pi, static_cast<double>(j) / 5.0);
       const double roof = glm::smoothstep(0.35, 0.9, std::sin(azimuth));
-      const double r = eye_radius + glm::mix(j == 0 ? 0.06 : 0.12, 0.40, roof * std::sin(pi * (j + 1.0) / 7.0));
+      const double r = eye_radius + glm::mix(0.05, 0.40, roof * std::sin(pi * (j + 1.0) / 7.0));
       Paint paint;
       paint.inner_uv = {static_cast<double>(j) / 5.0, 1.0};
       const Vec3 direction(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));

@@ -109,7 +109,7 @@ MouthPart make_upper_teeth() {
 }
 
 MouthPart make_lower_teeth() {
-  MouthPart part = make_teeth({8.76, 2.42, 3.8, -8.45, -6.84}, lower_widths);
+  MouthPart part = make_teeth({8.76, 2.42, 3.8, -8.45, -6.82}, lower_widths);
   part.marks = {{"9.9", part.marks["root"]}, {"9.11", part.marks["edge"]}};
   return part;
 }
