@@ -28,7 +28,7 @@ constexpr double lid_height = 0.57;
 constexpr double fold_height = 0.92;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
 constexpr double lower_thickness = 0.17;
-constexpr double fold_front = 1.63;
+constexpr double fold_front = 1.60;
 
 /// y of the line from corner to corner at x.
 double corner_line(double x) { return glm::mix(inner_corner_y, outer_corner_y, 0.5 + 0.5 * x / slit_half_width); }

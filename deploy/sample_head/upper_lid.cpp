@@ -25,11 +25,13 @@ struct Row {
   double shade;  ///< texture: 0 lash .. 1 root
 };
 /// From the ball over the tips of the lashes up the front, behind the brow and over the ball to the root.
+/// The roof is near the sphere about the eye's centre: the lid rolls about it, and a higher one would come out of the
+/// skin above the fold.
 constexpr Row rows[] = {
     {0.0, 0.13, 0.0, 0.0},   {0.0, 0.0, 1.0, 0.03},   {0.065, 0.0, 0.0, 0.13}, {0.12, -0.01, 0.0, 0.24},
-    {0.22, -0.02, 0.0, 0.4}, {0.36, -0.02, 0.0, 0.6}, {0.55, -0.01, 0.0, 0.8}, {0.80, 0.06, 0.0, 1.0},
-    {1.10, 0.22, 0.0, 1.0},  {1.38, 0.46, 0.0, 1.0},  {1.45, 0.75, 0.0, 1.0},  {1.40, 1.20, 0.0, 1.0},
-    {1.15, 1.85, 0.0, 1.0},  {0.80, 2.35, 0.0, 1.0},  {0.40, 2.70, 0.0, 1.0},
+    {0.22, -0.01, 0.0, 0.4}, {0.36, 0.015, 0.0, 0.6}, {0.55, 0.12, 0.0, 0.8},  {0.80, 0.33, 0.0, 1.0},
+    {1.00, 0.58, 0.0, 1.0},  {1.12, 0.85, 0.0, 1.0},  {1.15, 1.10, 0.0, 1.0},  {1.12, 1.40, 0.0, 1.0},
+    {0.95, 1.85, 0.0, 1.0},  {0.70, 2.35, 0.0, 1.0},  {0.40, 2.70, 0.0, 1.0},
 };
 constexpr std::size_t tips = 1;
 
