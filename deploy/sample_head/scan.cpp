@@ -172,15 +172,18 @@ SampleHeadMesh make_surface(const Outside& outside) {
   return mesh;
 }
 
-/// Lips and lids are at one place where they are joined: the search is moved to the side that the point is on, cm.
-double search_offset(std::string_view id) {
+/// Lips and lids are at one place where they are joined, and so are the two corners of the mouth: the search is moved
+/// to the side that the point is on, cm.
+Vec3 search_offset(std::string_view id) {
+  if (id == "2.4" || id == "8.4") return {-0.1, 0.0, 0.0};
+  if (id == "2.5" || id == "8.3") return {0.1, 0.0, 0.0};
   for (const std::string_view upper : {"2.2", "2.6", "2.7", "3.1", "3.2"}) {
-    if (id == upper) return 0.12;
+    if (id == upper) return {0.0, 0.12, 0.0};
   }
   for (const std::string_view lower : {"2.3", "2.8", "2.9", "3.3", "3.4"}) {
-    if (id == lower) return -0.12;
+    if (id == lower) return {0.0, -0.12, 0.0};
   }
-  return 0.0;
+  return Vec3(0.0);
 }
 
 bool is_inside(std::string_view id) {
@@ -208,7 +211,7 @@ SampleHead scan_of(const SampleHead& head) {
       scan.points.push_back({point.id, std::nullopt, glm::vec3(place * 0.01)});
       continue;
     }
-    const glm::vec3 wanted(0.01 * (place + Vec3(0.0, search_offset(id), 0.0)));
+    const glm::vec3 wanted(0.01 * (place + search_offset(id)));
     std::uint32_t nearest = 0;
     float least = std::numeric_limits<float>::infinity();
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
