@@ -37,10 +37,10 @@ double rounded(double v, double e) { return std::copysign(std::pow(std::abs(v), 
 Vec2 outline(double a) {
   const double up = std::sin(a);
   const double back = -std::cos(a);
-  const double length = up > 0.0 ? 2.9 : 2.7;
+  const double length = up > 0.0 ? 2.9 : 2.95;
   double width = back > 0.0 ? 2.05 : 1.25;
-  width *= 1.0 - 0.22 * glm::smoothstep(0.2, -0.9, up);
-  return {length * rounded(up, up < 0.0 ? 0.8 : 0.94), width * rounded(back, up < 0.0 ? 0.72 : 0.85) + 0.15 * up};
+  width *= 1.0 - 0.30 * glm::smoothstep(0.2, -0.9, up);
+  return {length * rounded(up, 0.94), width * rounded(back, up < 0.0 ? 0.72 : 0.85) + 0.15 * up};
 }
 
 /// A ring of the ear: outline scaled by `size` about a centre that shifts by (up, back), at height `out` (cm). `front`
@@ -99,8 +99,7 @@ void add_ear(Skin& skin, const Loop& hole) {
       double out = glm::mix(ring.out, ring.front, to_front);
       // The lobe is a soft pad: the rings of groove and antihelix flatten there.
       if (index >= 5 && index <= 10) out = glm::mix(out, 1.12, 0.85 * lobe);
-      out *= 0.74;  // close to the head, and the lobe closer still
-      out *= 1.0 - 0.38 * glm::smoothstep(-0.1, -1.0, up);
+      out *= 0.74;  // close to the head
       out -= 0.22 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
       Paint paint;
       paint.flush = 0.6;
