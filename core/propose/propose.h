@@ -32,7 +32,8 @@ struct Proposal {
   FeaturePoint point;  ///< in the model's frame
   ProposalMethod method = ProposalMethod::proportion;
   Confidence confidence = Confidence::low;
-  double expected_error = 0.0;  ///< a radius in ES0: nine in ten proposals lie within theirs of a carefully placed point
+  double expected_error =
+      0.0;  ///< a radius in ES0: nine in ten proposals lie within theirs of a carefully placed point
   /// A further reason for doubt, as text; may be empty. A point of a lip or lid whose side is uncertain has a remark,
   /// and never `high` confidence.
   std::string remark;

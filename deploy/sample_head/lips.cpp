@@ -25,7 +25,8 @@ struct LipPlace {
 };
 
 /// Steps are a little wider beside the feature points, at 0, 1/2 and 1, than between them, so that a point that moves
-/// alone makes a slope instead of a spike. With much wider ones the lower lip of an open mouth is pointed in the middle.
+/// alone makes a slope instead of a spike. With much wider ones the lower lip of an open mouth is pointed in the
+/// middle.
 double spread(double along) {
   const double half = along < 0.5 ? 0.0 : 0.5;
   const double t = 4.0 * (along - half) - 1.0;  // -1 .. 1 from one point to the next

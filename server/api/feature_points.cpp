@@ -12,6 +12,7 @@
 #include "core/propose/propose.h"
 #include "core/types/feature_point_id.h"
 #include "server/api/common.h"
+#include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/mirror_points.h"
 #include "server/api/vertex_positions.h"
@@ -215,6 +216,7 @@ http::Response put_feature_points(Context& context, http::Request& request) {
 http::Response patch_feature_points(Context& context, http::Request& request) {
   const auto model = editable_model(context, request);
   const auto body = body_object(request);
+  refuse_unknown_members(body, body_members::feature_points_edit);
   auto points = context.store.feature_points(model.id);
   if (body.contains("points")) read_points(body, model.vertices, true, points);
   std::optional<store::FapuByUser> fapu;

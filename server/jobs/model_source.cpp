@@ -47,14 +47,15 @@ void from_json(const nlohmann::json& json, ModelSource& source) {
 }
 
 void to_json(nlohmann::json& json, const MarkedSource& source) {
-  json = {{"model", source.model}, {"points", source.points}, {"parts", source.parts}, {"fapu", source.fapu}};
+  json = {{"model", source.model}, {"points", source.points}, {"parts", source.parts}};
+  if (!source.fapu.empty()) json["fapu"] = source.fapu;
 }
 
 void from_json(const nlohmann::json& json, MarkedSource& source) {
   json.at("model").get_to(source.model);
   json.at("points").get_to(source.points);
   json.at("parts").get_to(source.parts);
-  json.at("fapu").get_to(source.fapu);
+  if (json.contains("fapu")) json["fapu"].get_to(source.fapu);
 }
 
 }  // namespace semblante::jobs

@@ -61,6 +61,13 @@ async function mark(client: Client, model: string, head: Head): Promise<void> {
   const proposed = good(await client.GET('/v1/models/{model}/feature-points', { params: { path } }));
   assert.ok(Object.values(proposed.points).some((point) => point.proposed && point.confidence));
 
+  // What a finding's `move` asks for: one point to another place, the others stay.
+  const edit = { points: { '8.1': head.points.points['8.1']!, '2.2': null } };
+  const edited = good(await client.PATCH('/v1/models/{model}/feature-points', { params: { path }, body: edit }));
+  assert.deepEqual([edited.points['2.2'], '2.3' in edited.points], [undefined, true]);
+  const odd = { points: {}, frames: [] } as Schemas['FeaturePointsEdit'];
+  refused(await client.PATCH('/v1/models/{model}/feature-points', { params: { path }, body: odd }), 422);
+
   const stored = good(await put(head.points));
   assert.equal(Object.keys(stored.points).length, 84);
 }

@@ -14,7 +14,7 @@ TEST(Routes, Path_FindsItsPatternAndNames) {
   EXPECT_EQ(match.route->method, "PUT");
   EXPECT_EQ(match.route->pattern, "/v1/models/{model}/feature-points");
   EXPECT_EQ(match.params.at("model"), "abc");
-  EXPECT_EQ(match.allow, "OPTIONS, GET, HEAD, PUT");
+  EXPECT_EQ(match.allow, "OPTIONS, GET, HEAD, PUT, PATCH");
   EXPECT_EQ(match_route("HEAD", "/v1/models").route, match_route("GET", "/v1/models").route);
   const auto wrong_method = match_route("PATCH", "/v1/models");
   EXPECT_EQ(wrong_method.route, nullptr);

@@ -64,7 +64,7 @@ export class ParametrizeOptions {
   );
   private readonly articulation = this.field('Articulation', articulationChoices, (value) =>
     this.parametrizer.set({ articulation: Number(value) }),
-];
+  );
   private readonly expressions = this.field('Expressions', expressionChoices, (value) =>
     this.parametrizer.set({ expressions: value as ChosenOptions['expressions'] }),
   );
