@@ -60,19 +60,19 @@ double skull_distance(const Vec3& p) {
 double head_distance(const Vec3& p) {
   const Vec3 q(std::abs(p.x), p.y, p.z);
   double d = skull_distance(q);
-  d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);              // middle of the face
-  d = join(d, ellipsoid(q, {0.0, -4.7, 2.8}, {5.6, 6.1, 6.2}), 2.4);               // lower face
-  d = join(d, ellipsoid(q, {3.05, -5.0, 1.4}, {1.8, 2.6, 2.8}), 2.8);               // angle of the jaw
-  d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);               // cheek bone
-  d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);               // apple of the cheek
-  d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);               // muzzle, over the teeth
-  d = join(d, ellipsoid(q, {0.0, -9.4, 7.45}, {1.55, 1.6, 1.85}), 2.4);            // chin
-  d = join(d, capsule(q, {3.55, -6.2, 2.4}, {2.5, -8.6, 5.3}, 1.0, 1.08), 2.4);  // edge of the jaw, in two
+  d = join(d, ellipsoid(q, {0.0, -1.2, 1.8}, {6.95, 6.5, 6.6}), 1.8);             // middle of the face
+  d = join(d, ellipsoid(q, {0.0, -4.7, 2.8}, {5.6, 6.1, 6.2}), 2.4);              // lower face
+  d = join(d, ellipsoid(q, {3.05, -5.0, 1.4}, {1.8, 2.6, 2.8}), 2.8);             // angle of the jaw
+  d = join(d, ellipsoid(q, {4.1, -1.9, 4.7}, {2.2, 1.6, 2.4}), 2.4);              // cheek bone
+  d = join(d, ellipsoid(q, {3.3, -3.6, 6.0}, {2.0, 2.0, 1.9}), 2.2);              // apple of the cheek
+  d = join(d, ellipsoid(q, {0.0, -6.6, 6.1}, {3.2, 2.5, 3.3}), 2.0);              // muzzle, over the teeth
+  d = join(d, ellipsoid(q, {0.0, -9.4, 7.45}, {1.55, 1.6, 1.85}), 2.4);           // chin
+  d = join(d, capsule(q, {3.55, -6.2, 2.4}, {2.5, -8.6, 5.3}, 1.0, 1.08), 2.4);   // edge of the jaw, in two
   d = join(d, capsule(q, {2.5, -8.6, 5.3}, {1.1, -9.68, 7.05}, 1.08, 1.1), 2.4);  // pieces: a curve
-  d = join(d, capsule(q, {1.0, 1.9, 7.95}, {4.6, 1.8, 6.2}, 0.70, 0.66), 2.2);     // brow ridge
-  d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);             // eye socket
-  d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);             // lids over the ball
-  d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);   // fold over the upper lid
+  d = join(d, capsule(q, {1.0, 1.9, 7.95}, {4.6, 1.8, 6.2}, 0.70, 0.66), 2.2);    // brow ridge
+  d = carve(d, ellipsoid(q, {3.1, -0.1, 9.1}, {1.9, 1.45, 1.9}), 1.6);            // eye socket
+  d = join(d, ellipsoid(q, eye_centre, Vec3(eye_radius + 0.15)), 0.5);            // lids over the ball
+  d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
   d = join(d, bridge_distance(q), 2.3);
   d = join(d, nose_end_distance(q), 1.15);
   return join(d, bust_distance(q), 2.4);

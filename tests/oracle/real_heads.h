@@ -10,7 +10,8 @@
 namespace semblante::oracle {
 
 /// The folder of real heads: $SEMBLANTE_FACES_DIR, or `../shared/faces` beside the source tree; empty where there is
-/// none, or one without the folders of the heads. They belong to others and are not part of the project, so tests that want them skip without.
+/// none, or one without the folders of the heads. They belong to others and are not part of the project, so tests that
+/// want them skip without.
 std::optional<std::filesystem::path> faces_folder();
 
 /// `v` and `f` lines of a trusted OBJ, polygons as fans, one primitive per run of `g` or `usemtl`. Positions pass
