@@ -24,8 +24,7 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
     return number_of[key] = static_cast<std::uint8_t>(out.materials.size() - 1);
   };
   for (const Primitive& primitive : model.primitives) {
-    const bool named = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model.materials.size();
-    const Material* const own = named ? &model.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
+    const Material* const own = material_of(model, primitive);
     for (std::size_t t = primitive.first_triangle; t < std::size_t{primitive.first_triangle} + primitive.triangle_count;
          ++t) {
       if (own != nullptr && !says_nothing(*own)) {

@@ -71,12 +71,15 @@ class EyePainter {
   EyePainter(const Model& model, const Surface& surface, std::span<const Part> parts, const EyeLook& look)
       : model_(model), surface_(surface), parts_(parts), look_(look) {
     for (const Primitive& primitive : model.primitives) {
-      const Material* const own = material_of(primitive);
+      const Material* const own = material_of(model, primitive);
       if (own == nullptr || says_nothing(*own) || is_eye_white(*own) || is_film(*own)) continue;
       const std::size_t end = std::size_t{primitive.first_triangle} + primitive.triangle_count;
       for (std::size_t t = primitive.first_triangle; t < end; ++t) {
         if (const auto side = side_of(model.triangles[t])) has_own_iris_[*side] = true;
       }
+    }
+    for (const RigidMotion motion : look.motion) {
+      if (moves_as_iris(motion)) has_moving_iris_[is_left_eye(motion) ? 0 : 1] = true;
     }
   }
 
@@ -84,7 +87,7 @@ class EyePainter {
   [[nodiscard]] PaintedTriangle painted(const Primitive& primitive, const Triangle& corners) const {
     const auto side = side_of(corners);
     if (!side || has_own_iris_[*side]) return {};
-    const Material* const own = material_of(primitive);
+    const Material* const own = material_of(model_, primitive);
     if (own != nullptr && is_film(*own)) return {};
     const PartRole role = *side == 0 ? PartRole::left_eye : PartRole::right_eye;
     const Plain plain =
@@ -92,7 +95,8 @@ class EyePainter {
     if (plain != Plain::sclera && plain != Plain::iris) return {};
     const std::optional<PaintedEye>& eye = look_.eyes[*side];
     if (!eye || !can_be_painted(*eye)) return {};
-    return {&*eye, paint_of(*eye, corners), plain == Plain::iris};
+    const bool is_cornea = has_moving_iris_[*side] && is_in_front_of_iris(*eye, corners);
+    return {&*eye, is_cornea ? Paint::film : Paint::eye, plain == Plain::iris};
   }
 
   /// In radii of the iris; nothing of the front of an eye is farther from its axis.
@@ -115,12 +119,6 @@ class EyePainter {
   }
 
  private:
-  [[nodiscard]] const Material* material_of(const Primitive& primitive) const {
-    const bool named =
-        primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size();
-    return named ? &model_.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
-  }
-
   /// 0 left, 1 right; empty if the triangle is not of an eye.
   [[nodiscard]] std::optional<std::size_t> side_of(const Triangle& corners) const {
     const PartId part = surface_.part_of[surface_.surface_of[corners[0]].value()];
@@ -131,28 +129,22 @@ class EyePainter {
     return std::nullopt;
   }
 
-  [[nodiscard]] Paint paint_of(const PaintedEye& eye, const Triangle& corners) const {
-    if (look_.motion.empty()) return Paint::eye;
+  /// Whether a triangle is over the iris and does not move with it.
+  [[nodiscard]] bool is_in_front_of_iris(const PaintedEye& eye, const Triangle& corners) const {
     const glm::vec3 sum = model_.positions[corners[0]] + model_.positions[corners[1]] + model_.positions[corners[2]];
     const EyePlace center = place_of(eye, sum / 3.0F);
-    if (center.along <= 0.0F || glm::length(center.across) >= eye.iris_radius) return Paint::eye;
-    const bool of_iris =
-        std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return moves_as_iris(look_.motion[v]); });
-    return of_iris || !has_iris(eye) ? Paint::eye : Paint::film;
-  }
-
-  /// Whether any vertex moves as the iris of this eye.
-  [[nodiscard]] bool has_iris(const PaintedEye& eye) const {
-    const bool is_left = look_.eyes[0] && &*look_.eyes[0] == &eye;
-    const RigidMotion wanted = is_left ? RigidMotion::left_iris : RigidMotion::right_iris;
-    return std::find(look_.motion.begin(), look_.motion.end(), wanted) != look_.motion.end();
+    return center.along > 0.0F && glm::length(center.across) < eye.iris_radius &&
+           std::none_of(corners.begin(), corners.end(),
+                        [&](std::uint32_t v) { return moves_as_iris(look_.motion[v]); });
   }
 
   const Model& model_;
   const Surface& surface_;
   std::span<const Part> parts_;
   const EyeLook& look_;
-  std::array<bool, 2> has_own_iris_{};  ///< left, right: of the file
+  // Left, right.
+  std::array<bool, 2> has_own_iris_{};     ///< the file gives the eye a look of its own
+  std::array<bool, 2> has_moving_iris_{};  ///< some vertices move as its iris
 };
 
 /// Texture coordinates of single corners, in a model that may have none.

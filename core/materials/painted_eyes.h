@@ -26,11 +26,11 @@ struct EyeLook {
   std::span<const RigidMotion> motion;
 };
 
-/// Of a parametrized head: its irises, else around its pupils (3.5, 3.6) with the diameter IRISD0, since in the neutral
-/// face the lids touch the iris. Refers to `rig`.
+/// The eyes of a parametrized head. An eye is painted at its iris in `rig`; without one, around its pupil (3.5, 3.6)
+/// with the diameter IRISD0, because the lids of the neutral face touch the iris. The result refers to `rig`.
 EyeLook eyes_of(const Rig& rig);
 
-/// Of a head without feature points: looking straight ahead, by the boxes of its eyeballs.
+/// The eyes of a head without feature points, by the bounding boxes of its eyeballs; they look straight ahead.
 EyeLook guessed_eyes(std::span<const Part> parts);
 
 /// Gives eyeballs to which the file gave no texture, and no colour but white, a texture with a round iris and pupil:

@@ -22,7 +22,7 @@ constexpr std::array<PlainMaterial, 10> plain_materials = {{
     {"teeth", {0.84F, 0.80F, 0.72F, 1.0F}, 0.30F},
     {"mouth", {0.48F, 0.13F, 0.12F, 1.0F}, 0.40F},
     {"hair", {0.035F, 0.022F, 0.016F, 1.0F}, 0.70F},
-    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips of untextured hairs: translucent, not opaque
+    {"lashes", {0.035F, 0.022F, 0.016F, 0.35F}, 0.70F},  // strips that stand for single hairs: translucent
     {"fluid", {1.0F, 1.0F, 1.0F, 0.06F}, 0.05F},
     {"neutral", {0.30F, 0.31F, 0.33F, 1.0F}, 0.80F},  // clothing and whatever is no part of a face
 }};
@@ -92,6 +92,11 @@ Material plain_material(Plain plain) {
   material.roughness = look.roughness;
   if (look.color.a < 1.0F) material.alpha_mode = Material::AlphaMode::blend;
   return material;
+}
+
+const Material* material_of(const Model& model, const Primitive& primitive) {
+  const bool named = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model.materials.size();
+  return named ? &model.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
 }
 
 bool says_nothing(const Material& material) {

@@ -16,7 +16,11 @@ Plain plain_of(std::string_view material, std::string_view primitive, PartRole r
 
 Material plain_material(Plain plain);
 
-/// Whether a material is none: plain white, as for an OBJ without its .mtl, or with an image that could not be read.
+/// The file's material of a primitive; null without one.
+const Material* material_of(const Model& model, const Primitive& primitive);
+
+/// Whether a material of the file tells nothing about the look: it is plain white, as an OBJ without its .mtl has it,
+/// or its image could not be read.
 bool says_nothing(const Material& material);
 
 }  // namespace semblante
