@@ -30,18 +30,18 @@ constexpr std::size_t fit_block = 1024;
 using Gram = std::vector<double>;
 
 /// One shape: its points' displacements divided by the root of its size.
-struct Lesson {
-  const Example* shape;
+struct KnownShape {
+  const Example* source;
   double scale = 0.0;               ///< zero: no point moves
   std::vector<glm::dvec3> points;   ///< #F
   std::vector<glm::dvec3> members;  ///< of the block, scaled
 };
 
-void add_lesson(Gram& gram, const Lesson& lesson, double sign) {
-  const std::size_t count = lesson.points.size();
+void add_shape(Gram& gram, const KnownShape& known, double sign) {
+  const std::size_t count = known.points.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
-      gram[i * count + j] += sign * glm::dot(lesson.points[i], lesson.points[j]);
+      gram[i * count + j] += sign * glm::dot(known.points[i], known.points[j]);
     }
   }
 }
@@ -89,27 +89,27 @@ class PartFit {
     slot_of_.fill(0);
     for (std::size_t f = 0; f < count_; ++f) slot_of_[distances.points[f].id.value()] = f;
     for (const Example& shape : shapes) {
-      lessons_.push_back(lesson_of(shape));
-      add_lesson(all_, lessons_.back(), 1.0);
+      known_shapes_.push_back(known_shape(shape));
+      add_shape(all_, known_shapes_.back(), 1.0);
       result_.errors.push_back({shape.name, 0.0, 0.0, 0.0});
     }
-    for (const Lesson& lesson : lessons_) add_lesson(without_.emplace_back(all_), lesson, -1.0);
+    for (const KnownShape& known : known_shapes_) add_shape(without_.emplace_back(all_), known, -1.0);
   }
 
   /// Sets up the members of a block, at most fit_block.
   void read_block(std::size_t first, std::size_t last) {
     first_ = first;
     wanted_.assign((last - first) * count_, 0.0);
-    for (Lesson& lesson : lessons_) {
-      lesson.members.assign(last - first, glm::dvec3(0.0));
-      if (lesson.scale == 0.0) continue;
-      const std::vector<std::uint32_t>& of = lesson.shape->vertices;
+    for (KnownShape& known : known_shapes_) {
+      known.members.assign(last - first, glm::dvec3(0.0));
+      if (known.scale == 0.0) continue;
+      const std::vector<std::uint32_t>& of = known.source->vertices;
       const auto from = std::lower_bound(of.begin(), of.end(), first);
       for (auto at = static_cast<std::size_t>(from - of.begin()); at < of.size() && of[at] < last; ++at) {
-        const glm::dvec3 moved = glm::dvec3(lesson.shape->displacements[at]) * lesson.scale;
-        lesson.members[of[at] - first] = moved;
+        const glm::dvec3 moved = glm::dvec3(known.source->displacements[at]) * known.scale;
+        known.members[of[at] - first] = moved;
         double* const wanted = &wanted_[(of[at] - first) * count_];
-        for (std::size_t f = 0; f < count_; ++f) wanted[f] += glm::dot(moved, lesson.points[f]);
+        for (std::size_t f = 0; f < count_; ++f) wanted[f] += glm::dot(moved, known.points[f]);
       }
     }
   }
@@ -134,24 +134,24 @@ class PartFit {
     }
     result_.rows.end_row();
     if (!is_sampled) return;
-    for (std::size_t s = 0; s < lessons_.size(); ++s) leave_out(s, member, wanted);
+    for (std::size_t s = 0; s < known_shapes_.size(); ++s) leave_out(s, member, wanted);
   }
 
   FittedWeights take() { return std::move(result_); }
 
  private:
-  [[nodiscard]] Lesson lesson_of(const Example& shape) const {
-    Lesson lesson{&shape, 0.0, {}, {}};
+  [[nodiscard]] KnownShape known_shape(const Example& shape) const {
+    KnownShape known{&shape, 0.0, {}, {}};
     double size = 0.0;
     for (const SurfacePoint& point : distances_.points) {
       const auto at = std::lower_bound(distances_.members.begin(), distances_.members.end(), point.vertex);
       const auto member = static_cast<std::uint32_t>(at - distances_.members.begin());
-      lesson.points.emplace_back(shape.at(member));
-      size += glm::dot(lesson.points.back(), lesson.points.back());
+      known.points.emplace_back(shape.at(member));
+      size += glm::dot(known.points.back(), known.points.back());
     }
-    if (size > 0.0) lesson.scale = 1.0 / std::sqrt(size);
-    for (glm::dvec3& moved : lesson.points) moved *= lesson.scale;
-    return lesson;
+    if (size > 0.0) known.scale = 1.0 / std::sqrt(size);
+    for (glm::dvec3& moved : known.points) moved *= known.scale;
+    return known;
   }
 
   WeightRow row_of(std::span<const double> weights, double freedom) {
@@ -171,21 +171,21 @@ class PartFit {
 
   /// Predicts the member in one shape by a fit to the others.
   void leave_out(std::size_t s, std::size_t member, std::span<const double> wanted) {
-    const Lesson& lesson = lessons_[s];
-    if (lesson.scale == 0.0) return;
-    const glm::dvec3& truth = lesson.members[member - first_];
+    const KnownShape& known = known_shapes_[s];
+    if (known.scale == 0.0) return;
+    const glm::dvec3& truth = known.members[member - first_];
     others_.assign(wanted.begin(), wanted.end());
-    for (std::size_t f = 0; f < count_; ++f) others_[f] -= glm::dot(truth, lesson.points[f]);
+    for (std::size_t f = 0; f < count_; ++f) others_[f] -= glm::dot(truth, known.points[f]);
     left_out_ = fitted_;
     RowProblem{others_, smooth_row_, ridges_}.solve(without_[s], left_out_, slope_);
     const WeightRow row = row_of(left_out_, freedom_[member]);
     glm::dvec3 wrong = -truth;
     glm::dvec3 smooth_wrong = -truth;
     for (std::size_t f = 0; f < count_; ++f) {
-      wrong += row[distances_.points[f].id.value()] * lesson.points[f];
-      smooth_wrong += smooth_row_[f] * lesson.points[f];
+      wrong += row[distances_.points[f].id.value()] * known.points[f];
+      smooth_wrong += smooth_row_[f] * known.points[f];
     }
-    const double to_model = 1.0 / (lesson.scale * lesson.scale);
+    const double to_model = 1.0 / (known.scale * known.scale);
     result_.errors[s].moved += to_model * glm::dot(truth, truth);
     result_.errors[s].wrong += to_model * glm::dot(wrong, wrong);
     result_.errors[s].smooth_wrong += to_model * glm::dot(smooth_wrong, smooth_wrong);
@@ -197,9 +197,9 @@ class PartFit {
   double length_;
   std::size_t count_;
   std::array<std::size_t, feature_point_count> slot_of_{};
-  std::vector<Lesson> lessons_;
+  std::vector<KnownShape> known_shapes_;
   Gram all_;                   ///< of all shapes
-  std::vector<Gram> without_;  ///< by shape, of the others
+  std::vector<Gram> without_;  ///< entry s: of all shapes except shape s
   std::size_t first_ = 0;
   std::vector<double> wanted_;  ///< of the block, by member
   std::vector<double> smooth_row_, ridges_, fitted_, others_, left_out_, slope_;

@@ -38,7 +38,7 @@ std::vector<double> freedom_of_members(const Surface& surface, const PointDistan
 /// as the shapes; at a point's own vertex they are exactly that point.
 ///
 /// `smooth`: the rows of smooth_part_weights. `freedom`: #M. `shapes`: by member (shapes_of_members), finite; one that
-/// moves no point teaches nothing. `unit`: the length of smooth_part_weights. The time of the errors grows with #shapes
+/// moves no point is ignored. `unit`: the length of smooth_part_weights. The time of the errors grows with #shapes
 /// * #M / sample_every, that of the weights with #M. Fails only with `cancelled`.
 Result<FittedWeights> fit_part_weights(const PointDistances& distances, const WeightTable<double>& smooth,
                                        std::span<const double> freedom, std::span<const Example> shapes, double unit,

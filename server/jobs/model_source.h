@@ -29,7 +29,7 @@ struct MarkedSource {
   ModelSource model;
   std::vector<store::FeaturePointRecord> points;
   std::vector<store::PartRecord> parts;  ///< of the import; roles set by the user are kept
-  store::FapuByUser fapu = {};           ///< units given by hand
+  store::FapuByUser fapu = {};           ///< lengths of units that the user gave; the others are measured
 
   bool operator==(const MarkedSource&) const = default;
 };
