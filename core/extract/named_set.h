@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,10 @@ enum class SetKind : std::uint8_t { viseme, expression };
 inline constexpr std::array<std::string_view, 2> set_kind_names = {"viseme", "expression"};
 std::string_view to_string(SetKind kind);
 std::optional<SetKind> parse_set_kind(std::string_view name);
+/// The library's sets of a kind, by number.
+inline std::span<const DisplacementSet> library_of(SetKind kind) {
+  return kind == SetKind::viseme ? viseme_library() : expression_library();
+}
 
 /// A displacement set with owned name and displacements: extracted from an example, or made by hand.
 struct NamedSet {

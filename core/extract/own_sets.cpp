@@ -24,11 +24,12 @@ constexpr double most_of_arkit = 0.8;
 constexpr float least_coefficient = 0.02F;
 
 /// A face as a sum of the model's shapes.
-using Recipe = std::vector<std::pair<const Example*, float>>;
+using ShapeSum = std::vector<std::pair<const Example*, float>>;
 
-class Wardrobe {
+/// The model's shapes by what they show.
+class NamedShapes {
  public:
-  explicit Wardrobe(const Model& model) {
+  explicit NamedShapes(const Model& model) {
     for (const Example& example : model.examples) {
       if (const auto face = face_of_shape_name(example.name)) {
         named_.try_emplace({face->kind, face->number}, &example);
@@ -38,13 +39,13 @@ class Wardrobe {
     }
   }
 
-  [[nodiscard]] Recipe find(SetKind kind, std::size_t number) const {
+  [[nodiscard]] ShapeSum find(SetKind kind, std::size_t number) const {
     if (const auto found = named_.find({kind, number}); found != named_.end()) return {{found->second, 1.0F}};
     return from_arkit(kind, number);
   }
 
  private:
-  [[nodiscard]] Recipe from_arkit(SetKind kind, std::size_t number) const {
+  [[nodiscard]] ShapeSum from_arkit(SetKind kind, std::size_t number) const {
     semblante_frame frame{};
     if (kind == SetKind::viseme) {
       frame.viseme1 = static_cast<std::uint8_t>(number);
@@ -54,7 +55,7 @@ class Wardrobe {
       frame.intensity1 = 63;
     }
     const ArkitCoefficients wanted = arkit_from_frame(frame);
-    Recipe recipe;
+    ShapeSum sum;
     double all = 0.0;
     double here = 0.0;
     for (std::size_t shape = 0; shape < wanted.size(); ++shape) {
@@ -62,19 +63,19 @@ class Wardrobe {
       all += static_cast<double>(wanted[shape]);
       if (arkit_[shape] == nullptr) continue;
       here += static_cast<double>(wanted[shape]);
-      recipe.emplace_back(arkit_[shape], wanted[shape]);
+      sum.emplace_back(arkit_[shape], wanted[shape]);
     }
     if (!(here > 0.0) || here < most_of_arkit * all) return {};
-    return recipe;
+    return sum;
   }
 
   std::map<std::pair<SetKind, std::size_t>, const Example*> named_;
   std::array<const Example*, arkit_count> arkit_{};
 };
 
-std::vector<glm::vec3> shape_of(const Model& model, const Recipe& recipe) {
+std::vector<glm::vec3> shape_of(const Model& model, const ShapeSum& sum) {
   std::vector<glm::vec3> shape = model.positions;
-  for (const auto& [example, share] : recipe) {
+  for (const auto& [example, share] : sum) {
     for (std::size_t i = 0; i < example->vertices.size(); ++i) {
       shape[example->vertices[i]] += share * example->displacements[i];
     }
@@ -87,30 +88,29 @@ void list(std::string& names, std::string_view name) { names.append(names.empty(
 }  // namespace
 
 Result<OwnSets> own_sets(const Model& model, const FeaturePointSet& points, const Fapu& fapu) {
-  const Wardrobe wardrobe(model);
+  const NamedShapes shapes(model);
   OwnSets result;
   std::string found;
   std::string missing;
   for (const SetKind kind : {SetKind::viseme, SetKind::expression}) {
-    const bool is_viseme = kind == SetKind::viseme;
-    const auto library = is_viseme ? viseme_library() : expression_library();
+    const auto library = library_of(kind);
     ExtractOptions options;
-    options.least = is_viseme ? least_of_visemes : least_of_expressions;
+    options.least = kind == SetKind::viseme ? least_of_visemes : least_of_expressions;
     for (std::size_t number = 1; number < library.size(); ++number) {
       const std::string name(library[number].name);
-      const Recipe recipe = wardrobe.find(kind, number);
-      if (recipe.empty()) {
+      const ShapeSum sum = shapes.find(kind, number);
+      if (sum.empty()) {
         list(missing, name);
         continue;
       }
-      auto extraction = extract_displacements(points, fapu, model.positions, shape_of(model, recipe), options);
+      auto extraction = extract_displacements(points, fapu, model.positions, shape_of(model, sum), options);
       if (!extraction) {
         result.words.push_back("its own shape for " + name +
                                " is left out, the library's stays: " + extraction.error().message);
         continue;
       }
-      list(found, recipe.size() == 1 ? name + " (" + recipe[0].first->name + ")"
-                                     : name + " (" + std::to_string(recipe.size()) + " ARKit shapes)");
+      list(found, sum.size() == 1 ? name + " (" + sum[0].first->name + ")"
+                                  : name + " (" + std::to_string(sum.size()) + " ARKit shapes)");
       result.sets.push_back({name, kind, std::move(extraction->displacements)});
     }
   }

@@ -12,7 +12,7 @@ namespace semblante {
 
 /// The visemes and expressions of a head that its own shapes (morph targets) show.
 struct OwnSets {
-  std::vector<NamedSet> sets;      ///< with the library's names, in its order: visemes, then expressions
+  std::vector<NamedSet> sets;      ///< named and ordered as in the library: visemes, then expressions
   std::vector<std::string> words;  ///< what they were taken from, which are missing and why
 };
 

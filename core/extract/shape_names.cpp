@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bridges/arkit.h"
+#include "core/bridges/oculus.h"
 #include "core/expressions/library.h"
 
 namespace semblante {
@@ -20,24 +21,11 @@ struct Alias {
 
 constexpr SetKind v = SetKind::viseme;
 constexpr SetKind e = SetKind::expression;
-/// Oculus Lipsync's names, VRM's five vowels (0.x and 1.0), and expressions as VRM, VRoid and avatar makers call them.
+/// Names beside Oculus Lipsync's (find_oculus): VRM's five vowels (0.x and 1.0), and expressions as VRM, VRoid and
+/// avatar makers call them.
 constexpr std::array aliases = std::to_array<Alias>({
-    {"pp", v, "p_b_m"},
-    {"ff", v, "f_v"},
-    {"th", v, "th"},
-    {"dd", v, "t_d"},
-    {"kk", v, "k_g"},
-    {"ch", v, "ch_j_sh"},
-    {"ss", v, "s_z"},
-    {"nn", v, "n_l"},
-    {"rr", v, "r"},
-    {"aa", v, "a"},
-    {"ih", v, "i"},
-    {"oh", v, "o"},
-    {"ou", v, "u"},
     {"ee", v, "e"},
     {"a", v, "a"},
-    {"e", v, "e"},
     {"i", v, "i"},
     {"o", v, "o"},
     {"u", v, "u"},
@@ -84,8 +72,14 @@ std::optional<std::size_t> number_in(std::span<const DisplacementSet> library, s
   return std::nullopt;
 }
 
-std::span<const DisplacementSet> library_of(SetKind kind) {
-  return kind == SetKind::viseme ? viseme_library() : expression_library();
+std::optional<NamedFace> face_of_word(std::string_view word) {
+  // Oculus Lipsync's visemes have the numbers of FAP 1; silence is no shape.
+  if (const auto number = find_oculus(word); number && *number > 0) return NamedFace{SetKind::viseme, *number};
+  const auto* const alias =
+      std::find_if(aliases.begin(), aliases.end(), [&](const Alias& known) { return known.word == word; });
+  if (alias == aliases.end()) return std::nullopt;
+  const auto number = number_in(library_of(alias->kind), alias->name);
+  return number ? std::optional(NamedFace{alias->kind, *number}) : std::nullopt;
 }
 
 }  // namespace
@@ -96,16 +90,13 @@ std::optional<NamedFace> face_of_shape_name(std::string_view name) {
   }
   const std::vector<std::string> words = words_of(name);
   if (words.empty()) return std::nullopt;
-  for (const Alias& alias : aliases) {
-    if (words.back() != alias.word) continue;
-    const auto& allowed = alias.kind == SetKind::viseme ? before_visemes : before_expressions;
-    const bool is_whole_face = std::all_of(words.begin(), words.end() - 1, [&](const std::string& word) {
-      return std::find(allowed.begin(), allowed.end(), word) != allowed.end();
-    });
-    const auto number = number_in(library_of(alias.kind), alias.name);
-    if (is_whole_face && number) return NamedFace{alias.kind, *number};
-  }
-  return std::nullopt;
+  const auto face = face_of_word(words.back());
+  if (!face) return std::nullopt;
+  const auto& allowed = face->kind == SetKind::viseme ? before_visemes : before_expressions;
+  const bool is_whole_face = std::all_of(words.begin(), words.end() - 1, [&](const std::string& word) {
+    return std::find(allowed.begin(), allowed.end(), word) != allowed.end();
+  });
+  return is_whole_face ? face : std::nullopt;
 }
 
 std::optional<std::size_t> arkit_of_shape_name(std::string_view name) {
