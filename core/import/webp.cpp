@@ -3,13 +3,14 @@
 #include <memory>
 #include <utility>
 
-#include <stb/stb_image_write.h>
 #include <webp/decode.h>
+
+#include "core/gltf/encode_image.h"
 
 namespace semblante::import {
 namespace {
 
-/// Above 90 stb keeps the full resolution of the colours.
+/// Above 90 the encoder keeps the full resolution of the colours.
 constexpr int jpeg_quality = 93;
 
 Error cannot_be_decoded() { return {ErrorCode::malformed, "", "is a WebP image that cannot be decoded"}; }
@@ -24,12 +25,6 @@ Result<WebPBitstreamFeatures> features_of(std::span<const std::uint8_t> bytes) {
     return Error{ErrorCode::unsupported, "", "is a WebP image that moves, which no texture can"};
   }
   return features;
-}
-
-void append(void* bytes, void* data, int size) {
-  const auto* const begin = static_cast<const std::uint8_t*>(data);
-  static_cast<std::vector<std::uint8_t>*>(bytes)->insert(static_cast<std::vector<std::uint8_t>*>(bytes)->end(), begin,
-                                                         begin + size);
 }
 
 }  // namespace
@@ -53,12 +48,10 @@ Result<Image> converted_webp(std::span<const std::uint8_t> bytes) {
   const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> pixels(decode(bytes.data(), bytes.size(), &width, &height),
                                                                   &WebPFree);
   if (!pixels) return cannot_be_decoded();
-  Image image;
-  image.mime_type = to_jpeg ? "image/jpeg" : "image/png";
-  const int written =
-      to_jpeg ? stbi_write_jpg_to_func(append, &image.bytes, width, height, channels, pixels.get(), jpeg_quality)
-              : stbi_write_png_to_func(append, &image.bytes, width, height, channels, pixels.get(), width * channels);
-  if (written == 0) return cannot_be_decoded();
+  const std::span rows(pixels.get(), static_cast<std::size_t>(width) * height * channels);
+  Image image = to_jpeg ? Image{"image/jpeg", encode_jpeg(rows, width, height, channels, jpeg_quality)}
+                        : Image{"image/png", encode_png(rows, width, height, channels)};
+  if (image.bytes.empty()) return cannot_be_decoded();
   return image;
 }
 

@@ -7,7 +7,8 @@
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <stb/stb_image_write.h>
+
+#include "core/gltf/encode_image.h"
 
 namespace semblante {
 namespace {
@@ -43,12 +44,6 @@ std::uint8_t srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(s, 0.0F, 1.0F)));
 }
 
-void append(void* bytes, void* data, int size) {
-  const auto* const begin = static_cast<const std::uint8_t*>(data);
-  auto& to = *static_cast<std::vector<std::uint8_t>*>(bytes);
-  to.insert(to.end(), begin, begin + size);
-}
-
 }  // namespace
 
 Image eye_texture(float span, float pupil) {
@@ -68,11 +63,7 @@ Image eye_texture(float span, float pupil) {
       for (int c = 0; c < channels; ++c) pixels.push_back(srgb(sum[c] / (samples * samples)));
     }
   }
-  Image image;
-  image.mime_type = "image/png";
-  stbi_write_png_to_func(append, &image.bytes, eye_texture_size, eye_texture_size, channels, pixels.data(),
-                         eye_texture_size * channels);
-  return image;
+  return {"image/png", encode_png(pixels, eye_texture_size, eye_texture_size, channels)};
 }
 
 }  // namespace semblante

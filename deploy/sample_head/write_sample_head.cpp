@@ -8,7 +8,8 @@
 
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
-#include <stb/stb_image_write.h>
+
+#include "core/gltf/encode_image.h"
 
 namespace semblante {
 namespace {
@@ -102,18 +103,9 @@ class Buffer {
   tinygltf::Model& model_;
 };
 
-void append_bytes(void* context, void* data, int size) {
-  auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
-  const auto* from = static_cast<const std::uint8_t*>(data);
-  out.insert(out.end(), from, from + size);
-}
-
 bool add_image(tinygltf::Model& model, Buffer& buffer, const SampleHeadImage& image) {
-  std::vector<std::uint8_t> png;
-  if (stbi_write_png_to_func(append_bytes, &png, image.width, image.height, 3, image.rgb.data(), image.width * 3) ==
-      0) {
-    return false;
-  }
+  const std::vector<std::uint8_t> png = encode_png(image.rgb, image.width, image.height, 3);
+  if (png.empty()) return false;
   tinygltf::Image out;
   out.name = image.name;
   out.mimeType = "image/png";

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <stb/stb_image_write.h>
+#include "core/gltf/encode_image.h"
 
 namespace semblante::render {
 
@@ -29,13 +29,6 @@ void Picture::paste(const Picture& other, int x, int y) {
 
 namespace {
 
-/// What stb hands the bytes of a file to; `context` is a vector of bytes.
-void append(void* context, void* data, int size) {
-  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
-  const auto* const first = static_cast<const std::uint8_t*>(data);
-  bytes.insert(bytes.end(), first, first + size);
-}
-
 Status write_bytes(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -49,15 +42,11 @@ Status write_bytes(const std::vector<std::uint8_t>& bytes, const std::filesystem
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Picture& picture) {
-  std::vector<std::uint8_t> bytes;
-  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), picture.width * 3);
-  return bytes;
+  return semblante::encode_png(picture.rgb, picture.width, picture.height, 3);
 }
 
 std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality) {
-  std::vector<std::uint8_t> bytes;
-  stbi_write_jpg_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), quality);
-  return bytes;
+  return semblante::encode_jpeg(picture.rgb, picture.width, picture.height, 3, quality);
 }
 
 Status write_png(const Picture& picture, const std::filesystem::path& path) {

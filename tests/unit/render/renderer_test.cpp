@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 
+#include "core/gltf/encode_image.h"
 #include "tests/unit/render/ball.h"
 
 namespace semblante::testing {
@@ -65,14 +65,7 @@ TEST(Renderer, TexturedBall_ShowsTheTexturesRows) {
   // Red above, blue below: v = 0 is the first row of the image and the top of the ball.
   Model model = seamed_ball();
   std::vector<std::uint8_t> pixels = {255, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0, 255};
-  Image image{"image/png", {}};
-  stbi_write_png_to_func(
-      [](void* to, void* data, int size) {
-        const auto* first = static_cast<const std::uint8_t*>(data);
-        static_cast<Image*>(to)->bytes.assign(first, first + size);
-      },
-      &image, 2, 2, 3, pixels.data(), 6);
-  model.images.push_back(image);
+  model.images.push_back({"image/png", encode_png(pixels, 2, 2, 3)});
   model.materials.emplace_back();
   model.materials[0].base_color_image = 0;
   model.primitives[0].material = 0;
