@@ -10,6 +10,13 @@ if(SEMBLANTE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # A type of a .cpp file may have members of its anonymous namespace; compiled together, GCC takes the file for a header.
   target_compile_options(semblante_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
+# Hardening of every program: a check of the stack around arrays, and tables of functions that the loader resolves at the
+# start and then write-protects. _FORTIFY_SOURCE checks what the sanitizers check better.
+target_compile_options(semblante_flags INTERFACE -fstack-protector-strong)
+target_link_options(semblante_flags INTERFACE -Wl,-z,relro,-z,now)
+if(NOT SEMBLANTE_SANITIZE AND NOT SEMBLANTE_FUZZ)
+  target_compile_definitions(semblante_flags INTERFACE $<$<CONFIG:Release>:_FORTIFY_SOURCE=2>)
+endif()
 if(SEMBLANTE_SANITIZE)
   target_compile_options(semblante_flags INTERFACE -fsanitize=${SEMBLANTE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(semblante_flags INTERFACE -fsanitize=${SEMBLANTE_SANITIZE})
