@@ -7,14 +7,25 @@
 namespace semblante::api {
 namespace {
 
-/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1". A text that is not an authority gives a result that no list
-/// contains.
-std::string host_of(std::string_view authority) {
-  if (!authority.empty() && authority.front() == '[') {
-    const auto end = authority.find(']');
-    return std::string(end == std::string_view::npos ? authority : authority.substr(1, end - 1));
-  }
-  return std::string(authority.substr(0, authority.find(':')));
+/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1"; nullopt if the text is not a host with an optional port,
+/// such as "localhost:80@example.org".
+std::optional<std::string> host_of(std::string_view authority) {
+  const bool bracketed = !authority.empty() && authority.front() == '[';
+  const auto end = bracketed ? authority.find(']') : authority.find(':');
+  if (bracketed && end == std::string_view::npos) return std::nullopt;
+  const auto host = bracketed ? authority.substr(1, end - 1) : authority.substr(0, end);
+  auto port = authority.substr(std::min(authority.size(), bracketed ? end + 1 : host.size()));
+  if (!port.empty() && port.front() != ':') return std::nullopt;
+  if (!port.empty()) port.remove_prefix(1);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_part_of_host = [&](char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.' || c == '_' ||
+           (bracketed && c == ':');
+  };
+  if (host.empty() || !std::all_of(host.begin(), host.end(), is_part_of_host) ||
+      !std::all_of(port.begin(), port.end(), is_digit))
+    return std::nullopt;
+  return std::string(host);
 }
 
 bool is_loopback(const std::string& host) {
@@ -28,7 +39,9 @@ bool is_loopback(const std::string& host) {
 /// True for "http://localhost:5173" and the like: pages that this machine serves.
 bool is_loopback_origin(std::string_view origin) {
   const auto scheme = origin.find("://");
-  return scheme != std::string_view::npos && is_loopback(host_of(origin.substr(scheme + 3)));
+  if (scheme == std::string_view::npos) return false;
+  const auto host = host_of(origin.substr(scheme + 3));
+  return host && is_loopback(*host);
 }
 
 }  // namespace
@@ -37,9 +50,9 @@ std::optional<http::Problem> Access::refuse_reading(const http::Request& head) c
   const auto authority = head.header("Host");
   if (!authority) return std::nullopt;  // HTTP/1.0; every browser sends a Host
   const auto host = host_of(*authority);
-  const bool known = is_loopback(host) || std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
-                       return item == "*" || http::equal_ignoring_case(item, host);
-                     });
+  const bool known = host && (is_loopback(*host) || std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
+                                return item == "*" || http::equal_ignoring_case(item, *host);
+                              }));
   if (known) return std::nullopt;
   return http::make_problem(
       "foreign-host", "this server does not accept the host name " + std::string(*authority) + " (see --allow-host)");

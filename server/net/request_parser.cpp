@@ -49,19 +49,37 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
   request_.query = std::move(parsed->query);
 }
 
-void RequestParser::on_field_impl(boost::beast::http::field, View name, View value, ErrorCode& error) {
+void RequestParser::on_field_impl(boost::beast::http::field field, View name, View value, ErrorCode& error) {
   if (is_header_done()) return;  // a trailer: ignored
   if (++fields_ > max_fields_) {
     problem_ = header_too_large();
     error = E::header_limit;
     return;
   }
+  if (field == boost::beast::http::field::host) ++hosts_;
   const auto text = view(value);
   const auto [at, is_new] = request_.headers.try_emplace(std::string(view(name)), text);
   if (!is_new) at->second.append(", ").append(text);
 }
 
-void RequestParser::on_header_impl(ErrorCode&) { request_.received = std::chrono::steady_clock::now(); }
+void RequestParser::on_header_impl(ErrorCode& error) {
+  request_.received = std::chrono::steady_clock::now();
+  problem_ = ambiguity();
+  if (problem_) error = E::bad_field;
+}
+
+std::optional<http::Problem> RequestParser::ambiguity() const {
+  const auto malformed = [](std::string detail) { return http::make_problem("malformed-request", std::move(detail)); };
+  if (hosts_ > 1) return malformed("the request has more than one Host field");
+  if (hosts_ == 0 && version_ >= 11) return malformed("the request has no Host field");
+  const auto coding = request_.header("Transfer-Encoding");
+  if (!coding) return std::nullopt;
+  if (version_ < 11) return malformed("Transfer-Encoding needs HTTP/1.1");
+  if (request_.header("Content-Length")) return malformed("the request has both Transfer-Encoding and Content-Length");
+  if (!http::equal_ignoring_case(*coding, "chunked"))
+    return malformed("the only supported Transfer-Encoding is chunked");
+  return std::nullopt;
+}
 
 std::size_t RequestParser::on_body_impl(View piece, ErrorCode& error) {
   assert(sink_ != nullptr);

@@ -54,11 +54,15 @@ class RequestParser : public boost::beast::http::basic_parser<true> {
   void on_finish_impl(ErrorCode&) override {}
 
   [[nodiscard]] http::Problem header_too_large() const;
+  /// What makes the header ambiguous (RFC 9112 sections 3.2 and 6.1): a proxy in front of the server could see another
+  /// end of the message, or another host, than the server.
+  [[nodiscard]] std::optional<http::Problem> ambiguity() const;
 
   const std::uint32_t max_bytes_, max_fields_;
   http::Request request_;
   unsigned version_ = 11;
   std::uint32_t fields_ = 0;
+  std::uint32_t hosts_ = 0;  ///< number of Host fields
   std::size_t extension_bytes_ = 0;
   BodySink* sink_ = nullptr;
   std::optional<http::Problem> problem_;  ///< why a callback ended the parsing

@@ -17,7 +17,8 @@ TEST(Access, ThisMachinesNames_AreItsHosts) {
   for (const auto* host : {"localhost", "LocalHost:8080", "127.0.0.1:80", "127.8.8.8", "[::1]", "[::1]:8080"})
     EXPECT_FALSE(access.refuse_reading(with("Host", host))) << host;
   for (const auto* host : {"", "evil.example", "localhost.evil.example:8080", "127.0.0.1.evil.example", "192.168.0.7",
-                           "[::2]", "[::1", "::1", "localhost, evil.example", "evil@localhost"}) {
+                           "[::2]", "[::1", "::1", "localhost, evil.example", "evil@localhost",
+                           "localhost:80@evil.example", "localhost:80x", "[::1]x", "local host"}) {
     const auto problem = access.refuse_reading(with("Host", host));
     ASSERT_TRUE(problem) << host;
     EXPECT_EQ(problem->slug, "foreign-host");
@@ -30,6 +31,7 @@ TEST(Access, NamedHosts_AreTakenWithAnyPort) {
   EXPECT_TRUE(access.refuse_reading(with("Host", "other.example")));
   const Access open{{"*"}, {}};
   EXPECT_FALSE(open.refuse_reading(with("Host", "other.example")));
+  EXPECT_TRUE(open.refuse_reading(with("Host", "localhost:80@evil.example"))) << "no host name";
 }
 
 TEST(Access, ForeignOrigins_MayNotChangeAnything) {
@@ -37,8 +39,8 @@ TEST(Access, ForeignOrigins_MayNotChangeAnything) {
   for (const auto* origin :
        {"http://localhost:5173", "http://127.0.0.1:8080", "http://[::1]:8080", "https://studio.example"})
     EXPECT_FALSE(access.refuse_changing(with("Origin", origin))) << origin;
-  for (const auto* origin :
-       {"https://evil.example", "http://studio.example", "http://localhost.evil.example", "null"}) {
+  for (const auto* origin : {"https://evil.example", "http://studio.example", "http://localhost.evil.example",
+                             "http://localhost:80@evil.example", "null"}) {
     EXPECT_FALSE(access.origin_allowed(with("Origin", origin))) << origin;
     EXPECT_TRUE(access.refuse_changing(with("Origin", origin))) << origin;
     EXPECT_FALSE(access.refuse_reading(with("Origin", origin))) << "its page sees no answer without CORS";

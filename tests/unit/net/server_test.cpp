@@ -217,7 +217,7 @@ TEST_F(ServerTest, ImmediateRoute_AnswersWhileEveryWorkerIsBusy) {
   const Client client(port_);
   client.send(get("/immediate"));
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
-  client.send("HEAD /immediate HTTP/1.1\r\n\r\n");
+  client.send("HEAD /immediate HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 ")) << "the connection goes on";
   application_.released.count_down();
   for (const auto& one : slow) EXPECT_TRUE(one->read_head().starts_with("HTTP/1.1 200 "));
@@ -237,13 +237,14 @@ TEST_F(ServerTest, FaultsOfTheApplication_AreAnswers) {
 
 TEST_F(ServerTest, ChunkedBody_ByteByByte_IsTaken) {
   const Client client(port_);
-  for (const char c : std::string_view("GET /immediate HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"
-                                       "2;e=f\r\nhi\r\n0\r\nX: y\r\n\r\n"))
+  for (const char c :
+       std::string_view("GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
+                        "2;e=f\r\nhi\r\n0\r\nX: y\r\n\r\n"))
     client.send({&c, 1});
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
   EXPECT_EQ(client.read(2), "hi");
   // No body at all, the last chunk in pieces: Beast asserts on fewer bytes of it than five.
-  client.send("GET /immediate HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n");
+  client.send("GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n");
   for (const char c : std::string_view("0\r\n\r\n")) {
     client.send({&c, 1});
     std::this_thread::sleep_for(5ms);  // so that it is read alone; passes also when it is not
@@ -256,11 +257,33 @@ TEST_F(ServerTest, UnendingTrailers_EndTheirConnectionAlone) {
   good.upgrade();
   {
     const Client bad(port_);
-    bad.send("GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\nX: " + std::string(66'000, 'a') + "\r\n\r\n");
+    bad.send("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\nX: " +
+             std::string(66'000, 'a') + "\r\n\r\n");
     EXPECT_TRUE(bad.read_head().starts_with("HTTP/1.1 431 "));
   }
   good.say("hello");
   EXPECT_EQ(good.read(7), "\x81\x05hello");
+}
+
+TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
+  const std::string begin = "GET /immediate HTTP/1.1\r\n";
+  const std::string host = "Host: localhost\r\n";
+  const std::string chunked = "Transfer-Encoding: chunked\r\n";
+  for (const std::string& head :
+       {begin, begin + host + host, begin + host + "Host: other.example\r\n",
+        begin + host + "Transfer-Encoding: xchunked\r\n", begin + host + "Transfer-Encoding: gzip\r\n",
+        begin + host + "Transfer-Encoding: identity\r\nContent-Length: 2\r\n",
+        begin + host + "Transfer-Encoding: chunked, gzip\r\n", begin + host + "Transfer-Encoding: gzip, chunked\r\n",
+        begin + host + chunked + chunked, begin + host + chunked + "Content-Length: 2\r\n",
+        begin + host + "Content-Length: 2\r\n" + chunked, "GET /immediate HTTP/1.0\r\n" + chunked}) {
+    SCOPED_TRACE(head);
+    const Client client(port_);
+    client.send(head + "\r\n");
+    EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 "));
+  }
+  const Client old(port_);
+  old.send("GET /immediate HTTP/1.0\r\n\r\n");
+  EXPECT_TRUE(old.read_head().starts_with("HTTP/1.0 200 ")) << "HTTP/1.0 needs no Host";
 }
 
 TEST(WorkerPool, SurvivesWhatThrows) {
