@@ -10,6 +10,7 @@
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
+#include "server/http/security_headers.h"
 #include "server/http/static_files.h"
 #include "server/log/log.h"
 
@@ -182,7 +183,7 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   // A request that could not be parsed has no route.
   const auto kind = head.route == http::no_route ? other_kind() : head.route;
   context_.requests->count(kind, response.status, took.count());
-  response.headers.try_emplace("X-Content-Type-Options", "nosniff");
+  for (const auto& [name, value] : http::security_headers()) response.headers.try_emplace(name, value);
   const auto origin = head.header("Origin");
   if (!origin) return;
   response.headers["Vary"] = "Origin";

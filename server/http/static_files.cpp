@@ -9,6 +9,7 @@
 #include "server/http/conditional.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
+#include "server/http/security_headers.h"
 
 namespace semblante::http {
 namespace {
@@ -45,7 +46,7 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
   response.headers["Cache-Control"] = has_hashed_name(path) ? std::string(cache_forever) : "no-cache";
   response.headers["ETag"] = "\"" + std::to_string(info.st_size) + "-" + std::to_string(info.st_mtim.tv_sec) + "." +
                              std::to_string(info.st_mtim.tv_nsec) + "\"";
-  response.headers["X-Content-Type-Options"] = "nosniff";
+  for (const auto& [name, value] : page_headers()) response.headers[name] = value;
   response.body = FileBody{file, 0, static_cast<std::uint64_t>(info.st_size)};
   return apply_conditions(request, std::move(response));
 }

@@ -422,6 +422,17 @@ TEST_F(Routes, BadRoutesAndMethods_AreToldApart) {
                  "forbidden-origin");
 }
 
+TEST_F(Routes, EveryAnswer_BringsItsPoliciesForBrowsers) {
+  for (const auto* target : {"/version", "/v1/models", "/v1/models/none", "/absent.html"}) {
+    SCOPED_TRACE(target);
+    const auto reply = request(port(), "GET", target);
+    EXPECT_THAT(reply.headers.at("content-security-policy"), HasSubstr("frame-ancestors 'none'"));
+    EXPECT_EQ(reply.headers.at("x-frame-options"), "DENY");
+    EXPECT_EQ(reply.headers.at("x-content-type-options"), "nosniff");
+    EXPECT_EQ(reply.headers.at("referrer-policy"), "no-referrer");
+  }
+}
+
 TEST_F(Routes, RequestsToAForeignName_AreRefused) {
   for (const auto* head :
        {"GET /v1/models", "GET /", "OPTIONS /v1/models", "DELETE /v1/streams/demo", "GET /v1/streams/demo"}) {
