@@ -9,6 +9,7 @@
 
 #include <arpa/inet.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 
 #include "server/api/api.h"
 #include "server/app/data_folder.h"
@@ -145,6 +146,8 @@ void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
   if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
   log::set_level(*level);
+  // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
+  ::umask(S_IRWXG | S_IRWXO);
   std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error
   const auto address = checked_address(options.address);
   std::error_code error;

@@ -84,6 +84,15 @@ class DataFolder : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(DataFolder, OtherAccounts_MayNotReadIt) {
+  ServerProcess server(data());
+  make(server.port(), "talk");
+  constexpr auto of_others = fs::perms::group_all | fs::perms::others_all;
+  EXPECT_EQ(fs::status(data()).permissions() & of_others, fs::perms::none);
+  for (const auto& entry : fs::recursive_directory_iterator(data()))
+    EXPECT_EQ(entry.symlink_status().permissions() & of_others, fs::perms::none) << entry.path();
+}
+
 TEST_F(DataFolder, DatabaseGoneOrEmpty_NothingIsLost_AndAllComesBackWithIt) {
   Served served;
   {
