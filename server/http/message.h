@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,7 @@ constexpr std::size_t no_route = SIZE_MAX;
 struct Request {
   std::string method;                         ///< "GET", as sent
   std::string path;                           ///< percent-decoded, without the query
+  std::string target;                         ///< path and query as sent
   std::map<std::string, std::string> query;   ///< percent-decoded; of a repeated key the first counts
   Headers headers;                            ///< without hop-by-hop meaning
   std::string body;                           ///< if it is kept in memory
@@ -54,6 +56,9 @@ struct Request {
   std::size_t route = no_route;               ///< index of the application's route (Application::find_route)
   std::string allow;                          ///< the methods of the path, as in Allow; empty: unknown path
   std::map<std::string, std::string> params;  ///< of the route pattern: {"model", "k3f..."}
+  std::string peer;                           ///< IP address of the other end of the connection
+  bool secure = false;                        ///< the connection has TLS
+  std::any requester;                         ///< who asks, as the application found out (Application::find_route)
   std::chrono::steady_clock::time_point received = std::chrono::steady_clock::now();  ///< when its header arrived
 
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;

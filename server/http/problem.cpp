@@ -15,6 +15,8 @@ namespace {
 constexpr auto kinds = std::to_array<ProblemKind>({
     {"malformed-request", 400, "The request cannot be read"},
     {"invalid-argument", 400, "A value of the request is invalid"},
+    {"unauthorized", 401, "The request needs an accepted token"},
+    {"forbidden", 403, "The token does not allow this request"},
     {"forbidden-origin", 403, "Pages from this origin may not use the server"},
     {"not-found", 404, "There is no resource at this address"},
     {"method-not-allowed", 405, "The resource does not have this method"},
