@@ -7,9 +7,7 @@
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/error.hpp>
 
 #include "server/http/media_type.h"
@@ -20,6 +18,7 @@
 #include "server/net/error_value.h"
 #include "server/net/request_parser.h"
 #include "server/net/response_writer.h"
+#include "server/net/transport.h"
 #include "server/net/websocket_session.h"
 
 namespace semblante::net {
@@ -33,6 +32,17 @@ using boost::system::error_code;
 
 /// Maximum bytes of one read.
 constexpr std::size_t piece_bytes = std::size_t{16} * 1024;
+
+/// The client's address without its port; one that was mapped from IPv4 is written as IPv4.
+std::string address_of(const asio::ip::tcp::socket& socket) {
+  error_code error;
+  const auto end = socket.remote_endpoint(error);
+  if (error) return {};
+  const auto address = end.address();
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+  return address.to_string();
+}
 
 /// The result of `ask`, or a 500 when it throws: an internal error ends only its own request.
 template <class Ask>
@@ -56,17 +66,21 @@ bool is_websocket_upgrade(const RequestParser& parser, const http::Request& requ
 /// The state of one connection; a local object of its coroutine.
 class Session {
  public:
-  Session(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state, ConnectionCount count)
-      : stream_(std::move(socket)),
+  Session(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<SharedState> state,
+          ConnectionCount count)
+      : peer_address_(address_of(socket)),
+        transport_(std::move(socket), std::move(tls)),
         state_(std::move(state)),
         count_(std::move(count)),
         buffer_(state_->config.limits.max_header_bytes) {}
 
   asio::awaitable<void> run() {
+    transport_.expires_after(state_->config.limits.header_timeout);
+    if (co_await transport_.handshake()) co_return;
     while (!state_->stopping) {
       const auto next = co_await serve_one();
       if (next == Next::again) continue;
-      if (next == Next::close) co_await close_gently(stream_);
+      if (next == Next::close) co_await transport_.close_gently();
       co_return;
     }
   }
@@ -92,7 +106,7 @@ class Session {
       log::debug(request.method + " " + request.path + " " + std::to_string(response.status));
     const bool keep_alive = keep && !state_->stopping;
     const bool usable =
-        co_await write_response(stream_, response, version, request.method == "HEAD", keep_alive, *state_);
+        co_await write_response(transport_, response, version, request.method == "HEAD", keep_alive, *state_);
     co_return usable ? Next::again : Next::close;
   }
 
@@ -100,17 +114,19 @@ class Session {
     const auto& limits = state_->config.limits;
     // The wait for a request may be long; once it has begun, its header has a short deadline.
     if (buffer_.size() == 0) {
-      stream_.expires_after(limits.idle_timeout);
+      transport_.expires_after(limits.idle_timeout);
       if (co_await fill()) co_return Next::gone;
     }
     RequestParser parser(limits.max_header_bytes, limits.max_header_fields);
-    stream_.expires_after(limits.header_timeout);
+    transport_.expires_after(limits.header_timeout);
     while (!parser.is_header_done())
       if (const auto error = co_await step(parser)) co_return co_await refuse(parser, error);
     ++state_->requests_total;
     const Busy busy(*state_);
 
     auto& request = parser.request();
+    request.peer = peer_address_;
+    request.secure = transport_.secure();
     state_->application.find_route(request);
     if (is_websocket_upgrade(parser, request)) co_return co_await upgrade(request);
 
@@ -143,8 +159,7 @@ class Session {
     const auto room = buffer_.max_size() - buffer_.size();
     if (room == 0) co_return beast::http::error::buffer_overflow;
     error_code error;
-    const std::size_t count =
-        co_await stream_.async_read_some(buffer_.prepare(std::min(room, piece_bytes)), error_into(error));
+    const std::size_t count = co_await transport_.read_some(buffer_.prepare(std::min(room, piece_bytes)), error);
     buffer_.commit(count);
     co_return error;
   }
@@ -187,16 +202,20 @@ class Session {
     if (const auto expect = request.header("Expect")) {
       if (!http::equal_ignoring_case(*expect, "100-continue"))
         co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
-      stream_.expires_after(state_->config.limits.write_timeout);
+      transport_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
-      error_code error;
-      co_await asio::async_write(stream_, asio::buffer(go_on.data(), go_on.size()), error_into(error));
-      if (error) co_return Unread{};
+      if (co_await transport_.write(go_on)) co_return Unread{};
     }
     BodySink sink(plan, *state_, request);
     parser.set_sink(sink);
+    const auto& limits = state_->config.limits;
+    const auto begin = std::chrono::steady_clock::now();
     while (!parser.is_done()) {
-      stream_.expires_after(state_->config.limits.read_timeout);
+      // Each piece has its deadline, and all together a least rate: a body of many small pieces would hold its
+      // connection and its file for days.
+      const auto earned = std::chrono::seconds(request.body_size / limits.least_body_rate);
+      const auto left = begin + limits.body_grace + earned - std::chrono::steady_clock::now();
+      transport_.expires_after(std::min<std::chrono::steady_clock::duration>(limits.read_timeout, left));
       if (const auto error = co_await step(parser)) co_return Unread{problem_of(parser, error)};
     }
     co_return std::nullopt;
@@ -226,12 +245,14 @@ class Session {
     auto opened = answered(request, [&] { return state_->application.open_websocket(request); });
     if (auto* refusal = std::get_if<http::Response>(&opened))
       co_return co_await answer(request, std::move(*refusal), 11, false);
-    serve_websocket(stream_.release_socket(), *request.header("Sec-WebSocket-Key"),
+    auto tls = transport_.tls();
+    serve_websocket(transport_.release_socket(), std::move(tls), *request.header("Sec-WebSocket-Key"),
                     std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_, std::move(count_));
     co_return Next::gone;
   }
 
-  beast::tcp_stream stream_;
+  const std::string peer_address_;
+  Transport transport_;
   std::shared_ptr<SharedState> state_;
   ConnectionCount count_;
   beast::flat_buffer buffer_;
@@ -239,12 +260,15 @@ class Session {
 
 }  // namespace
 
-asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<SharedState> state,
-                                       ConnectionCount count) {
+asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<const TlsContext> tls,
+                                       std::shared_ptr<SharedState> state, ConnectionCount count) {
   // Sends small answers and stream frames without delay.
   boost::system::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-  Session session(std::move(socket), std::move(state), std::move(count));
+  socket.native_non_blocking(true, ignored);  // OpenSSL uses the descriptor itself
+  auto session_tls = tls ? tls->session(socket.native_handle()) : nullptr;
+  tls.reset();  // a connection lives longer than a certificate is valid for new ones
+  Session session(std::move(socket), std::move(session_tls), std::move(state), std::move(count));
   co_await session.run();
 }
 

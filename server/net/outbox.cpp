@@ -10,7 +10,19 @@ namespace semblante::net {
 using http::Sent;
 using Clock = std::chrono::steady_clock;
 
+std::optional<std::size_t> Outbox::hand_encrypted(std::string_view bytes) {
+  std::size_t handed = 0;
+  while (handed < bytes.size()) {
+    const auto progress = tls_->write(bytes.substr(handed));
+    if (progress.step == TlsSession::Step::wants_write) break;
+    if (progress.step != TlsSession::Step::done) return std::nullopt;
+    handed += progress.bytes;
+  }
+  return handed;
+}
+
 std::optional<std::size_t> Outbox::hand(std::string_view bytes) {
+  if (tls_) return hand_encrypted(bytes);
   const auto count = ::send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (count >= 0) return static_cast<std::size_t>(count);
   // A signal or a kernel without memory does not end a connection: both are temporary.
@@ -127,8 +139,8 @@ std::size_t Outbox::drop_state() {
   const std::lock_guard lock(mutex_);
   if (!waiting_) return 0;
   auto& items = waiting_->items;
-  // Keeps a message that is partly sent: its frame must be completed.
-  const std::size_t kept = waiting_->sent_of_first > 0 ? 1 : 0;
+  // Keeps a message that is partly sent, or encrypted already: its frame must be completed.
+  const std::size_t kept = waiting_->sent_of_first > 0 || (tls_ && tls_->holds_write()) ? 1 : 0;
   const auto before = items.size();
   std::deque<Item> rest;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -164,6 +176,7 @@ void Outbox::detach() {
 }
 
 void Outbox::finish() {
+  if (tls_ && !detached()) tls_->close();
   detach();
   if (const auto owner = owner_.lock()) owner->on_over();
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/http/websocket_peer.h"
+#include "server/net/tls_session.h"
 
 namespace semblante::net {
 
@@ -33,8 +34,10 @@ class OutboxOwner {
 /// send does not use the descriptor, which may belong to another connection by then.
 class Outbox : public http::WebSocketSink {
  public:
-  Outbox(int descriptor, http::OutboxLimits limits, std::weak_ptr<OutboxOwner> owner)
-      : descriptor_(descriptor), owner_(std::move(owner)), limits_(limits) {}
+  /// `tls`: what encrypts for that socket; null for a plain one.
+  Outbox(int descriptor, http::OutboxLimits limits, std::weak_ptr<OutboxOwner> owner,
+         std::shared_ptr<TlsSession> tls = nullptr)
+      : descriptor_(descriptor), tls_(std::move(tls)), owner_(std::move(owner)), limits_(limits) {}
 
   // ---- the peer's side: any thread
   http::Sent send(const http::SharedWire& message, http::Purpose purpose) override;
@@ -75,6 +78,7 @@ class Outbox : public http::WebSocketSink {
   void count(const Item& item, bool comes);
   /// Number of these bytes that the kernel accepted; nullopt: the connection is closed.
   std::optional<std::size_t> hand(std::string_view bytes);
+  std::optional<std::size_t> hand_encrypted(std::string_view bytes);
   void fail();
 
   // The members used by every send come first, in few cache lines: there are thousands of outboxes.
@@ -85,6 +89,7 @@ class Outbox : public http::WebSocketSink {
   bool armed_ = false;         ///< flush() will be called
   std::unique_ptr<Waiting> waiting_;
   // Never changed.
+  const std::shared_ptr<TlsSession> tls_;
   const std::weak_ptr<OutboxOwner> owner_;
   const http::OutboxLimits limits_;
 };

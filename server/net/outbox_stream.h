@@ -22,15 +22,17 @@ class OutboxStream {
  public:
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
 
-  OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<Outbox> outbox)
-      : socket_(std::move(socket)), outbox_(std::move(outbox)) {}
+  /// `tls` decrypts what is read; null for a plain socket.
+  OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox)
+      : socket_(std::move(socket)), tls_(std::move(tls)), outbox_(std::move(outbox)) {}
 
   executor_type get_executor() { return socket_.get_executor(); }
   [[nodiscard]] boost::asio::ip::tcp::socket& socket() { return socket_; }
 
   template <class Buffers, class Handler>
   auto async_read_some(const Buffers& buffers, Handler&& handler) {
-    return socket_.async_read_some(buffers, std::forward<Handler>(handler));
+    return boost::asio::async_compose<Handler, void(boost::system::error_code, std::size_t)>(
+        Read<Buffers>{*this, buffers}, handler, socket_);
   }
 
   /// Completes when the kernel has accepted the bytes, after all waiting ones. So a client that causes answers (pings)
@@ -54,6 +56,50 @@ class OutboxStream {
   }
 
  private:
+  template <class Buffers>
+  struct Read {
+    OutboxStream& stream;
+    Buffers buffers;
+    enum class Step { begin, plain, wait, posted } step = Step::begin;
+    std::size_t count = 0;
+
+    template <class Self>
+    void operator()(Self& self, boost::system::error_code error = {}, std::size_t plain_count = 0) {
+      namespace asio = boost::asio;
+      if (step == Step::begin && !stream.tls_) {
+        step = Step::plain;
+        stream.socket_.async_read_some(buffers, std::move(self));
+        return;
+      }
+      if (step == Step::plain) return self.complete(error, plain_count);
+      if (step == Step::posted || error) return self.complete(error ? error : result, count);
+      const asio::mutable_buffer first = first_of(buffers);
+      const auto progress = stream.tls_->read({static_cast<char*>(first.data()), first.size()});
+      if (progress.step == TlsSession::Step::wants_read || progress.step == TlsSession::Step::wants_write) {
+        step = Step::wait;
+        stream.socket_.async_wait(progress.step == TlsSession::Step::wants_read ? asio::socket_base::wait_read
+                                                                                : asio::socket_base::wait_write,
+                                  std::move(self));
+        return;
+      }
+      count = progress.bytes;
+      if (progress.step == TlsSession::Step::ended) result = asio::error::eof;
+      if (step == Step::wait) return self.complete(result, count);
+      // Posted, so that it never runs before the initiating function has returned.
+      step = Step::posted;
+      asio::post(stream.get_executor(), std::move(self));
+    }
+    boost::system::error_code result = {};
+
+   private:
+    /// The first buffer that has room; an empty one if none has.
+    static boost::asio::mutable_buffer first_of(const Buffers& buffers) {
+      for (auto at = boost::asio::buffer_sequence_begin(buffers); at != boost::asio::buffer_sequence_end(buffers); ++at)
+        if (boost::asio::mutable_buffer(*at).size() > 0) return *at;
+      return {};
+    }
+  };
+
   struct Write {
     OutboxStream& stream;
     std::string bytes;
@@ -88,6 +134,7 @@ class OutboxStream {
   };
 
   boost::asio::ip::tcp::socket socket_;
+  std::shared_ptr<TlsSession> tls_;
   std::shared_ptr<Outbox> outbox_;
 };
 

@@ -39,6 +39,7 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
     error = E::header_limit;
     return;
   }
+  request_.target = view(target);
   auto parsed = http::parse_target(view(target));
   if (!parsed) {
     problem_ = http::make_problem("malformed-request", "the request target is not a path");

@@ -6,17 +6,12 @@
 #include <unistd.h>
 #include <vector>
 
-#include <boost/asio/use_awaitable.hpp>
-#include <boost/asio/write.hpp>
-
 #include "server/log/log.h"
-#include "server/net/error_value.h"
 #include "server/net/waker.h"
 
 namespace semblante::net {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
 
 namespace {
 
@@ -72,9 +67,9 @@ std::string header_of(const http::Response& response, unsigned version, bool chu
   return out;
 }
 
-asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_ptr<http::Feed>& feed, bool chunked,
+asio::awaitable<bool> write_feed(Transport& transport, const std::shared_ptr<http::Feed>& feed, bool chunked,
                                  const SharedState& state) {
-  const auto waker = std::make_shared<Waker>(stream.get_executor());
+  const auto waker = std::make_shared<Waker>(transport.get_executor());
   feed->attach(waker->function());
   const auto send = [&](std::string_view piece) -> asio::awaitable<bool> {
     std::string framed;
@@ -85,10 +80,8 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
     } else {
       framed = piece;
     }
-    stream.expires_after(state.config.limits.write_timeout);
-    boost::system::error_code error;
-    co_await asio::async_write(stream, asio::buffer(framed), error_into(error));
-    co_return !error;
+    transport.expires_after(state.config.limits.write_timeout);
+    co_return !co_await transport.write(framed);
   };
 
   bool alive = true;
@@ -109,15 +102,13 @@ asio::awaitable<bool> write_feed(beast::tcp_stream& stream, const std::shared_pt
   }
   feed->attach({});
   if (alive && chunked) {
-    stream.expires_after(state.config.limits.write_timeout);
-    boost::system::error_code error;
-    co_await asio::async_write(stream, asio::buffer("0\r\n\r\n", 5), error_into(error));
-    alive = !error;
+    transport.expires_after(state.config.limits.write_timeout);
+    alive = !co_await transport.write("0\r\n\r\n");
   }
   co_return alive&& chunked;
 }
 
-asio::awaitable<bool> write_file(beast::tcp_stream& stream, const http::FileBody& body, const SharedState& state) {
+asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, const SharedState& state) {
   const OpenFile file(body.path);
   if (file.get() < 0) {
     log::error("cannot open " + body.path.string());
@@ -129,10 +120,8 @@ asio::awaitable<bool> write_file(beast::tcp_stream& stream, const http::FileBody
     const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), body.length - sent));
     const auto got = ::pread(file.get(), piece.data(), want, static_cast<off_t>(body.offset + sent));
     if (got <= 0) co_return false;
-    stream.expires_after(state.config.limits.write_timeout);
-    boost::system::error_code error;
-    co_await asio::async_write(stream, asio::buffer(piece.data(), static_cast<std::size_t>(got)), error_into(error));
-    if (error) co_return false;
+    transport.expires_after(state.config.limits.write_timeout);
+    if (co_await transport.write({piece.data(), static_cast<std::size_t>(got)})) co_return false;
     sent += static_cast<std::uint64_t>(got);
   }
   co_return true;
@@ -140,44 +129,25 @@ asio::awaitable<bool> write_file(beast::tcp_stream& stream, const http::FileBody
 
 }  // namespace
 
-asio::awaitable<bool> write_response(beast::tcp_stream& stream, const http::Response& response, unsigned http_version,
+asio::awaitable<bool> write_response(Transport& transport, const http::Response& response, unsigned http_version,
                                      bool head_only, bool keep_alive, const SharedState& state) {
   const auto* feed = std::get_if<std::shared_ptr<http::Feed>>(&response.body);
   const bool chunked = feed != nullptr && http_version == 11;
   if (feed != nullptr && !chunked) keep_alive = false;
   const std::string header = header_of(response, http_version, feed != nullptr, keep_alive);
-  stream.expires_after(state.config.limits.write_timeout);
+  transport.expires_after(state.config.limits.write_timeout);
 
   const auto* text = std::get_if<std::string>(&response.body);
   if (text != nullptr && !head_only) {
-    const std::array<asio::const_buffer, 2> both = {asio::buffer(header), asio::buffer(*text)};
-    boost::system::error_code error;
-    co_await asio::async_write(stream, both, error_into(error));
-    co_return !error && keep_alive;
+    const bool sent = !co_await transport.write(header, *text);
+    co_return sent&& keep_alive;
   }
-  boost::system::error_code error;
-  co_await asio::async_write(stream, asio::buffer(header), error_into(error));
-  if (error) co_return false;
+  if (co_await transport.write(header)) co_return false;
   if (head_only) co_return keep_alive;
   if (const auto* file = std::get_if<http::FileBody>(&response.body))
-    co_return co_await write_file(stream, *file, state) && keep_alive;
-  if (feed != nullptr) co_return co_await write_feed(stream, *feed, chunked, state) && keep_alive;
+    co_return co_await write_file(transport, *file, state) && keep_alive;
+  if (feed != nullptr) co_return co_await write_feed(transport, *feed, chunked, state) && keep_alive;
   co_return keep_alive;
-}
-
-asio::awaitable<void> close_gently(beast::tcp_stream& stream) {
-  boost::system::error_code ignored;
-  stream.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
-  std::vector<char> dropped(sent_piece_bytes);
-  std::size_t total = 0;
-  stream.expires_after(std::chrono::seconds(2));
-  while (total < (64U << 20)) {
-    boost::system::error_code error;
-    const std::size_t count = co_await stream.async_read_some(asio::buffer(dropped), error_into(error));
-    if (error) break;
-    total += count;
-  }
-  stream.close();
 }
 
 }  // namespace semblante::net

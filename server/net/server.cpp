@@ -1,7 +1,11 @@
 #include "server/net/server.h"
 
+#include <algorithm>
 #include <csignal>
+#include <deque>
 #include <exception>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -24,17 +28,26 @@ namespace semblante::net {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-struct Server::State : SharedState {
-  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), acceptor(io), signals(io), grace(io) {}
+/// A socket that listens.
+struct Door {
   tcp::acceptor acceptor;
-  asio::signal_set signals;
+  bool tls = false;
+};
+
+struct Server::State : SharedState {
+  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), signals(io), hangup(io), grace(io) {}
+  std::deque<Door> doors;
+  mutable std::mutex tls_mutex;
+  std::shared_ptr<const TlsContext> tls;  ///< guarded by tls_mutex
+  asio::signal_set signals, hangup;
   asio::steady_timer grace;
   std::function<void()> on_stopping;
 };
 
 namespace {
 
-/// Answers a connection over the limit with 503 and closes it.
+/// Answers a connection over the limit with 503 and closes it. One that would begin with TLS is only closed: a
+/// handshake costs more than the answer.
 asio::awaitable<void> turn_away(tcp::socket socket) {
   const auto body = std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again later")).body);
   const std::string text =
@@ -51,30 +64,51 @@ void log_fault(const std::exception_ptr& fault) {
   log::guarded("a connection ended by a fault", [&] { std::rethrow_exception(fault); });
 }
 
-/// Accepts and starts one connection. False when that failed.
-asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const std::shared_ptr<SharedState>& state) {
+/// The address whose connections are counted; nullopt for this machine and for proxies.
+template <class Socket>
+std::optional<http::AddressBytes> counted_address(const Socket& socket, const ServerConfig& config) {
+  boost::system::error_code error;
+  const auto end = socket.remote_endpoint(error);
+  if (error) return std::nullopt;
+  const auto address = http::parse_address(end.address().to_string());
+  const auto is_proxy = [&](const auto& range) { return range.contains(*address); };
+  if (!address || http::is_loopback(*address) || std::any_of(config.proxies.begin(), config.proxies.end(), is_proxy))
+    return std::nullopt;
+  return http::client_network(*address);
+}
+
+/// Accepts and starts one connection. False when that failed. `context` returns the TLS context of now, or null.
+template <class Context>
+asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const Context& context,
+                                 const std::shared_ptr<SharedState>& state) {
   boost::system::error_code error;
   auto socket = co_await acceptor.async_accept(asio::make_strand(state->io), error_into(error));
   if (error) {
     if (!state->stopping && error != asio::error::operation_aborted) log::warning("cannot accept: " + error.message());
     co_return false;
   }
+  const auto& limits = state->config.limits;
   const auto executor = socket.get_executor();
-  if (state->connections_open >= state->config.limits.max_connections) {
+  const auto address = counted_address(socket, state->config);
+  auto tls = context();
+  if (state->connections_open >= limits.max_connections ||
+      (address && state->addresses.of(*address) >= limits.max_connections_per_address)) {
     ++state->connections_total;
     ++state->connections_refused;
-    asio::co_spawn(executor, turn_away(std::move(socket)), log_fault);
+    if (!tls) asio::co_spawn(executor, turn_away(std::move(socket)), log_fault);
     co_return true;
   }
-  asio::co_spawn(executor, serve_connection(std::move(socket), state, ConnectionCount(state)), log_fault);
+  asio::co_spawn(executor, serve_connection(std::move(socket), std::move(tls), state, ConnectionCount(state, address)),
+                 log_fault);
   co_return true;
 }
 
-asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, std::shared_ptr<SharedState> state) {
+template <class Context>
+asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, Context context, std::shared_ptr<SharedState> state) {
   while (!state->stopping) {
     bool accepted = false;
     try {
-      accepted = co_await accept_one(acceptor, state);
+      accepted = co_await accept_one(acceptor, context, state);
     } catch (...) {
       log::caught("cannot accept");  // most likely out of memory
     }
@@ -97,22 +131,37 @@ Server::~Server() {
   state_->workers.join();
 }
 
-Result<std::uint16_t> Server::listen() {
-  const auto& config = state_->config;
-  const auto place = config.address + ":" + std::to_string(config.port);
-  boost::system::error_code error;
-  const auto address = asio::ip::make_address(config.address, error);
-  if (error) return Error{ErrorCode::invalid_argument, "--address", config.address + " is not an IP address"};
-  const tcp::endpoint endpoint(address, config.port);
-  auto& acceptor = state_->acceptor;
-  acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  if (error == asio::error::address_in_use)
-    return Error{ErrorCode::io, "--port", place + " is in use by another program; choose another --port (0 takes any)"};
-  if (error) return Error{ErrorCode::io, "--port", "cannot listen on " + place + ": " + error.message()};
-  return acceptor.local_endpoint().port();
+Result<std::vector<std::uint16_t>> Server::listen() {
+  std::vector<std::uint16_t> ports;
+  for (const auto& listener : state_->config.listeners) {
+    boost::system::error_code error;
+    const auto address = asio::ip::make_address(listener.address, error);
+    if (error) return Error{ErrorCode::invalid_argument, "--listen", listener.address + " is not an IP address"};
+    const bool six = address.is_v6();
+    const auto place = (six ? "[" + listener.address + "]" : listener.address) + ":" + std::to_string(listener.port);
+    const tcp::endpoint endpoint(address, listener.port);
+    auto& acceptor = state_->doors.emplace_back(Door{tcp::acceptor(state_->io), listener.tls}).acceptor;
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error == asio::error::address_in_use)
+      return Error{ErrorCode::io, "--listen",
+                   place + " is in use by another program; choose another port (0 takes any)"};
+    if (error == asio::error::access_denied)
+      return Error{ErrorCode::io, "--listen",
+                   place +
+                       ": ports below 1024 need the capability CAP_NET_BIND_SERVICE; give it (systemd: "
+                       "AmbientCapabilities) or choose a port above 1023"};
+    if (error) return Error{ErrorCode::io, "--listen", "cannot listen on " + place + ": " + error.message()};
+    ports.push_back(acceptor.local_endpoint().port());
+  }
+  return ports;
+}
+
+void Server::set_tls(std::shared_ptr<const TlsContext> context) {
+  const std::lock_guard lock(state_->tls_mutex);
+  state_->tls = std::move(context);
 }
 
 void Server::stop_on_signals() {
@@ -123,12 +172,27 @@ void Server::stop_on_signals() {
   });
 }
 
+void Server::reload_on_signal(std::function<void()> reload) {
+  state_->hangup.add(SIGHUP);
+  struct Step {
+    static void wait(const std::shared_ptr<State>& state, const std::function<void()>& reload) {
+      state->hangup.async_wait([state, reload](const boost::system::error_code& error, int) {
+        if (error) return;
+        asio::post(state->workers.executor(), [reload] { log::guarded("reloading", reload); });
+        wait(state, reload);
+      });
+    }
+  };
+  Step::wait(state_, reload);
+}
+
 void Server::stop() {
   asio::post(state_->io, [state = state_] {
     if (state->stopping.exchange(true)) return;
     boost::system::error_code ignored;
-    state->acceptor.close(ignored);
+    for (auto& door : state->doors) door.acceptor.close(ignored);
     state->signals.cancel(ignored);
+    state->hangup.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
     // Pending answers get the grace period, idle connections are closed. Polled in short steps, so that an idle server
     // stops immediately.
@@ -148,7 +212,14 @@ void Server::stop() {
 
 void Server::run(const std::function<void()>& on_stopping) {
   state_->on_stopping = on_stopping;
-  asio::co_spawn(state_->io, accept_connections(state_->acceptor, state_), log_fault);
+  for (auto& door : state_->doors) {
+    const auto context = [state = state_.get(), tls = door.tls]() -> std::shared_ptr<const TlsContext> {
+      if (!tls) return nullptr;
+      const std::lock_guard lock(state->tls_mutex);
+      return state->tls;
+    };
+    asio::co_spawn(state_->io, accept_connections(door.acceptor, context, state_), log_fault);
+  }
   std::vector<std::thread> threads;
   for (unsigned i = 1; i < state_->config.io_threads; ++i)
     threads.emplace_back([this] { run_guarded(state_->io, "I/O thread"); });

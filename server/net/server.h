@@ -3,30 +3,46 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/types/result.h"
+#include "server/http/address_range.h"
 #include "server/http/application.h"
+#include "server/net/tls_context.h"
 
 namespace semblante::net {
 
 /// Each limit guards one read or one count; server/README.md lists what a client sees at each limit.
 struct ServerLimits {
   std::uint32_t max_connections = 1024;
+  /// Of one IP address; addresses of this machine and those of ServerConfig::proxies have no such limit.
+  std::uint32_t max_connections_per_address = 512;
   std::uint32_t max_header_bytes = 16 * 1024;  ///< also of the trailers, of the line before a chunk, of all chunk
                                                ///< extensions of a body, and of the unparsed bytes of a connection
   std::uint32_t max_header_fields = 128;       ///< and as many query parameters
   std::chrono::seconds idle_timeout{60};       ///< between requests; a WebSocket is pinged at half of it
-  std::chrono::seconds header_timeout{10};     ///< from the first byte of a request to the end of its header
+  std::chrono::seconds header_timeout{10};     ///< from the first byte of a request to the end of its header, and for
+                                               ///< the handshake of TLS
   std::chrono::seconds read_timeout{30};       ///< between two pieces of a body
+  std::chrono::seconds body_grace{30};         ///< for a whole body, in addition to the time of the least rate
+  std::uint32_t least_body_rate = 1024;        ///< bytes per second
   std::chrono::seconds write_timeout{30};      ///< between two pieces of an answer
   std::chrono::seconds shutdown_grace{3};      ///< for pending answers at a shutdown
 };
 
-struct ServerConfig {
+/// An address to listen on.
+struct Listener {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0: any free port
+  bool tls = false;           ///< with the context of set_tls()
+};
+
+struct ServerConfig {
+  std::vector<Listener> listeners{Listener{}};
+  std::vector<http::AddressRange> proxies;  ///< their connections are those of many clients
   unsigned io_threads = 1;
   unsigned worker_threads = 2;
   std::filesystem::path upload_directory;  ///< for bodies on disk; must exist
@@ -39,7 +55,8 @@ struct ServerCounts {
                 websockets_open = 0;
 };
 
-/// HTTP/1.1 and WebSocket on one port. Owns its I/O and worker threads; the application must outlive it.
+/// HTTP/1.1 and WebSocket on one or more ports, with TLS or without. Owns its I/O and worker threads; the application
+/// must outlive it.
 class Server {
  public:
   Server(ServerConfig config, http::Application& application);
@@ -47,8 +64,12 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Binds and listens; returns the port. An error names the address and the reason (in use, no permission).
-  Result<std::uint16_t> listen();
+  /// Binds and listens; returns the ports, in the order of the listeners. An error names the address and the reason (in
+  /// use, no permission).
+  Result<std::vector<std::uint16_t>> listen();
+  /// Any thread. Connections accepted from now on use this context; earlier ones keep theirs. Required before run() if
+  /// a listener has TLS.
+  void set_tls(std::shared_ptr<const TlsContext> context);
   /// Serves until stop(); then completes pending answers within the grace period, and returns. `on_stopping` is called
   /// once before the grace period begins, so that feeds can be ended.
   void run(const std::function<void()>& on_stopping);
@@ -56,6 +77,8 @@ class Server {
   void stop();
   /// SIGINT and SIGTERM call stop() while run() runs.
   void stop_on_signals();
+  /// SIGHUP calls `reload` on a worker thread while run() runs.
+  void reload_on_signal(std::function<void()> reload);
 
   [[nodiscard]] ServerCounts counts() const;
 

@@ -4,7 +4,10 @@
 // sources.
 
 #include <atomic>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
@@ -15,6 +18,29 @@
 
 namespace semblante::net {
 
+/// Number of open connections by address. Any thread.
+class AddressCounts {
+ public:
+  [[nodiscard]] std::uint32_t of(const http::AddressBytes& address) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = counts_.find(address);
+    return found == counts_.end() ? 0 : found->second;
+  }
+  void add(const http::AddressBytes& address) {
+    const std::lock_guard lock(mutex_);
+    ++counts_[address];
+  }
+  void remove(const http::AddressBytes& address) {
+    const std::lock_guard lock(mutex_);
+    const auto found = counts_.find(address);
+    if (--found->second == 0) counts_.erase(found);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<http::AddressBytes, std::uint32_t> counts_;
+};
+
 struct SharedState {
   SharedState(ServerConfig c, http::Application& a)
       : config(std::move(c)), application(a), io(static_cast<int>(config.io_threads)), workers(config.worker_threads) {}
@@ -23,20 +49,25 @@ struct SharedState {
   http::Application& application;
   boost::asio::io_context io;
   WorkerPool workers;
+  AddressCounts addresses;
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
       busy{0}, websockets_open{0}, upload_number{0};
 };
 
-/// Counts one open connection during its lifetime.
+/// Counts one open connection during its lifetime, and that of its address.
 class ConnectionCount {
  public:
-  explicit ConnectionCount(std::shared_ptr<SharedState> state) : state_(std::move(state)) {
+  explicit ConnectionCount(std::shared_ptr<SharedState> state, std::optional<http::AddressBytes> address = {})
+      : state_(std::move(state)), address_(address) {
     ++state_->connections_open;
     ++state_->connections_total;
+    if (address_) state_->addresses.add(*address_);
   }
   ~ConnectionCount() {
-    if (state_) --state_->connections_open;
+    if (!state_) return;
+    --state_->connections_open;
+    if (address_) state_->addresses.remove(*address_);
   }
   ConnectionCount(ConnectionCount&&) noexcept = default;
   ConnectionCount(const ConnectionCount&) = delete;
@@ -45,6 +76,7 @@ class ConnectionCount {
 
  private:
   std::shared_ptr<SharedState> state_;
+  std::optional<http::AddressBytes> address_;
 };
 
 }  // namespace semblante::net

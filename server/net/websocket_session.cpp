@@ -38,10 +38,11 @@ constexpr std::size_t largest_piece_bytes = std::size_t{64} * 1024;
 /// One WebSocket. Owned by its pending operations; guarded by the strand of its socket.
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
  public:
-  static void start(asio::ip::tcp::socket socket, std::string_view key, std::shared_ptr<http::WebSocketPeer> peer,
-                    std::shared_ptr<SharedState> state, ConnectionCount count) {
+  static void start(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
+                    std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                    ConnectionCount count) {
     const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
-    self->accept(std::move(socket), key);
+    self->accept(std::move(socket), std::move(tls), key);
   }
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
@@ -83,12 +84,12 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     return request;
   }
 
-  void accept(asio::ip::tcp::socket socket, std::string_view key) {
+  void accept(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key) {
     error_code ignored;
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     executor_ = socket.get_executor();
-    outbox_ = std::make_shared<Outbox>(socket.native_handle(), peer_->outbox_limits(), weak_from_this());
-    ws_.emplace(std::move(socket), outbox_);
+    outbox_ = std::make_shared<Outbox>(socket.native_handle(), peer_->outbox_limits(), weak_from_this(), tls);
+    ws_.emplace(std::move(socket), std::move(tls), outbox_);
     websocket::stream_base::timeout clocks{};
     clocks.handshake_timeout = state_->config.limits.header_timeout;
     clocks.idle_timeout = state_->config.limits.idle_timeout;
@@ -203,9 +204,11 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
 }  // namespace
 
-void serve_websocket(asio::ip::tcp::socket socket, std::string_view key, std::shared_ptr<http::WebSocketPeer> peer,
-                     std::shared_ptr<SharedState> state, ConnectionCount connection) {
-  WebSocketConnection::start(std::move(socket), key, std::move(peer), std::move(state), std::move(connection));
+void serve_websocket(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
+                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
+                     ConnectionCount connection) {
+  WebSocketConnection::start(std::move(socket), std::move(tls), key, std::move(peer), std::move(state),
+                             std::move(connection));
 }
 
 }  // namespace semblante::net

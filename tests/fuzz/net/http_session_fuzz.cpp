@@ -163,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   asio::ip::tcp::socket socket(asio::make_strand(state->io));
   socket.assign(asio::ip::tcp::v4(), ends[1]);
   const auto executor = socket.get_executor();
-  asio::co_spawn(executor, net::serve_connection(std::move(socket), state, net::ConnectionCount(state)),
+  asio::co_spawn(executor, net::serve_connection(std::move(socket), nullptr, state, net::ConnectionCount(state)),
                  [](const std::exception_ptr& fault) {
                    if (fault) std::rethrow_exception(fault);
                  });

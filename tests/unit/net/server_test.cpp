@@ -17,59 +17,12 @@
 
 #include "server/net/worker_pool.h"
 #include "tests/support/wait.h"
+#include "tests/unit/net/echo_application.h"
 
 namespace semblante::net {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Says back what it is told, and ends like a fault of ours at "throw".
-class Echo : public http::WebSocketPeer {
- public:
-  explicit Echo(std::atomic<int>& here) : here_(here) { ++here_; }
-  [[nodiscard]] std::string_view subprotocol() const override { return {}; }
-  [[nodiscard]] std::size_t max_message_bytes() const override { return 1 << 20; }
-  [[nodiscard]] http::OutboxLimits outbox_limits() const override { return {}; }
-  void attach(std::shared_ptr<http::WebSocketSink> sink) override { sink_ = std::move(sink); }
-  void receive(std::string_view bytes, bool binary) override {
-    if (bytes == "throw") throw std::runtime_error("a fault of ours");
-    if (bytes == "bye") return sink_->close({1000, "bye"}, nullptr);
-    sink_->send(http::make_wire(bytes, binary), http::Purpose::answer);
-  }
-  void writable() override {}
-  void disconnected() override { --here_; }
-
- private:
-  std::atomic<int>& here_;
-  std::shared_ptr<http::WebSocketSink> sink_;
-};
-
-struct EchoApplication : http::Application {
-  std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override {
-    if (head.path == "/bad-plan") throw std::runtime_error("a fault of ours");
-    http::BodyPlan plan;
-    plan.max_bytes = 100;
-    plan.immediate = head.path == "/immediate";
-    return plan;
-  }
-  http::Response handle(http::Request& request) override {
-    if (request.path == "/throw") throw 42;  // NOLINT(hicpp-exception-baseclass): not even a std::exception
-    if (request.path == "/slow") {
-      ++waiting;
-      released.wait();
-    }
-    http::Response response;
-    response.body = request.body;
-    return response;
-  }
-  std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> open_websocket(const http::Request&) override {
-    ++opened;
-    return std::shared_ptr<http::WebSocketPeer>(std::make_shared<Echo>(peers));
-  }
-  void decorate(const http::Request&, http::Response&) override {}
-  std::atomic<int> opened{0}, peers{0}, waiting{0};
-  std::latch released{1};
-};
 
 std::string get(std::string_view path) { return "GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n"; }
 
@@ -134,12 +87,12 @@ class ServerTest : public ::testing::Test {
  protected:
   ServerTest() {
     ServerConfig config;
-    config.port = 0;
+    config.listeners.front().port = 0;
     config.worker_threads = workers;
     // So long that whoever waits for one of these does not pass.
     config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 10 * testing::patience;
     server_ = std::make_unique<Server>(config, application_);
-    port_ = server_->listen().value();
+    port_ = server_->listen().value().front();
     thread_ = std::thread([this] { server_->run([] {}); });
   }
   ~ServerTest() override {
