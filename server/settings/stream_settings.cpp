@@ -41,12 +41,19 @@ Status read_quantizer_scale(const json& value, double& scale) {
   return Unit{};
 }
 
+Status read_flag(const json& value, bool& flag) {
+  if (!value.is_boolean()) return Error{ErrorCode::malformed, "", "must be true or false"};
+  flag = value.get<bool>();
+  return Unit{};
+}
+
 Status read_setting(std::string_view name, const json& value, StreamSettings& settings) {
   if (name == "title") return read_text(value, max_title_bytes, settings.title);
   if (name == "model") return value.is_null() ? Unit{} : read_text(value, max_model_bytes, settings.model);
   if (name == "viseme_share") return value.is_null() ? Unit{} : read_viseme_share(value, settings.viseme_share);
   if (name == "batch_interval") return read_batch_interval(value, settings.batch_interval);
   if (name == "quantizer_scale") return read_quantizer_scale(value, settings.quantizer_scale);
+  if (name == "is_public") return read_flag(value, settings.is_public);
   return Error{ErrorCode::internal, "", "this setting cannot be read"};
 }
 

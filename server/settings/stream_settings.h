@@ -19,6 +19,8 @@ struct StreamSettings {
   std::uint32_t batch_interval = 100;  ///< ms of frames in one message; 0: each frame is sent immediately
   double quantizer_scale = 1.0;        ///< ratio of its quantizer steps to the standard ones: one of quantizer_scales
 
+  bool is_public = false;  ///< anyone may subscribe, and fetch its model's package, without a token
+
   bool operator==(const StreamSettings&) const = default;
 };
 
@@ -30,6 +32,7 @@ void for_each_setting(Settings& settings, Visit&& visit) {
   visit(std::string_view("viseme_share"), settings.viseme_share);
   visit(std::string_view("batch_interval"), settings.batch_interval);
   visit(std::string_view("quantizer_scale"), settings.quantizer_scale);
+  visit(std::string_view("is_public"), settings.is_public);
 }
 
 /// The settings among the members of `object`; other members are ignored. Absent settings get their defaults, the title

@@ -11,6 +11,20 @@
 #include "core/types/feature_point_id.h"
 
 namespace semblante::store {
+namespace {
+
+/// RFC 3339, UTC, of milliseconds since 1970.
+std::string timestamp(std::int64_t milliseconds) {
+  const auto seconds = static_cast<std::time_t>(milliseconds / 1000);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 40> text{};
+  const auto used = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::snprintf(text.data() + used, text.size() - used, ".%03dZ", static_cast<int>(milliseconds % 1000));
+  return text.data();
+}
+
+}  // namespace
 
 std::string_view to_string(ModelState state) {
   static constexpr std::array<std::string_view, 4> names = {"importing", "ready", "parametrized", "failed"};
@@ -47,17 +61,11 @@ std::string artefact_name(std::size_t lod, std::string_view name) {
 }
 
 std::string timestamp_now() {
-  const auto now = std::chrono::system_clock::now();
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-  const auto milliseconds =
-      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 40> text{};
-  const auto used = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
-  std::snprintf(text.data() + used, text.size() - used, ".%03dZ", static_cast<int>(milliseconds));
-  return text.data();
+  const auto since = std::chrono::system_clock::now().time_since_epoch();
+  return timestamp(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
+
+std::string timestamp_of(std::int64_t seconds) { return timestamp(seconds * 1000); }
 
 std::string random_id() {
   constexpr std::string_view alphabet = "abcdefghijklmnopqrstuvwxyz234567";

@@ -159,6 +159,18 @@ struct FeaturePointRecord {
   bool operator==(const FeaturePointRecord&) const = default;
 };
 
+/// A token by which a client proves what it may do; the rules are in server/access.
+struct TokenRecord {
+  std::string id, name;
+  std::string scope;                    ///< name of a scope
+  std::string stream, model;            ///< of these only; empty: of all
+  std::string created;                  ///< RFC 3339, UTC
+  std::optional<std::int64_t> expires;  ///< seconds since 1970, UTC; empty: never
+  std::string secret_hash;
+
+  bool operator==(const TokenRecord&) const = default;
+};
+
 /// The members that jobs of all kinds have. Request and result depend on the kind of a job (server/jobs): the store
 /// keeps both as JSON and does not parse it.
 struct JobRecord {
@@ -237,6 +249,8 @@ std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> c
 
 /// Now, as RFC 3339 in UTC with milliseconds.
 std::string timestamp_now();
+/// The same form, of seconds since 1970.
+std::string timestamp_of(std::int64_t seconds);
 /// A new random id of 12 characters out of a-z and 2-7 (60 bits), from the system's random source.
 std::string random_id();
 

@@ -107,6 +107,14 @@ ALTER TABLE jobs RENAME COLUMN kind_name TO kind;
 CREATE INDEX jobs_by_model ON jobs(model, kind);
 )sql";
 
+constexpr const char* with_tokens = R"sql(
+CREATE TABLE tokens(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, scope TEXT NOT NULL, stream TEXT NOT NULL, model TEXT NOT NULL,
+  created TEXT NOT NULL, expires INTEGER, secret_hash TEXT NOT NULL) STRICT;
+ALTER TABLE streams ADD COLUMN is_public INTEGER NOT NULL DEFAULT 0;
+)sql";
+
 /// Step n migrates a file from version n to n + 1; an empty file has version 0. Released steps never change.
 constexpr std::array migrations = {
     first_schema,
@@ -120,6 +128,7 @@ constexpr std::array migrations = {
     "ALTER TABLE streams ADD COLUMN quantizer_scale REAL NOT NULL DEFAULT 1",
     with_identity,
     with_job_requests,
+    with_tokens,
 };
 constexpr int schema_version = migrations.size();
 

@@ -11,6 +11,7 @@
 #include "server/store/sqlite_schema.h"
 #include "server/store/sqlite_set_store.h"
 #include "server/store/sqlite_stream_store.h"
+#include "server/store/sqlite_token_store.h"
 
 namespace semblante::store {
 namespace {
@@ -28,6 +29,7 @@ class SqliteStore final : private SqliteConnection,
                           public SqliteStreamStore,
                           public SqliteRecordingStore,
                           public SqliteKeyStore,
+                          public SqliteTokenStore,
                           public SqliteDatabaseFacts,
                           public Store {
  public:
@@ -40,6 +42,7 @@ class SqliteStore final : private SqliteConnection,
         SqliteStreamStore(connection()),
         SqliteRecordingStore(connection()),
         SqliteKeyStore(connection()),
+        SqliteTokenStore(connection()),
         SqliteDatabaseFacts(connection()) {
     if (locking == Locking::exclusive) db.execute("PRAGMA locking_mode=EXCLUSIVE");
     db.execute("PRAGMA journal_mode=WAL");

@@ -18,6 +18,7 @@ void load(const Statement& row, int column, double& value) { value = row.real(co
 void load(const Statement& row, int column, std::uint32_t& value) {
   value = static_cast<std::uint32_t>(row.integer(column));
 }
+void load(const Statement& row, int column, bool& value) { value = row.integer(column) != 0; }
 void load(const Statement& row, int column, std::optional<double>& value) {
   if (!row.is_null(column)) value = row.real(column);
 }

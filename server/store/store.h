@@ -9,6 +9,7 @@
 #include "server/store/set_store.h"
 #include "server/store/store_error.h"
 #include "server/store/stream_store.h"
+#include "server/store/token_store.h"
 
 namespace semblante::store {
 
@@ -24,6 +25,7 @@ class Store : public virtual ModelStore,
               public virtual StreamStore,
               public virtual RecordingStore,
               public virtual KeyStore,
+              public virtual TokenStore,
               public virtual DatabaseFacts {};
 
 }  // namespace semblante::store
