@@ -1,0 +1,42 @@
+#include "server/access/client_limits.h"
+
+namespace semblante::access {
+namespace {
+
+/// Number of clients at which idle ones are looked for; again after as many more requests of new clients.
+constexpr std::size_t many_clients = 1024;
+constexpr double seconds_per_minute = 60.0;
+
+}  // namespace
+
+void ClientRates::forget_idle(Rates& rates, Clock::time_point now) {
+  if (rates.size() < many_clients || rates.size() % many_clients != 0) return;
+  std::erase_if(rates, [now](const auto& item) { return item.second.is_full(now); });
+}
+
+bool ClientRates::take_request(const std::string& client, Clock::time_point now) {
+  if (limits_.requests_per_second <= 0) return true;
+  const std::lock_guard lock(mutex_);
+  forget_idle(requests_, now);
+  return requests_.try_emplace(client, limits_.requests_per_second, limits_.request_burst).first->second.take(now);
+}
+
+bool ClientRates::may_try(const std::string& address, Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  const auto found = failures_.find(address);
+  return found == failures_.end() || found->second.has_one(now);
+}
+
+void ClientRates::count_failure(const std::string& address, Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  forget_idle(failures_, now);
+  failures_.try_emplace(address, limits_.failures_per_minute / seconds_per_minute, limits_.failures_per_minute)
+      .first->second.take(now);
+}
+
+std::size_t ClientRates::size() const {
+  const std::lock_guard lock(mutex_);
+  return requests_.size() + failures_.size();
+}
+
+}  // namespace semblante::access

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/access/rate.h"
+
+namespace semblante::access {
+
+/// Limits of one client: of a token, or of an address without one.
+struct ClientLimits {
+  double requests_per_second = 50, request_burst = 500;  ///< 0: no limit
+  double failures_per_minute = 30;                       ///< requests with a token that is not accepted, of one address
+};
+
+/// Counts requests by client. Any thread. Clients that are idle are forgotten, so memory is bounded by the requests of
+/// the last minute.
+class ClientRates {
+ public:
+  using Clock = Rate::Clock;
+  explicit ClientRates(ClientLimits limits) : limits_(limits) {}
+
+  /// False when this client has used up its requests.
+  bool take_request(const std::string& client, Clock::time_point now = Clock::now());
+  /// False when this address has sent too many tokens that were not accepted.
+  bool may_try(const std::string& address, Clock::time_point now = Clock::now());
+  void count_failure(const std::string& address, Clock::time_point now = Clock::now());
+  /// Number of clients in memory.
+  [[nodiscard]] std::size_t size() const;
+
+ private:
+  using Rates = std::map<std::string, Rate, std::less<>>;
+  void forget_idle(Rates& rates, Clock::time_point now);
+
+  const ClientLimits limits_;
+  mutable std::mutex mutex_;
+  Rates requests_;
+  Rates failures_;
+};
+
+}  // namespace semblante::access

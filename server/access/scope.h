@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace semblante::access {
+
+/// What a request needs, and what a token allows. A scope includes those before it.
+enum class Scope : std::uint8_t {
+  none,     ///< anyone may: health, version, documents, the studio's pages
+  read,     ///< look at and fetch everything, subscribe to streams
+  publish,  ///< feed streams: frames, performances, .fap files
+  edit,     ///< create, change and remove models, points, expressions, streams, recordings
+  admin,    ///< create and revoke tokens, read metrics
+};
+
+std::string_view scope_name(Scope scope);
+/// The scope of a token; nullopt for other words, "none" among them.
+std::optional<Scope> parse_scope(std::string_view name);
+
+}  // namespace semblante::access
