@@ -291,6 +291,10 @@ void Stream::look_after_connections() {
                       {1008, "no hello received in time"}))
       ++counts_.closed_silent;
   }
+  for (const auto& client : clients_.all())
+    if (client->rights_ended())
+      client->close(Message(StreamError{StreamErrorCode::unauthorized, "", "the token was revoked or has expired"}),
+                    {1008, "the token was revoked or has expired"});
 }
 
 void Stream::end(EndReason reason) {

@@ -26,8 +26,12 @@ http::SharedWire encoded(const Message& message, bool binary, const QuantizerSte
 
 }  // namespace
 
-StreamConnection::StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered)
-    : stream_(std::move(stream)), binary_(binary), subprotocol_offered_(subprotocol_offered) {}
+StreamConnection::StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered,
+                                   ConnectionRights rights)
+    : StreamPeer(std::move(rights)),
+      stream_(std::move(stream)),
+      binary_(binary),
+      subprotocol_offered_(subprotocol_offered) {}
 
 StreamConnection::~StreamConnection() = default;
 
@@ -119,6 +123,12 @@ void StreamConnection::handle_hello(const Hello& hello) {
   if (hello.role == StreamRole::subscribe) {
     role_ = Role::subscribes;
     stream_->subscribe(*this, *sink_, hello, binary_);
+    return;
+  }
+  if (!may_publish()) {
+    close(Message(StreamError{StreamErrorCode::unauthorized, "/role",
+                              "to publish here needs a token with the scope publish that is accepted for this stream"}),
+          {1008, "the token does not allow to publish"});
     return;
   }
   role_ = Role::publishes;

@@ -19,7 +19,8 @@ namespace semblante::streams {
 /// publishing.
 class StreamConnection : public http::WebSocketPeer, public StreamPeer {
  public:
-  StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered);
+  StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered,
+                   ConnectionRights rights = {});
   ~StreamConnection() override;
   StreamConnection(const StreamConnection&) = delete;
   StreamConnection& operator=(const StreamConnection&) = delete;

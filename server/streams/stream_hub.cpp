@@ -145,7 +145,8 @@ Result<PublishReceipt> InProcessHub::publish(std::string_view id, const std::vec
 }
 
 std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> InProcessHub::connect(std::string_view id,
-                                                                                  std::string_view offered) {
+                                                                                  std::string_view offered,
+                                                                                  ConnectionRights rights) {
   const auto stream = find(id);
   if (!stream) return Refusal::no_such_stream;
   // The first offered subprotocol that the server supports; JSON, which can be typed by hand, when none is offered.
@@ -157,7 +158,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> InProcessHub::connec
     known = true;
     break;
   }
-  auto connection = std::make_shared<StreamConnection>(stream, binary, known);
+  auto connection = std::make_shared<StreamConnection>(stream, binary, known, std::move(rights));
   if (!stream->admit(connection)) return Refusal::too_many;
   return std::shared_ptr<http::WebSocketPeer>(std::move(connection));
 }

@@ -49,7 +49,8 @@ class StreamHub {
   virtual bool stop(std::string_view id, std::string_view play_id) = 0;
   /// Makes the peer of a WebSocket to a stream. `offered` is the client's Sec-WebSocket-Protocol, may be empty.
   virtual std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
-                                                                              std::string_view offered) = 0;
+                                                                              std::string_view offered,
+                                                                              ConnectionRights rights) = 0;
 };
 
 /// All streams of this process. It uses two threads: its own runs the players and closes slow connections, that of the
@@ -75,8 +76,8 @@ class InProcessHub : public StreamHub {
   Result<PlayStatus> play(std::string_view id, std::shared_ptr<const FrameSource> source,
                           const PlayOptions& options) override;
   bool stop(std::string_view id, std::string_view play_id) override;
-  std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id,
-                                                                      std::string_view offered) override;
+  std::variant<std::shared_ptr<http::WebSocketPeer>, Refusal> connect(std::string_view id, std::string_view offered,
+                                                                      ConnectionRights rights) override;
 
  private:
   /// Its mutex is locked before a stream's, never after.

@@ -2,9 +2,12 @@
 
 // The two interfaces between a stream and its connections, one for each direction.
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/types/result.h"
@@ -15,9 +18,16 @@
 
 namespace semblante::streams {
 
+/// What the client of a connection may do.
+struct ConnectionRights {
+  bool may_publish = true;
+  std::shared_ptr<const std::atomic<bool>> ended = nullptr;  ///< becomes true when the client's token ends; may be null
+};
+
 /// Stream to connection.
 class StreamPeer {
  public:
+  explicit StreamPeer(ConnectionRights rights = {}) : rights_(std::move(rights)) {}
   static constexpr std::size_t nowhere = SIZE_MAX;
   /// Data of the stream for each connection, so that it needs no map. Guarded by the stream's mutex.
   struct Notes {
@@ -32,8 +42,11 @@ class StreamPeer {
   /// held: it must not call the stream.
   virtual bool close(const Message& last, http::CloseReason reason) = 0;
   [[nodiscard]] Notes& notes() { return notes_; }
+  [[nodiscard]] bool may_publish() const { return rights_.may_publish; }
+  [[nodiscard]] bool rights_ended() const { return rights_.ended && *rights_.ended; }
 
  private:
+  const ConnectionRights rights_;
   Notes notes_;
 };
 
