@@ -36,15 +36,15 @@ bool is_loopback(const std::string& host) {
   return http::equal_ignoring_case(host, "localhost");
 }
 
-/// True for "http://localhost:5173" and the like: pages that this machine serves.
-bool is_loopback_origin(std::string_view origin) {
-  const auto scheme = origin.find("://");
-  if (scheme == std::string_view::npos) return false;
-  const auto host = host_of(origin.substr(scheme + 3));
-  return host && is_loopback(*host);
-}
-
 }  // namespace
+
+bool is_own_origin(const http::Request& head) {
+  const auto origin = head.header("Origin"), host = head.header("Host");
+  if (!origin || !host) return false;
+  const auto scheme = origin->find("://");
+  return scheme != std::string_view::npos && host_of(*host) &&
+         http::equal_ignoring_case(origin->substr(scheme + 3), *host);
+}
 
 std::optional<http::Problem> Access::refuse_reading(const http::Request& head) const {
   const auto authority = head.header("Host");
@@ -67,7 +67,7 @@ std::optional<http::Problem> Access::refuse_changing(const http::Request& head) 
 
 bool Access::origin_allowed(const http::Request& head) const {
   const auto origin = head.header("Origin");
-  if (!origin || is_loopback_origin(*origin)) return true;
+  if (!origin || is_own_origin(head)) return true;
   return std::any_of(origins.begin(), origins.end(), [&](const auto& item) { return item == "*" || item == *origin; });
 }
 

@@ -9,14 +9,20 @@
 
 namespace semblante::api {
 
-/// Access control by the Host and Origin headers of a request. The server listens on loopback and has no
-/// authentication, so the remaining danger is a foreign page in a browser on this machine.
+/// Whether the Origin of a request is the server itself, under the name that the request was sent to. Another port of
+/// the same machine is another origin: it may be another user's program.
+bool is_own_origin(const http::Request& head);
+
+/// Access control by the Host and Origin headers of a request, against foreign pages in a browser that reaches the
+/// server: on a server without tokens it is the only one.
 struct Access {
   /// Host names accepted besides localhost and the loopback addresses, without port; "*": any. With DNS rebinding a
   /// foreign page has the same origin as this server for its browser, but its Host is still the foreign name.
   std::vector<std::string> hosts;
-  /// Origins whose pages may make changes and read answers, besides pages of this machine; "*": all.
+  /// Origins whose pages may make changes and read answers, besides the server's own; "*": all.
   std::vector<std::string> origins;
+  /// Origins whose pages may show the server's pages in a frame.
+  std::vector<std::string> frame_origins = {};
 
   /// The problem with which a read-only request is refused; nullopt when it is allowed.
   [[nodiscard]] std::optional<http::Problem> refuse_reading(const http::Request& head) const;

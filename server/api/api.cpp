@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/cpp/performance_document.h"
+#include "server/api/authorization.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
@@ -79,6 +80,10 @@ std::vector<metrics::RequestKind> request_kinds() {
 std::size_t page_kind() { return routes().size(); }
 std::size_t other_kind() { return routes().size() + 1; }
 
+bool is_upgrade(const http::Request& head) {
+  return http::equal_ignoring_case(head.header("Upgrade").value_or(""), "websocket");
+}
+
 /// The route that find_route() has found, or null.
 const Route* route_of(const http::Request& request) {
   return request.route < routes().size() ? &routes()[request.route] : nullptr;
@@ -100,12 +105,17 @@ void Api::find_route(http::Request& head) {
     head.route = page ? page_kind() : other_kind();
   head.allow = std::move(match.allow);
   head.params = std::move(match.params);
+  head.requester = ask(context_.config.security, head, is_upgrade(head));
 }
 
 std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head) {
   const auto& access = context_.config.access;
+  const auto& security = context_.config.security;
   if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
     return to_response(*problem);
+  if (auto elsewhere = api::redirect_to_https(security, head)) return std::move(*elsewhere);
+  if (auto refusal = refuse_bypass(security, head)) return std::move(*refusal);
+  if (auto refusal = refuse_rate(security, head)) return std::move(*refusal);
   if (head.route == page_kind()) return http::BodyPlan{};
   if (head.allow.empty()) return to_response(make_problem("not-found", "there is no route " + head.path));
   if (head.method == "OPTIONS") {
@@ -115,7 +125,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     if (access.origin_allowed(head)) {
       response.headers["Access-Control-Allow-Methods"] = head.allow;
       response.headers["Access-Control-Allow-Headers"] =
-          "Content-Type, Content-Disposition, If-Match, If-None-Match, Idempotency-Key, Range";
+          "Authorization, Content-Type, Content-Disposition, If-Match, If-None-Match, Idempotency-Key, Range";
       response.headers["Access-Control-Max-Age"] = "600";
     }
     return response;
@@ -126,6 +136,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     response.headers["Allow"] = head.allow;
     return response;
   }
+  if (auto refusal = refuse_access(security, context_.hub, head, route->scope)) return std::move(*refusal);
   if (!route->produces.empty() && route->produces != "*/*" &&
       !http::accepts(head.header("Accept").value_or(""), route->produces))
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
@@ -141,6 +152,7 @@ http::Response Api::handle(http::Request& request) {
   const auto* route = route_of(request);
   if (route == nullptr) return http::static_file(context_.config.web_root, request);
   try {
+    refuse_foreign_resource(context_, request);
     return route->handler(context_, request);
   } catch (const Refused& refused) {
     return to_response(refused);
@@ -169,8 +181,15 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   const auto* route = route_of(head);
   if (route == nullptr || route->handler != get_stream)
     return to_response(make_problem("not-found", head.path + " is no stream"));
+  const auto& security = context_.config.security;
+  if (auto elsewhere = api::redirect_to_https(security, head)) return std::move(*elsewhere);
+  if (auto refusal = refuse_bypass(security, head)) return std::move(*refusal);
+  if (auto refusal = refuse_rate(security, head)) return std::move(*refusal);
+  if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
+  const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");
-  auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""));
+  auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""),
+                                        {rights.scope >= access::Scope::publish, rights.ended});
   if (auto* peer = std::get_if<std::shared_ptr<http::WebSocketPeer>>(&connected)) return std::move(*peer);
   if (std::get<streams::Refusal>(connected) == streams::Refusal::too_many)
     return to_response(Refused{make_problem("too-many-requests", "the stream has reached its limit of connections"),
@@ -184,12 +203,16 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   const auto kind = head.route == http::no_route ? other_kind() : head.route;
   context_.requests->count(kind, response.status, took.count());
   for (const auto& [name, value] : http::security_headers()) response.headers.try_emplace(name, value);
+  if (head.route == page_kind()) http::allow_frames(response, context_.config.access.frame_origins);
+  // Browsers keep to https after this; from an address without a name they ignore it.
+  if (asking_of(head).from.secure) response.headers["Strict-Transport-Security"] = "max-age=31536000";
   const auto origin = head.header("Origin");
   if (!origin) return;
   response.headers["Vary"] = "Origin";
   if (!context_.config.access.origin_allowed(head)) return;
   response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
-  response.headers["Access-Control-Expose-Headers"] = "ETag, Location, Retry-After, Content-Range, Allow";
+  response.headers["Access-Control-Expose-Headers"] =
+      "ETag, Location, Retry-After, Content-Range, Allow, WWW-Authenticate";
 }
 
 }  // namespace semblante::api

@@ -10,6 +10,7 @@
 
 #include "server/api/access.h"
 #include "server/api/key_locks.h"
+#include "server/api/security.h"
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
 #include "server/metrics/request_counts.h"
@@ -35,6 +36,7 @@ struct ApiConfig {
   std::string version;
   std::filesystem::path web_root;  ///< empty: no pages
   Access access;
+  Security security = {};
 };
 
 /// Writes the counts of the network layer into /metrics.
@@ -60,6 +62,9 @@ struct Context {
 class Api : public http::Application {
  public:
   explicit Api(Context context);
+
+  /// Requests without TLS are answered with this port of https. Before the server runs.
+  void redirect_to_https(std::uint16_t port) { context_.config.security.https_port = port; }
 
   void find_route(http::Request& head) override;
   std::variant<http::BodyPlan, http::Response> plan(const http::Request& head) override;

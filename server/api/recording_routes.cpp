@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/quantizers.h"
 #include "protocol/hash/sha256.h"
+#include "server/api/authorization.h"
 #include "server/api/common.h"
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
@@ -174,6 +175,7 @@ http::Response play_recording(Context& context, http::Request& request) {
   if (!body.contains("recording"))
     refuse("invalid-field", "the id of the recording to be played is missing", "/recording");
   const auto id = checked_text(body["recording"], max_name_bytes, "/recording");
+  refuse_foreign_recording(context, request, id);
   const auto recording = context.recorder->find(id);
   if (!recording) refuse("invalid-field", "there is no recording " + id, "/recording");
   streams::PlayOptions options;

@@ -174,6 +174,7 @@ answer::Stream represent(const streams::StreamInfo& stream) {
           .active_source = std::move(active),
           .batch_interval = settings.batch_interval,
           .quantizer_scale = settings.quantizer_scale,
+          .is_public = settings.is_public,
           .subscribers_by_coding = by_coding(stream),
           .bytes_sent = stream.counts.bytes_sent,
           .messages_coalesced = stream.counts.messages_replaced,

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/access/scope.h"
 #include "server/api/api.h"
 
 namespace semblante::api {
@@ -40,6 +41,7 @@ struct Route {
   std::string_view produces;  ///< media type of the successful answer; "" for none, "*/*" for that of the artefact
   Handler handler;
   Runs runs;
+  access::Scope scope;  ///< what a request needs
 };
 
 std::span<const Route> routes();

@@ -14,6 +14,7 @@ std::vector<GeneratedFile> api_files(const std::string& source_folder) {
           {folder + "route_table.cpp", render_route_table(document)},
           {folder + "answers.h", render_answers_header(document)},
           {folder + "answers.cpp", render_answers_source(document)},
+          {folder + "SCOPES.md", render_scopes(document)},
           {folder + "body_members.h", render_body_members(document)},
           {folder + "documents.cpp",
            render_documents(

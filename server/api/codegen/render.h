@@ -14,6 +14,8 @@ std::string render_route_table(const Json& document);
 std::string render_answers_header(const Json& document);
 std::string render_answers_source(const Json& document);
 std::string render_body_members(const Json& document);
+/// server/access/SCOPES.md.
+std::string render_scopes(const Json& document);
 
 /// A file that the server sends.
 struct EmbeddedDocument {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <set>
 #include <stdexcept>
 
@@ -33,6 +35,18 @@ std::string body_of(const Operation& operation) {
   return "{BodyKind::" + kind + ", " + operation.function + "_types, " + (announced ? "true" : "false") + "}";
 }
 
+constexpr std::array<std::string_view, 5> scopes = {"none", "read", "publish", "edit", "admin"};
+
+std::string scope_of(const Operation& operation) {
+  const auto scope = operation.json->value("x-scope", std::string());
+  if (std::find(scopes.begin(), scopes.end(), scope) == scopes.end())
+    throw std::runtime_error(operation.function + ": x-scope must be none, read, publish, edit or admin");
+  const bool is_open = operation.json->contains("security") && operation.json->at("security").empty();
+  if (is_open != (scope == "none"))
+    throw std::runtime_error(operation.function + ": \"security\": [] and x-scope none belong together");
+  return scope;
+}
+
 }  // namespace
 
 std::string render_handlers(const Json& document) {
@@ -57,7 +71,8 @@ std::string render_route_table(const Json& document) {
       throw std::runtime_error(operation.function + ": there is no x-runs " + runs);
     rows += "    {" + quoted(operation.method) + ", " + quoted(operation.pattern) + ", " + body_of(operation) + ", " +
             quoted(produced_type(document, operation)) + ", " + operation.function +
-            ", Runs::" + (runs == "at-once" ? "at_once" : "on_worker") + "},\n";
+            ", Runs::" + (runs == "at-once" ? "at_once" : "on_worker") + ", access::Scope::" + scope_of(operation) +
+            "},\n";
   }
   return generated_notice() +
          "#include <array>\n\n#include \"server/api/generated/handlers.h\"\n#include \"server/api/routes.h\"\n\n"
@@ -65,6 +80,27 @@ std::string render_route_table(const Json& document) {
          types + "\nconstexpr auto table = std::to_array<Route>({\n" + rows +
          "});\n\n}  // namespace\n\nstd::span<const Route> routes() { return table; }\n\n}  // namespace "
          "semblante::api\n";
+}
+
+std::string render_scopes(const Json& document) {
+  std::string rows;
+  for (const auto& operation : operations(document))
+    rows += "| " + operation.method + " `" + operation.pattern + "` | " + scope_of(operation) + " | " +
+            operation.json->at("summary").get<std::string>() + " |\n";
+  return "# What each scope may do\n\n"
+         "Generated from server/api/openapi.json by semblante-codegen-api (`x-scope`). A scope includes those before "
+         "it: "
+         "none, read, publish,\nedit, admin. none: without a token. A GET includes HEAD; OPTIONS is answered without a "
+         "token.\n\n"
+         "A token for one stream is accepted by that stream's routes, and for reading the model that the stream shows; "
+         "a "
+         "token\nfor one model by that model's routes and its jobs. Lists and everything else are refused. A stream "
+         "with "
+         "`is_public` is\nopen for reading, with its model, without a token.\n\n"
+         "| route | scope | |\n|---|---|---|\n" +
+         rows +
+         "| WebSocket `/v1/streams/{stream}`, role `subscribe` | read | |\n"
+         "| WebSocket `/v1/streams/{stream}`, role `publish` | publish | |\n";
 }
 
 }  // namespace semblante::codegen

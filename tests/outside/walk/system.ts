@@ -13,6 +13,17 @@ export async function walkSystem(client: Client): Promise<void> {
   const metrics: string = good(await client.GET('/metrics', { parseAs: 'text' }));
   assert.match(metrics, /^# TYPE \S+ (counter|gauge|histogram)$/m);
 
+  const session = good(await client.GET('/v1/session'));
+  assert.deepEqual([session.asks_for_tokens, session.scope], [false, 'admin']);
+  const made = good(await client.POST('/v1/tokens', { body: { name: 'walk', scope: 'read', expires_in: 60 } }));
+  const tokens = good(await client.GET('/v1/tokens')).tokens;
+  assert.deepEqual(tokens.map(({ id }) => id), [made.token.id]);
+  assert.equal(good(await client.POST('/v1/session', { body: { token: made.secret } })).scope, 'admin');
+  assert.equal((await client.DELETE('/v1/session')).response.status, 204);
+  assert.ok(good(await client.POST('/v1/tickets', { body: { path: '/v1/models' } })).ticket.length > 40);
+  const params = { path: { token: made.token.id } };
+  assert.equal((await client.DELETE('/v1/tokens/{token}', { params })).response.status, 204);
+
   const absent = refused(await client.GET('/v1/models/{model}', { params: { path: { model: 'nobody' } } }), 404);
   const slug = absent.type.slice('/problems/'.length);
   const kind = good(await client.GET('/problems/{slug}', { params: { path: { slug } } }));

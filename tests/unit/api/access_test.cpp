@@ -36,11 +36,16 @@ TEST(Access, NamedHosts_AreTakenWithAnyPort) {
 
 TEST(Access, ForeignOrigins_MayNotChangeAnything) {
   const Access access{{}, {"https://studio.example"}};
-  for (const auto* origin :
-       {"http://localhost:5173", "http://127.0.0.1:8080", "http://[::1]:8080", "https://studio.example"})
-    EXPECT_FALSE(access.refuse_changing(with("Origin", origin))) << origin;
-  for (const auto* origin : {"https://evil.example", "http://studio.example", "http://localhost.evil.example",
-                             "http://localhost:80@evil.example", "null"}) {
+  EXPECT_FALSE(access.refuse_changing(with("Origin", "https://studio.example")));
+  for (const auto* host : {"localhost:8080", "127.0.0.1:8080", "[::1]:8080"}) {
+    auto own = with("Origin", "http://" + std::string(host));
+    own.headers["Host"] = host;
+    EXPECT_FALSE(access.refuse_changing(own)) << host;
+    own.headers["Origin"] = "http://localhost:5173";
+    EXPECT_TRUE(access.refuse_changing(own)) << "another program of this machine";
+  }
+  for (const auto* origin : {"https://evil.example", "http://localhost:5173", "http://studio.example",
+                             "http://localhost.evil.example", "http://localhost:80@evil.example", "null"}) {
     EXPECT_FALSE(access.origin_allowed(with("Origin", origin))) << origin;
     EXPECT_TRUE(access.refuse_changing(with("Origin", origin))) << origin;
     EXPECT_FALSE(access.refuse_reading(with("Origin", origin))) << "its page sees no answer without CORS";
