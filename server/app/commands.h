@@ -9,6 +9,7 @@ namespace semblante {
 // The subcommands of the service; server/cli/commands.h has those for heads and files.
 
 void add_serve_command(CLI::App& app);
+void add_token_command(CLI::App& app);
 void add_version_command(CLI::App& app);
 void add_worker_command(CLI::App& app);
 

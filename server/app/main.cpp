@@ -21,6 +21,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_play_command(app);
   add_propose_command(app);
   add_serve_command(app);
+  add_token_command(app);
   add_version_command(app);
   add_worker_command(app);
   try {
@@ -30,13 +31,12 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr
-        << "semblante: "
-        << (has_command
-                ? fault.what()
-                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose or serve (see "
-                  "semblante --help)")
-        << "\n";
+    std::cerr << "semblante: "
+              << (has_command ? fault.what()
+                              : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, "
+                                "serve or token (see "
+                                "semblante --help)")
+              << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";

@@ -4,16 +4,20 @@
 #include <cstring>
 #include <fcntl.h>
 #include <iostream>
+#include <optional>
 #include <thread>
 #include <unistd.h>
 
-#include <arpa/inet.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 
+#include "server/access/new_token.h"
 #include "server/api/api.h"
+#include "server/app/certificate_files.h"
 #include "server/app/data_folder.h"
+#include "server/app/lan.h"
 #include "server/app/open_files.h"
+#include "server/app/periodic.h"
 #include "server/app/sample_installer.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
@@ -30,23 +34,6 @@ constexpr std::chrono::seconds lock_patience{5};
 
 [[noreturn]] void fail_input(const std::string& message) {
   throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
-}
-
-/// There is no authentication: a client that reaches the port may do everything, so only loopback addresses are
-/// allowed.
-std::string checked_address(std::string address) {
-  if (address == "localhost") address = "127.0.0.1";
-  in_addr four{};
-  in6_addr six{};
-  const bool is_four = inet_pton(AF_INET, address.c_str(), &four) == 1;
-  const bool is_six = inet_pton(AF_INET6, address.c_str(), &six) == 1;
-  if (!is_four && !is_six) fail_input("--address: " + address + " is not an IP address");
-  const bool loopback = is_four ? (ntohl(four.s_addr) >> 24U) == 127U : IN6_IS_ADDR_LOOPBACK(&six);
-  if (!loopback)
-    fail_input("--address: " + address +
-               " can be reached from other machines, and this server has no authentication; use 127.0.0.1 or ::1 and "
-               "put a proxy with authentication in front of it");
-  return address;
 }
 
 /// Refuses a second server on one data folder, because they would undo each other's changes. The lock is held until the
@@ -110,6 +97,7 @@ void open_streams(store::StreamStore& store, streams::StreamHub& hub, const Serv
     demo.settings.title = "Demo";
     demo.settings.model = options.sample.empty() ? "" : std::string(sample_model_id);
     demo.settings.batch_interval = 0;
+    demo.settings.is_public = true;  // it is there to be shown
     demo.created = store::timestamp_now();
     demo.source = "demo";
     hub.open(demo);
@@ -135,9 +123,46 @@ void write_net_metrics(metrics::TextWriter& writer, const net::ServerCounts& cou
   writer.single("semblante_websockets", MetricType::gauge, "WebSockets open.", counts.websockets_open);
 }
 
-std::string url_of(const std::string& address, std::uint16_t port) {
-  const bool is_six = address.find(':') != std::string::npos;
-  return "http://" + (is_six ? "[" + address + "]" : address) + ":" + std::to_string(port);
+/// A certificate and all addresses, for phones in the same network.
+ListenOptions listening_at_home(ListenOptions options, const std::filesystem::path& data) {
+  constexpr std::uint16_t usual_port = 8443;
+  if (!options.listen.empty() || !options.certificate.empty())
+    fail_input("--lan chooses address and certificate itself; leave out --listen, --tls-cert and --tls-key");
+  auto names = network_addresses();
+  if (names.empty()) fail_input("--lan: this machine has no address in a network");
+  names.emplace_back("localhost");
+  names.emplace_back("127.0.0.1");
+  const auto files = self_signed_certificate(data / "lan", names);
+  options.listen = {"0.0.0.0:" + std::to_string(options.port == ListenOptions{}.port ? usual_port : options.port)};
+  options.certificate = files.certificate;
+  options.key = files.key;
+  return options;
+}
+
+/// The names under which this server is reached: those of its certificate, and the addresses it listens on.
+void add_own_names(std::vector<std::string>& hosts, const ListenOptions& options, const Listening& listening) {
+  for (const auto& listener : listening.listeners) hosts.push_back(listener.address);
+  if (!listening.tls) return;
+  const auto context = net::TlsContext::load({options.certificate, options.key});
+  if (!context) fail("serve", context.error());
+  hosts.insert(hosts.end(), (*context)->names().begin(), (*context)->names().end());
+}
+
+/// A token for this run of `serve --lan`; those of earlier runs end. Prints how a phone gets in.
+void invite(store::TokenStore& tokens, std::uint16_t port) {
+  constexpr std::int64_t life = 12 * 3600;  // seconds
+  const std::string name = "serve --lan";
+  for (const auto& token : tokens.tokens())
+    if (token.name == name) tokens.remove_token(token.id);
+  const auto made = access::make_token({name, access::Scope::edit, {}, {}, life});
+  tokens.add_token(made.record);
+  const auto addresses = network_addresses();
+  if (addresses.empty()) return;
+  // After the # it is not sent with a request: the page takes it from there and forgets it.
+  const auto url = url_of({addresses.front(), port, true}, port) + "/#token=" + made.text;
+  std::cout << qr_code(url) << url
+            << "\nThe browser warns about the certificate, because this machine has signed it itself. The token is "
+               "accepted for 12 hours.\n";
 }
 
 }  // namespace
@@ -149,12 +174,15 @@ void run_serve(const ServeOptions& options) {
   // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
   ::umask(S_IRWXG | S_IRWXO);
   std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error
-  const auto address = checked_address(options.address);
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
     fail_input("--web-root: " + options.web_root.string() + " is no folder");
   std::filesystem::create_directories(options.data, error);
   if (error) fail_input("--data: " + options.data.string() + ": " + error.message());
+  const auto listen_options = options.lan ? listening_at_home(options.listening, options.data) : options.listening;
+  const auto listening = check_listening(listen_options, options.data);
+  auto hosts = options.allowed_hosts;
+  add_own_names(hosts, listen_options, listening);
   lock_data(options.data);
 
   auto blobs = store::BlobStore::open(options.data);
@@ -199,29 +227,56 @@ void run_serve(const ServeOptions& options) {
   api_config.limits.max_expressions = options.max_expressions;
   api_config.version = SEMBLANTE_VERSION;
   api_config.web_root = options.web_root;
-  api_config.access = {options.allowed_hosts, options.allowed_origins};
+  api_config.access = {hosts, options.allowed_origins, options.frame_origins};
+  api_config.security.asks_for_tokens = listening.asks_for_tokens;
+  api_config.security.proxies = listening.proxies;
+  api_config.security.rates = std::make_shared<access::ClientRates>(options.client_limits);
+  const auto tokens = api_config.security.tokens;
+  tokens->load(**store);
+  if (listening.asks_for_tokens && tokens->empty() && !options.lan)
+    fail_input(
+        "nobody could use this server: it asks for tokens, and there is none. Make one:\n  semblante token create "
+        "--data " +
+        options.data.string() + " --scope admin");
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
   api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder, trash});
 
   net::ServerConfig net_config;
-  net_config.address = address;
-  net_config.port = options.port;
+  net_config.listeners = listening.listeners;
+  net_config.proxies = listening.proxies;
   net_config.worker_threads = options.threads;
   net_config.upload_directory = blobs->temporary();
   net_config.limits.max_connections = connections_to_serve(options.max_connections);
+  net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);
   net::Server server(net_config, api);
   running = &server;
-  const auto port = server.listen();
-  if (!port) fail("serve", port.error());
+  const auto ports = server.listen();
+  if (!ports) fail("serve", ports.error());
   server.stop_on_signals();
+  std::optional<CertificateFiles> certificate;
+  if (listening.tls) {
+    api.redirect_to_https(ports->front());
+    certificate.emplace(net::TlsFiles{listen_options.certificate, listen_options.key},
+                        [&server](auto context) { server.set_tls(std::move(context)); });
+    server.reload_on_signal([&certificate] { certificate->reload(); });
+  }
+  // Tokens that a command line has made or revoked.
+  constexpr std::chrono::seconds look_for_tokens{1};
+  const Periodic token_watch("looking for changed tokens", look_for_tokens, [&] { tokens->refresh(**store); });
 
   SampleInstaller sample(**store, **store, *blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
   queue.start();
   sample.begin();
 
-  std::cout << "semblante listening on " << url_of(address, *port) << std::endl;
+  for (std::size_t i = 0; i < ports->size(); ++i)
+    std::cout << "semblante listening on " << url_of(listening.listeners[i], (*ports)[i]) << std::endl;
+  if (options.lan) {
+    invite(**store, ports->front());
+    tokens->load(**store);
+    std::cout << std::flush;
+  }
   server.run([&] {
     (*recorder)->stop_all(recordings::ended::server_stopped);
     hub.close_all(EndReason::shutdown);

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "server/access/client_limits.h"
 #include "server/api/api.h"
+#include "server/app/listening.h"
 #include "server/jobs/worker_protocol.h"
+#include "server/net/server.h"
 #include "server/recordings/recorder.h"
 #include "server/streams/stream_limits.h"
 
@@ -14,8 +17,8 @@ namespace semblante {
 
 /// The options of `semblante serve`; the defaults of limits are those of the folder that applies them.
 struct ServeOptions {
-  std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;
+  ListenOptions listening;
+  bool lan = false;  ///< every address of this machine, with a certificate and a token of its own
   std::filesystem::path data = "data";
   std::filesystem::path web_root;
   std::filesystem::path sample;
@@ -37,6 +40,9 @@ struct ServeOptions {
   std::uint64_t worker_cpu_seconds = jobs::WorkerLimits{}.cpu_seconds;
   std::vector<std::string> allowed_hosts;
   std::vector<std::string> allowed_origins;
+  std::vector<std::string> frame_origins;
+  access::ClientLimits client_limits;
+  std::uint64_t max_connections_per_address = net::ServerLimits{}.max_connections_per_address;
   std::string log_level = "info";
 };
 

@@ -19,9 +19,31 @@ void add_serve_command(CLI::App& app) {
   // Without a range a negative number would wrap to a huge one.
   const CLI::Range count(1, 1'000'000);
   constexpr std::uint64_t max_size = std::uint64_t{1} << 50U;
-  add("--address", options->address, "Address to listen on; loopback only", "ADDRESS");
-  add("--port", options->port, "Port to listen on; 0: any free port, which is printed", "PORT")
+  auto& listening = options->listening;
+  add("--address", listening.address, "Loopback address to listen on, for one person on this machine", "ADDRESS");
+  add("--port", listening.port, "Port to listen on; 0: any free port, which is printed", "PORT")
       ->check(CLI::Range(0, 65535));
+  add("--listen", listening.listen,
+      "ADDRESS:PORT to listen on in place of --address and --port, such as 0.0.0.0:443 or [::]:443; may be given more "
+      "than once. What other machines can reach needs TLS and asks for tokens (semblante token create)",
+      "LISTEN");
+  add("--tls-cert", listening.certificate,
+      "Certificate in PEM, with those that sign it; read again when it changes, and at SIGHUP", "TLS_CERT");
+  add("--tls-key", listening.key, "Private key of the certificate, in PEM", "TLS_KEY");
+  add("--http-redirect", listening.redirects,
+      "ADDRESS:PORT without TLS whose requests are redirected to https; may be given more than once", "HTTP_REDIRECT");
+  add("--trusted-proxy", listening.proxies,
+      "Address or range of a proxy whose X-Forwarded-For and X-Forwarded-Proto are believed; may be given more than "
+      "once. The server then asks for tokens",
+      "TRUSTED_PROXY");
+  command->add_flag("--require-tokens", listening.require_tokens, "Ask for tokens on loopback too")
+      ->envname("SEMBLANTE_REQUIRE_TOKENS");
+  command
+      ->add_flag(
+          "--lan", options->lan,
+          "For phones in the same network: listens on every address (port 8443), makes a certificate and a token, "
+          "and prints the address and its QR code")
+      ->envname("SEMBLANTE_LAN");
   add("--data", options->data, "Folder for models, packages and facts; made if missing", "DATA");
   add("--web-root", options->web_root, "Folder of the studio's built pages, served at /; none if left out", "WEB_ROOT");
   add("--sample", options->sample,
@@ -81,6 +103,22 @@ void add_serve_command(CLI::App& app) {
       "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
       "be given more than once",
       "ALLOW_ORIGIN");
+  add("--allow-frame", options->frame_origins,
+      "Origin whose pages may show the server's pages in a frame, e.g. https://shop.example; may be given more than "
+      "once",
+      "ALLOW_FRAME");
+  add("--client-requests", options->client_limits.requests_per_second,
+      "Requests per second of one token, or of one address without a token, on a server that asks for tokens; 0: no "
+      "limit",
+      "CLIENT_REQUESTS")
+      ->check(CLI::Range(0.0, 1e6));
+  add("--client-failures", options->client_limits.failures_per_minute,
+      "Tokens of one address per minute that are not accepted, before it has to wait", "CLIENT_FAILURES")
+      ->check(CLI::Range(1.0, 1e6));
+  add("--max-address-connections", options->max_connections_per_address,
+      "Connections of one address (of IPv6: its first 64 bits); this machine and trusted proxies have no such limit",
+      "MAX_ADDRESS_CONNECTIONS")
+      ->check(CLI::Range(1, 1'000'000));
   add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
   command->callback([options] { run_serve(*options); });
 }

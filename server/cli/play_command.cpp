@@ -33,7 +33,7 @@ constexpr std::size_t most_warnings = 1000;
 constexpr double end_slack = 3000.0;
 
 struct PlayCommand {
-  std::string file, server = "http://127.0.0.1:8080", stream, format;
+  std::string file, server = "http://127.0.0.1:8080", stream, format, token;
   bool create = false, loop = false, take_over = false, quiet = false;
   double rate = 0.0, from = 0.0;
 };
@@ -131,7 +131,9 @@ class Playing {
  private:
   client::HttpResponse ask(const std::string& method, const std::string& target, const std::string& type = {},
                            std::string body = {}) const {
-    auto reply = server_.send({method, target, std::move(body), type, {}});
+    client::HttpRequest request{method, target, std::move(body), type, {}};
+    if (!options_.token.empty()) request.headers.emplace_back("Authorization", "Bearer " + options_.token);
+    auto reply = server_.send(request);
     if (!reply) fail("play: --server", reply.error());
     return *std::move(reply);
   }
@@ -180,6 +182,7 @@ void add_play_command(CLI::App& app) {
   command->add_option("--server", options->server, "Address of the server, http://HOST:PORT")
       ->capture_default_str()
       ->envname("SEMBLANTE_SERVER");
+  command->add_option("--token", options->token, "For a server that asks for tokens")->envname("SEMBLANTE_TOKEN");
   command->add_option("--stream", options->stream, "Id of the stream")->required()->envname("SEMBLANTE_STREAM");
   command->add_option("--in-format", options->format, "Of FILE, if its name does not tell: " + readable_face_formats())
       ->envname("SEMBLANTE_IN_FORMAT");
