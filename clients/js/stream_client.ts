@@ -50,6 +50,11 @@ export interface StreamOptions {
   subprotocol?: 'binary' | 'json';
   /** For a publisher: replace the current publisher. Default false. */
   takeOver?: boolean;
+  /**
+   * For a server that asks for tokens, from a page that is not its own: sent as a subprotocol, because a browser's
+   * WebSocket carries no header.
+   */
+  token?: string;
   /** Default: the platform's WebSocket. Node 18 has none: pass the class of a package. */
   WebSocket?: new (url: string, protocols: string[]) => WebSocket;
   /** ms; default performance.now() */
@@ -61,6 +66,9 @@ export interface StreamOptions {
    */
   pingInterval?: number;
 }
+
+/** The subprotocol that carries a token; the server does not say it back. */
+const bearerSubprotocol = 'semblante.bearer.';
 
 /** When the socket has more buffered bytes than this, a publisher's frames are dropped instead of queued. */
 const maxBufferedBytes = 256 * 1024;
@@ -83,7 +91,7 @@ export class StreamClient extends Emitter<StreamEvents> {
   /** Estimate of the stream's clock relative to `now()`. */
   readonly streamClock = new ClockEstimate();
 
-  private readonly options: Required<StreamOptions>;
+  private readonly options: Required<Omit<StreamOptions, 'token'>> & Pick<StreamOptions, 'token'>;
   private socket: WebSocket | null = null;
   private decoder = new FrameDecoder();
   private encoder: FrameEncoder | null = null;
@@ -116,7 +124,9 @@ export class StreamClient extends Emitter<StreamEvents> {
     clearTimeout(this.retryTimer);
     this.become('connecting');
     const name = this.options.subprotocol === 'json' ? jsonSubprotocol : binarySubprotocol;
-    const socket = new this.options.WebSocket(this.url, [name]);
+    const { token } = this.options;
+    const names = token === undefined ? [name] : [name, `${bearerSubprotocol}${token}`];
+    const socket = new this.options.WebSocket(this.url, names);
     this.socket = socket;
     this.decoder = new FrameDecoder();
     this.encoder = null;

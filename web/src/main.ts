@@ -4,6 +4,7 @@ import { dracoDecoder } from './face/draco.ts';
 import { kernelModule } from './face/kernel_module.ts';
 import { loadStageFace } from './face/package.ts';
 import { Api } from './net/api.ts';
+import type { Session } from './net/types.ts';
 import { AnimatePanel } from './ui/animate/animate_panel.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
 import { h } from './ui/shared/dom.ts';
@@ -28,6 +29,7 @@ import { RecordingsModel } from './ui/recordings/recordings_model.ts';
 import { RecordingsPanel } from './ui/recordings/recordings_panel.ts';
 import { saveFile } from './ui/shared/save_file.ts';
 import { SceneView } from './ui/stage/scene.ts';
+import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
 import { Studio } from './ui/shared/studio.ts';
@@ -38,10 +40,10 @@ import { Toasts } from './ui/shared/toast.ts';
 const demo = { id: 'demo', title: 'Demo' };
 
 /** Composes the page; the only module that knows all others. */
-function main(root: HTMLElement): void {
+function main(root: HTMLElement, session: Session | null): void {
   const toasts = new Toasts();
-  const theme = themeButton();
   const api = new Api();
+  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), themeButton());
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);
@@ -82,7 +84,7 @@ function main(root: HTMLElement): void {
     animate: animate.element,
     live: livePanel.element,
   };
-  const layout = makeLayout(studio, panels, stagePanel.element, theme);
+  const layout = makeLayout(studio, panels, stagePanel.element, extras);
   root.replaceChildren(layout, toasts.element);
 
   scene.animate = (delta) => driver.step(delta);
@@ -137,10 +139,8 @@ function showSelected(studio: Studio, points: PointsModel, scene: SceneView): vo
 }
 
 const root = document.querySelector<HTMLElement>('#studio');
-try {
-  if (root) main(root);
-} catch (error) {
-  root?.replaceChildren(
+if (root) letIn('', root).then((session) => main(root, session)).catch((error: unknown) => {
+  root.replaceChildren(
     h(
       'div',
       { class: 'no-stage', role: 'alert' },
@@ -148,4 +148,4 @@ try {
       h('p', {}, error instanceof Error ? error.message : String(error)),
     ),
   );
-}
+});

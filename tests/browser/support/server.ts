@@ -1,4 +1,4 @@
-import { spawn } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
@@ -8,6 +8,7 @@ import { eventually } from './patience.ts';
 
 export interface RunningServer {
   url: string;
+  token: string;
   stop(): Promise<void>;
 }
 
@@ -25,14 +26,27 @@ async function freePort(): Promise<number> {
   throw new Error('no free port');
 }
 
-/** Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. */
-export async function startServer(): Promise<RunningServer> {
+/** A token of a data folder that no server uses yet. */
+function makeToken(data: string, scope: string): string {
+  return execFileSync(join(buildDir, 'bin/semblante'), ['token', 'create', '--data', data, '--scope', scope], {
+    encoding: 'utf8',
+    stdio: ['ignore', 'pipe', 'ignore'],
+  }).trim();
+}
+
+/**
+ * Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. With
+ * `tokenScope` it asks for tokens, and `token` is one of that scope.
+ */
+export async function startServer(tokenScope?: string): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
+  const token = tokenScope === undefined ? '' : makeToken(data, tokenScope);
+  const headers: Record<string, string> = token === '' ? {} : { Authorization: `Bearer ${token}` };
   const url = `http://127.0.0.1:${port}`;
   const child = spawn(
     join(buildDir, 'bin/semblante'),
-    ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo'],
+    ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo', ...(token === '' ? [] : ['--require-tokens'])],
     { stdio: ['ignore', 'pipe', 'pipe'] },
   );
   let output = '';
@@ -47,7 +61,7 @@ export async function startServer(): Promise<RunningServer> {
     );
     return (
       ready &&
-      (await fetch(`${url}/v1/models/sample`).then(
+      (await fetch(`${url}/v1/models/sample`, { headers }).then(
         async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized',
         () => false,
       ))
@@ -55,6 +69,7 @@ export async function startServer(): Promise<RunningServer> {
   });
   return {
     url,
+    token,
     stop: async () => {
       child.kill('SIGTERM');
       await ended;

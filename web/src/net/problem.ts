@@ -61,6 +61,8 @@ export function adviceFor(problem: Problem): string | null {
   if (problem.status === 0) return 'Check that the server is running, then try again.';
   if (slug === 'malformed-model') return `Export the head again as ${anyFormat}.`;
   if (slug === 'unsupported-media-type') return `Use a file in one of these formats: ${formatList}.`;
+  if (slug === 'unauthorized') return 'Reload the page and sign in again.';
+  if (slug === 'forbidden') return 'Ask whoever runs the server for a token that allows it.';
   if (problem.status === 413 || slug === 'limit-exceeded')
     return 'Reduce the mesh or its textures and upload it again.';
   if (slug === 'insufficient-storage') return "The server's disk is full: free some space on it, then try again.";

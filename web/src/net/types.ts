@@ -49,6 +49,7 @@ export type JobState = Job['state'];
 /** The result of a finished proposal job: the number of proposed points, and why others were not proposed. */
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
 
+export type Session = Schemas['Session'];
 export type StreamInfo = Schemas['Stream'];
 export type StreamPage = JsonAnswer<'listStreams', 200>;
 /** The options of a new stream; each has a default on the server. */

@@ -433,6 +433,77 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Whether this server asks for tokens, and what this request's token allows */
+        get: operations["getSession"];
+        put?: never;
+        /** Keep a token in a cookie that scripts cannot read: for pages of this server */
+        post: operations["createSession"];
+        /** Remove the cookie; the token stays valid */
+        delete: operations["deleteSession"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/tickets": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** A one-shot replacement of the token, for one address that cannot carry a header: a browser's WebSocket, a link to a download */
+        post: operations["createTicket"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All tokens, without their secrets */
+        get: operations["listTokens"];
+        put?: never;
+        /** Make a token; its text is in this answer only */
+        post: operations["createToken"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/tokens/{token}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Revoke it: from now on it is not accepted, and its streams are closed */
+        delete: operations["deleteToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/streams": {
         parameters: {
             query?: never;
@@ -707,6 +778,47 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        Session: {
+            /** @description false: this server is for one person on its own machine, and allows everything */
+            asks_for_tokens: boolean;
+            /**
+             * @description What this request may do; none: what is public
+             * @enum {unknown}
+             */
+            scope: "none" | "read" | "publish" | "edit" | "admin";
+            /** @description Only this stream */
+            stream: string | null;
+            /** @description Only this model */
+            model: string | null;
+        };
+        Ticket: {
+            ticket: string;
+            /** @description Seconds */
+            expires_in: number;
+        };
+        Token: {
+            id: string;
+            name: string;
+            /** @enum {unknown} */
+            scope: "read" | "publish" | "edit" | "admin";
+            /** @description Only this stream */
+            stream: string | null;
+            /** @description Only this model */
+            model: string | null;
+            /** Format: date-time */
+            created: string;
+            /** Format: date-time */
+            expires: string | null;
+            expired: boolean;
+        };
+        Tokens: {
+            tokens: components["schemas"]["Token"][];
+        };
+        NewToken: {
+            token: components["schemas"]["Token"];
+            /** @description The text to send; it cannot be read again */
+            secret: string;
+        };
         Version: {
             /** @constant */
             name: "semblante";
@@ -1530,6 +1642,8 @@ export interface components {
              * @enum {unknown}
              */
             quantizer_scale: 1 | 0.5 | 0.25 | 0.125;
+            /** @description Anyone may subscribe without a token */
+            is_public: boolean;
             /** @description By what they are sent */
             subscribers_by_coding: {
                 packed: number;
@@ -1804,6 +1918,8 @@ export interface components {
         maxVertices: number;
         /** @description Id of a model */
         model: string;
+        /** @description Id of a token */
+        token: string;
         /** @description Id of a job */
         job: string;
         /** @description Id of a recording */
@@ -3291,6 +3407,223 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    getSession: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What is allowed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Session"];
+                };
+            };
+            421: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    createSession: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    token: string;
+                };
+            };
+        };
+        responses: {
+            /** @description What the token allows; the cookie is set */
+            200: {
+                headers: {
+                    /** @description HttpOnly, SameSite=Strict, and Secure with TLS */
+                    "Set-Cookie"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Session"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            401: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    deleteSession: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It is gone */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    createTicket: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "path": "/v1/streams/demo"
+                 *     }
+                 */
+                "application/json": {
+                    /** @description Path of the request that the ticket is for, without its query */
+                    path: string;
+                };
+            };
+        };
+        responses: {
+            /** @description Append it to that address as ?ticket= */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Ticket"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listTokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The tokens */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Tokens"];
+                };
+            };
+            421: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    createToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "stage",
+                 *       "scope": "publish",
+                 *       "stream": "demo",
+                 *       "expires_in": 86400
+                 *     }
+                 */
+                "application/json": {
+                    /** @description For people */
+                    name?: string;
+                    /**
+                     * @description Each includes those before it
+                     * @enum {unknown}
+                     */
+                    scope: "read" | "publish" | "edit" | "admin";
+                    /** @description Only this stream, and reading the model that it shows */
+                    stream?: string | null;
+                    /** @description Only this model, with its jobs */
+                    model?: string | null;
+                    /** @description Seconds; left out: it does not expire */
+                    expires_in?: number | null;
+                };
+            };
+        };
+        responses: {
+            /** @description It is valid */
+            201: {
+                headers: {
+                    /** @description Address of the token */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewToken"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    deleteToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a token */
+                token: components["parameters"]["token"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It is revoked */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
     listStreams: {
         parameters: {
             query?: never;
@@ -3352,6 +3685,11 @@ export interface operations {
                      * @enum {unknown}
                      */
                     quantizer_scale?: 1 | 0.5 | 0.25 | 0.125;
+                    /**
+                     * @description Anyone may subscribe, and fetch what is needed to show its model, without a token
+                     * @default false
+                     */
+                    is_public?: boolean;
                 };
             };
         };

@@ -1,0 +1,86 @@
+import { problemOf } from '../../net/problem.ts';
+import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
+import type { Session } from '../../net/types.ts';
+import { h } from '../shared/dom.ts';
+
+/**
+ * Lets a visitor in before the studio starts: takes the token of an invitation out of the address, and asks for one
+ * where the server wants it. Resolves with the session when the server accepts requests, and with null when it does not
+ * answer. `root` shows the question.
+ */
+export async function letIn(base: string, root: HTMLElement): Promise<Session | null> {
+  const invited = invitedToken(location.hash);
+  // The address must not keep the token: it is seen on the screen, and stays in the browser's history.
+  if (invited !== null) history.replaceState(null, '', location.pathname + location.search);
+  let reason = '';
+  try {
+    if (invited !== null) await signIn(base, invited);
+    const session = await getSession(base);
+    if (!session.asks_for_tokens || session.scope !== 'none') return session;
+  } catch (error) {
+    const problem = problemOf(error);
+    // A server that does not answer is the studio's own message.
+    if (problem.status !== 401) return null;
+    reason = problem.detail ?? problem.title;
+  }
+  return askForToken(base, root, reason);
+}
+
+/** Forgets the token in this browser; null on a server that does not ask for one. */
+export function signOutButton(base: string, session: Session | null): HTMLElement | null {
+  if (!session?.asks_for_tokens) return null;
+  const leave = () => void signOut(base).finally(() => location.reload());
+  return h('button', { type: 'button', class: 'quiet', on: { click: leave } }, 'Sign out');
+}
+
+function askForToken(base: string, root: HTMLElement, reason: string): Promise<Session> {
+  return new Promise((resolve) => {
+    const input = h('input', {
+      type: 'password',
+      id: 'token',
+      name: 'token',
+      required: true,
+      maxlength: 200,
+      autocomplete: 'current-password',
+      spellcheck: false,
+      'aria-describedby': 'token-fault',
+    });
+    const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, reason);
+    const button = h('button', { type: 'submit', class: 'primary' }, 'Sign in');
+    const form = h(
+      'form',
+      {
+        class: 'sign-in',
+        on: {
+          submit: (event: Event) => {
+            event.preventDefault();
+            button.disabled = true;
+            signIn(base, input.value.trim()).then(
+              resolve,
+              (error: unknown) => {
+                const problem = problemOf(error);
+                fault.textContent = problem.detail ?? problem.title;
+                button.disabled = false;
+                input.select();
+              },
+            );
+          },
+        },
+      },
+      h('h1', {}, 'Semblante'),
+      h('label', { for: 'token' }, 'Token'),
+      input,
+      fault,
+      h(
+        'p',
+        { class: 'hint' },
+        'Whoever runs this server makes tokens with ',
+        h('code', {}, 'semblante token create'),
+        '. This browser keeps it until you sign out.',
+      ),
+      h('div', { class: 'row end' }, button),
+    );
+    root.replaceChildren(h('main', { class: 'sign-in-page' }, form));
+    input.focus();
+  });
+}
