@@ -35,6 +35,15 @@ bench::Figures figures_of(const bench::ExpressionStudy& study, const WeightPrior
   return bench::measure(study, bench::smooth_shares(study, prior));
 }
 
+/// The bounds that weights of any head and any method keep.
+void expect_smooth(const bench::Figures& figures) {
+  EXPECT_LE(figures.roughness, 0.008);
+  EXPECT_LE(figures.max_influences, 8U);
+  EXPECT_LE(figures.lip_leak, 0.10);
+  EXPECT_LE(figures.lid_leak, 0.10);
+  EXPECT_GE(figures.least, 0.0);
+}
+
 TEST(RealExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
   const auto faces = oracle::faces_folder();
   if (!faces) GTEST_SKIP() << "no folder of real heads";
@@ -43,11 +52,7 @@ TEST(RealExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
 
   const bench::Figures figures = figures_of(study, trained_weight_prior());
 
-  EXPECT_LE(figures.roughness, 0.008);
-  EXPECT_LE(figures.max_influences, 8U);
-  EXPECT_LE(figures.lip_leak, 0.10);
-  EXPECT_LE(figures.lid_leak, 0.10);
-  EXPECT_GE(figures.least, 0.0);
+  expect_smooth(figures);
 }
 
 // The targets of our own avatar are made with these weights, so they are met but for what is no linear motion of
@@ -65,11 +70,7 @@ TEST(FamilyExpressions_SmoothWeights, PredictTheSkinFromItsPoints) {
   const bench::Figures figures = figures_of(study, trained_weight_prior());
 
   EXPECT_LE(figures.error, 0.002);
-  EXPECT_LE(figures.roughness, 0.008);
-  EXPECT_LE(figures.max_influences, 8U);
-  EXPECT_LE(figures.lip_leak, 0.10);
-  EXPECT_LE(figures.lid_leak, 0.10);
-  EXPECT_GE(figures.least, 0.0);
+  expect_smooth(figures);
 }
 
 // Each prior has not seen what it is measured on.
@@ -111,11 +112,7 @@ TEST(RealExpressions_FittedWeights, AreCloserToAFaceByItsOtherShapes) {
   const bench::Figures figures = bench::measure(measured, fitted.shares);
   EXPECT_LE(figures.error, 0.102);
   EXPECT_LE(figures.visible_error, 0.08);
-  EXPECT_LE(figures.roughness, 0.008);
-  EXPECT_LE(figures.max_influences, 8U);
-  EXPECT_LE(figures.lip_leak, 0.10);
-  EXPECT_LE(figures.lid_leak, 0.10);
-  EXPECT_GE(figures.least, 0.0);
+  expect_smooth(figures);
   EXPECT_LT(fitted.fit.error(), 0.9 * fitted.fit.smooth_error());
 }
 

@@ -49,51 +49,60 @@ TEST(RigDocument, Read_NotJson_IsRefused) {
   }
 }
 
-TEST(RigDocument, Read_InvalidMembers_AreNamedByTheirPointer) {
-  const json good = json::parse(write_rig(sample()));
-  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
+/// Changes a member of a valid document and expects the error and its pointer.
+struct ChangedRig {
+  json good;
+  void refused(const char* pointer, ErrorCode code, const std::function<void(json&)>& change) const {
     json changed = good;
     change(changed);
     const auto result = read_rig(changed.dump());
     ASSERT_FALSE(result.ok()) << pointer;
     EXPECT_EQ(result.error().where, pointer) << result.error().message;
     EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
-  };
-  refused("/format", ErrorCode::malformed, [](json& j) { j["format"] = "other"; });
-  refused("/version", ErrorCode::unsupported, [](json& j) { j["version"] = 2; });
-  refused("/name", ErrorCode::malformed, [](json& j) { j["name"] = 3; });
-  refused("/mesh", ErrorCode::missing, [](json& j) { j.erase("mesh"); });
-  refused("/mesh", ErrorCode::malformed, [](json& j) { j["mesh"] = 1; });
-  refused("/mesh/sha256", ErrorCode::malformed, [](json& j) { j["mesh"]["sha256"] = "abc"; });
-  refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 0; });
-  refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 4000001; });
-  refused("/mesh/vertices", ErrorCode::malformed, [](json& j) { j["mesh"]["vertices"] = 1.5; });
-  refused("/mesh/triangles", ErrorCode::out_of_range, [](json& j) { j["mesh"]["triangles"] = -1; });
-  refused("/mesh/attributes/position", ErrorCode::missing,
-          [](json& j) { j["mesh"]["attributes"]["position"] = nullptr; });
-  refused("/weights/bits", ErrorCode::out_of_range, [](json& j) { j["weights"]["bits"] = 17; });
-  refused("/fapu/MW", ErrorCode::malformed, [](json& j) { j["fapu"]["MW"] = "wide"; });
-  refused("/feature_points/0/vertex", ErrorCode::out_of_range, [](json& j) { j["feature_points"][0]["vertex"] = 100; });
-  refused("/feature_points/0/id", ErrorCode::invalid_argument, [](json& j) { j["feature_points"][0]["id"] = "2.99"; });
-  refused("/feature_points/1/id", ErrorCode::malformed, [](json& j) { j["feature_points"][1]["id"] = "2.1"; });
-  refused("/feature_points/0/position", ErrorCode::out_of_range, [](json& j) {
+  }
+};
+
+TEST(RigDocument, Read_InvalidMembers_AreNamedByTheirPointer) {
+  const ChangedRig rig{json::parse(write_rig(sample()))};
+  rig.refused("/format", ErrorCode::malformed, [](json& j) { j["format"] = "other"; });
+  rig.refused("/version", ErrorCode::unsupported, [](json& j) { j["version"] = 2; });
+  rig.refused("/name", ErrorCode::malformed, [](json& j) { j["name"] = 3; });
+  rig.refused("/mesh", ErrorCode::missing, [](json& j) { j.erase("mesh"); });
+  rig.refused("/mesh", ErrorCode::malformed, [](json& j) { j["mesh"] = 1; });
+  rig.refused("/mesh/sha256", ErrorCode::malformed, [](json& j) { j["mesh"]["sha256"] = "abc"; });
+  rig.refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 0; });
+  rig.refused("/mesh/vertices", ErrorCode::out_of_range, [](json& j) { j["mesh"]["vertices"] = 4000001; });
+  rig.refused("/mesh/vertices", ErrorCode::malformed, [](json& j) { j["mesh"]["vertices"] = 1.5; });
+  rig.refused("/mesh/triangles", ErrorCode::out_of_range, [](json& j) { j["mesh"]["triangles"] = -1; });
+  rig.refused("/mesh/attributes/position", ErrorCode::missing,
+              [](json& j) { j["mesh"]["attributes"]["position"] = nullptr; });
+  rig.refused("/weights/bits", ErrorCode::out_of_range, [](json& j) { j["weights"]["bits"] = 17; });
+  rig.refused("/fapu/MW", ErrorCode::malformed, [](json& j) { j["fapu"]["MW"] = "wide"; });
+  rig.refused("/feature_points/0/vertex", ErrorCode::out_of_range,
+              [](json& j) { j["feature_points"][0]["vertex"] = 100; });
+  rig.refused("/feature_points/0/id", ErrorCode::invalid_argument,
+              [](json& j) { j["feature_points"][0]["id"] = "2.99"; });
+  rig.refused("/feature_points/1/id", ErrorCode::malformed, [](json& j) { j["feature_points"][1]["id"] = "2.1"; });
+  rig.refused("/feature_points/0/position", ErrorCode::out_of_range, [](json& j) {
     j["feature_points"][0]["position"] = {1, 2};
   });
-  refused("/feature_points/0/position/2", ErrorCode::out_of_range,
-          [](json& j) { j["feature_points"][0]["position"][2] = 1e300; });
-  refused("/parts/1/role", ErrorCode::invalid_argument, [](json& j) { j["parts"][1]["role"] = "hat"; });
-  refused("/viseme_share", ErrorCode::out_of_range, [](json& j) { j["viseme_share"] = 1.5; });
-  refused("/visemes", ErrorCode::out_of_range, [](json& j) { j["visemes"].erase(0); });
-  refused("/visemes/3/displacements/99.1", ErrorCode::invalid_argument, [](json& j) {
+  rig.refused("/feature_points/0/position/2", ErrorCode::out_of_range,
+              [](json& j) { j["feature_points"][0]["position"][2] = 1e300; });
+  rig.refused("/parts/1/role", ErrorCode::invalid_argument, [](json& j) { j["parts"][1]["role"] = "hat"; });
+  rig.refused("/viseme_share", ErrorCode::out_of_range, [](json& j) { j["viseme_share"] = 1.5; });
+  rig.refused("/visemes", ErrorCode::out_of_range, [](json& j) { j["visemes"].erase(0); });
+  rig.refused("/visemes/3/displacements/99.1", ErrorCode::invalid_argument, [](json& j) {
     j["visemes"][3]["displacements"]["99.1"] = {0, 0, 0};
   });
-  refused("/expressions/6/displacements/2.1/0", ErrorCode::malformed, [](json& j) {
+  rig.refused("/expressions/6/displacements/2.1/0", ErrorCode::malformed, [](json& j) {
     j["expressions"][6]["displacements"]["2.1"] = {"x", 0, 0};
   });
-  refused("/materials", ErrorCode::out_of_range, [](json& j) { j["materials"] = json::array(); });
-  refused("/materials/0/double_sided", ErrorCode::malformed, [](json& j) { j["materials"][0]["double_sided"] = 1; });
-  refused("/images/0/sha256", ErrorCode::malformed, [](json& j) { j["images"][0]["sha256"] = std::string(64, 'g'); });
-  refused("/warnings/0", ErrorCode::malformed, [](json& j) { j["warnings"][0] = 1; });
+  rig.refused("/materials", ErrorCode::out_of_range, [](json& j) { j["materials"] = json::array(); });
+  rig.refused("/materials/0/double_sided", ErrorCode::malformed,
+              [](json& j) { j["materials"][0]["double_sided"] = 1; });
+  rig.refused("/images/0/sha256", ErrorCode::malformed,
+              [](json& j) { j["images"][0]["sha256"] = std::string(64, 'g'); });
+  rig.refused("/warnings/0", ErrorCode::malformed, [](json& j) { j["warnings"][0] = 1; });
   const auto infinite = read_rig(R"({"format":1e999})");
   ASSERT_FALSE(infinite.ok());
   EXPECT_EQ(infinite.error().code, ErrorCode::not_finite);
@@ -156,25 +165,17 @@ TEST(RigDocument, MovingParts_AreThereOnlyWhereTheHeadHasThem) {
 }
 
 TEST(RigDocument, Read_InvalidMovingParts_AreNamedByTheirPointer) {
-  const json good = json::parse(write_rig(with_moving_parts()));
-  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
-    json changed = good;
-    change(changed);
-    const auto result = read_rig(changed.dump());
-    ASSERT_FALSE(result.ok()) << pointer;
-    EXPECT_EQ(result.error().where, pointer) << result.error().message;
-    EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
-  };
-  refused("/irises", ErrorCode::out_of_range, [](json& j) { j["irises"].erase(0); });
-  refused("/irises/1/axis", ErrorCode::missing, [](json& j) { j["irises"][1].erase("axis"); });
-  refused("/irises/1/axis", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["axis"] = {0, 0, 0}; });
-  refused("/irises/1/pupil_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["pupil_radius"] = 0; });
-  refused("/irises/1/iris_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["iris_radius"] = 0.1; });
-  refused("/irises/1/bend", ErrorCode::malformed, [](json& j) { j["irises"][1]["bend"] = nullptr; });
-  refused("/tongue/left", ErrorCode::out_of_range, [](json& j) { j["tongue"]["left"] = {2, 0, 0}; });
-  refused("/tongue/up", ErrorCode::out_of_range, [](json& j) { j["tongue"]["up"] = {1, 0, 0}; });
-  refused("/tongue/half_width", ErrorCode::out_of_range, [](json& j) { j["tongue"]["half_width"] = -1; });
-  refused("/tongue/roll_limit", ErrorCode::out_of_range, [](json& j) { j["tongue"]["roll_limit"] = 8; });
+  const ChangedRig rig{json::parse(write_rig(with_moving_parts()))};
+  rig.refused("/irises", ErrorCode::out_of_range, [](json& j) { j["irises"].erase(0); });
+  rig.refused("/irises/1/axis", ErrorCode::missing, [](json& j) { j["irises"][1].erase("axis"); });
+  rig.refused("/irises/1/axis", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["axis"] = {0, 0, 0}; });
+  rig.refused("/irises/1/pupil_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["pupil_radius"] = 0; });
+  rig.refused("/irises/1/iris_radius", ErrorCode::out_of_range, [](json& j) { j["irises"][1]["iris_radius"] = 0.1; });
+  rig.refused("/irises/1/bend", ErrorCode::malformed, [](json& j) { j["irises"][1]["bend"] = nullptr; });
+  rig.refused("/tongue/left", ErrorCode::out_of_range, [](json& j) { j["tongue"]["left"] = {2, 0, 0}; });
+  rig.refused("/tongue/up", ErrorCode::out_of_range, [](json& j) { j["tongue"]["up"] = {1, 0, 0}; });
+  rig.refused("/tongue/half_width", ErrorCode::out_of_range, [](json& j) { j["tongue"]["half_width"] = -1; });
+  rig.refused("/tongue/roll_limit", ErrorCode::out_of_range, [](json& j) { j["tongue"]["roll_limit"] = 8; });
 }
 
 RigDocument with_lids_and_companions() {
@@ -208,24 +209,16 @@ TEST(RigDocument, LidsAndCompanions_AreThereOnlyWhereTheHeadHasThem) {
 }
 
 TEST(RigDocument, Read_InvalidLidsAndCompanions_AreNamedByTheirPointer) {
-  const json good = json::parse(write_rig(with_lids_and_companions()));
-  const auto refused = [&](const char* pointer, ErrorCode code, const std::function<void(json&)>& change) {
-    json changed = good;
-    change(changed);
-    const auto result = read_rig(changed.dump());
-    ASSERT_FALSE(result.ok()) << pointer;
-    EXPECT_EQ(result.error().where, pointer) << result.error().message;
-    EXPECT_EQ(result.error().code, code) << pointer << ": " << result.error().message;
-  };
-  refused("/lids", ErrorCode::out_of_range, [](json& j) { j["lids"].erase(0); });
-  refused("/lids/1/gaze", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["gaze"] = {0, 0, 0.8}; });
-  refused("/lids/1/opening", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["opening"] = 0; });
-  refused("/lids/1/slit", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["slit"] = -0.1; });
-  refused("/lids/1/ball", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["ball"].erase(0); });
-  refused("/lids/1/ball/16", ErrorCode::malformed, [](json& j) { j["lids"][1]["ball"][16] = "round"; });
-  refused("/companions/2.10/2.1", ErrorCode::out_of_range, [](json& j) { j["companions"]["2.10"]["2.1"] = 11; });
-  refused("/companions/2.15", ErrorCode::invalid_argument, [](json& j) { j["companions"]["2.15"] = {{"2.1", 1}}; });
-  refused("/lower_lip/2.3/jaw", ErrorCode::invalid_argument, [](json& j) { j["lower_lip"]["2.3"]["jaw"] = 1; });
+  const ChangedRig rig{json::parse(write_rig(with_lids_and_companions()))};
+  rig.refused("/lids", ErrorCode::out_of_range, [](json& j) { j["lids"].erase(0); });
+  rig.refused("/lids/1/gaze", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["gaze"] = {0, 0, 0.8}; });
+  rig.refused("/lids/1/opening", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["opening"] = 0; });
+  rig.refused("/lids/1/slit", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["slit"] = -0.1; });
+  rig.refused("/lids/1/ball", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["ball"].erase(0); });
+  rig.refused("/lids/1/ball/16", ErrorCode::malformed, [](json& j) { j["lids"][1]["ball"][16] = "round"; });
+  rig.refused("/companions/2.10/2.1", ErrorCode::out_of_range, [](json& j) { j["companions"]["2.10"]["2.1"] = 11; });
+  rig.refused("/companions/2.15", ErrorCode::invalid_argument, [](json& j) { j["companions"]["2.15"] = {{"2.1", 1}}; });
+  rig.refused("/lower_lip/2.3/jaw", ErrorCode::invalid_argument, [](json& j) { j["lower_lip"]["2.3"]["jaw"] = 1; });
 }
 
 TEST(RigDocument, Levels_AreThereOnlyWhereThereAreSeveral) {
