@@ -75,11 +75,7 @@ class NamedShapes {
 
 std::vector<glm::vec3> shape_of(const Model& model, const ShapeSum& sum) {
   std::vector<glm::vec3> shape = model.positions;
-  for (const auto& [example, share] : sum) {
-    for (std::size_t i = 0; i < example->vertices.size(); ++i) {
-      shape[example->vertices[i]] += share * example->displacements[i];
-    }
-  }
+  for (const auto& [example, share] : sum) example->add_to(shape, share);
   return shape;
 }
 

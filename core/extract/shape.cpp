@@ -22,7 +22,7 @@ Result<std::vector<glm::vec3>> shape_of_target(const Model& model, std::string_v
                  "the model has no morph target of this name; " +
                      (names.empty() ? "it has no morph targets" : "it has " + names)};
   }
-  for (std::size_t i = 0; i < found->vertices.size(); ++i) shape[found->vertices[i]] += found->displacements[i];
+  found->add_to(shape);
   return shape;
 }
 

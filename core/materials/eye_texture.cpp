@@ -22,21 +22,16 @@ const glm::vec3 outer(0.07F, 0.12F, 0.15F);
 const glm::vec3 border(0.02F);
 const glm::vec3 black(0.006F);
 
-float smooth(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
-
 /// At a place in radii of the iris.
 glm::vec3 color_at(float x, float y, float pupil) {
   const float r = std::hypot(x, y);
   if (r > 1.1F) return white;
   const float angle = std::atan2(y, x);
   const float fibres = 0.84F + 0.16F * std::sin(angle * 23.0F) * std::sin(angle * 9.0F + 1.0F);
-  glm::vec3 color = glm::mix(inner, outer, smooth(pupil, 0.95F, r)) * fibres;
-  color = glm::mix(color, border, smooth(0.84F, 0.98F, r));
-  color = glm::mix(black, color, smooth(pupil - 0.03F, pupil + 0.03F, r));
-  return glm::mix(color, white, smooth(0.96F, 1.05F, r));
+  glm::vec3 color = glm::mix(inner, outer, glm::smoothstep(pupil, 0.95F, r)) * fibres;
+  color = glm::mix(color, border, glm::smoothstep(0.84F, 0.98F, r));
+  color = glm::mix(black, color, glm::smoothstep(pupil - 0.03F, pupil + 0.03F, r));
+  return glm::mix(color, white, glm::smoothstep(0.96F, 1.05F, r));
 }
 
 std::uint8_t srgb(float linear) {
