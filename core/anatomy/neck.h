@@ -12,17 +12,17 @@
 
 namespace semblante {
 
-/// The share of the head's rotation at each surface vertex, in 255ths: 255 on the head, 0 on shoulders and body, and
-/// between them, along the neck, by the distances along the surface to both. #S; empty if the model is a head without
-/// a neck, which turns as a whole.
+/// Computes how much of the head's rotation (FAP 48 to 50) each surface vertex gets, in 255ths: 255 on the head, 0 on
+/// shoulders and body. Along the neck it decreases with the distance along the surface from the head. Returns #S
+/// values; empty if the model has no neck, so that all of it turns.
 ///
-/// The skin of the face defines head and neck: the head is above the line from the chin to the nape, the shoulders
-/// begin where the neck widens, or at the lower border of a neck that is cut. Every other part turns as a whole: fully
-/// (hair, glasses, eyes), or not at all: a part that hangs at the shoulders gets the role `body`, unless the user set
-/// another one.
+/// Head and neck are measured on the skin of the face: the head is above the line from the chin to the nape; the
+/// shoulders begin where the neck widens, or at the lower border if the mesh ends at the neck. Each other part gets one
+/// value: 255 (hair, glasses, eyes), or 0 if it hangs at the shoulders. The latter also gets the role `body`, unless
+/// the user set another role.
 ///
-/// Needs the height of the eyes (pupils, else lids, else eyeballs) and of the chin (2.1, else 2.10, else a lip).
-/// `head_pivot`: as from head_pivot().
+/// Needs points that show the height of the eyes (pupils, else lids, else eyeballs) and of the chin (2.1, else 2.10,
+/// else a lip). `head_pivot` is the result of head_pivot().
 std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part> parts, const FeaturePointSet& points,
                                          const glm::vec3& head_pivot);
 

@@ -11,26 +11,27 @@
 
 namespace semblante {
 
-/// Stage 3: the head with its feature points, rotated to the axes that the points show.
+/// Result of stage 3: the head with its feature points, rotated to the axes that were estimated from the points.
 struct MarkedHead : StandingHead {
   FeaturePointSet points;
   std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId
-  Fapu fapu_by_user;                                   ///< units given by hand
+  Fapu fapu_by_user;                                   ///< FAPUs set by the user
   std::vector<Finding> refused;                        ///< omitted points, see MarkRequest::leaves_out_refused
-  std::optional<glm::dmat3>
-      turn;  ///< rotation from the StandingHead to this head; empty: the points did not change the axes
+  /// Rotation from the axes of the StandingHead to those of this head; empty if the points did not change the axes.
+  std::optional<glm::dmat3> turn;
 };
 
 struct MarkRequest {
   std::vector<MarkedPoint> points;                     ///< positions in the axes of the StandingHead
-  std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId; empty entries leave the role to the guess
-  /// A point that cannot be placed becomes a finding instead of an error.
+  std::vector<std::optional<PartRole>> roles_by_user;  ///< by PartId; where empty, the role is guessed
+  /// If true, a point that cannot be placed is omitted and reported as a finding; if false, it is an error.
   bool leaves_out_refused = false;
-  Fapu fapu_by_user = {};  ///< units given by hand; empty ones are measured
+  Fapu fapu_by_user = {};  ///< FAPUs set by the user; empty ones are measured
 };
 
-/// Places the points. If they show other axes, and the user has not set the axes, rotates the head and places the
-/// points again. Errors: those of place_feature_points; `cancelled`.
+/// Places the points on the mesh and estimates the head's axes from them. If these differ from the axes of `head`, and
+/// the user has not set the axes, rotates the head and places the points again. Errors: those of place_feature_points;
+/// `cancelled`.
 Result<MarkedHead> mark_head(StandingHead head, MarkRequest request, const Progress& progress = {});
 
 }  // namespace semblante

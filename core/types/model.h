@@ -17,7 +17,7 @@ namespace semblante {
 /// Three corner indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An encoded image: the bytes of the file, or what the import made of a format that clients cannot show.
+/// An encoded image: the bytes as in the file, or re-encoded by the import if clients cannot show the file's format.
 struct Image {
   std::string mime_type;  ///< "image/png" or "image/jpeg"
   std::vector<std::uint8_t> bytes;
@@ -29,7 +29,7 @@ struct Material {
   glm::vec4 base_color{1.0F};  ///< linear RGBA
   int base_color_image = -1;   ///< index into Model::images, -1: none
   int normal_image = -1;       ///< index into Model::images, -1: none
-  /// The file has an image of the base colour that cannot be read: the look is then that of the part's role.
+  /// The file's base colour image cannot be read; a default material of the part's role is shown instead.
   bool is_color_lost = false;
   float metallic = 0.0F;
   float roughness = 0.8F;
@@ -38,7 +38,7 @@ struct Material {
   bool double_sided = false;
 };
 
-/// A run of triangles that share a name and a material: a glTF primitive, an OBJ group.
+/// Consecutive triangles with one name and one material: a glTF primitive, an OBJ group.
 struct Primitive {
   std::string name;
   int material = -1;  ///< index into Model::materials, -1: none
@@ -47,8 +47,8 @@ struct Primitive {
 };
 
 /// An imported head: indexed triangles over *file vertices*, with separate indices for UVs and normals as in OBJ.
-/// Positions are the file's float32, transformed to MPEG-4 axes by the inverse of
-/// `to_file_frame`. A glTF has uv_triangles == triangles.
+/// Positions are those of the file (float32), transformed to MPEG-4 axes by the inverse of `to_file_frame`. In a model
+/// from glTF, uv_triangles equals triangles.
 struct Model {
   std::vector<glm::vec3> positions;  ///< #V
   std::vector<Triangle> triangles;   ///< #T by 3, into positions
@@ -63,12 +63,12 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Image> images;
 
-  std::vector<Example> examples;  ///< shapes beside the neutral one; most models have none
+  std::vector<Example> examples;  ///< morph targets; empty in most models
 
   /// Transforms positions to the axes and unit of the file. Identity if the file has MPEG-4 axes.
   glm::mat4 to_file_frame{1.0F};
   std::string format;                 ///< "glb", "gltf", "obj", "ply", "stl"
-  std::vector<std::string> warnings;  ///< what the import repaired or omitted, as text
+  std::vector<std::string> warnings;  ///< repairs and omissions of the import, as sentences
 
   static constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 };
