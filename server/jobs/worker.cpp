@@ -16,9 +16,9 @@
 namespace semblante::jobs {
 namespace {
 
-void limit(int what, std::uint64_t value) {
+void limit(int what, std::uint64_t value, std::uint64_t grace = 0) {
   if (value == 0) return;
-  const rlimit limits{value, value};
+  const rlimit limits{value, value + grace};
   setrlimit(static_cast<__rlimit_resource>(what), &limits);
 }
 
@@ -39,7 +39,8 @@ void limit_this_process(const WorkerLimits& limits) {
   // The kernel kills the worker when its server is killed.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_AS, limits.memory_bytes);
-  limit(RLIMIT_CPU, limits.cpu_seconds);
+  // SIGXCPU tells the reason; at the hard limit the kernel sends SIGKILL, and would at once if both were equal.
+  limit(RLIMIT_CPU, limits.cpu_seconds, 1);
   limit(RLIMIT_FSIZE, limits.file_bytes);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
