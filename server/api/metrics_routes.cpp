@@ -38,6 +38,10 @@ void write_jobs(TextWriter& writer, const jobs::JobQueue& jobs) {
   writer.family("semblante_jobs", MetricType::gauge, "Jobs that have not ended.");
   writer.sample(std::uint64_t{jobs.waiting()}, {{"state", "waiting"}});
   writer.sample(std::uint64_t{jobs.running()}, {{"state", "running"}});
+  writer.family("semblante_worker_isolation", MetricType::gauge,
+                "1 if jobs are isolated by this means of the system, 0 if the system lacks or forbids it.");
+  writer.sample(std::uint64_t{jobs.isolation().system_calls}, {{"means", "seccomp"}});
+  writer.sample(std::uint64_t{jobs.isolation().landlock > 0}, {{"means", "landlock"}});
   writer.family("semblante_jobs_ended_total", MetricType::counter, "Jobs that ended since the server started.");
   using store::JobState;
   for (const auto& kind : jobs::job_kinds)

@@ -20,6 +20,7 @@
 #include "server/app/periodic.h"
 #include "server/app/sample_installer.h"
 #include "server/cli/command_failure.h"
+#include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
 #include "server/net/server.h"
@@ -88,6 +89,13 @@ void make_folders(store::PendingWrites& pending, store::BlobStore& blobs, store:
   pending.write(&blobs, "folders", "the folders for uploads and blobs", [&blobs] {
     if (const auto made = blobs.make_folders(); !made) throw store::StoreError(made.error().message);
   });
+}
+
+/// Before the first thread: it forks.
+jobs::Isolation isolation_of_workers(const std::filesystem::path& data) {
+  const auto isolation = jobs::available_isolation(data);
+  if (const auto missing = jobs::missing_isolation(isolation); !missing.empty()) log::warning(missing);
+  return isolation;
 }
 
 void open_streams(store::StreamStore& store, streams::StreamHub& hub, const ServeOptions& options) {
@@ -187,6 +195,7 @@ void run_serve(const ServeOptions& options) {
 
   auto blobs = store::BlobStore::open(options.data);
   if (!blobs) fail("serve: --data", blobs.error());
+  const auto isolation = isolation_of_workers(options.data);
   store::DiskReserve reserve(options.data / "reserve");
   const auto trash = std::make_shared<store::Trash>(options.data, std::chrono::seconds(options.trash_grace));
   keep_log_of_lost_database(options.data, *trash);
@@ -202,6 +211,7 @@ void run_serve(const ServeOptions& options) {
 
   jobs::JobConfig job_config;
   job_config.worker_command = {jobs::own_executable(), "worker"};
+  job_config.isolation = isolation;
   job_config.limits.memory_bytes = options.worker_memory;
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;

@@ -117,14 +117,21 @@ Result<ExtractJob::Request> ExtractJob::request(const store::JobRecord& job, con
   return request;
 }
 
-Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, ResultFiles& /*files*/, const Progress& progress) {
+std::vector<std::string> ExtractJob::Request::inputs() const {
+  std::vector<std::string> paths = {head.model.path};
+  if (!expression_path.empty()) paths.push_back(expression_path);
+  return paths;
+}
+
+Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, const InputFiles& inputs, ResultFiles& /*files*/,
+                                            const Progress& progress) {
   const ExtractJob& wish = request.wish;
-  auto imported = import_source(request.head.model, part_of(progress, 0.05, 0.3));
+  auto imported = import_source(request.head.model, inputs, part_of(progress, 0.05, 0.3));
   if (!imported) return imported.error();
   std::vector<glm::vec3> expression;
   if (!request.expression_path.empty()) {
     if (auto told = report_progress(progress, 0.3, "reading the expression"); !told) return told.error();
-    const auto bytes = read_file(request.expression_path);
+    const auto bytes = inputs.read(request.expression_path);
     if (!bytes) return bytes.error();
     auto shape = shape_of_file(imported->model, *bytes, wish.expression_file);
     if (!shape) return shape.error().where == "/expression" ? shape.error() : about_the_file(shape.error());

@@ -14,6 +14,7 @@
 
 namespace semblante::jobs {
 
+class InputFiles;
 class ResultFiles;
 
 /// Extracts a displacement set from two shapes of a head: a model and one of its morph targets, or a model and a file
@@ -38,7 +39,8 @@ struct ExtractJob {
   [[nodiscard]] std::vector<std::string> files() const;
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
-  static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
+  static Result<Outcome> run(const Request& request, const InputFiles& inputs, ResultFiles& files,
+                             const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, const Outcome& outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
@@ -49,6 +51,9 @@ struct ExtractJob::Request {
   MarkedSource head;
   ExtractJob wish;
   std::string expression_path;  ///< of the expression's bytes; empty: morph targets of the head
+
+  /// The files that a worker reads.
+  [[nodiscard]] std::vector<std::string> inputs() const;
 
   bool operator==(const Request&) const = default;
 };

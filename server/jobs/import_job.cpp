@@ -23,8 +23,9 @@ Result<ImportJob::Request> ImportJob::request(const store::JobRecord& job, const
   return Request{std::move(*source)};
 }
 
-Result<ImportJob::Outcome> ImportJob::run(const Request& request, ResultFiles& files, const Progress& progress) {
-  auto imported = import_source(request.model, part_of(progress, 0.05, 0.5));
+Result<ImportJob::Outcome> ImportJob::run(const Request& request, const InputFiles& inputs, ResultFiles& files,
+                                          const Progress& progress) {
+  auto imported = import_source(request.model, inputs, part_of(progress, 0.05, 0.5));
   if (!imported) return imported.error();
   auto head = stand_head(std::move(*imported), {request.model.frame_wish, {}, {}}, part_of(progress, 0.5, 0.6));
   if (!head) return head.error();

@@ -16,6 +16,7 @@
 
 namespace semblante::jobs {
 
+class InputFiles;
 class ResultFiles;
 
 /// Reads the file of a model and stores its facts. Has no options.
@@ -29,7 +30,8 @@ struct ImportJob {
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
   /// Files: `preview.glb`, `positions` (float32 x, y, z of each file vertex, little-endian, MPEG-4 frame) and
   /// `report.json` (findings from the mesh alone).
-  static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
+  static Result<Outcome> run(const Request& request, const InputFiles& inputs, ResultFiles& files,
+                             const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
   /// A failed or cancelled first import makes its model failed.
@@ -40,6 +42,9 @@ struct ImportJob {
 
 struct ImportJob::Request {
   ModelSource model;
+
+  /// The files that a worker reads.
+  [[nodiscard]] std::vector<std::string> inputs() const { return {model.path}; }
 
   bool operator==(const Request&) const = default;
 };

@@ -75,10 +75,11 @@ namespace {
 
 /// The type of job whose request is the alternative `index`.
 template <std::size_t index = 0>
-Result<JobOutcome> run_alternative(const JobRequest& request, ResultFiles& files, const Progress& progress) {
+Result<JobOutcome> run_alternative(const JobRequest& request, const InputFiles& inputs, ResultFiles& files,
+                                   const Progress& progress) {
   if constexpr (index < std::variant_size_v<Job>) {
-    if (request.index() != index) return run_alternative<index + 1>(request, files, progress);
-    auto outcome = std::variant_alternative_t<index, Job>::run(std::get<index>(request), files, progress);
+    if (request.index() != index) return run_alternative<index + 1>(request, inputs, files, progress);
+    auto outcome = std::variant_alternative_t<index, Job>::run(std::get<index>(request), inputs, files, progress);
     if (!outcome) return outcome.error();
     return JobOutcome(std::in_place_index<index>, std::move(*outcome));
   } else {
@@ -99,8 +100,13 @@ std::vector<std::string> finish_alternative_without_outcome(std::size_t kind, co
 
 }  // namespace
 
-Result<JobOutcome> run(const JobRequest& request, ResultFiles& files, const Progress& progress) {
-  return run_alternative(request, files, progress);
+std::vector<std::string> inputs_of(const JobRequest& request) {
+  return std::visit([](const auto& asked) { return asked.inputs(); }, request);
+}
+
+Result<JobOutcome> run(const JobRequest& request, const InputFiles& inputs, ResultFiles& files,
+                       const Progress& progress) {
+  return run_alternative(request, inputs, files, progress);
 }
 
 Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome outcome,

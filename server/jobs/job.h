@@ -21,16 +21,19 @@ namespace semblante::jobs {
 /// of a worker) and its Outcome (the output of a worker) have to_json() and from_json() in their namespace.
 template <class T>
 concept JobType = requires(const T& job, store::JobRecord& record, const JobSources& sources, store::JobStore& store,
-                           const typename T::Request& request, typename T::Outcome outcome, ResultFiles& files,
-                           const std::vector<store::ArtefactRecord>& artefacts, const Progress& progress) {
+                           const typename T::Request& request, typename T::Outcome outcome, const InputFiles& inputs,
+                           ResultFiles& files, const std::vector<store::ArtefactRecord>& artefacts,
+                           const Progress& progress) {
   /// Used in the store, in answers and in metrics.
   { T::kind_name } -> std::convertible_to<std::string_view>;
   /// Whether the frame of the model must not change until such a job has ended.
   { T::needs_frame_to_stay } -> std::convertible_to<bool>;
   /// Called in the server, when the job starts.
   { job.request(record, sources) } -> std::same_as<Result<typename T::Request>>;
-  /// Called in the worker process.
-  { T::run(request, files, progress) } -> std::same_as<Result<typename T::Outcome>>;
+  /// Called in the worker process, which opens these files before it isolates itself.
+  { request.inputs() } -> std::same_as<std::vector<std::string>>;
+  /// Called in the isolated worker process.
+  { T::run(request, inputs, files, progress) } -> std::same_as<Result<typename T::Outcome>>;
   /// Called in the server: stores the finished job with its outcome in one transaction, and sets `record.result`, which
   /// is shown in answers. Returns the hashes of blobs that are no longer referred to.
   { job.finish(record, std::move(outcome), artefacts, store) } -> std::same_as<std::vector<std::string>>;
@@ -80,8 +83,11 @@ std::optional<T> read_job_as(const store::JobRecord& record) {
 
 /// T::request() of the job's type. Error also as read_job().
 Result<JobRequest> make_request(const store::JobRecord& record, const JobSources& sources);
+/// Request::inputs() of the request's type.
+std::vector<std::string> inputs_of(const JobRequest& request);
 /// T::run() of the request's type.
-Result<JobOutcome> run(const JobRequest& request, ResultFiles& files, const Progress& progress);
+Result<JobOutcome> run(const JobRequest& request, const InputFiles& inputs, ResultFiles& files,
+                       const Progress& progress);
 /// T::finish() of the job's type. Error `internal`: as read_job(), or the outcome is of another type.
 Result<std::vector<std::string>> finish(store::JobRecord& record, JobOutcome outcome,
                                         const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store);

@@ -66,6 +66,8 @@ class JobQueue {
   /// start().
   void on_finished(Watcher watcher) { on_finished_ = std::move(watcher); }
 
+  /// What holds the workers to their jobs on this system.
+  [[nodiscard]] const Isolation& isolation() const { return config_.isolation; }
   [[nodiscard]] std::size_t waiting() const;
   [[nodiscard]] std::size_t running() const;
   /// Number of jobs of a kind (a name in job_kinds) that ended with this state (done, failed, cancelled) since the

@@ -123,6 +123,10 @@ http::Problem JobRun::problem_of(const WorkerExit& exit) const {
             "worker-limit", "it wrote a file of more than " + std::to_string(limits.file_bytes) + " bytes (SIGXFSZ)");
       if (exit.code == SIGKILL)
         return http::make_problem("worker-limit", "the system killed its worker (SIGKILL), most likely for its memory");
+      if (exit.code == SIGSYS)
+        return http::make_problem("worker-crashed",
+                                  "its worker was stopped at a system call that no job needs (SIGSYS): the model may "
+                                  "be made to attack the server");
       return http::make_problem("worker-crashed", "its worker ended by signal " + std::to_string(exit.code) + " (" +
                                                       sigabbrev_np(exit.code) + ")");
     case WorkerExit::Kind::exited:

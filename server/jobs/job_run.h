@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
 #include "server/jobs/worker_protocol.h"
 #include "server/store/artefact_store.h"
@@ -19,6 +20,7 @@ namespace semblante::jobs {
 struct JobConfig {
   std::vector<std::string> worker_command;  ///< program and arguments; the limits are added
   WorkerLimits limits;
+  Isolation isolation;  ///< the means that this system offers, for /metrics
   std::chrono::seconds wall_limit{900};
   unsigned concurrency = 1;     ///< workers at the same time
   std::size_t max_queued = 64;  ///< waiting jobs; further requests get 429

@@ -44,9 +44,9 @@ Result<std::vector<NamedSet>> sets_of(const std::vector<store::WornSet>& worn) {
   return sets;
 }
 
-Result<LevelledHead> make_head(const ParametrizeJob::Request& request, const RigRequest& rig, const Progress& progress,
-                               Report& report) {
-  auto imported = import_source(request.head.model, part_of(progress, 0.02, 0.06));
+Result<LevelledHead> make_head(const ParametrizeJob::Request& request, const InputFiles& inputs, const RigRequest& rig,
+                               const Progress& progress, Report& report) {
+  auto imported = import_source(request.head.model, inputs, part_of(progress, 0.02, 0.06));
   if (!imported) return imported.error();
   auto marked = mark_source(std::move(*imported), request.head, part_of(progress, 0.06, 0.08));
   if (!marked) return marked.error();
@@ -69,12 +69,12 @@ Result<ParametrizeJob::Request> ParametrizeJob::request(const store::JobRecord& 
   return Request{model->name, std::move(*head), *this, std::move(*worn)};
 }
 
-Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, ResultFiles& files,
-                                                    const Progress& progress) {
+Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, const InputFiles& inputs,
+                                                    ResultFiles& files, const Progress& progress) {
   const auto rig = rig_request(request.options);
   if (!rig) return rig.error();
   Report report;
-  const auto head = make_head(request, *rig, progress, report);
+  const auto head = make_head(request, inputs, *rig, progress, report);
   if (!head) return head.error();
   std::vector<NamedSet> worn = request.worn;
   std::vector<std::string> own_words;

@@ -16,6 +16,7 @@
 
 namespace semblante::jobs {
 
+class InputFiles;
 class ResultFiles;
 
 /// Makes the face package of a model from its feature points.
@@ -35,7 +36,8 @@ struct ParametrizeJob {
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
   /// Files: those of the package and `report.json`; if the feature points turn the model, also those of an import.
-  static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
+  static Result<Outcome> run(const Request& request, const InputFiles& inputs, ResultFiles& files,
+                             const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, Outcome outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
@@ -47,6 +49,9 @@ struct ParametrizeJob::Request {
   MarkedSource head;
   ParametrizeJob options;
   std::vector<NamedSet> worn;  ///< the sets that replace those of the library, with the same names
+
+  /// The files that a worker reads.
+  [[nodiscard]] std::vector<std::string> inputs() const { return {head.model.path}; }
 };
 
 struct ParametrizeJob::Outcome {

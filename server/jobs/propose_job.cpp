@@ -41,8 +41,9 @@ Result<ProposeJob::Request> ProposeJob::request(const store::JobRecord& job, con
   return Request{std::move(*head)};
 }
 
-Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, ResultFiles& /*files*/, const Progress& progress) {
-  auto imported = import_source(request.head.model, part_of(progress, 0.05, 0.5));
+Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, const InputFiles& inputs, ResultFiles& /*files*/,
+                                            const Progress& progress) {
+  auto imported = import_source(request.head.model, inputs, part_of(progress, 0.05, 0.5));
   if (!imported) return imported.error();
   // The relations between points are defined for an upright head.
   const auto head = mark_source(std::move(*imported), request.head, part_of(progress, 0.5, 0.8));

@@ -14,6 +14,7 @@
 
 namespace semblante::jobs {
 
+class InputFiles;
 class ResultFiles;
 
 /// Proposes the missing feature points from the placed ones. Has no options.
@@ -25,7 +26,8 @@ struct ProposeJob {
   struct Outcome;
 
   Result<Request> request(const store::JobRecord& job, const JobSources& sources) const;
-  static Result<Outcome> run(const Request& request, ResultFiles& files, const Progress& progress);
+  static Result<Outcome> run(const Request& request, const InputFiles& inputs, ResultFiles& files,
+                             const Progress& progress);
   std::vector<std::string> finish(store::JobRecord& job, const Outcome& outcome,
                                   const std::vector<store::ArtefactRecord>& artefacts, store::JobStore& store) const;
 
@@ -34,6 +36,9 @@ struct ProposeJob {
 
 struct ProposeJob::Request {
   MarkedSource head;  ///< with the placed points only
+
+  /// The files that a worker reads.
+  [[nodiscard]] std::vector<std::string> inputs() const { return {head.model.path}; }
 
   bool operator==(const Request&) const = default;
 };

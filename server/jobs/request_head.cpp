@@ -1,8 +1,6 @@
 #include "server/jobs/request_head.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "core/parametrize/fapu.h"
@@ -36,12 +34,6 @@ Result<std::vector<MarkedPoint>> marked_points(const std::vector<store::FeatureP
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Error{ErrorCode::io, "", "the bytes of the model cannot be read"};
-  return std::vector<std::uint8_t>((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-}
-
 Error about_the_file(Error error) {
   if (error.code == ErrorCode::missing || error.code == ErrorCode::mismatch ||
       error.code == ErrorCode::invalid_argument)
@@ -49,8 +41,8 @@ Error about_the_file(Error error) {
   return error;
 }
 
-Result<ImportedHead> import_source(const ModelSource& source, const Progress& progress) {
-  const auto bytes = read_file(source.path);
+Result<ImportedHead> import_source(const ModelSource& source, const InputFiles& inputs, const Progress& progress) {
+  const auto bytes = inputs.read(source.path);
   if (!bytes) return bytes.error();
   auto head = import_head(*bytes, {source.file_name, std::nullopt, {}}, progress);
   if (!head) return about_the_file(head.error());

@@ -2,8 +2,10 @@
 
 #include <bit>
 #include <cerrno>
-#include <fstream>
+#include <cstring>
+#include <fcntl.h>
 #include <string_view>
+#include <unistd.h>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -17,14 +19,32 @@ namespace semblante::jobs {
 static_assert(std::endian::native == std::endian::little, "`positions` is written as it lies in memory");
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 
+namespace {
+
+/// Returns errno of the call that failed, or 0. An isolated worker can only create files, not open existing ones.
+int write_new_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return errno;
+  while (!bytes.empty()) {
+    const auto written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      ::close(file);
+      return error;
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return ::close(file) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
 Status ResultFiles::write(const std::string& name, const std::string& content_type,
                           std::span<const std::uint8_t> bytes) {
-  errno = 0;
-  std::ofstream stream(directory_ + "/" + name, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream.flush()) {
-    store::throw_if_disk_full(name, errno);
-    return Error{ErrorCode::io, "", name + " cannot be written"};
+  if (const int error = write_new_file(directory_ + "/" + name, bytes); error != 0) {
+    store::throw_if_disk_full(name, error);
+    return Error{ErrorCode::io, "", name + " cannot be written: " + std::strerror(error)};
   }
   written_.push_back({name, "", bytes.size(), content_type});
   return Unit{};

@@ -10,7 +10,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
-#include "server/jobs/result_files.h"
+#include "server/jobs/isolation.h"
 #include "server/store/store_error.h"
 
 namespace semblante::jobs {
@@ -46,7 +46,7 @@ void limit_this_process(const WorkerLimits& limits) {
   setrlimit(RLIMIT_CORE, &none);
 }
 
-int run_worker() {
+int run_worker(const RunJob& run_job) {
   const std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
   const auto request = worker_request_from_json(text);
   if (!request) return report(http::make_problem("internal", "the worker cannot read its request"));
@@ -55,8 +55,11 @@ int run_worker() {
     return true;
   };
   try {
+    const InputFiles inputs(inputs_of(request->job));
+    if (const auto isolated = isolate_this_process(request->output_directory); !isolated)
+      return report(http::problem_from(isolated.error()));
     ResultFiles files(request->output_directory);
-    auto outcome = run(request->job, files, progress);
+    auto outcome = run_job(request->job, inputs, files, progress);
     if (!outcome) return report(http::problem_from(outcome.error()));
     say(WorkerResult{std::move(*outcome), files.written()});
     return 0;

@@ -23,6 +23,8 @@ class FullDisk {
   [[nodiscard]] bool is_full() const;
 
  private:
+  void set(char value) const;
+
   const std::filesystem::path flag_, trigger_;
 };
 
