@@ -94,6 +94,7 @@ const Route* route_of(const http::Request& request) {
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
   context_.idempotency_keys = std::make_shared<KeyLocks>();
+  if (!context_.exports) context_.exports = std::make_shared<ExportSlots>(context_.config.limits.max_exports);
 }
 
 void Api::find_route(http::Request& head) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/api/access.h"
+#include "server/api/export_slots.h"
 #include "server/api/key_locks.h"
 #include "server/api/security.h"
 #include "server/http/application.h"
@@ -29,6 +30,7 @@ struct ApiLimits {
   std::size_t max_models = 1000;
   std::size_t max_streams = 256;
   std::size_t max_expressions = 1000;
+  std::size_t max_exports = 1;  ///< of recordings, made at the same time
 };
 
 struct ApiConfig {
@@ -55,6 +57,7 @@ struct Context {
   std::shared_ptr<const store::Trash> trash = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
   std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
+  std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The

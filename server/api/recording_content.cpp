@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -10,6 +8,7 @@
 #include "protocol/clips/clip.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "server/api/export_file.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
 #include "server/api/recordings_common.h"
@@ -59,17 +58,11 @@ const Format& format_of(const http::Request& request) {
 /// fault in its middle gives an error answer instead of a truncated file.
 template <class Write>
 http::Body through_a_file(Context& context, Write write) {
-  auto file = std::make_shared<http::TemporaryFile>(context.blobs.temporary() / ("export-" + store::random_id()));
-  errno = 0;
-  std::ofstream out(file->path(), std::ios::binary);
-  if (!out) store::throw_store_error(file->path(), errno);
-  if (const auto written = write(out); !written) refuse_export(written.error());
-  out.close();
-  if (!out) store::throw_store_error(file->path(), errno);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file->path(), error);
-  const auto path = file->path();
-  return http::FileBody{path, 0, size, std::move(file)};
+  ExportFile file(context.blobs.temporary(), context.recorder->limits().disk_reserve);
+  const auto written = write(file.stream());
+  file.check();
+  if (!written) refuse_export(written.error());
+  return file.finish();
 }
 
 http::Body clip_of(Context& context, const http::Request& request, const RecordingStatus& recording,
@@ -137,6 +130,8 @@ http::Response content_of(Context& context, const http::Request& request, const 
     response.body = http::FileBody{context.recorder->path_of(record.id), 0, bytes->size()};
     return http::apply_conditions(request, std::move(response));
   }
+  const auto slot = context.exports->take();
+  if (!slot) refuse_for_now("as many exports as may be made at the same time are being made; try again", 2);
   const auto reader = read_recording(context, recording);
   const auto text = [](Result<std::string> made) {
     if (!made) refuse_export(made.error());

@@ -1,5 +1,6 @@
 #include "server/app/serve.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
@@ -235,6 +236,8 @@ void run_serve(const ServeOptions& options) {
   api_config.limits.max_models = options.max_models;
   api_config.limits.max_streams = options.max_streams;
   api_config.limits.max_expressions = options.max_expressions;
+  // Half of the threads at most: the others handle what else is asked.
+  api_config.limits.max_exports = std::max(1U, options.threads / 2);
   api_config.version = SEMBLANTE_VERSION;
   api_config.web_root = options.web_root;
   api_config.access = {hosts, options.allowed_origins, options.frame_origins};

@@ -72,7 +72,8 @@ void add_serve_command(CLI::App& app) {
            "MAX_RECORDING_BYTES");
   add_size("--max-recordings-bytes", options->max_recordings_bytes, "Size of all recordings at which running ones end",
            "MAX_RECORDINGS_BYTES");
-  add_size("--disk-reserve", options->disk_reserve, "Free bytes that recordings leave on the disk", "DISK_RESERVE");
+  add_size("--disk-reserve", options->disk_reserve, "Free bytes that recordings and their exports leave on the disk",
+           "DISK_RESERVE");
   const std::map<std::string, std::uint64_t> time_units = {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
   constexpr std::uint64_t max_grace = std::uint64_t{10} * 365 * 86400;
   add("--trash-grace", options->trash_grace,

@@ -28,14 +28,15 @@ double fineness(const QuantizerSteps& steps) {
   return least;
 }
 
-/// Passes every face of a cut to `write`, which returns the number of bytes written.
+/// Passes every face of a cut to `write`, which returns the number of bytes written to `to`.
 template <class Write>
-Status write_each(SharedReader reader, const Cut& cut, Write write) {
+Status write_each(SharedReader reader, const Cut& cut, const std::ostream& to, Write write) {
   CutFrames frames(std::move(reader), cut);
   TimedValues frame;
   std::uint64_t bytes = 0;
   while (frames.next(frame)) {
     bytes += write(frame);
+    if (!to) return Error{ErrorCode::io, "", "it cannot be written"};
     if (bytes > max_written_bytes)
       return Error{ErrorCode::too_large, "", "it is over " + std::to_string(max_written_bytes) + " bytes: take a part"};
   }
@@ -143,7 +144,7 @@ Result<std::string> export_fap(SharedReader reader, const Cut& cut, const std::s
 Status export_frames(SharedReader reader, const Cut& cut, std::ostream& to) {
   bool first = true;
   to << "{\"frames\": [";
-  auto status = write_each(std::move(reader), cut, [&](const TimedValues& frame) {
+  auto status = write_each(std::move(reader), cut, to, [&](const TimedValues& frame) {
     const auto line = encode_json_value(frame);
     to << (std::exchange(first, false) ? "\n" : ",\n") << line;
     return line.size() + 2;
@@ -156,7 +157,7 @@ Status export_arkit_csv(SharedReader reader, const Cut& cut, std::ostream& to) {
   std::string text;
   append_live_link_header(text);
   to << text;
-  return write_each(std::move(reader), cut, [&](const TimedValues& frame) {
+  return write_each(std::move(reader), cut, to, [&](const TimedValues& frame) {
     text.clear();
     append_live_link_row(text, live_link_row_of(frame.time / 1000.0, to_kernel_frame(frame.state)));
     to << text;

@@ -44,8 +44,8 @@ class CutFrames {
   std::optional<Error> error_;
 };
 
-// Errors of all functions below: empty (no frame in the cut), too_large (request a shorter cut), and damage, with its
-// byte.
+// Errors of all functions below: empty (no frame in the cut), too_large (request a shorter cut), damage, with its byte,
+// and io when the stream fails.
 
 /// All faces of a cut.
 Result<std::vector<TimedValues>> gather(std::shared_ptr<const RecordingReader> reader, const Cut& cut,

@@ -1,5 +1,7 @@
 // Streams are recorded, fetched in every format, looked into, and played again to identical frames.
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -290,6 +292,32 @@ TEST(RecordingLimits, AreAnsweredAndEndWhatRuns) {
   EXPECT_EQ(now["ended"], "max-bytes");
   EXPECT_LE(now["bytes"], 540000);
   EXPECT_GT(now["frames"], 0);
+}
+
+TEST(RecordingLimits, Exports_LeaveTheDiskReserve_AndOfAKilledServerNothingIsLeft) {
+  const TemporaryFolder folder;
+  const auto temporary = folder.path() / "data" / "tmp";
+  std::string recording;
+  {
+    const ServerProcess server(folder.path() / "data", {});
+    request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type);
+    const auto made = json_of(request(server.port(), "POST", "/v1/streams/talk/recordings"));
+    recording = "/v1/recordings/" + made["id"].get<std::string>();
+    request(server.port(), "POST", "/v1/streams/talk/frames", R"({"frames":[{"time":0,"faps":{"3":8}}]})", json_type);
+    EXPECT_EQ(json_of(request(server.port(), "POST", recording + "/stop"))["frames"], 1);
+    EXPECT_EQ(request(server.port(), "GET", recording + "/content?format=arkit-csv").status, 200);
+  }
+  std::ofstream(temporary / "export-0123456789ab") << "of a server that was killed";
+  const ServerProcess server(folder.path() / "data", {"--disk-reserve", "1000000000000000"});
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  for (const char* const format : {"arkit-csv", "frames-json"}) {
+    const auto refused = request(server.port(), "GET", recording + "/content?format=" + format);
+    EXPECT_EQ(refused.status, 507) << format;
+    EXPECT_EQ(json_of(refused)["type"], "/problems/insufficient-storage");
+  }
+  EXPECT_EQ(request(server.port(), "GET", recording + "/content?format=fap").status, 200) << "made in memory";
+  EXPECT_EQ(request(server.port(), "GET", recording + "/content?format=recording").status, 200);
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
 }
 
 TEST(RecordingLimits, NearlyFullDisk_IsSaid) {

@@ -97,7 +97,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"recordings", count(recorder.max_recordings) + " stored, " + count(recorder.max_running) + " running"},
       {"recording", count(recordings::max_recording_ms / 3'600'000) + " h, " + size(recorder.max_bytes)},
       {"recordings, together", size(recorder.max_total_bytes)},
-      {"free bytes of the disk that recordings leave", size(recorder.disk_reserve)},
+      {"free bytes of the disk that recordings and their exports leave", size(recorder.disk_reserve)},
       {"frames of a recording that wait to be written", count(recorder.queued_frames)},
       {"recording as performance, or as .fap before its rate", count(recordings::max_gathered_frames) + " frames"},
       {"recording as frames or CSV", size(recordings::max_written_bytes)},

@@ -4129,6 +4129,7 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
             503: components["responses"]["StorageUnavailable"];
             507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
@@ -4382,6 +4383,7 @@ export interface operations {
             409: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
             503: components["responses"]["StorageUnavailable"];
             507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
