@@ -10,14 +10,23 @@
 namespace semblante {
 namespace {
 
-/// Descriptors for the store, blobs in transfer, and pipes of workers.
+/// Descriptors for the store, recordings, exports and pipes of workers.
 constexpr std::uint64_t reserve = 512;
 /// Bounds the memory when the system has no limit: about 8 KiB per connection.
 constexpr std::uint64_t most = 65'536;
 
 }  // namespace
 
-std::uint32_t connections_to_serve(std::uint64_t wanted) {
+OpenFiles divide_open_files(std::uint64_t may_open, std::uint64_t wanted) {
+  const auto possible = may_open > 2 * reserve ? may_open - reserve : may_open / 2;
+  // A connection that receives or sends a file has two descriptors.
+  const auto connections = std::min({wanted == 0 ? most : wanted, possible - possible / 4, std::uint64_t{UINT32_MAX}});
+  const auto bodies = std::min(possible - connections, connections);
+  return {static_cast<std::uint32_t>(std::max<std::uint64_t>(connections, 1)),
+          static_cast<std::uint32_t>(std::max<std::uint64_t>(bodies, 1))};
+}
+
+OpenFiles open_files_to_serve(std::uint64_t wanted) {
   rlimit files{};
   std::uint64_t may_open = 1024;
   if (::getrlimit(RLIMIT_NOFILE, &files) == 0) {
@@ -25,12 +34,11 @@ std::uint32_t connections_to_serve(std::uint64_t wanted) {
     if (::setrlimit(RLIMIT_NOFILE, &files) != 0) ::getrlimit(RLIMIT_NOFILE, &files);
     may_open = files.rlim_cur;
   }
-  const auto possible = may_open > 2 * reserve ? may_open - reserve : std::max<std::uint64_t>(may_open / 2, 1);
-  if (wanted == 0) return static_cast<std::uint32_t>(std::min(possible, most));
-  if (wanted > possible)
+  const auto divided = divide_open_files(may_open, wanted);
+  if (wanted > divided.connections)
     log::warning("--max-connections: the process may have " + std::to_string(may_open) +
-                 " files open (ulimit -Hn): " + std::to_string(possible) + " connections are served");
-  return static_cast<std::uint32_t>(std::min(wanted, possible));
+                 " files open (ulimit -Hn): " + std::to_string(divided.connections) + " connections are served");
+  return divided;
 }
 
 }  // namespace semblante

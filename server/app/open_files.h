@@ -4,8 +4,16 @@
 
 namespace semblante {
 
-/// Raises the limit of open files to its hard limit, and returns how many of them can be connections. `wanted`: 0 for
-/// the maximum; a number that cannot be reached is reduced, with a warning.
-std::uint32_t connections_to_serve(std::uint64_t wanted);
+/// What the descriptors of the process are divided into, beside those of the store, recordings and workers.
+struct OpenFiles {
+  std::uint32_t connections = 1;
+  std::uint32_t bodies = 1;  ///< files that connections receive or send
+};
+
+/// Divides `may_open` descriptors. `wanted` connections: 0 for the maximum; fewer if they cannot be reached.
+OpenFiles divide_open_files(std::uint64_t may_open, std::uint64_t wanted);
+
+/// Raises the limit of open files to its hard limit, and divides it. Warns if not all `wanted` connections are served.
+OpenFiles open_files_to_serve(std::uint64_t wanted);
 
 }  // namespace semblante

@@ -260,7 +260,9 @@ void run_serve(const ServeOptions& options) {
   net_config.proxies = listening.proxies;
   net_config.worker_threads = options.threads;
   net_config.upload_directory = blobs->temporary();
-  net_config.limits.max_connections = connections_to_serve(options.max_connections);
+  const auto open_files = open_files_to_serve(options.max_connections);
+  net_config.limits.max_connections = open_files.connections;
+  net_config.limits.max_files = open_files.bodies;
   net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);
   net::Server server(net_config, api);
   running = &server;

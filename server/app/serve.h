@@ -34,7 +34,7 @@ struct ServeOptions {
   std::uint64_t max_recordings_bytes = recordings::RecorderLimits{}.max_total_bytes;
   std::uint64_t disk_reserve = recordings::RecorderLimits{}.disk_reserve;
   std::uint64_t trash_grace = std::uint64_t{7} * 24 * 60 * 60;  ///< seconds
-  std::uint64_t max_connections = 0;  ///< 0: the files that the process may open, less a reserve
+  std::uint64_t max_connections = 0;  ///< 0: three quarters of the files that the process may open, less a reserve
   std::uint64_t max_stream_connections = streams::StreamLimits{}.max_connections;
   std::uint64_t worker_memory = jobs::WorkerLimits{}.memory_bytes;
   std::uint64_t worker_cpu_seconds = jobs::WorkerLimits{}.cpu_seconds;

@@ -83,7 +83,8 @@ void add_serve_command(CLI::App& app) {
       ->transform(CLI::AsNumberWithUnit(time_units, CLI::AsNumberWithUnit::DEFAULT, "TIME"))
       ->check(CLI::Range(std::uint64_t{0}, max_grace));
   add("--max-connections", options->max_connections,
-      "Maximum number of connections; 0: the limit of open files of the process (hard limit), less 512",
+      "Maximum number of connections; 0: three quarters of the limit of open files of the process (hard limit), less "
+      "512",
       "MAX_CONNECTIONS")
       ->check(CLI::Range(0, 1'000'000));
   add("--max-stream-connections", options->max_stream_connections, "Connections of one stream",

@@ -12,12 +12,7 @@ BodySink::BodySink(const http::BodyPlan& plan, SharedState& state, http::Request
   if (!plan.to_file) return;
   const auto name = "upload-" + std::to_string(::getpid()) + "-" + std::to_string(state.upload_number++);
   request.body_file = std::make_shared<http::TemporaryFile>(state.config.upload_directory / name);
-  descriptor_ = ::open(request.body_file->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor_ < 0) open_error_ = errno;
-}
-
-BodySink::~BodySink() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  file_.emplace(state, request.body_file->path(), O_WRONLY | O_CREAT | O_EXCL);
 }
 
 std::optional<http::Problem> BodySink::append(std::string_view piece) {
@@ -27,9 +22,10 @@ std::optional<http::Problem> BodySink::append(std::string_view piece) {
     request_.body.append(piece);
     return std::nullopt;
   }
+  if (file_->is_over_limit()) return http::make_problem("overloaded", "too many files are being sent; try again later");
   while (!piece.empty()) {
-    if (descriptor_ < 0) return application_.unwritten_body(open_error_);
-    const auto written = ::write(descriptor_, piece.data(), piece.size());
+    if (file_->descriptor() < 0) return application_.unwritten_body(file_->error());
+    const auto written = ::write(file_->descriptor(), piece.data(), piece.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return application_.unwritten_body(errno);
     piece.remove_prefix(static_cast<std::size_t>(written));

@@ -7,6 +7,7 @@
 
 #include "server/http/application.h"
 #include "server/http/problem.h"
+#include "server/net/body_file.h"
 #include "server/net/state.h"
 
 namespace semblante::net {
@@ -16,11 +17,11 @@ namespace semblante::net {
 class BodySink {
  public:
   BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request);
-  ~BodySink();
   BodySink(const BodySink&) = delete;
   BodySink& operator=(const BodySink&) = delete;
 
-  /// The problem, if this piece cannot be stored: `content-too-large`, or that of Application::unwritten_body.
+  /// The problem, if this piece cannot be stored: `content-too-large`, `overloaded`, or that of
+  /// Application::unwritten_body.
   [[nodiscard]] std::optional<http::Problem> append(std::string_view piece);
 
   static http::Problem too_large(const http::BodyPlan& plan);
@@ -29,7 +30,7 @@ class BodySink {
   const http::BodyPlan& plan_;
   http::Request& request_;
   http::Application& application_;
-  int descriptor_ = -1, open_error_ = 0;
+  std::optional<BodyFile> file_;  ///< of a body on disk
 };
 
 }  // namespace semblante::net

@@ -1,12 +1,16 @@
 #include "server/net/response_writer.h"
 
 #include <array>
+#include <cstring>
 #include <ctime>
 #include <fcntl.h>
+#include <optional>
 #include <unistd.h>
 #include <vector>
 
+#include "server/http/problem.h"
 #include "server/log/log.h"
+#include "server/net/body_file.h"
 #include "server/net/waker.h"
 
 namespace semblante::net {
@@ -18,20 +22,6 @@ namespace {
 constexpr std::size_t sent_piece_bytes = std::size_t{64} * 1024;
 constexpr std::chrono::seconds heartbeat{15};
 constexpr std::chrono::milliseconds look_for_stop{500};
-
-class OpenFile {
- public:
-  explicit OpenFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 std::string http_date() {
   const std::time_t now = std::time(nullptr);
@@ -108,17 +98,29 @@ asio::awaitable<bool> write_feed(Transport& transport, const std::shared_ptr<htt
   co_return alive&& chunked;
 }
 
-asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, const SharedState& state) {
-  const OpenFile file(body.path);
-  if (file.get() < 0) {
-    log::error("cannot open " + body.path.string());
-    co_return false;
+/// The answer in the place of one whose file is not open. Other header fields stay: they say who may read it.
+http::Response unreadable(const http::Response& response, const BodyFile& file) {
+  auto instead = http::to_response(
+      file.is_over_limit() ? http::make_problem("overloaded", "too many files are being sent; try again later")
+                           : http::make_problem("storage-unavailable", "the file cannot be read; try again later"));
+  instead.headers["Retry-After"] = "1";
+  for (const auto& field : response.headers) {
+    const auto& [name, value] = field;
+    const bool is_of_the_file = name == "Content-Range" || name == "Content-Disposition" || name == "ETag" ||
+                                name == "Accept-Ranges" || name == "Content-Encoding" || name == "Cache-Control" ||
+                                name == "Last-Modified" || name == "Content-Location";
+    if (!is_of_the_file) instead.headers.insert(field);
   }
+  return instead;
+}
+
+asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, int file,
+                                 const SharedState& state) {
   std::vector<char> piece(std::min<std::uint64_t>(sent_piece_bytes, body.length));
   std::uint64_t sent = 0;
   while (sent < body.length) {
     const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), body.length - sent));
-    const auto got = ::pread(file.get(), piece.data(), want, static_cast<off_t>(body.offset + sent));
+    const auto got = ::pread(file, piece.data(), want, static_cast<off_t>(body.offset + sent));
     if (got <= 0) co_return false;
     transport.expires_after(state.config.limits.write_timeout);
     if (co_await transport.write({piece.data(), static_cast<std::size_t>(got)})) co_return false;
@@ -130,7 +132,19 @@ asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& bod
 }  // namespace
 
 asio::awaitable<bool> write_response(Transport& transport, const http::Response& response, unsigned http_version,
-                                     bool head_only, bool keep_alive, const SharedState& state) {
+                                     bool head_only, bool keep_alive, SharedState& state) {
+  const auto* file = std::get_if<http::FileBody>(&response.body);
+  std::optional<BodyFile> opened;  // before the header, which must not promise a body that cannot be read
+  if (file != nullptr) {
+    opened.emplace(state, file->path, O_RDONLY);
+    if (opened->descriptor() < 0) {
+      if (!opened->is_over_limit())
+        log::error("cannot open " + file->path.string() + ": " + std::strerror(opened->error()));
+      const auto instead = unreadable(response, *opened);
+      opened.reset();
+      co_return co_await write_response(transport, instead, http_version, head_only, keep_alive, state);
+    }
+  }
   const auto* feed = std::get_if<std::shared_ptr<http::Feed>>(&response.body);
   const bool chunked = feed != nullptr && http_version == 11;
   if (feed != nullptr && !chunked) keep_alive = false;
@@ -144,8 +158,7 @@ asio::awaitable<bool> write_response(Transport& transport, const http::Response&
   }
   if (co_await transport.write(header)) co_return false;
   if (head_only) co_return keep_alive;
-  if (const auto* file = std::get_if<http::FileBody>(&response.body))
-    co_return co_await write_file(transport, *file, state) && keep_alive;
+  if (file != nullptr) co_return co_await write_file(transport, *file, opened->descriptor(), state) && keep_alive;
   if (feed != nullptr) co_return co_await write_feed(transport, *feed, chunked, state) && keep_alive;
   co_return keep_alive;
 }

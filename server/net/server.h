@@ -20,6 +20,7 @@ struct ServerLimits {
   std::uint32_t max_connections = 1024;
   /// Of one IP address; addresses of this machine and those of ServerConfig::proxies have no such limit.
   std::uint32_t max_connections_per_address = 512;
+  std::uint32_t max_files = 256;               ///< of bodies that are received or sent, open beside the connections
   std::uint32_t max_header_bytes = 16 * 1024;  ///< also of the trailers, of the line before a chunk, of all chunk
                                                ///< extensions of a body, and of the unparsed bytes of a connection
   std::uint32_t max_header_fields = 128;       ///< and as many query parameters

@@ -53,6 +53,7 @@ struct SharedState {
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
       busy{0}, websockets_open{0}, upload_number{0};
+  std::atomic<std::uint64_t> files_open{0};  ///< see BodyFile
 };
 
 /// Counts one open connection during its lifetime, and that of its address.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <filesystem>
 #include <latch>
 #include <memory>
 #include <stdexcept>
@@ -36,6 +38,7 @@ struct EchoApplication : http::Application {
     http::BodyPlan plan;
     plan.max_bytes = 100;
     plan.immediate = head.path == "/immediate";
+    if (head.path == "/upload") plan = {.max_bytes = 100, .to_file = true};
     return plan;
   }
   http::Response handle(http::Request& request) override {
@@ -45,6 +48,11 @@ struct EchoApplication : http::Application {
       released.wait();
     }
     http::Response response;
+    if (request.path == "/file") {
+      response.headers = {{"ETag", "\"file\""}, {"Content-Type", "text/plain"}, {"X-Frame-Options", "DENY"}};
+      response.body = http::FileBody{file, 0, file_bytes};
+      return response;
+    }
     response.body = request.body;
     return response;
   }
@@ -53,6 +61,8 @@ struct EchoApplication : http::Application {
     return std::shared_ptr<http::WebSocketPeer>(std::make_shared<Echo>(peers));
   }
   void decorate(const http::Request&, http::Response&) override {}
+  std::filesystem::path file;
+  std::uint64_t file_bytes = 0;
   std::atomic<int> opened{0}, peers{0}, waiting{0};
   std::latch released{1};
 };

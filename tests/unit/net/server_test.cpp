@@ -4,11 +4,15 @@
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
+#include <filesystem>
 #include <latch>
+#include <memory>
 #include <poll.h>
 #include <stdexcept>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <boost/asio/post.hpp>
@@ -89,6 +93,8 @@ class ServerTest : public ::testing::Test {
     ServerConfig config;
     config.listeners.front().port = 0;
     config.worker_threads = workers;
+    config.limits.max_files = max_files;
+    config.upload_directory = std::filesystem::temp_directory_path();
     // So long that whoever waits for one of these does not pass.
     config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 10 * testing::patience;
     server_ = std::make_unique<Server>(config, application_);
@@ -102,6 +108,7 @@ class ServerTest : public ::testing::Test {
   }
 
   static constexpr int workers = 2;
+  static constexpr std::uint32_t max_files = 3;
   EchoApplication application_;
   std::unique_ptr<Server> server_;
   std::uint16_t port_ = 0;
@@ -237,6 +244,59 @@ TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
   const Client old(port_);
   old.send("GET /immediate HTTP/1.0\r\n\r\n");
   EXPECT_TRUE(old.read_head().starts_with("HTTP/1.0 200 ")) << "HTTP/1.0 needs no Host";
+}
+
+TEST_F(ServerTest, FileThatCannotBeOpened_IsAnswered503_AndTheConnectionStays) {
+  application_.file = "/absent/file";
+  application_.file_bytes = 5;
+  const Client client(port_);
+  for (int round = 0; round < 2; ++round) {
+    client.send(get("/file"));
+    const auto head = client.read_head();
+    EXPECT_TRUE(head.starts_with("HTTP/1.1 503 ")) << head;
+    EXPECT_NE(head.find("Retry-After: "), std::string::npos);
+    EXPECT_NE(head.find("application/problem+json"), std::string::npos);
+    EXPECT_NE(head.find("X-Frame-Options: DENY"), std::string::npos) << "what is said of every answer";
+    EXPECT_EQ(head.find("ETag"), std::string::npos) << "what is said of the file";
+    const auto length = std::stoul(head.substr(head.find("Content-Length: ") + 16));
+    EXPECT_NE(client.read(length).find("storage-unavailable"), std::string::npos);
+  }
+}
+
+/// Each download has a descriptor beside its connection's. Beyond their limit one is told so, before its header.
+TEST_F(ServerTest, FilesInTransfer_HaveALimit) {
+  std::string name = (std::filesystem::temp_directory_path() / "semblante-net-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  application_.file = name;
+  application_.file_bytes = std::uint64_t{64} << 20U;  // more than sockets hold
+  ASSERT_EQ(::ftruncate(file, static_cast<off_t>(application_.file_bytes)), 0);
+  ::close(file);
+  const Client next(port_);
+  {
+    std::vector<std::unique_ptr<Client>> readers;
+    for (std::uint32_t i = 0; i < max_files; ++i) {
+      readers.push_back(std::make_unique<Client>(port_));
+      readers.back()->send(get("/file"));
+      EXPECT_TRUE(readers.back()->read_head().starts_with("HTTP/1.1 200 "));
+    }
+    next.send(get("/file"));
+    const auto head = next.read_head();
+    EXPECT_TRUE(head.starts_with("HTTP/1.1 503 ")) << head;
+    const auto length = std::stoul(head.substr(head.find("Content-Length: ") + 16));
+    EXPECT_NE(next.read(length).find("overloaded"), std::string::npos);
+    const Client other(port_);
+    other.send("POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\n\r\nx");
+    EXPECT_TRUE(other.read_head().starts_with("HTTP/1.1 503 "));
+    const Client third(port_);
+    third.send(get("/"));
+    EXPECT_TRUE(third.read_head().starts_with("HTTP/1.1 200 ")) << "what needs no file is answered";
+  }
+  EXPECT_TRUE(testing::eventually([&] {
+    const Client again(port_);
+    again.send(get("/file"));
+    return again.read_head().starts_with("HTTP/1.1 200 ");
+  })) << "readers that are gone give their places back";
+  std::filesystem::remove(name);
 }
 
 TEST(WorkerPool, SurvivesWhatThrows) {

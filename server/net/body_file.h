@@ -1,0 +1,33 @@
+#pragma once
+
+// Private to net/.
+
+#include <filesystem>
+
+#include "server/net/state.h"
+
+namespace semblante::net {
+
+/// The open file of a request's or an answer's body: the second descriptor that a connection may need. Within the limit
+/// of such files.
+class BodyFile {
+ public:
+  /// `flags`: of open(); new files are readable for their owner only.
+  BodyFile(SharedState& state, const std::filesystem::path& path, int flags);
+  ~BodyFile();
+  BodyFile(const BodyFile&) = delete;
+  BodyFile& operator=(const BodyFile&) = delete;
+
+  /// -1 if it is not open.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// Why it is not open: there are as many as the limit, or errno of open().
+  [[nodiscard]] bool is_over_limit() const { return !is_counted_; }
+  [[nodiscard]] int error() const { return error_; }
+
+ private:
+  std::atomic<std::uint64_t>& count_;
+  const bool is_counted_;
+  int descriptor_ = -1, error_ = 0;
+};
+
+}  // namespace semblante::net
