@@ -12,6 +12,8 @@ namespace {
 
 /// Descriptors for the store, recordings, exports and pipes of workers.
 constexpr std::uint64_t reserve = 512;
+/// Left for files of bodies by any number of connections, if the process may open so many.
+constexpr std::uint64_t least_bodies = 256;
 /// Bounds the memory when the system has no limit: about 8 KiB per connection.
 constexpr std::uint64_t most = 65'536;
 
@@ -19,8 +21,10 @@ constexpr std::uint64_t most = 65'536;
 
 OpenFiles divide_open_files(std::uint64_t may_open, std::uint64_t wanted) {
   const auto possible = may_open > 2 * reserve ? may_open - reserve : may_open / 2;
-  // A connection that receives or sends a file has two descriptors.
-  const auto connections = std::min({wanted == 0 ? most : wanted, possible - possible / 4, std::uint64_t{UINT32_MAX}});
+  // A connection that receives or sends a file has two descriptors. Who asks for many connections gets them, for most
+  // of them may be subscribers, which have one.
+  const auto for_bodies = wanted == 0 ? possible / 4 : std::min(least_bodies, possible / 4);
+  const auto connections = std::min({wanted == 0 ? most : wanted, possible - for_bodies, std::uint64_t{UINT32_MAX}});
   const auto bodies = std::min(possible - connections, connections);
   return {static_cast<std::uint32_t>(std::max<std::uint64_t>(connections, 1)),
           static_cast<std::uint32_t>(std::max<std::uint64_t>(bodies, 1))};

@@ -27,6 +27,8 @@ TEST(OpenFiles, MostAreConnections_UnlessFewerAreWanted) {
   EXPECT_EQ(divide_open_files(20'000, 0).bodies, 4872U);
   EXPECT_EQ(divide_open_files(1'048'576, 0).connections, 65'536U);
   EXPECT_EQ(divide_open_files(1'048'576, 0).bodies, 65'536U);
+  EXPECT_EQ(divide_open_files(12'000, 30'000).connections, 11'232U) << "all that can be, if more are wanted";
+  EXPECT_EQ(divide_open_files(12'000, 30'000).bodies, 256U);
   EXPECT_EQ(divide_open_files(1024, 100).connections, 100U);
   EXPECT_EQ(divide_open_files(1024, 100).bodies, 100U) << "one for each connection is enough";
 }
