@@ -16,16 +16,28 @@
 namespace semblante::api {
 namespace {
 
-std::vector<store::RoleChange> role_changes(const JsonBody& roles, std::size_t part_count) {
+/// Parts of each model in a list, so that a page of 200 models stays in the order of a megabyte.
+constexpr std::size_t max_listed_parts = 32;
+
+/// Whether the role of a part can be set.
+bool is_kept(const store::ModelRecord& model, std::uint32_t part) {
+  return std::any_of(model.parts.begin(), model.parts.end(), [&](const auto& kept) { return kept.index == part; });
+}
+
+std::vector<store::RoleChange> role_changes(const JsonBody& roles, const store::ModelRecord& model) {
   if (!roles.is_object()) refuse("invalid-field", "roles is an object of part indices", "/roles");
   std::vector<store::RoleChange> changes;
   for (const auto& [key, value] : roles.items()) {
     const auto pointer = std::string("/roles/").append(pointer_segment(key));
     std::uint32_t part = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), part);
-    if (error != std::errc() || end != key.data() + key.size() || part >= part_count || key != std::to_string(part))
-      refuse("invalid-field", "the model has the parts 0 to " + std::to_string(part_count) + ", the last excluded",
-             pointer);
+    if (error != std::errc() || end != key.data() + key.size() || part >= model.part_count ||
+        key != std::to_string(part))
+      refuse("invalid-field",
+             "the model has the parts 0 to " + std::to_string(model.part_count) + ", the last excluded", pointer);
+    if (!is_kept(model, part))
+      refuse("invalid-field",
+             "only the " + std::to_string(store::max_part_records) + " largest parts can be given a role", pointer);
     std::optional<std::string> role;
     if (!value.is_null()) {
       role = checked_text(value, max_name_bytes, pointer);
@@ -122,7 +134,10 @@ http::Response list_models(Context& context, http::Request& request) {
   auto models = context.store.models(after, limit + 1);
   if (!models) refuse("invalid-argument", "there is no model with this id", "?after");
   answer::Models page{.models = {}, .next = cut_to_page(*models, limit)};
-  for (const auto& model : *models) page.models.push_back(represent(model, context.store.artefacts(model.id)));
+  for (auto& model : *models) {
+    model.parts = store::largest_parts(std::move(model.parts), max_listed_parts);
+    page.models.push_back(represent(model, context.store.artefacts(model.id)));
+  }
   return json_response(200, page);
 }
 
@@ -138,7 +153,7 @@ http::Response patch_model(Context& context, http::Request& request) {
   std::optional<std::string> name;
   if (body.contains("name")) name = checked_text(body["name"], max_name_bytes, "/name");
   std::vector<store::RoleChange> roles;
-  if (body.contains("roles")) roles = role_changes(body["roles"], model.parts.size());
+  if (body.contains("roles")) roles = role_changes(body["roles"], model);
   std::vector<store::WornSet> worn;
   if (body.contains("expressions")) worn = worn_from_json(context, body["expressions"]);
   const bool has_more = name || !roles.empty() || !(body.contains("frame") || body.contains("expressions"));
@@ -155,7 +170,7 @@ http::Response patch_model(Context& context, http::Request& request) {
     if (left == 1 || request.header("If-Match"))
       refuse("conflict", "another request changed the model at the same time: read it and try again");
     now = model_of(context, request);
-    if (body.contains("roles")) roles = role_changes(body["roles"], now.parts.size());
+    if (body.contains("roles")) roles = role_changes(body["roles"], now);
   }
   auto job = import;
   if (!worn.empty()) job = wear(context, model_of(context, request), worn, import.has_value());

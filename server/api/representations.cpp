@@ -56,7 +56,7 @@ std::optional<answer::Model::Package> represent_package(const store::ModelRecord
 std::vector<answer::Part> represent_parts(const store::ModelRecord& model) {
   std::vector<answer::Part> parts;
   for (const auto& part : model.parts)
-    parts.push_back({.index = parts.size(),
+    parts.push_back({.index = part.index,
                      .name = part.name,
                      .role = part.role,
                      .role_by_user = part.role_by_user,
@@ -107,7 +107,7 @@ answer::Model represent(const store::ModelRecord& model, const std::vector<store
                      .file_name = model.file_name,
                      .bytes = model.source_bytes,
                      .sha256 = model.source_sha256},
-          .counts = {.vertices = model.vertices, .triangles = model.triangles, .parts = model.parts.size()},
+          .counts = {.vertices = model.vertices, .triangles = model.triangles, .parts = model.part_count},
           .bounds = bounds,
           .parts = represent_parts(model),
           .frame = std::move(frame),

@@ -40,6 +40,7 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, const InputFil
   // The store turns the positions that were marked in the earlier orientation.
   if (request.model.frame && request.model.frame->axes != head->frame.axes)
     outcome.turn = rows_of(turn_between(request.model.frame->axes, head->frame.axes));
+  outcome.part_count = static_cast<std::uint32_t>(parts.size());
   const auto parts = describe_parts(head->model, head->surface, {}, {});
   outcome.parts = records_of(parts);
   constexpr std::size_t most_listed = 512;
@@ -67,6 +68,7 @@ std::vector<std::string> ImportJob::finish(store::JobRecord& job, Outcome outcom
   facts.vertices = outcome.vertices;
   facts.triangles = outcome.triangles;
   facts.box_min = outcome.box_min;
+  facts.part_count = outcome.part_count;
   facts.box_max = outcome.box_max;
   facts.parts = std::move(outcome.parts);
   facts.warnings = std::move(outcome.warnings);
@@ -97,7 +99,8 @@ void to_json(nlohmann::json& json, const ImportJob::Outcome& outcome) {
           {"warnings", outcome.warnings},
           {"findings", outcome.findings},
           {"frame", store::frame_to_json(outcome.frame, {})},
-          {"morph_targets", outcome.morph_targets}};
+          {"morph_targets", outcome.morph_targets},
+          {"part_count", outcome.part_count}};
   if (outcome.turn) json["turn"] = *outcome.turn;
 }
 
@@ -110,6 +113,7 @@ void from_json(const nlohmann::json& json, ImportJob::Outcome& outcome) {
   json.at("parts").get_to(outcome.parts);
   json.at("warnings").get_to(outcome.warnings);
   json.at("findings").get_to(outcome.findings);
+  json.at("part_count").get_to(outcome.part_count);
   outcome.frame = store::frame_from_json(json.at("frame"));
   json.at("morph_targets").get_to(outcome.morph_targets);
   if (json.contains("turn")) outcome.turn = json["turn"].get<store::Turn>();

@@ -59,6 +59,7 @@ struct ImportJob::Outcome {
   ModelFrame frame;
   std::optional<store::Turn> turn;  ///< from the orientation in the request to the new one; empty: unchanged
   std::vector<store::MorphTargetRecord> morph_targets;
+  std::uint32_t part_count = 0;  ///< of all parts, also those that are not in `parts`
 
   bool operator==(const Outcome&) const = default;
 };

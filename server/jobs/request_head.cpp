@@ -12,9 +12,9 @@ std::vector<std::optional<PartRole>> roles_by_user(const std::vector<store::Part
   std::vector<std::optional<PartRole>> roles;
   for (const auto& part : parts) {
     const auto* found = std::find(part_role_names.begin(), part_role_names.end(), part.role);
-    roles.push_back(part.role_by_user && found != part_role_names.end()
-                        ? std::optional(static_cast<PartRole>(found - part_role_names.begin()))
-                        : std::nullopt);
+    if (!part.role_by_user || found == part_role_names.end()) continue;
+    if (roles.size() <= part.index) roles.resize(part.index + std::size_t{1});
+    roles[part.index] = static_cast<PartRole>(found - part_role_names.begin());
   }
   return roles;
 }

@@ -32,9 +32,10 @@ std::vector<store::PartRecord> records_of(std::span<const Part> parts) {
     record.triangles = part.triangle_count;
     record.box_min = {part.box_min.x, part.box_min.y, part.box_min.z};
     record.box_max = {part.box_max.x, part.box_max.y, part.box_max.z};
+    record.index = static_cast<std::uint32_t>(records.size());
     records.push_back(std::move(record));
   }
-  return records;
+  return store::largest_parts(std::move(records), store::max_part_records);
 }
 
 store::Turn rows_of(const glm::dmat3& turn) {

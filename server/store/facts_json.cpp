@@ -1,5 +1,7 @@
 #include "server/store/facts_json.h"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "core/json/read_json.h"
@@ -21,6 +23,14 @@ T read_as(std::string_view text) {
   }
 }
 
+/// Older stores kept every part, in order and without an index.
+std::vector<PartRecord> parts_from(const nlohmann::json& json) {
+  auto parts = json.get<std::vector<PartRecord>>();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!json[i].contains("index")) parts[i].index = static_cast<std::uint32_t>(i);
+  return largest_parts(std::move(parts), max_part_records);
+}
+
 }  // namespace
 
 std::string write_facts(const ModelRecord& model) {
@@ -28,6 +38,7 @@ std::string write_facts(const ModelRecord& model) {
   json["min"] = model.box_min;
   json["max"] = model.box_max;
   json["warnings"] = model.warnings;
+  json["part_count"] = model.part_count;
   json["parts"] = model.parts;
   if (model.findings) json["findings"] = *model.findings;
   if (model.frame) json["frame"] = frame_to_json(*model.frame, model.frame_wish);
@@ -46,13 +57,15 @@ void read_facts(std::string_view text, ModelRecord& model) {
     model.findings.reset();
     // Stores from before the doctor existed have no findings.
     if (json.contains("findings")) model.findings = json["findings"].get<FindingCounts>();
-    model.parts = json.at("parts").get<std::vector<PartRecord>>();
+    model.parts = parts_from(json.at("parts"));
+    model.part_count = json.value("part_count", static_cast<std::uint32_t>(json["parts"].size()));
     if (json.contains("frame")) model.frame = frame_from_json(json["frame"]);  // absent in older stores
     if (json.contains("frame_wish")) model.frame_wish = wish_from_json(json["frame_wish"]);
     if (json.contains("morph_targets")) json["morph_targets"].get_to(model.morph_targets);
     if (json.contains("fapu")) json["fapu"].get_to(model.fapu);
   } catch (const nlohmann::json::exception&) {
     model.parts.clear();
+    model.part_count = 0;
     model.findings.reset();
     model.frame.reset();
     model.frame_wish = {};

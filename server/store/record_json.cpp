@@ -5,9 +5,9 @@
 namespace semblante::store {
 
 void to_json(nlohmann::json& json, const PartRecord& part) {
-  json = {{"name", part.name},         {"role", part.role},           {"by_user", part.role_by_user},
-          {"vertices", part.vertices}, {"triangles", part.triangles}, {"min", part.box_min},
-          {"max", part.box_max}};
+  json = {{"index", part.index},          {"name", part.name},         {"role", part.role},
+          {"by_user", part.role_by_user}, {"vertices", part.vertices}, {"triangles", part.triangles},
+          {"min", part.box_min},          {"max", part.box_max}};
 }
 
 void from_json(const nlohmann::json& json, PartRecord& part) {
@@ -18,6 +18,7 @@ void from_json(const nlohmann::json& json, PartRecord& part) {
   json.at("triangles").get_to(part.triangles);
   json.at("min").get_to(part.box_min);
   json.at("max").get_to(part.box_max);
+  part.index = json.value("index", part.index);
 }
 
 void to_json(nlohmann::json& json, const MorphTargetRecord& target) {

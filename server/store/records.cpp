@@ -31,6 +31,17 @@ std::string_view to_string(ModelState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
+std::vector<PartRecord> largest_parts(std::vector<PartRecord> parts, std::size_t most) {
+  if (parts.size() <= most) return parts;
+  // Equally large ones by index, so that an import and a parametrization of one model keep the same.
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return a.vertices != b.vertices ? a.vertices > b.vertices : a.index < b.index;
+  });
+  parts.resize(most);
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+  return parts;
+}
+
 std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> current,
                                                const std::vector<FeaturePointRecord>& proposals) {
   std::erase_if(current, [](const FeaturePointRecord& point) { return point.proposal.has_value(); });

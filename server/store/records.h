@@ -23,9 +23,17 @@ struct PartRecord {
   bool role_by_user = false;  ///< a user's role replaces the guess
   std::uint32_t vertices = 0, triangles = 0;
   std::array<double, 3> box_min{}, box_max{};
+  std::uint32_t index = 0;  ///< among all parts of the model
 
   bool operator==(const PartRecord&) const = default;
 };
+
+/// Parts that are kept of a model. A head with hair cards or loose triangles may have thousands; the others keep the
+/// roles that are guessed for them.
+inline constexpr std::size_t max_part_records = 512;
+
+/// The parts with the most vertices, at most `most`, by index.
+std::vector<PartRecord> largest_parts(std::vector<PartRecord> parts, std::size_t most);
 
 /// Counts of the fit doctor's findings; the findings themselves are the artefact report.json.
 struct FindingCounts {
@@ -124,7 +132,8 @@ struct ModelRecord {
   std::string source_sha256;
   std::uint32_t vertices = 0, triangles = 0;
   std::array<double, 3> box_min{}, box_max{};
-  std::vector<PartRecord> parts;
+  std::uint32_t part_count = 0;   ///< of all parts, also those that are not in `parts`
+  std::vector<PartRecord> parts;  ///< by index; at most max_part_records, those with the most vertices
   std::vector<std::string> warnings;
   std::optional<FindingCounts> findings;  ///< of the last import or parametrization; empty: never examined
   std::vector<MorphTargetRecord> morph_targets;

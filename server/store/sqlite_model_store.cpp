@@ -1,5 +1,6 @@
 #include "server/store/sqlite_model_store.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "server/store/facts_json.h"
@@ -47,10 +48,11 @@ bool SqliteModelStore::edit_model(std::string_view id, const std::optional<std::
   auto model = find_model(db_, id);
   if (!model || model->revision != expected_revision) return false;
   for (const auto& [part, role] : roles) {
-    if (part >= model->parts.size()) return false;
-    auto& record = model->parts[part];
-    record.role_by_user = role.has_value();
-    if (role) record.role = *role;
+    const auto record = std::find_if(model->parts.begin(), model->parts.end(),
+                                     [index = part](const auto& item) { return item.index == index; });
+    if (record == model->parts.end()) return false;
+    record->role_by_user = role.has_value();
+    if (role) record->role = *role;
   }
   Statement(db_, "UPDATE models SET name = ?, facts = ?, revision = revision + 1, updated = ? WHERE id = ?")
       .bind(name.value_or(model->name), write_facts(*model), timestamp_now(), id)

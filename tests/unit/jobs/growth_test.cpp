@@ -29,7 +29,7 @@ void expect_linear_line(const std::string& what, std::size_t most,
 TEST(JobsGrowth, WorkerLines) {
   const std::string import =
       R"({"done":{"kind":"import","artefacts":[],"outcome":{"format":"obj","vertices":1,"triangles":1,"min":[0,0,0],)"
-      R"("max":[1,1,1],"morph_targets":[],"findings":{"errors":0,"warnings":0,"notes":0},"parts":[],)";
+      R"("max":[1,1,1],"morph_targets":[],"findings":{"errors":0,"warnings":0,"notes":0},"parts":[],"part_count":0,)";
   expect_linear_line("warnings", 400'000,
                      [&](std::size_t n) { return import + R"("warnings":[)" + list(n, "\"careful\"") + "]}}}"; });
   expect_linear_line("empty objects", 400'000, [](std::size_t n) { return R"({"done":[)" + list(n, "{}") + "]}"; });

@@ -25,7 +25,7 @@ const store::Turn turn{1, 0, 0, 0, 0, 1, 0, -1, 0};
 const std::vector<store::FeaturePointRecord> points = {
     {"2.1", 7, std::nullopt},
     {"7.1", std::nullopt, {{1.5, -2.0, 0.1}}, store::ProposalRecord{"mirror", "low", 0.25, "r"}}};
-const std::vector<store::PartRecord> parts = {{"face", "skin", true, 8, 4, {0, 0, 0}, {1, 1, 0.1}}};
+const std::vector<store::PartRecord> parts = {{"face", "skin", true, 8, 4, {0, 0, 0}, {1, 1, 0.1}, 3}};
 const MarkedSource head{
     {"/a b/\"c\"", "a.obj", frame, {LengthUnit::inch, Direction::plus_z, std::nullopt}}, points, parts};
 const std::vector<Displacement> displacements = {{*parse_feature_point("2.1"), {0.1F, -3.0F, 1e-7F}},
@@ -57,7 +57,7 @@ ExtractJob::Request example() {
 }
 template <>
 ImportJob::Outcome example() {
-  return {"obj", 8, 4, {-1, 0, 0.1}, {1, 2, 3}, parts, {"careful"}, {1, 2, 3}, frame, turn, {{"smile", 5}}};
+  return {"obj", 8, 4, {-1, 0, 0.1}, {1, 2, 3}, parts, {"careful"}, {1, 2, 3}, frame, turn, {{"smile", 5}}, 7};
 }
 template <>
 ParametrizeJob::Outcome example() {

@@ -45,7 +45,7 @@ class StoreTest : public ::testing::Test {
     facts.format = "obj";
     facts.vertices = 8;
     facts.box_max = {1.0, 2.0, 0.1};
-    facts.parts = {{"face", "skin", false, 8, 4, {0, 0, 0}, {1, 1, 1}}, {"eye", "left_eye", false, 4, 2, {}, {}}};
+    facts.parts = {{"face", "skin", false, 8, 4, {0, 0, 0}, {1, 1, 1}, 0}, {"eye", "left_eye", false, 4, 2, {}, {}, 1}};
     facts.warnings = {"a warning with \xff bad bytes"};
     facts.findings = FindingCounts{1, 2, 3};
     job.state = JobState::done;
@@ -233,8 +233,8 @@ TEST_F(StoreTest, UserRole_OutlivesTheGuess) {
   job.kind = "parametrize";
   store_->create_job(job, {}, std::nullopt);
   job.state = JobState::done;
-  std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}},
-                                     {"eye", "left_eye", false, 4, 2, {}, {}}};
+  std::vector<PartRecord> guesses = {{"face", "attached", false, 8, 4, {}, {}, 0},
+                                     {"eye", "left_eye", false, 4, 2, {}, {}, 1}};
   ASSERT_TRUE(store_->finish_parametrization(job, {"p", "now", "edge", "paper", 12, {}}, guesses, {}, std::nullopt,
                                              {{"mesh.drc", std::string(64, 'd'), 3, "x"}}, {}));
   const auto model = *store_->model("m");
@@ -348,7 +348,7 @@ TEST_F(StoreTest, SecondImport_TurnsMarkedPositions_KeepsRolesAndWish_DropsThePa
   EXPECT_TRUE(store_->artefact("m", "mesh.drc")) << "what is there stays until the new import is";
 
   ModelRecord facts;
-  facts.parts = {{"face", "skin", false, 8, 4, {}, {}}, {"eye", "left_eye", false, 4, 2, {}, {}}};
+  facts.parts = {{"face", "skin", false, 8, 4, {}, {}, 0}, {"eye", "left_eye", false, 4, 2, {}, {}, 1}};
   facts.frame = ModelFrame{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::metre, true, {}};
   job.state = JobState::done;
   // Up from +Z: x stays, y is what was z, z is what was -y.

@@ -1045,6 +1045,7 @@ export interface components {
                 parts: number;
             };
             bounds: components["schemas"]["Bounds"] | null;
+            /** @description By index: the 512 with the most vertices, of a model in a list the 32 with the most. `counts.parts` is the number of all */
             parts: components["schemas"]["Part"][];
             /** @description How it stands and what its unit is; null before the import */
             frame: components["schemas"]["ModelFrame"] | null;
@@ -1094,7 +1095,7 @@ export interface components {
             expressions?: {
                 [key: string]: string | null;
             };
-            /** @description Part index -> role, or null to let it be guessed */
+            /** @description Part index -> role, or null to let it be guessed. Of a model with more than 512 parts, one of the 512 with the most vertices */
             roles?: {
                 [key: string]: components["schemas"]["PartRole"] | null;
             };

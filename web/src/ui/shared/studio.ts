@@ -63,6 +63,8 @@ export class Studio {
     this.selected.set(model);
     if (!model) return;
     history.replaceState(null, '', `#${encodeURIComponent(id)}`);
+    // A list has only the largest parts of each model.
+    if (model.parts.length < model.counts.parts) void this.reload(id);
     // Open the tab of the next step: placing points, or animating the face.
     const { value: tab } = this.tab;
     if (model.state === 'ready' && tab !== 'points' && tab !== 'fit') this.tab.set('points');
