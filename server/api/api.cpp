@@ -159,6 +159,9 @@ http::Response Api::handle(http::Request& request) {
     return to_response(refused);
   } catch (const store::StoreError& fault) {
     return to_response(refuse(request.method + " " + request.path, fault));
+  } catch (const store::DamagedBlob& fault) {
+    log::error(request.method + " " + request.path + ": " + fault.what());
+    return to_response(problem_of(fault));
   }
 }
 

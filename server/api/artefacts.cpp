@@ -8,13 +8,12 @@ namespace {
 
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control) {
-  const auto path = context.blobs.find(artefact.sha256);
-  if (!path) refuse("internal", "the bytes of this artefact are missing in the data folder");
+  const auto path = context.blobs.whole(artefact.sha256);
   http::Response response;
   response.headers["Content-Type"] = artefact.content_type;
   response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";
   response.headers["Cache-Control"] = std::string(cache_control);
-  response.body = http::FileBody{*path, 0, artefact.bytes};
+  response.body = http::FileBody{path, 0, artefact.bytes};
   return http::apply_conditions(request, std::move(response));
 }
 

@@ -71,11 +71,7 @@ http::Body clip_of(Context& context, const http::Request& request, const Recordi
   if (id.empty()) refuse("conflict", "the stream had no model: give ?model", "?model");
   const auto model = context.store.model(id);
   if (!model) refuse("not-found", "there is no model " + id, "?model");
-  const auto file_of = [&](std::string_view sha256) {
-    const auto path = context.blobs.find(sha256);
-    if (!path) refuse("internal", "the bytes of an artefact are missing in the data folder");
-    return MappedFile(*path);
-  };
+  const auto file_of = [&](std::string_view sha256) { return MappedFile(context.blobs.whole(sha256)); };
   const auto artefact = [&](const char* name) {
     const auto found = context.store.artefact(id, name);
     if (!found || !model->package)
@@ -86,9 +82,7 @@ http::Body clip_of(Context& context, const http::Request& request, const Recordi
   const auto weights = artefact("weights");
   const auto rig = artefact("rig.json");
   const auto image = [&](const Sha256& hash) -> Result<std::vector<std::uint8_t>> {
-    const auto path = context.blobs.find(to_hex(hash));
-    if (!path) return Error{ErrorCode::missing, "", "an image of the model is not there"};
-    const MappedFile file(*path);
+    const MappedFile file(context.blobs.whole(to_hex(hash)));
     return std::vector<std::uint8_t>(file.bytes().begin(), file.bytes().end());
   };
   const auto frames = recordings::gather(reader, cut, max_clip_memory_frames);

@@ -60,7 +60,10 @@ std::shared_ptr<const recordings::ByteSource> bytes_of(Context& context, const R
   // While it runs: only the durable part.
   const bool runs = record.state == store::RecordingState::recording;
   auto bytes = recordings::open_bytes(context.recorder->path_of(record.id), runs ? record.bytes : UINT64_MAX);
-  if (!bytes) refuse_damaged(bytes.error());
+  // Its `where` is a path of this machine: for the log.
+  if (!bytes && bytes.error().code == ErrorCode::missing)
+    refuse_damaged({ErrorCode::missing, "", "its file is missing"});
+  if (!bytes) refuse_unkept(bytes.error());
   return std::move(*bytes);
 }
 

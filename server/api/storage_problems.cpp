@@ -18,6 +18,13 @@ http::Problem problem_of(const store::StoreError& error) {
                                       : "the server cannot read or write its data folder: its log says why");
 }
 
+http::Problem problem_of(const store::DamagedBlob& error) {
+  return http::make_problem(
+      "damaged-data", std::string(error.what()) +
+                          ". Storing the same bytes again mends it: upload the same file, or parametrize the model "
+                          "again");
+}
+
 void refuse_unkept(const Error& error) {
   const auto& [code, where, message] = error;
   throw store::StoreError(where.empty() ? message : where + ": " + message);

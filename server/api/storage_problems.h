@@ -5,6 +5,7 @@
 #include "core/types/result.h"
 #include "server/api/api.h"
 #include "server/http/problem.h"
+#include "server/store/blob_store.h"
 #include "server/store/store_error.h"
 
 namespace semblante::api {
@@ -12,6 +13,9 @@ namespace semblante::api {
 /// The problem document for a store that cannot be read or written: 507 `insufficient-storage` or 503
 /// `storage-unavailable`.
 http::Problem problem_of(const store::StoreError& error);
+
+/// 500 `damaged-data`: names the blob, and says what mends it.
+http::Problem problem_of(const store::DamagedBlob& error);
 
 /// Throws StoreError for a file that cannot be stored; Api::handle turns it into the answer.
 [[noreturn]] void refuse_unkept(const Error& error);

@@ -47,6 +47,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"worker-crashed", 500, "The worker of this job ended by a fault"},
     {"worker-limit", 422, "The job exceeded a limit"},
     {"cancelled", 409, "It was stopped on request"},
+    {"damaged-data", 500, "Stored bytes are missing or damaged"},
     {"internal", 500, "A fault of the server"},
     {"overloaded", 503, "The server has reached its limit of connections"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},

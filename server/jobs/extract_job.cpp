@@ -96,24 +96,16 @@ std::vector<std::string> ExtractJob::files() const {
 
 Result<ExtractJob::Request> ExtractJob::request(const store::JobRecord& job, const JobSources& sources) const {
   Request request{{}, *this, {}};
-  if (!expression_sha256.empty()) {
-    auto path = path_of(sources.blobs, expression_sha256, "the expression");
-    if (!path) return path.error();
-    request.expression_path = std::move(*path);
-  }
+  if (!expression_sha256.empty()) request.expression_path = path_of(sources.blobs, expression_sha256, "the expression");
   if (job.model.empty()) {
-    auto path = path_of(sources.blobs, neutral_sha256, "the neutral head");
-    if (!path) return path.error();
-    request.head.model.path = std::move(*path);
+    request.head.model.path = path_of(sources.blobs, neutral_sha256, "the neutral head");
     request.head.model.file_name = neutral_file;
     request.head.points = points;
     return request;
   }
   const auto model = model_of(job, sources);
   if (!model) return model.error();
-  auto head = marked_source_of(*model, sources);
-  if (!head) return head.error();
-  request.head = std::move(*head);
+  request.head = marked_source_of(*model, sources);
   return request;
 }
 

@@ -18,9 +18,7 @@ namespace semblante::jobs {
 Result<ImportJob::Request> ImportJob::request(const store::JobRecord& job, const JobSources& sources) const {
   const auto model = model_of(job, sources);
   if (!model) return model.error();
-  auto source = source_of(*model, sources);
-  if (!source) return source.error();
-  return Request{std::move(*source)};
+  return Request{source_of(*model, sources)};
 }
 
 Result<ImportJob::Outcome> ImportJob::run(const Request& request, const InputFiles& inputs, ResultFiles& files,
@@ -40,9 +38,9 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, const InputFil
   // The store turns the positions that were marked in the earlier orientation.
   if (request.model.frame && request.model.frame->axes != head->frame.axes)
     outcome.turn = rows_of(turn_between(request.model.frame->axes, head->frame.axes));
-  outcome.part_count = static_cast<std::uint32_t>(parts.size());
   const auto parts = describe_parts(head->model, head->surface, {}, {});
   outcome.parts = records_of(parts);
+  outcome.part_count = static_cast<std::uint32_t>(parts.size());
   constexpr std::size_t most_listed = 512;
   for (const Example& example : head->model.examples) {
     if (outcome.morph_targets.size() == most_listed) break;
@@ -68,9 +66,9 @@ std::vector<std::string> ImportJob::finish(store::JobRecord& job, Outcome outcom
   facts.vertices = outcome.vertices;
   facts.triangles = outcome.triangles;
   facts.box_min = outcome.box_min;
-  facts.part_count = outcome.part_count;
   facts.box_max = outcome.box_max;
   facts.parts = std::move(outcome.parts);
+  facts.part_count = outcome.part_count;
   facts.warnings = std::move(outcome.warnings);
   facts.findings = outcome.findings;
   facts.frame = std::move(outcome.frame);
@@ -113,9 +111,9 @@ void from_json(const nlohmann::json& json, ImportJob::Outcome& outcome) {
   json.at("parts").get_to(outcome.parts);
   json.at("warnings").get_to(outcome.warnings);
   json.at("findings").get_to(outcome.findings);
-  json.at("part_count").get_to(outcome.part_count);
   outcome.frame = store::frame_from_json(json.at("frame"));
   json.at("morph_targets").get_to(outcome.morph_targets);
+  json.at("part_count").get_to(outcome.part_count);
   if (json.contains("turn")) outcome.turn = json["turn"].get<store::Turn>();
 }
 

@@ -81,7 +81,7 @@ std::optional<T> read_job_as(const store::JobRecord& record) {
   return std::get<T>(std::move(*job));
 }
 
-/// T::request() of the job's type. Error also as read_job().
+/// T::request() of the job's type. Error also as read_job(). Throws store::DamagedBlob and store::StoreError.
 Result<JobRequest> make_request(const store::JobRecord& record, const JobSources& sources);
 /// Request::inputs() of the request's type.
 std::vector<std::string> inputs_of(const JobRequest& request);

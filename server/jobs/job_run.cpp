@@ -10,6 +10,7 @@
 
 #include "server/jobs/next_state.h"
 #include "server/log/log.h"
+#include "server/store/data_files.h"
 
 namespace semblante::jobs {
 namespace {
@@ -61,8 +62,14 @@ void set_done(JobRecord& job) {
 std::optional<JobRecord> JobRun::run(const JobRecord& job, const OnProgress& on_progress,
                                      const std::function<Wish()>& wish) {
   has_begun_ = true;
-  auto asked = make_request(job, {stores_.models, blobs_});
-  if (!asked) return ended_job(job, JobState::failed, http::problem_from(asked.error()));
+  std::optional<JobRequest> asked;
+  try {
+    auto made = make_request(job, {stores_.models, blobs_});
+    if (!made) return ended_job(job, JobState::failed, http::problem_from(made.error()));
+    asked = std::move(*made);
+  } catch (const store::DamagedBlob& fault) {
+    return ended_job(job, JobState::failed, http::make_problem("damaged-data", fault.what()));
+  }
   const WorkerRequest request{(blobs_.temporary() / ("job-" + job.id)).string(), std::move(*asked)};
   const OutputFolder folder(request.output_directory);
   try {
@@ -158,9 +165,11 @@ std::optional<http::Problem> JobRun::adopt_artefacts(const WorkerRequest& reques
   for (auto& artefact : result.artefacts) {
     // A name must be a file in the output folder, not a path to elsewhere.
     const std::filesystem::path name(artefact.name);
-    auto blob = name.filename() == name ? blobs_.adopt(request.output_directory / name)
-                                        : Result<store::Blob>(Error{ErrorCode::internal, "", "a path for a name"});
-    if (!blob) return http::make_problem("internal", "a result could not be stored: " + blob.error().message);
+    if (name.filename() != name || !store::is_real_file(request.output_directory / name))
+      return http::make_problem("internal", "its worker did not write a result that it names");
+    auto blob = blobs_.adopt(request.output_directory / name);
+    // Its message has a path of this machine: for the log, not for the job.
+    if (!blob) throw store::StoreError(blob.error().message);
     artefact.sha256 = blob->sha256;
     artefact.bytes = blob->bytes;
     adopted_bytes_ += blob->bytes;

@@ -57,7 +57,7 @@ class JobRun {
                                        const OnProgress& on_progress, const std::function<Wish()>& wish);
   http::Problem problem_of(const WorkerExit& exit) const;
   store::JobRecord keep_result(const store::JobRecord& job, const WorkerRequest& request, WorkerResult result);
-  /// Returns a problem when an artefact cannot be stored for another reason than a full disk.
+  /// Returns a problem when the worker names a file that it may not. Throws StoreError when one cannot be stored.
   std::optional<http::Problem> adopt_artefacts(const WorkerRequest& request, WorkerResult& result);
   /// Removes the artefacts' blobs that no record refers to.
   void discard(const WorkerResult& result) const;

@@ -9,10 +9,12 @@
 
 namespace semblante::jobs {
 
-Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what) {
-  const auto path = blobs.find(sha256);
-  if (!path) return Error{ErrorCode::io, "", "the bytes of " + what + " are missing in the data folder"};
-  return path->string();
+std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what) {
+  try {
+    return blobs.whole(sha256).string();
+  } catch (const store::DamagedBlob& fault) {
+    throw store::DamagedBlob(what + ": " + fault.what());
+  }
 }
 
 Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources) {
@@ -21,16 +23,13 @@ Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSource
   return std::move(*model);
 }
 
-Result<ModelSource> source_of(const store::ModelRecord& model, const JobSources& sources) {
-  auto path = path_of(sources.blobs, model.source_sha256, "the model");
-  if (!path) return path.error();
-  return ModelSource{std::move(*path), model.file_name, model.frame, model.frame_wish};
+ModelSource source_of(const store::ModelRecord& model, const JobSources& sources) {
+  return ModelSource{path_of(sources.blobs, model.source_sha256, "the model"), model.file_name, model.frame,
+                     model.frame_wish};
 }
 
-Result<MarkedSource> marked_source_of(const store::ModelRecord& model, const JobSources& sources) {
-  auto source = source_of(model, sources);
-  if (!source) return source.error();
-  return MarkedSource{std::move(*source), sources.store.feature_points(model.id), model.parts, model.fapu};
+MarkedSource marked_source_of(const store::ModelRecord& model, const JobSources& sources) {
+  return MarkedSource{source_of(model, sources), sources.store.feature_points(model.id), model.parts, model.fapu};
 }
 
 void to_json(nlohmann::json& json, const ModelSource& source) {

@@ -40,14 +40,14 @@ struct JobSources {
   const store::BlobStore& blobs;
 };
 
-/// The path of a blob that a job needs. Error: io, "the bytes of <what> are missing in the data folder".
-Result<std::string> path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what);
+/// The path of a blob that a job needs. Throws store::DamagedBlob, "<what>: ...", and store::StoreError.
+std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what);
 /// The model of a job. Error: missing.
 Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources);
-/// The file of a stored model. Error: io.
-Result<ModelSource> source_of(const store::ModelRecord& model, const JobSources& sources);
-/// The same with the current feature points and parts of the model. Error: io.
-Result<MarkedSource> marked_source_of(const store::ModelRecord& model, const JobSources& sources);
+/// The file of a stored model. Throws as path_of().
+ModelSource source_of(const store::ModelRecord& model, const JobSources& sources);
+/// The same with the current feature points and parts of the model. Throws as path_of().
+MarkedSource marked_source_of(const store::ModelRecord& model, const JobSources& sources);
 
 // The readers throw nlohmann::json::exception on another form.
 void to_json(nlohmann::json& json, const ModelSource& source);

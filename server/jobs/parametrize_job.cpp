@@ -63,10 +63,9 @@ Result<ParametrizeJob::Request> ParametrizeJob::request(const store::JobRecord& 
   const auto model = model_of(job, sources);
   if (!model) return model.error();
   auto head = marked_source_of(*model, sources);
-  if (!head) return head.error();
   auto worn = sets_of(sources.store.worn_sets(model->id));
   if (!worn) return worn.error();
-  return Request{model->name, std::move(*head), *this, std::move(*worn)};
+  return Request{model->name, std::move(head), *this, std::move(*worn)};
 }
 
 Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, const InputFiles& inputs,

@@ -36,9 +36,8 @@ Result<ProposeJob::Request> ProposeJob::request(const store::JobRecord& job, con
   const auto model = model_of(job, sources);
   if (!model) return model.error();
   auto head = marked_source_of(*model, sources);
-  if (!head) return head.error();
-  std::erase_if(head->points, [](const auto& point) { return point.proposal.has_value(); });
-  return Request{std::move(*head)};
+  std::erase_if(head.points, [](const auto& point) { return point.proposal.has_value(); });
+  return Request{std::move(head)};
 }
 
 Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, const InputFiles& inputs, ResultFiles& /*files*/,

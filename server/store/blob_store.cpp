@@ -1,15 +1,14 @@
 #include "server/store/blob_store.h"
 
-#include <array>
 #include <atomic>
 #include <cerrno>
-#include <span>
 #include <system_error>
-#include <vector>
 
 #include "protocol/hash/sha256.h"
 #include "server/store/data_files.h"
 #include "server/store/descriptor.h"
+#include "server/store/file_hash.h"
+#include "server/store/verified_blobs.h"
 
 namespace semblante::store {
 namespace {
@@ -35,6 +34,11 @@ struct RemovedFile {
 };
 
 }  // namespace
+
+BlobStore::BlobStore(fs::path folder)
+    : folder_(std::move(folder)),
+      references_(std::make_shared<std::shared_mutex>()),
+      verified_(std::make_shared<VerifiedBlobs>()) {}
 
 Result<BlobStore> BlobStore::open(const fs::path& folder) {
   BlobStore blobs(folder);
@@ -67,21 +71,15 @@ fs::path BlobStore::path_of(std::string_view sha256) const {
 Result<Blob> BlobStore::adopt(const fs::path& path) const {
   const Descriptor file(path, O_RDONLY);
   if (!file.ok()) return write_error(path);
-  Sha256Stream hash;
   Blob blob;
-  std::vector<std::uint8_t> piece(1U << 18U);
-  while (true) {
-    const auto got = ::read(file.get(), piece.data(), piece.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return write_error(path);
-    if (got == 0) break;
-    hash.update(std::span(piece).first(static_cast<std::size_t>(got)));
-    blob.bytes += static_cast<std::uint64_t>(got);
-  }
-  blob.sha256 = to_hex(hash.finish());
+  auto hash = hash_of(file, blob.bytes);
+  if (!hash) return write_error(path);
+  blob.sha256 = std::move(*hash);
   const auto target = path_of(blob.sha256);
   std::error_code error;
-  if (is_real_file(target)) {  // the same content is stored already, complete and durable
+  // The same content, complete and durable. A file that was not verified yet may be damaged: it is replaced, which
+  // costs less than to read it.
+  if (verified_->contains(blob.sha256, file_stamp(target))) {
     fs::remove(path, error);
     return blob;
   }
@@ -91,6 +89,8 @@ Result<Blob> BlobStore::adopt(const fs::path& path) const {
   if (new_folder && !sync_folder(folder_ / "blobs")) return write_error(folder_);
   if (::rename(path.c_str(), target.c_str()) != 0) return write_error(target);
   if (!sync_folder(target.parent_path())) return write_error(target);
+  // Of the open file, not of whatever has the name by now.
+  if (const auto stamp = file_stamp(file)) verified_->add(blob.sha256, *stamp);
   return blob;
 }
 
@@ -117,9 +117,26 @@ std::optional<fs::path> BlobStore::find(std::string_view sha256) const {
   return path;
 }
 
+fs::path BlobStore::whole(std::string_view sha256) const {
+  const std::string name(sha256);
+  const auto path = find(sha256);
+  if (!path) throw DamagedBlob("the stored bytes with the SHA-256 " + name + " are missing");
+  if (verified_->contains(name, file_stamp(*path))) return *path;
+  const Descriptor file(*path, O_RDONLY | O_NOFOLLOW);
+  const auto before = file.ok() ? file_stamp(file) : std::nullopt;
+  std::uint64_t bytes = 0;
+  const auto hash = before ? hash_of(file, bytes) : std::nullopt;
+  if (!hash) throw_store_error(*path, errno);
+  if (*hash != sha256) throw DamagedBlob("the stored bytes with the SHA-256 " + name + " are damaged");
+  if (file_stamp(file) == before) verified_->add(name, *before);
+  return *path;
+}
+
 void BlobStore::remove(std::string_view sha256) const {
   std::error_code ignored;
-  if (is_sha256_hex(sha256)) fs::remove(path_of(sha256), ignored);
+  if (!is_sha256_hex(sha256)) return;
+  fs::remove(path_of(sha256), ignored);
+  verified_->remove(std::string(sha256));
 }
 
 }  // namespace semblante::store

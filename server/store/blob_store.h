@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <shared_mutex>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -19,9 +20,19 @@ struct Blob {
   std::uint64_t bytes = 0;
 };
 
+/// A blob that a record refers to is missing, or its bytes are not those of its name. what() names it for clients,
+/// without a path. A retry does not help: the same bytes have to be stored again.
+class DamagedBlob : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class VerifiedBlobs;
+
 /// Bytes by their SHA-256, in a folder: blobs/ab/abcdef.... A file gets its final name only when it is complete and
-/// durable (write, fsync, rename, fsync of the folder), so a blob is intact after a crash at any moment. A symbolic
-/// link in the place of a blob is not a blob. Any thread.
+/// durable (write, fsync, rename, fsync of the folder), so a blob is intact after a crash at any moment. What a disk or
+/// another program changes later is found by whole(), and mended by storing the same bytes again. A symbolic link in
+/// the place of a blob is not a blob. Any thread.
 class BlobStore {
  public:
   /// Makes missing folders and removes the unfinished files of an earlier process in `temporary()`. On a full disk the
@@ -33,14 +44,17 @@ class BlobStore {
   /// The folder for files that adopt() will rename into the store; on the same file system.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_ / "tmp"; }
 
-  /// Moves a file into the store: hashes it, makes it durable and renames it. `path` does not exist afterwards. Errors:
-  /// io. Throws DiskFull.
+  /// Moves a file into the store: hashes it, makes it durable and renames it. `path` does not exist afterwards. A file
+  /// that has the name already is replaced unless it is known to be intact. Errors: io. Throws DiskFull.
   Result<Blob> adopt(const std::filesystem::path& path) const;
   /// The same for bytes in memory.
   Result<Blob> put(std::string_view bytes) const;
 
-  /// The file of a blob; nullopt when it does not exist. `sha256` may be any text.
+  /// The file of a blob, whatever its bytes are; nullopt when it does not exist. `sha256` may be any text.
   [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view sha256) const;
+  /// The file of an intact blob. The first call for a file hashes it; later ones only compare its inode, size and times
+  /// with those it had then. Throws DamagedBlob, and StoreError when the file cannot be read.
+  [[nodiscard]] std::filesystem::path whole(std::string_view sha256) const;
   /// Deletes the file permanently; blobs that a user deleted or a job replaced do not pass through the trash.
   void remove(std::string_view sha256) const;
 
@@ -50,12 +64,12 @@ class BlobStore {
   [[nodiscard]] std::shared_mutex& references() const { return *references_; }
 
  private:
-  explicit BlobStore(std::filesystem::path folder)
-      : folder_(std::move(folder)), references_(std::make_shared<std::shared_mutex>()) {}
+  explicit BlobStore(std::filesystem::path folder);
   [[nodiscard]] std::filesystem::path path_of(std::string_view sha256) const;
 
   std::filesystem::path folder_;
   std::shared_ptr<std::shared_mutex> references_;
+  std::shared_ptr<VerifiedBlobs> verified_;
 };
 
 }  // namespace semblante::store

@@ -27,6 +27,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* temporary_name = "semblante-test-";
+
 int connect_to(int port, int receive_buffer = 0) {
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (receive_buffer > 0) setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof(receive_buffer));
@@ -76,7 +78,7 @@ std::string unchunk(std::string_view text) {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "semblante-test-XXXXXX").string();
+  std::string name = (std::filesystem::temp_directory_path() / (temporary_name + std::string("XXXXXX"))).string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   path_ = name;
 }
@@ -188,6 +190,11 @@ void expect_documented(std::string_view request_text, const Reply& reply) {
   exchange.status = reply.status;
   exchange.type = field("content-type");
   exchange.body = reply.body;
+  // The folders of the tests: no answer says where things are on the server's machine.
+  for (const auto& [name, value] : reply.headers)
+    if (value.find(temporary_name) != std::string::npos) ADD_FAILURE() << first << ": " << name << ": " << value;
+  if (reply.body.find(temporary_name) != std::string::npos)
+    ADD_FAILURE() << first << " says where things are: " << reply.body.substr(0, 2000);
   for (const auto& fault : exchange_faults(exchange))
     ADD_FAILURE() << first << " is answered " << reply.status << ", against openapi.json: " << fault << "\n"
                   << reply.body.substr(0, 2000);

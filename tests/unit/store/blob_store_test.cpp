@@ -54,5 +54,72 @@ TEST_F(BlobStoreTest, LinkInThePlaceOfABlob_IsNone_AndIsReplaced) {
   EXPECT_EQ(std::filesystem::file_size(link), 3U);
 }
 
+/// Each way in which a file can change, on a blob of the bytes "abc".
+struct Damage {
+  const char* name;
+  void (*apply)(const std::filesystem::path& file);
+};
+
+void write_back_in_time(const std::filesystem::path& file) {
+  const auto written = std::filesystem::last_write_time(file);
+  std::ofstream(file) << "abd";
+  std::filesystem::last_write_time(file, written);
+}
+
+constexpr Damage damages[] = {
+    {"a changed byte, the time of the write set back", write_back_in_time},
+    {"cut off", [](const std::filesystem::path& file) { std::filesystem::resize_file(file, 2); }},
+    {"grown", [](const std::filesystem::path& file) { std::ofstream(file, std::ios::app) << "d"; }},
+    {"empty", [](const std::filesystem::path& file) { std::filesystem::resize_file(file, 0); }},
+    {"gone", [](const std::filesystem::path& file) { std::filesystem::remove(file); }},
+    {"another file",
+     [](const std::filesystem::path& file) {
+       std::ofstream(file.string() + ".new") << "xyz";
+       std::filesystem::rename(file.string() + ".new", file);
+     }},
+};
+
+TEST_F(BlobStoreTest, DamagedBlob_IsNotWhole_AndIsMendedByTheSameBytes) {
+  for (const auto& damage : damages) {
+    for (const bool known : {false, true}) {
+      SCOPED_TRACE(std::string(damage.name) + (known ? ", verified before" : ""));
+      const auto hash = BlobStore::open(folder_)->put("abc")->sha256;
+      const auto blobs = BlobStore::open(folder_);  // another process
+      const auto file = *blobs->find(hash);
+      if (known) {
+        EXPECT_EQ(blobs->whole(hash), file);
+      }
+      damage.apply(file);
+      try {
+        (void)blobs->whole(hash);
+        ADD_FAILURE() << "it is given out";
+      } catch (const DamagedBlob& fault) {
+        EXPECT_NE(std::string(fault.what()).find(hash), std::string::npos);
+        EXPECT_EQ(std::string(fault.what()).find(folder_.string()), std::string::npos);
+      }
+      ASSERT_TRUE(blobs->put("abc"));
+      EXPECT_EQ(blobs->whole(hash), file);
+      EXPECT_EQ(std::filesystem::file_size(file), 3U);
+      EXPECT_EQ(BlobStore::open(folder_)->whole(hash), file);
+    }
+  }
+}
+
+TEST_F(BlobStoreTest, IntactBlob_IsKeptWhenItComesAgain) {
+  const auto blobs = BlobStore::open(folder_);
+  const auto hash = blobs->put("abc")->sha256;
+  const auto file = *blobs->find(hash);
+  std::filesystem::create_hard_link(file, folder_ / "the-same-file");
+  EXPECT_EQ(blobs->whole(hash), file);
+  ASSERT_TRUE(blobs->put("abc"));
+  EXPECT_TRUE(std::filesystem::equivalent(file, folder_ / "the-same-file"));
+}
+
+TEST_F(BlobStoreTest, WhateverIsNoHash_IsNotWhole) {
+  const auto blobs = BlobStore::open(folder_);
+  for (const auto& name : {std::string(), std::string("../facts.sqlite"), std::string(64, '/')})
+    EXPECT_THROW((void)blobs->whole(name), DamagedBlob);
+}
+
 }  // namespace
 }  // namespace semblante::store
