@@ -13,6 +13,8 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
+  add_backup_command(app);
+  add_check_command(app);
   add_parametrize_command(app);
   add_convert_command(app);
   add_deform_command(app);
@@ -20,6 +22,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_extract_command(app);
   add_play_command(app);
   add_propose_command(app);
+  add_restore_command(app);
   add_serve_command(app);
   add_token_command(app);
   add_version_command(app);
@@ -31,12 +34,13 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr << "semblante: "
-              << (has_command ? fault.what()
-                              : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, "
-                                "serve or token (see "
-                                "semblante --help)")
-              << "\n";
+    std::cerr
+        << "semblante: "
+        << (has_command
+                ? fault.what()
+                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, serve, token, check, "
+                  "backup or restore (see semblante --help)")
+        << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";

@@ -16,14 +16,15 @@ namespace {
   switch (extended & 0xFF) {
     case SQLITE_FULL:
       throw DiskFull(message);
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      throw DamagedDatabase(message);
     case SQLITE_IOERR:
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
     case SQLITE_PERM:
-    case SQLITE_CORRUPT:
-    case SQLITE_NOTADB:
     case SQLITE_NOMEM:
       throw StoreError(message);
     default:
@@ -31,12 +32,28 @@ namespace {
   }
 }
 
+/// A file: URI, in which some characters mean something.
+std::string immutable_uri(const std::string& file) {
+  std::string uri = "file:";
+  for (const char c : file) {
+    if (c == '%' || c == '?' || c == '#') {
+      uri.append(c == '%' ? "%25" : c == '?' ? "%3f" : "%23");
+    } else {
+      uri.push_back(c);
+    }
+  }
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
-Database::Database(const std::string& file) {
+Database::Database(const std::string& file, Access access) {
   // SQLite needs no mutex, because the store has one.
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-  if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+  const int mode = access == Access::read_write  ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                   : access == Access::read_only ? SQLITE_OPEN_READONLY
+                                                 : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+  const auto name = access == Access::immutable ? immutable_uri(file) : file;
+  if (sqlite3_open_v2(name.c_str(), &handle_, mode | SQLITE_OPEN_NOMUTEX, nullptr) != SQLITE_OK) {
     const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory";
     const int error_number = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
     sqlite3_close(handle_);

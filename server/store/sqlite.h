@@ -11,10 +11,16 @@
 
 namespace semblante::store {
 
+enum class Access {
+  read_write,  ///< made if it is missing
+  read_only,   ///< also while another process writes to it
+  immutable,   ///< of a file that nobody writes to, in a folder in which nothing can be made; without its log
+};
+
 class Database {
  public:
   /// Throws StoreError.
-  explicit Database(const std::string& file);
+  explicit Database(const std::string& file, Access access = Access::read_write);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;

@@ -134,12 +134,15 @@ constexpr int schema_version = migrations.size();
 
 }  // namespace
 
+int current_schema_version() { return schema_version; }
+
+int schema_version_of(Database& db) {
+  Statement statement(db, "PRAGMA user_version");
+  return statement.step() ? static_cast<int>(statement.integer(0)) : 0;
+}
+
 Status bring_up_to_date(Database& db) {
-  int version = 0;
-  {
-    Statement statement(db, "PRAGMA user_version");
-    if (statement.step()) version = static_cast<int>(statement.integer(0));
-  }
+  const int version = schema_version_of(db);
   if (version > schema_version)
     return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
   if (version == schema_version) return Unit{};

@@ -10,6 +10,10 @@ namespace semblante::store {
 /// Migrates a file of any earlier version, or an empty one, to the tables of this version. Errors: `unsupported` when a
 /// later version wrote it.
 Status bring_up_to_date(Database& db);
+/// The version of the tables that this program makes.
+int current_schema_version();
+/// The version in the file; 0: it is empty.
+int schema_version_of(Database& db);
 /// Writes the schema version of this program into the file.
 void set_schema_version(Database& db);
 

@@ -19,6 +19,12 @@ class DiskFull : public StoreError {
   using StoreError::StoreError;
 };
 
+/// SQLite finds the database file damaged. It stays so until the file is restored.
+class DamagedDatabase : public StoreError {
+ public:
+  using StoreError::StoreError;
+};
+
 /// The disk has less free than a job needs for its files; small writes may succeed.
 class NotEnoughRoom : public DiskFull {
  public:
