@@ -48,9 +48,10 @@ struct Edited {
 struct Ledger {
   std::map<std::string, std::string> models;  ///< SHA-256 of the uploaded file by id
   std::set<std::string> removed_models, maybe_removed_models;
-  std::set<std::string> packaged;  ///< models whose parametrization was seen to be done
-  std::set<std::string> jobs;      ///< acknowledged, on models that stay
-  Edited points;                   ///< vertex of the point 2.1 of `edited_model`
+  std::set<std::string> packaged;     ///< models whose parametrization was seen to be done
+  std::set<std::string> jobs;         ///< acknowledged, on models that stay
+  std::set<std::string> extractions;  ///< acknowledged jobs whose sets were not removed
+  Edited points;                      ///< vertex of the point 2.1 of `edited_model`
   std::string edited_model;
   std::map<std::string, Edited> sets;  ///< y of the point 2.1
   std::set<std::string> removed_sets, maybe_removed_sets;
@@ -154,6 +155,45 @@ class Kills : public ::testing::Test {
     }
   }
 
+  /// Sets taken from an example: the uploaded files are blobs of the job until it ends.
+  void extract_sets() {
+    // The corner 8.3 of the mouth is moved: vertex 33, at 2 3 0.
+    auto smile = grid_obj(9);
+    smile.replace(smile.find("v 2 3 0\n"), 8, "v 3 2.5 0\n");
+    const std::string points =
+        R"({"points":{"2.1":{"vertex":13},"2.2":{"vertex":40},"8.3":{"vertex":33},"8.4":{"vertex":29},"9.15":{"vertex":58}}})";
+    const auto part = [](const std::string& name, const std::string& content) {
+      const bool is_file = name != "feature_points";
+      return "--border\r\nContent-Disposition: form-data; name=\"" + name + "\"" +
+             (is_file ? "; filename=\"" + name + ".obj\"" : "") + "\r\n\r\n" + content + "\r\n";
+    };
+    const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
+    while (!stop_) {
+      // Every upload has files of its own.
+      const auto remark = "# " + std::to_string(++extraction_) + "\n";
+      const auto reply = ask("POST", "/v1/expressions",
+                             part("neutral", remark + grid_obj(9)) + part("expression", remark + smile) +
+                                 part("feature_points", points) + "--border--\r\n",
+                             form_type);
+      if (reply.status != 202) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
+      const std::string job = json_of(reply)["id"];
+      ++tally_.jobs;
+      change([&](Ledger& l) { l.extractions.insert(job); });
+      auto now = json::object();
+      while (!stop_ && now.value("state", "") != "done") {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (const auto read = json_of(ask("GET", "/v1/jobs/" + job)); read.is_object()) now = read;
+      }
+      if (stop_) return;
+      // Removed again, so that their number stays below the limit of sets.
+      change([&](Ledger& l) { l.extractions.erase(job); });
+      ask("DELETE", now["result"]["href"]);
+    }
+  }
+
   void edit_sets() {
     for (int y = 1; !stop_; ++y) {
       const auto set = [&] { return json{{"name", "Set"}, {"displacements", {{"2.1", {0, y, 0}}}}}.dump(); };
@@ -225,6 +265,7 @@ class Kills : public ::testing::Test {
     threads.emplace_back([this] { edit_points(); });
     threads.emplace_back([this] { run_jobs(); });
     threads.emplace_back([this] { edit_sets(); });
+    threads.emplace_back([this] { extract_sets(); });
     threads.emplace_back([this] { record("one"); });
     threads.emplace_back([this] { record("two"); });
     std::this_thread::sleep_for(std::chrono::milliseconds(ms));
@@ -261,6 +302,16 @@ class Kills : public ::testing::Test {
       // Three kills during one job are a reason to give up.
       EXPECT_EQ(job["problem"]["type"], "/problems/worker-crashed") << "the acknowledged job is lost: " << job;
     }
+    ledger_.jobs.clear();
+    for (const auto& id : ledger_.extractions) {
+      const auto job = wait_for_job(port_, id);
+      if (job["state"] == "done") {
+        EXPECT_EQ(ask("GET", job["result"]["href"]).status, 200) << "the set of a job is lost";
+      } else {
+        EXPECT_EQ(job["problem"]["type"], "/problems/worker-crashed") << "the acknowledged job is lost: " << job;
+      }
+    }
+    ledger_.extractions.clear();
     for (const auto& [id, hash] : ledger_.models) {
       const auto target = "/v1/models/" + id;
       EXPECT_TRUE(testing::eventually([&] { return json_of(ask("GET", target)).value("state", "") != "importing"; }));
@@ -297,6 +348,7 @@ class Kills : public ::testing::Test {
     }
     for (const auto& id : ledger_.removed_models)
       EXPECT_EQ(ask("GET", "/v1/models/" + id).status, 404) << "a removed model is back";
+    ledger_.removed_models.clear();
     const auto points = json_of(ask("GET", "/v1/models/" + ledger_.edited_model + "/feature-points"));
     const int vertex = points["points"]["2.1"]["vertex"];
     EXPECT_TRUE(ledger_.points.may_be(vertex))
@@ -312,6 +364,7 @@ class Kills : public ::testing::Test {
       value = {y, y};
     }
     for (const auto& id : ledger_.removed_sets) EXPECT_EQ(ask("GET", "/v1/expressions/" + id).status, 404);
+    ledger_.removed_sets.clear();
   }
   void expect_recordings() {
     for (auto& [id, durable] : ledger_.durable_frames) {
@@ -332,6 +385,16 @@ class Kills : public ::testing::Test {
         EXPECT_EQ(list[i]["faps"]["3"].get<int>() - list[i - 1]["faps"]["3"].get<int>(), 4) << id << " at " << i;
     }
     for (const auto& id : ledger_.removed_recordings) EXPECT_EQ(ask("GET", "/v1/recordings/" + id).status, 404);
+    ledger_.removed_recordings.clear();
+    // The number of those that are looked at each time stays the same.
+    constexpr std::size_t most_kept = 30;
+    while (ledger_.durable_frames.size() > most_kept) {
+      const auto id = ledger_.durable_frames.begin()->first;
+      EXPECT_EQ(ask("DELETE", "/v1/recordings/" + id).status, 204);
+      ledger_.removed_recordings.insert(id);
+      ledger_.durable_frames.erase(id);
+      ledger_.stopped.erase(id);
+    }
   }
   /// Neither faults nor files that the database does not know: a start moves these into the trash. A job whose request
   /// was stored and not acknowledged may still run, and its files become known with its end.
@@ -374,11 +437,13 @@ class Kills : public ::testing::Test {
   std::mutex mutex_;
   Ledger ledger_;
   Tally tally_;
+  std::atomic<int> extraction_{0};
 };
 
 TEST_F(Kills, AtAnyMoment_LoseNothingThatWasAcknowledged) {
   const auto kills = number_from("SEMBLANTE_KILLS", 12);
   const auto begin = std::chrono::steady_clock::now();
+  unsigned long told = 0;
   auto server = std::make_unique<ServerProcess>(data());
   ledger_.edited_model = import_grid(server->port());
   ledger_.models[ledger_.edited_model] = sha256_hex(grid_obj(9));
@@ -394,6 +459,7 @@ TEST_F(Kills, AtAnyMoment_LoseNothingThatWasAcknowledged) {
     server = std::make_unique<ServerProcess>(data());
     expect_nothing_lost(*server);
     if (HasFailure()) return;
+    if (kill / 20 != told) std::cout << (told = kill / 20) * 20 << " kills" << std::endl;
   }
   const auto took = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin);
   std::cout << kills << " kills in " << took.count() << " s; acknowledged: " << tally_.uploads << " uploads, "
