@@ -1,0 +1,21 @@
+# Run by `cmake --install` with `templates` and `bindir`: the unit file, the service's account and its configuration.
+if(IS_ABSOLUTE "${bindir}")
+  set(program "${bindir}/semblante")
+else()
+  set(program "${CMAKE_INSTALL_PREFIX}/${bindir}/semblante")
+endif()
+# The configuration of programs in /usr is in /etc (GNU coding standards, FHS).
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(config "/etc/semblante/semblante.toml")
+else()
+  set(config "${CMAKE_INSTALL_PREFIX}/etc/semblante/semblante.toml")
+endif()
+
+set(root "$ENV{DESTDIR}")
+configure_file("${templates}/semblante.service.in" "${root}${CMAKE_INSTALL_PREFIX}/lib/systemd/system/semblante.service" @ONLY)
+configure_file("${templates}/sysusers.conf" "${root}${CMAKE_INSTALL_PREFIX}/lib/sysusers.d/semblante.conf" COPYONLY)
+if(EXISTS "${root}${config}")
+  message(STATUS "Kept: ${root}${config}")
+else()
+  configure_file("${templates}/semblante.toml" "${root}${config}" COPYONLY)
+endif()
