@@ -18,6 +18,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_parametrize_command(app);
   add_convert_command(app);
   add_deform_command(app);
+  add_doctor_command(app);
   add_examine_command(app);
   add_extract_command(app);
   add_play_command(app);
@@ -38,8 +39,8 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
         << "semblante: "
         << (has_command
                 ? fault.what()
-                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, serve, token, check, "
-                  "backup or restore (see semblante --help)")
+                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, serve, doctor, token, "
+                  "check, backup or restore (see semblante --help)")
         << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {

@@ -20,6 +20,7 @@
 #include "server/app/open_files.h"
 #include "server/app/periodic.h"
 #include "server/app/sample_installer.h"
+#include "server/app/service_manager.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
@@ -292,7 +293,9 @@ void run_serve(const ServeOptions& options) {
     tokens->load(**store);
     std::cout << std::flush;
   }
+  notify_service_manager("READY=1");
   server.run([&] {
+    notify_service_manager("STOPPING=1");
     (*recorder)->stop_all(recordings::ended::server_stopped);
     hub.close_all(EndReason::shutdown);
   });

@@ -1,17 +1,23 @@
+#include <iostream>
 #include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "server/app/commands.h"
+#include "server/app/installed_files.h"
+#include "server/app/option_sources.h"
 #include "server/app/serve.h"
+#include "server/app/serve_options.h"
 
 namespace semblante {
 
-void add_serve_command(CLI::App& app) {
-  const auto options = std::make_shared<ServeOptions>();
-  auto* command = app.add_subcommand(
-      "serve", "Serve the studio, the REST interface and the streams. Ctrl-C (SIGINT) or SIGTERM stops it cleanly.");
+void declare_serve_options(CLI::App& app, ServeOptions& declared) {
+  auto* const command = &app;
+  auto* const options = &declared;
+  const auto installed = installed_files();
+  options->web_root = installed.web_root;
+  options->sample = installed.sample;
   const auto add = [command](const std::string& name, auto& value, const std::string& help,
                              const std::string& variable) {
     return command->add_option(name, value, help)->envname("SEMBLANTE_" + variable)->capture_default_str();
@@ -45,7 +51,9 @@ void add_serve_command(CLI::App& app) {
           "and prints the address and its QR code")
       ->envname("SEMBLANTE_LAN");
   add("--data", options->data, "Folder for models, packages and facts; made if missing", "DATA");
-  add("--web-root", options->web_root, "Folder of the studio's built pages, served at /; none if left out", "WEB_ROOT");
+  add("--web-root", options->web_root,
+      "Folder of the studio's built pages, served at /; without it those of the installation, if there are; \"\": none",
+      "WEB_ROOT");
   add("--sample", options->sample,
       "Model file (with <name>.fps.json beside it) to be there as model `sample`, parametrized once in the background",
       "SAMPLE");
@@ -122,7 +130,21 @@ void add_serve_command(CLI::App& app) {
       "MAX_ADDRESS_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
   add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
-  command->callback([options] { run_serve(*options); });
+}
+
+void add_serve_command(CLI::App& app) {
+  const auto options = std::make_shared<ServeOptions>();
+  auto* command = app.add_subcommand(
+      "serve", "Serve the studio, the REST interface and the streams. Ctrl-C (SIGINT) or SIGTERM stops it cleanly.");
+  declare_serve_options(*command, *options);
+  const auto sources = OptionSources::declare(*command, true);
+  command->callback([options, sources] {
+    sources->apply_file();
+    if (sources->should_print())
+      sources->print(std::cout);
+    else
+      run_serve(*options);
+  });
 }
 
 }  // namespace semblante

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "server/app/commands.h"
+#include "server/app/installation_check.h"
+#include "server/app/option_sources.h"
+#include "server/app/serve_options.h"
+#include "server/cli/command_failure.h"
+
+namespace semblante {
+namespace {
+
+void append(Findings& findings, Findings more) {
+  findings.insert(findings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+void print(const Findings& findings) {
+  constexpr int level_width = 9;
+  constexpr int subject_width = 13;
+  for (const auto& finding : findings) {
+    const auto* const level = finding.level == Finding::Level::ok        ? "ok"
+                              : finding.level == Finding::Level::warning ? "warning"
+                                                                         : "error";
+    std::cout << std::left << std::setw(level_width) << level << std::setw(subject_width) << finding.subject
+              << finding.message << "\n";
+    if (!finding.remedy.empty())
+      std::cout << std::setw(level_width + subject_width) << ""
+                << "-> " << finding.remedy << "\n";
+  }
+}
+
+/// The option of `serve`, or one of the same name here while `serve` has none.
+CLI::Option* path_option(CLI::App& command, const std::string& name, const std::string& help) {
+  auto* const option = command.get_option_no_throw(name);
+  return option != nullptr ? option : command.add_option(name, help);
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app) {
+  const auto options = std::make_shared<ServeOptions>();
+  auto* command = app.add_subcommand(
+      "doctor",
+      "Tell what would keep `serve` with the same options from working on this machine, and what mends it. Exit status "
+      "1 if there is an error.");
+  declare_serve_options(*command, *options);
+  const auto* const certificate = path_option(*command, "--tls-cert", "Certificate to be checked, PEM");
+  const auto* const key = path_option(*command, "--tls-key", "Its private key, PEM");
+  const auto sources = OptionSources::declare(*command, false);
+  command->callback([=] {
+    sources->apply_file();
+    auto findings = check_installation(*options);
+    append(findings, check_sandbox());
+    if (certificate->count() > 0 && key->count() > 0)
+      append(findings, check_certificate(certificate->as<std::string>(), key->as<std::string>()));
+    else if (certificate->count() + key->count() > 0)
+      throw CommandFailure(CommandFailure::bad_input, "doctor: --tls-cert and --tls-key belong together");
+    print(findings);
+    const auto errors = std::count_if(findings.begin(), findings.end(),
+                                      [](const Finding& finding) { return finding.level == Finding::Level::error; });
+    if (errors > 0)
+      throw CommandFailure(CommandFailure::has_errors,
+                           "doctor: " + std::to_string(errors) + (errors == 1 ? " error" : " errors"));
+  });
+}
+
+}  // namespace semblante

@@ -1,0 +1,18 @@
+#include "server/app/installed_files.h"
+
+#include "server/jobs/worker_process.h"
+
+namespace semblante {
+
+InstalledFiles installed_files() {
+  const auto data =
+      (std::filesystem::path(jobs::own_executable()).parent_path() / SEMBLANTE_DATA_FROM_PROGRAM).lexically_normal();
+  InstalledFiles files;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(data / "web" / "index.html", error)) files.web_root = data / "web";
+  const auto sample = data / "sample" / "sample-head.glb";
+  if (std::filesystem::is_regular_file(sample, error)) files.sample = sample;
+  return files;
+}
+
+}  // namespace semblante
