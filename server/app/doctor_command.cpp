@@ -51,9 +51,9 @@ void add_doctor_command(CLI::App& app) {
   declare_serve_options(*command, *options);
   const auto* const certificate = path_option(*command, "--tls-cert", "Certificate to be checked, PEM");
   const auto* const key = path_option(*command, "--tls-key", "Its private key, PEM");
-  const auto sources = OptionSources::declare(*command, false);
+  const auto sources = OptionSources::declare(*command, OptionSources::Offers::config);
   command->callback([=] {
-    sources->apply_file();
+    sources->apply();
     auto findings = check_installation(*options);
     append(findings, check_sandbox());
     if (certificate->count() > 0 && key->count() > 0)

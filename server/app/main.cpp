@@ -21,6 +21,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_doctor_command(app);
   add_examine_command(app);
   add_extract_command(app);
+  add_health_command(app);
   add_play_command(app);
   add_propose_command(app);
   add_restore_command(app);

@@ -14,6 +14,21 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1024 * 1024;
 
+/// Help as CLI11 writes it, with the variables that were taken from it.
+class HelpWithVariables : public CLI::Formatter {
+ public:
+  explicit HelpWithVariables(const std::map<const CLI::Option*, std::string>& variables) : variables_(variables) {}
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const auto variable = variables_.find(option);
+    return CLI::Formatter::make_option_opts(option) +
+           (variable == variables_.end() ? "" : " (Env:" + variable->second + ")");
+  }
+
+ private:
+  const std::map<const CLI::Option*, std::string> variables_;
+};
+
 bool is_setting(const CLI::Option& option) {
   const auto name = option.get_single_name();
   return !option.get_lnames().empty() && name != "help" && name != "config" && name != "print-config";
@@ -21,16 +36,6 @@ bool is_setting(const CLI::Option& option) {
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 bool is_list(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
-
-/// "option", "environment VARIABLE" or "default". CLI11 does not tell the first two apart: a value that both give alike
-/// counts as the environment's.
-std::string source_without_file(const CLI::Option& option) {
-  if (option.count() == 0) return "default";
-  const auto variable = option.get_envname();
-  const char* value = variable.empty() ? nullptr : std::getenv(variable.c_str());
-  const bool same = value != nullptr && option.results() == CLI::results_t{value};
-  return same ? "environment " + variable : "option";
-}
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -66,17 +71,46 @@ std::string value_of(const CLI::Option& option) {
 
 }  // namespace
 
-std::shared_ptr<OptionSources> OptionSources::declare(CLI::App& command, bool prints) {
+std::shared_ptr<OptionSources> OptionSources::declare(CLI::App& command, Offers offers) {
   const std::shared_ptr<OptionSources> sources(new OptionSources(command));
-  command
-      .add_option("--config", sources->file_,
-                  "Configuration file (TOML): any of these options by its name without --, e.g. port = 8080; the "
-                  "command line and the environment have precedence")
-      ->envname("SEMBLANTE_CONFIG");
-  if (prints)
+  if (offers != Offers::environment)
+    command
+        .add_option("--config", sources->file_,
+                    "Configuration file (TOML): any of these options by its name without --, e.g. port = 8080; the "
+                    "command line and the environment have precedence")
+        ->envname("SEMBLANTE_CONFIG");
+  if (offers == Offers::config_and_printing)
     command.add_flag("--print-config", sources->print_,
                      "Print the effective value of each option with its source, as a configuration file, and end");
+  for (auto* const option : command.get_options()) {
+    const auto variable = option->get_envname();
+    if (variable.empty()) continue;
+    sources->variables_[option] = variable;
+    option->envname("");
+  }
+  command.formatter(std::make_shared<HelpWithVariables>(sources->variables_));
   return sources;
+}
+
+void OptionSources::apply() {
+  apply_environment();
+  apply_file();
+}
+
+void OptionSources::apply_environment() {
+  for (auto* const option : command_.get_options()) {
+    const auto variable = variables_.find(option);
+    const char* value = variable == variables_.end() ? nullptr : std::getenv(variable->second.c_str());
+    if (value == nullptr || *value == '\0' || option->count() > 0) continue;
+    try {
+      option->add_result(value);
+      option->run_callback();
+    } catch (const CLI::ParseError& fault) {
+      throw CommandFailure(CommandFailure::bad_input,
+                           command_.get_name() + ": " + variable->second + ": " + fault.what());
+    }
+    sources_[option] = "environment " + variable->second;
+  }
 }
 
 void OptionSources::apply_file() {
@@ -105,17 +139,15 @@ void OptionSources::apply_file() {
     } catch (const CLI::ParseError& fault) {
       refuse(line, fault.what());
     }
-    lines_[entry.key] = entry.line;
+    sources_[option] = file_.string() + ":" + line;
   }
 }
 
 void OptionSources::print(std::ostream& out) const {
   for (const CLI::Option* option : command_.get_options([](const CLI::Option* each) { return is_setting(*each); })) {
-    const auto name = option->get_single_name();
-    const auto line = lines_.find(name);
-    const auto source =
-        line == lines_.end() ? source_without_file(*option) : file_.string() + ":" + std::to_string(line->second);
-    out << name << " = " << value_of(*option) << "  # " << source << "\n";
+    const auto found = sources_.find(option);
+    const auto source = found != sources_.end() ? found->second : option->count() > 0 ? "option" : "default";
+    out << option->get_single_name() << " = " << value_of(*option) << "  # " << source << "\n";
   }
 }
 

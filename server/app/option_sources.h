@@ -8,7 +8,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace semblante {
 
@@ -16,13 +17,17 @@ namespace semblante {
 /// configuration file (`--config`) before the default.
 class OptionSources {
  public:
-  /// Declares `--config` and, if `prints`, `--print-config`. To be called after the other options are declared.
-  static std::shared_ptr<OptionSources> declare(CLI::App& command, bool prints);
+  /// What the subcommand has beside the environment.
+  enum class Offers { environment, config, config_and_printing };
 
-  /// Reads the configuration file and sets the options that neither the command line nor the environment gave. To be
-  /// called first in the subcommand's callback. Throws CommandFailure with file and line: a file that cannot be read,
-  /// an unknown key, a value that the option refuses.
-  void apply_file();
+  /// Declares `--config` and `--print-config`, if offered, and takes the environment variables of all options over
+  /// from CLI11, which does not tell what came from them. To be called after the other options are declared.
+  static std::shared_ptr<OptionSources> declare(CLI::App& command, Offers offers);
+
+  /// Sets the options that the command line did not give from the environment and the configuration file. To be called
+  /// first in the subcommand's callback. Throws CommandFailure with the variable, or file and line: a file that cannot
+  /// be read, an unknown key, a value that the option refuses.
+  void apply();
 
   [[nodiscard]] bool should_print() const { return print_; }
   /// The options with their values and sources, as a configuration file.
@@ -30,11 +35,14 @@ class OptionSources {
 
  private:
   explicit OptionSources(CLI::App& command) : command_(command) {}
+  void apply_environment();
+  void apply_file();
 
   CLI::App& command_;
   std::filesystem::path file_;
   bool print_ = false;
-  std::map<std::string, unsigned> lines_;  ///< of the options that the file has set
+  std::map<const CLI::Option*, std::string> variables_;
+  std::map<const CLI::Option*, std::string> sources_;  ///< of options set by neither command line nor default
 };
 
 }  // namespace semblante

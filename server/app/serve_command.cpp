@@ -137,9 +137,9 @@ void add_serve_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "serve", "Serve the studio, the REST interface and the streams. Ctrl-C (SIGINT) or SIGTERM stops it cleanly.");
   declare_serve_options(*command, *options);
-  const auto sources = OptionSources::declare(*command, true);
+  const auto sources = OptionSources::declare(*command, OptionSources::Offers::config_and_printing);
   command->callback([options, sources] {
-    sources->apply_file();
+    sources->apply();
     if (sources->should_print())
       sources->print(std::cout);
     else

@@ -43,6 +43,18 @@ class Configuration(unittest.TestCase):
         self.assertEqual(values["max-models"], ("6", f"{self.file}:4"))
         self.assertEqual(values["max-streams"], ("256", "default"))
 
+    def test_environment_alike_the_option_and_with_a_unit(self):
+        values = self.print_config("", "--port", "5", SEMBLANTE_PORT=5, SEMBLANTE_WORKER_MEMORY="2GB", SEMBLANTE_DEMO=1, SEMBLANTE_DATA="")
+        self.assertEqual(values["port"], ("5", "option"))
+        self.assertEqual(values["worker-memory"], (str(2 << 30), "environment SEMBLANTE_WORKER_MEMORY"))
+        self.assertEqual(values["demo"], ("true", "environment SEMBLANTE_DEMO"))
+        self.assertEqual(values["data"], ('"data"', "default"), "an empty variable is none")
+
+    def test_a_variable_that_is_refused(self):
+        result = run(PROGRAM, "serve", "--print-config", environment=clean_environment(SEMBLANTE_PORT="x"))
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertTrue(result.stderr.startswith("semblante: serve: SEMBLANTE_PORT: "), result.stderr)
+
     def test_file_named_by_the_environment(self):
         self.file.write_text("port = 5\n", encoding="utf-8")
         result = run(PROGRAM, "serve", "--print-config", environment=clean_environment(SEMBLANTE_CONFIG=self.file))
@@ -68,6 +80,8 @@ class Configuration(unittest.TestCase):
         self.assertEqual({key: value for key, (value, _) in printed(first).items()}, {key: value for key, (value, _) in second.items()})
 
     def test_every_option_of_the_help_is_printed(self):
+        self.assertNotIn(None, [re.search(r"\(Env:SEMBLANTE_[A-Z_]+\)", line) for line in run(PROGRAM, "serve", "--help").stdout.splitlines()
+                                if line.startswith("  --") and not line.startswith("  --print-config")])
         options = set(re.findall(r"^  --([a-z-]+)", run(PROGRAM, "serve", "--help").stdout, re.MULTILINE))
         self.assertEqual(set(self.print_config("")), options - {"config", "print-config"})
 
