@@ -153,7 +153,7 @@ class Proxies(unittest.TestCase):
         with self.serve() as server:
             text = (PROXY / "Caddyfile").read_text()
             text = replaced(text, "127.0.0.1:8080", f"127.0.0.1:{server.port}")
-            text = replaced(text, "\nfaces.example {\n", f"\nfaces.example {{\n\tbind 127.0.0.1\n\ttls {self.certificate} {self.key}\n")
+            text = replaced(text, "\n{$SEMBLANTE_SITE:faces.example} {\n", f"\n{{$SEMBLANTE_SITE:faces.example}} {{\n\tbind 127.0.0.1\n\ttls {self.certificate} {self.key}\n")
             config = self.folder / "Caddyfile"
             config.write_text(f"{{\n\tadmin off\n\thttp_port {self.http}\n\thttps_port {self.https}\n}}\n" + text)
             self.run_proxy("caddy", "run", "--adapter", "caddyfile", "--config", config)
