@@ -245,6 +245,8 @@ void refuse_foreign_recording(Context& context, const http::Request& request, st
 
 std::optional<http::Response> redirect_to_https(const Security& security, const http::Request& head) {
   if (!security.https_port || asking_of(head).from.secure) return std::nullopt;
+  // What watches the server asks from this machine, without a certificate.
+  if (const auto asked = handler_of(head); asked == get_health || asked == get_ready) return std::nullopt;
   std::string host(head.header("Host").value_or("localhost"));
   // Access has checked that it is a host with an optional port.
   const auto end = host.find(':', host.starts_with('[') ? std::min(host.find(']'), host.size()) : 0);

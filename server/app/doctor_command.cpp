@@ -34,12 +34,6 @@ void print(const Findings& findings) {
   }
 }
 
-/// The option of `serve`, or one of the same name here while `serve` has none.
-CLI::Option* path_option(CLI::App& command, const std::string& name, const std::string& help) {
-  auto* const option = command.get_option_no_throw(name);
-  return option != nullptr ? option : command.add_option(name, help);
-}
-
 }  // namespace
 
 void add_doctor_command(CLI::App& app) {
@@ -49,17 +43,14 @@ void add_doctor_command(CLI::App& app) {
       "Tell what would keep `serve` with the same options from working on this machine, and what mends it. Exit status "
       "1 if there is an error.");
   declare_serve_options(*command, *options);
-  const auto* const certificate = path_option(*command, "--tls-cert", "Certificate to be checked, PEM");
-  const auto* const key = path_option(*command, "--tls-key", "Its private key, PEM");
   const auto sources = OptionSources::declare(*command, OptionSources::Offers::config);
   command->callback([=] {
     sources->apply();
     auto findings = check_installation(*options);
     append(findings, check_sandbox());
-    if (certificate->count() > 0 && key->count() > 0)
-      append(findings, check_certificate(certificate->as<std::string>(), key->as<std::string>()));
-    else if (certificate->count() + key->count() > 0)
-      throw CommandFailure(CommandFailure::bad_input, "doctor: --tls-cert and --tls-key belong together");
+    const auto& listening = options->listening;
+    if (!listening.certificate.empty() && !listening.key.empty())
+      append(findings, check_certificate(listening.certificate, listening.key));
     print(findings);
     const auto errors = std::count_if(findings.begin(), findings.end(),
                                       [](const Finding& finding) { return finding.level == Finding::Level::error; });

@@ -1,25 +1,7 @@
 #include "server/app/installation_check.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <cstring>
-#include <ctime>
-#include <fcntl.h>
-#include <fstream>
-#include <iterator>
-#include <string_view>
-#include <unistd.h>
-
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/file.h>
-#include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/statvfs.h>
-#include <sys/timex.h>
-
+#include "server/app/listening.h"
+#include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
 #include "server/store/disk_space.h"
 
@@ -120,39 +102,44 @@ bool check_data_folder(Findings& findings, const ServeOptions& options) {
   return locked;
 }
 
-void check_address(Findings& findings, const ServeOptions& options, bool server_runs) {
-  const auto where = options.address + " port " + std::to_string(options.port);
+void check_address(Findings& findings, const net::Listener& listener, bool server_runs) {
+  const auto where = listener.address + " port " + std::to_string(listener.port);
   sockaddr_storage storage{};
   auto& four = reinterpret_cast<sockaddr_in&>(storage);
   auto& six = reinterpret_cast<sockaddr_in6&>(storage);
-  const std::string address = options.address == "localhost" ? "127.0.0.1" : options.address;
   socklen_t length = 0;
-  if (::inet_pton(AF_INET, address.c_str(), &four.sin_addr) == 1) {
+  if (::inet_pton(AF_INET, listener.address.c_str(), &four.sin_addr) == 1) {
     four.sin_family = AF_INET;
-    four.sin_port = htons(options.port);
+    four.sin_port = htons(listener.port);
     length = sizeof four;
-  } else if (::inet_pton(AF_INET6, address.c_str(), &six.sin6_addr) == 1) {
+  } else if (::inet_pton(AF_INET6, listener.address.c_str(), &six.sin6_addr) == 1) {
     six.sin6_family = AF_INET6;
-    six.sin6_port = htons(options.port);
+    six.sin6_port = htons(listener.port);
     length = sizeof six;
-  } else {
-    findings.push_back({Level::error, "address", options.address + " is not an IP address", "Correct --address."});
-    return;
   }
-  const int listener = ::socket(storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int tried = ::socket(storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
-  ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (::bind(listener, reinterpret_cast<const sockaddr*>(&storage), length) == 0 && ::listen(listener, 1) == 0)
+  ::setsockopt(tried, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (::bind(tried, reinterpret_cast<const sockaddr*>(&storage), length) == 0 && ::listen(tried, 1) == 0)
     findings.push_back({Level::ok, "address", where + " is free", ""});
   else if (errno == EADDRINUSE && server_runs)
     findings.push_back({Level::ok, "address", where + " is in use, as it is while the server runs", ""});
   else
     findings.push_back({Level::error, "address", where + ": " + reason(),
-                        errno == EADDRINUSE ? "Stop what listens there (ss -ltnp shows it), or choose another --port."
+                        errno == EADDRINUSE ? "Stop what listens there (ss -ltnp shows it), or choose another port."
                         : errno == EACCES   ? "Ports below 1024 need CAP_NET_BIND_SERVICE (the unit file has it ready "
-                                              "as a comment), or a proxy in front; or choose another --port."
-                                            : "Choose an --address of this machine."});
-  ::close(listener);
+                                              "as a comment), or a proxy in front; or choose another port."
+                                            : "Choose an address of this machine."});
+  ::close(tried);
+}
+
+void check_addresses(Findings& findings, const ServeOptions& options, bool server_runs) {
+  try {
+    for (const auto& listener : check_listening(options.listening, options.data).listeners)
+      check_address(findings, listener, server_runs);
+  } catch (const CommandFailure& refused) {
+    findings.push_back({Level::error, "address", refused.what(), ""});
+  }
 }
 
 std::string read_text(const fs::path& file) {
@@ -266,7 +253,7 @@ void check_clock(Findings& findings, const ServeOptions& options) {
 Findings check_installation(const ServeOptions& options) {
   Findings findings;
   const bool server_runs = check_data_folder(findings, options);
-  check_address(findings, options, server_runs);
+  check_addresses(findings, options, server_runs);
   check_studio(findings, options);
   check_sample(findings, options);
   check_worker(findings, options);

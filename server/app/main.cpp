@@ -36,13 +36,12 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
     return app.exit(help);
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
-    std::cerr
-        << "semblante: "
-        << (has_command
-                ? fault.what()
-                : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, serve, doctor, token, "
-                  "check, backup or restore (see semblante --help)")
-        << "\n";
+    std::cerr << "semblante: "
+              << (has_command ? fault.what()
+                              : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, "
+                                "serve, doctor, token, "
+                                "check, backup or restore (see semblante --help)")
+              << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {
     std::cerr << "semblante: " << fault.what() << "\n";

@@ -114,8 +114,7 @@ http::Response unreadable(const http::Response& response, const BodyFile& file) 
   return instead;
 }
 
-asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, int file,
-                                 const SharedState& state) {
+asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, int file, const SharedState& state) {
   std::vector<char> piece(std::min<std::uint64_t>(sent_piece_bytes, body.length));
   std::uint64_t sent = 0;
   while (sent < body.length) {
