@@ -128,6 +128,8 @@ class Kills : public ::testing::Test {
       auto body = json::parse(grid_points());
       body["points"]["2.1"]["vertex"] = vertex;
       const auto reply = ask("PUT", "/v1/models/" + id + "/feature-points", body.dump());
+      // Not answered: the server may have stored it before it was killed, so nothing else is asked for.
+      if (reply.status == 0) return;
       if (reply.status != 200) continue;
       ++tally_.edits;
       change([&](Ledger& l) { l.points.acknowledged = vertex; });
