@@ -13,7 +13,7 @@
 namespace semblante {
 namespace {
 
-using Level = Finding::Level;
+using Level = InstallationFinding::Level;
 
 struct Free {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -30,7 +30,7 @@ int days_until(const ASN1_TIME* time) {
   return seconds < 0 ? days - 1 : days;
 }
 
-File open_file(Findings& findings, const std::filesystem::path& path) {
+File open_file(InstallationFindings& findings, const std::filesystem::path& path) {
   File file(std::fopen(path.c_str(), "re"));
   if (!file)
     findings.push_back({Level::error, "TLS", path.string() + " cannot be read: " + std::strerror(errno),
@@ -43,9 +43,10 @@ int no_password(char* /*buffer*/, int /*size*/, int /*for_writing*/, void* /*con
 
 }  // namespace
 
-Findings check_certificate(const std::filesystem::path& certificate_path, const std::filesystem::path& key_path) {
+InstallationFindings check_certificate(const std::filesystem::path& certificate_path,
+                                       const std::filesystem::path& key_path) {
   constexpr int soon = 14;
-  Findings findings;
+  InstallationFindings findings;
   const auto certificate_file = open_file(findings, certificate_path);
   const auto key_file = open_file(findings, key_path);
   if (!certificate_file || !key_file) return findings;

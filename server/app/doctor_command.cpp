@@ -15,17 +15,17 @@
 namespace semblante {
 namespace {
 
-void append(Findings& findings, Findings more) {
+void append(InstallationFindings& findings, InstallationFindings more) {
   findings.insert(findings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-void print(const Findings& findings) {
+void print(const InstallationFindings& findings) {
   constexpr int level_width = 9;
   constexpr int subject_width = 13;
   for (const auto& finding : findings) {
-    const auto* const level = finding.level == Finding::Level::ok        ? "ok"
-                              : finding.level == Finding::Level::warning ? "warning"
-                                                                         : "error";
+    const auto* const level = finding.level == InstallationFinding::Level::ok        ? "ok"
+                              : finding.level == InstallationFinding::Level::warning ? "warning"
+                                                                                     : "error";
     std::cout << std::left << std::setw(level_width) << level << std::setw(subject_width) << finding.subject
               << finding.message << "\n";
     if (!finding.remedy.empty())
@@ -52,8 +52,9 @@ void add_doctor_command(CLI::App& app) {
     if (!listening.certificate.empty() && !listening.key.empty())
       append(findings, check_certificate(listening.certificate, listening.key));
     print(findings);
-    const auto errors = std::count_if(findings.begin(), findings.end(),
-                                      [](const Finding& finding) { return finding.level == Finding::Level::error; });
+    const auto errors = std::count_if(findings.begin(), findings.end(), [](const InstallationFinding& finding) {
+      return finding.level == InstallationFinding::Level::error;
+    });
     if (errors > 0)
       throw CommandFailure(CommandFailure::has_errors,
                            "doctor: " + std::to_string(errors) + (errors == 1 ? " error" : " errors"));

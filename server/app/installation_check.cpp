@@ -1,5 +1,25 @@
 #include "server/app/installation_check.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <sys/timex.h>
+
 #include "server/app/listening.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
@@ -9,7 +29,7 @@ namespace semblante {
 namespace {
 
 namespace fs = std::filesystem;
-using Level = Finding::Level;
+using Level = InstallationFinding::Level;
 
 constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20U;
 constexpr std::uint64_t least_free = 512 * mebibyte;  ///< below this, one upload of the largest size may not fit
@@ -40,7 +60,7 @@ bool can_write(const fs::path& folder) {
   return written;
 }
 
-void check_space(Findings& findings, const fs::path& folder, std::uint64_t reserve) {
+void check_space(InstallationFindings& findings, const fs::path& folder, std::uint64_t reserve) {
   const auto free = store::free_bytes(folder);
   const auto least = std::max(least_free, reserve);
   if (free < least)
@@ -64,7 +84,7 @@ bool is_locked(const fs::path& data) {
   return locked;
 }
 
-void check_owner(Findings& findings, const fs::path& data) {
+void check_owner(InstallationFindings& findings, const fs::path& data) {
   struct stat state {};
   if (::stat(data.c_str(), &state) != 0) return;
   const auto account = ::geteuid();
@@ -78,7 +98,7 @@ void check_owner(Findings& findings, const fs::path& data) {
                         "chmod 700 " + data.string()});
 }
 
-bool check_data_folder(Findings& findings, const ServeOptions& options) {
+bool check_data_folder(InstallationFindings& findings, const ServeOptions& options) {
   std::error_code error;
   const auto exists = fs::exists(options.data, error);
   const auto folder = nearest_existing(options.data);
@@ -102,7 +122,7 @@ bool check_data_folder(Findings& findings, const ServeOptions& options) {
   return locked;
 }
 
-void check_address(Findings& findings, const net::Listener& listener, bool server_runs) {
+void check_address(InstallationFindings& findings, const net::Listener& listener, bool server_runs) {
   const auto where = listener.address + " port " + std::to_string(listener.port);
   sockaddr_storage storage{};
   auto& four = reinterpret_cast<sockaddr_in&>(storage);
@@ -133,7 +153,7 @@ void check_address(Findings& findings, const net::Listener& listener, bool serve
   ::close(tried);
 }
 
-void check_addresses(Findings& findings, const ServeOptions& options, bool server_runs) {
+void check_addresses(InstallationFindings& findings, const ServeOptions& options, bool server_runs) {
   try {
     for (const auto& listener : check_listening(options.listening, options.data).listeners)
       check_address(findings, listener, server_runs);
@@ -159,7 +179,7 @@ std::vector<std::string> files_of_studio(const std::string& page) {
   return names;
 }
 
-void check_studio(Findings& findings, const ServeOptions& options) {
+void check_studio(InstallationFindings& findings, const ServeOptions& options) {
   if (options.web_root.empty()) {
     findings.push_back({Level::warning, "studio", "no web root: the server has no pages, only its interface",
                         "Name the folder of the built pages with --web-root."});
@@ -183,7 +203,7 @@ void check_studio(Findings& findings, const ServeOptions& options) {
                       "with --web-root."});
 }
 
-void check_sample(Findings& findings, const ServeOptions& options) {
+void check_sample(InstallationFindings& findings, const ServeOptions& options) {
   if (options.sample.empty()) return;
   for (const auto& file : {options.sample, fs::path(options.sample).replace_extension(".fps.json")})
     if (::access(file.c_str(), R_OK) != 0) {
@@ -195,7 +215,7 @@ void check_sample(Findings& findings, const ServeOptions& options) {
 }
 
 /// A worker that gets no job reports on its standard output that it cannot read its request, and ends with status 2.
-void check_worker(Findings& findings, const ServeOptions& options) {
+void check_worker(InstallationFindings& findings, const ServeOptions& options) {
   std::string answer;
   const auto exit = jobs::run_worker_process(
       {jobs::own_executable(), "worker", "--memory", std::to_string(options.worker_memory), "--cpu-seconds",
@@ -211,7 +231,7 @@ void check_worker(Findings& findings, const ServeOptions& options) {
        "Look for limits of processes or memory (ulimit -a, TasksMax, MemoryMax), raise --worker-memory."});
 }
 
-void check_limits(Findings& findings, const ServeOptions& options) {
+void check_limits(InstallationFindings& findings, const ServeOptions& options) {
   constexpr rlim_t reserved = 512;  // as in open_files.cpp
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
@@ -223,7 +243,7 @@ void check_limits(Findings& findings, const ServeOptions& options) {
     findings.push_back({Level::ok, "open files", text, ""});
 }
 
-void check_clock(Findings& findings, const ServeOptions& options) {
+void check_clock(InstallationFindings& findings, const ServeOptions& options) {
   using Clock = std::chrono::system_clock;
   constexpr std::time_t made_after = 1'735'689'600;  // 2025-01-01
   constexpr std::chrono::seconds tolerance{60};
@@ -250,8 +270,8 @@ void check_clock(Findings& findings, const ServeOptions& options) {
 
 }  // namespace
 
-Findings check_installation(const ServeOptions& options) {
-  Findings findings;
+InstallationFindings check_installation(const ServeOptions& options) {
+  InstallationFindings findings;
   const bool server_runs = check_data_folder(findings, options);
   check_addresses(findings, options, server_runs);
   check_studio(findings, options);

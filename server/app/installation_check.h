@@ -9,22 +9,22 @@
 namespace semblante {
 
 /// One fact about an installation. `remedy`: what mends it; empty when nothing has to be done.
-struct Finding {
+struct InstallationFinding {
   enum class Level { ok, warning, error } level = Level::ok;
   std::string subject;  ///< one or two words
   std::string message;
   std::string remedy;
 };
-using Findings = std::vector<Finding>;
+using InstallationFindings = std::vector<InstallationFinding>;
 
 /// Whether a server with these options would work here: the data folder, the address, the studio, the sample head, the
 /// worker process, limits and clock of this machine. Changes nothing (a file in the data folder is made and removed).
-Findings check_installation(const ServeOptions& options);
+InstallationFindings check_installation(const ServeOptions& options);
 
 /// What this kernel offers for shutting workers in: seccomp, Landlock, user namespaces.
-Findings check_sandbox();
+InstallationFindings check_sandbox();
 
 /// PEM files of TLS, as the server would read them: readable, belonging together, valid now and for 14 days.
-Findings check_certificate(const std::filesystem::path& certificate, const std::filesystem::path& key);
+InstallationFindings check_certificate(const std::filesystem::path& certificate, const std::filesystem::path& key);
 
 }  // namespace semblante

@@ -15,7 +15,7 @@
 namespace semblante {
 namespace {
 
-using Level = Finding::Level;
+using Level = InstallationFinding::Level;
 
 /// The version of Landlock's interface; 0 without Landlock. The call's number is the same on all architectures.
 long landlock_version() {
@@ -35,8 +35,8 @@ bool may_make_namespaces() {
 
 }  // namespace
 
-Findings check_sandbox() {
-  Findings findings;
+InstallationFindings check_sandbox() {
+  InstallationFindings findings;
   std::string actions;
   std::getline(std::ifstream("/proc/sys/kernel/seccomp/actions_avail"), actions);
   const bool has_filters = ::prctl(PR_GET_SECCOMP) >= 0 && actions.find("kill_process") != std::string::npos;
