@@ -247,7 +247,11 @@ void run_serve(const ServeOptions& options) {
   api_config.security.rates = std::make_shared<access::ClientRates>(options.client_limits);
   const auto tokens = api_config.security.tokens;
   tokens->load(**store);
-  if (listening.asks_for_tokens && tokens->empty() && !options.lan)
+  // Behind a proxy, in a container above all, the first token is made while the server runs.
+  if (listening.asks_for_tokens && tokens->empty() && !listening.proxies.empty())
+    log::warning("the server asks for tokens, and there is none: semblante token create --data " +
+                 options.data.string() + " --scope admin");
+  else if (listening.asks_for_tokens && tokens->empty() && !options.lan)
     fail_input(
         "nobody could use this server: it asks for tokens, and there is none. Make one:\n  semblante token create "
         "--data " +

@@ -257,8 +257,8 @@ TEST(Hub, Streams_OpenOnceAndEndOnce) {
   const auto epoch = hub.info("a")->epoch;
   EXPECT_TRUE(hub.publish("a", {frame_with(1)}));
   EXPECT_FALSE(hub.publish("b", {frame_with(1)}));
-  EXPECT_EQ(std::get<Refusal>(hub.connect("b", "")), Refusal::no_such_stream);
-  const auto peer = std::get<std::shared_ptr<http::WebSocketPeer>>(hub.connect("a", ""));
+  EXPECT_EQ(std::get<Refusal>(hub.connect("b", "", {})), Refusal::no_such_stream);
+  const auto peer = std::get<std::shared_ptr<http::WebSocketPeer>>(hub.connect("a", "", {}));
   EXPECT_TRUE(hub.close("a", EndReason::deleted));
   EXPECT_FALSE(hub.close("a", EndReason::deleted));
   EXPECT_EQ(hub.counts().frames, 1U) << "what was counted stays counted";
