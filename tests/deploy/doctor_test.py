@@ -139,7 +139,9 @@ class Doctor(unittest.TestCase):
         self.assertEqual(self.tls(key, key)[0], ("error", f"{key} is no certificate in PEM form"))
         self.assertEqual(self.tls(certificate, certificate)[0][0], "error")
         self.assertEqual(self.tls(self.folder / "none", key)[0][0], "error")
-        self.assertEqual(run(PROGRAM, "doctor", "--tls-cert", certificate).returncode, 2)
+        alone = run(PROGRAM, "doctor", "--tls-cert", certificate)
+        self.assertEqual(alone.returncode, 1)
+        self.assertIn("--tls-cert and --tls-key are given together", alone.stdout)
 
     def test_expired_certificate(self):
         certificate, key = self.certificate("old", 100)

@@ -115,7 +115,8 @@ class Metrics(unittest.TestCase):
         shown = {name for expression in board_expressions() for name, _, _ in references(expression)}
         families = {re.sub(r"_(bucket|sum|count)$", "", name) for name in self.samples} - set(OF_PROMETHEUS)
         hidden = {"process_virtual_memory_bytes", "semblante_stream_batches_total", "semblante_stream_messages_sent_total",
-                  "semblante_stream_encode_seconds_total", "semblante_stream_connections_refused_total", "semblante_trash_files"}
+                  "semblante_stream_encode_seconds_total", "semblante_stream_connections_refused_total", "semblante_trash_files",
+                  "semblante_worker_isolation"}
         self.assertEqual(families - {re.sub(r"_bucket$", "", name) for name in shown}, hidden)
 
     @unittest.skipUnless(shutil.which("promtool"), "not installed: promtool (Debian's package prometheus)")

@@ -16,7 +16,7 @@ LICENCE = re.compile(r"[A-Za-z0-9.-]+( (WITH|OR|AND) [A-Za-z0-9.-]+)*")
 INCLUDED = {"boost/": "libboost", "nlohmann/": "nlohmann-json3-dev", "glm/": "libglm-dev", "CLI/": "libcli11-dev", "tiny_gltf.h": "libtinygltf-dev",
             "stb/": "libstb-dev", "openssl/": "libssl", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
             "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh"}
-SYSTEM = re.compile(r"(sys|netinet|arpa|linux|asm)/|[a-z0-9_]+(\.h)?$")
+SYSTEM = re.compile(r"(sys|net|netinet|arpa|linux|asm)/|[a-z0-9_]+(\.h)?$")
 
 
 class Sbom(unittest.TestCase):

@@ -72,6 +72,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   const auto set = json_of(request(port(), "POST", "/v1/expressions", by_hand, json_type));
   std::map<std::string, std::string> good = {{"{model}", model}, {"{job}", job["id"]},    {"{stream}", "walk"},
                                              {"{sha256}", hash}, {"{slug}", "not-found"}, {"{expression}", set["id"]}};
+  good["{token}"] = json_of(request(port(), "POST", "/v1/tokens", R"({"scope":"read"})", json_type))["token"]["id"];
   // A recording of another stream, with a frame in it.
   request(port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type);
   good["{recording}"] = json_of(request(port(), "POST", "/v1/streams/kept/recordings"))["id"];
@@ -85,6 +86,9 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   short_fap += "\n0 200\n";
   const std::map<std::string, Body> bodies = {
       {"post /v1/models", {grid_obj(5), "model/obj"}},
+      {"post /v1/session", {R"({"token":"any"})", "application/json"}},
+      {"post /v1/tickets", {R"({"path":"/v1/models"})", "application/json"}},
+      {"post /v1/tokens", {R"({"scope":"read"})", "application/json"}},
       {"patch /v1/models/{model}", {R"({"name":"Renamed"})", "application/json"}},
       {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
       {"post /v1/expressions", {by_hand, "application/json"}},

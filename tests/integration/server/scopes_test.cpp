@@ -74,7 +74,8 @@ struct Operation {
 
 std::vector<Operation> operations(const std::string& document) {
   std::vector<Operation> list;
-  for (const auto& [path, item] : json::parse(document)["paths"].items()) {
+  const auto parsed = json::parse(document);
+  for (const auto& [path, item] : parsed["paths"].items()) {
     auto target = path;
     // Things that do not exist: the answer is about the token first.
     for (auto at = target.find('{'); at != std::string::npos; at = target.find('{'))

@@ -22,8 +22,8 @@ TEST(StreamSettings, WhatIsAbsent_HasItsDefault) {
 }
 
 TEST(StreamSettings, EverySettingIsRead) {
-  const Json json = {{"id", "talk"},         {"title", "Talk"},      {"model", "head"},
-                     {"viseme_share", 0.25}, {"batch_interval", 40}, {"quantizer_scale", 0.125}};
+  const Json json = {{"id", "talk"},         {"title", "Talk"},          {"model", "head"},  {"viseme_share", 0.25},
+                     {"batch_interval", 40}, {"quantizer_scale", 0.125}, {"is_public", true}};
   const auto settings = read_stream_settings(json, "other");
   ASSERT_TRUE(settings) << settings.error().message;
   const StreamSettings defaults;

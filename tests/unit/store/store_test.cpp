@@ -427,6 +427,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
   EXPECT_EQ(
       sqlite3_exec(database,
+                   "DROP TABLE tokens; ALTER TABLE streams DROP COLUMN is_public; "
                    "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                    "ALTER TABLE packages DROP COLUMN levels; "
                    "DROP INDEX jobs_by_model; ALTER TABLE jobs DROP COLUMN kind; ALTER TABLE jobs DROP COLUMN request; "

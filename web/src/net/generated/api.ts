@@ -3439,6 +3439,11 @@ export interface operations {
         };
         requestBody: {
             content: {
+                /**
+                 * @example {
+                 *       "token": "smb_k3f2a7q5m6yd_Zt0x4cRkGvYq8nLwS1uBhP9dXe7mAj2oTf5iKs3QrVE"
+                 *     }
+                 */
                 "application/json": {
                     token: string;
                 };
@@ -3481,6 +3486,7 @@ export interface operations {
                 };
                 content?: never;
             };
+            403: components["responses"]["Problem"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3558,7 +3564,6 @@ export interface operations {
                  * @example {
                  *       "name": "stage",
                  *       "scope": "publish",
-                 *       "stream": "demo",
                  *       "expires_in": 86400
                  *     }
                  */
