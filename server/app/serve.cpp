@@ -73,12 +73,14 @@ Result<std::unique_ptr<store::Store>> open_store(const std::filesystem::path& fi
   }
 }
 
-/// Throws StoreError unless a change can be made durable and some disk space is free: the store alone may have space
-/// left in its own files.
+/// Throws StoreError unless a change can be made durable, and some disk space and some files are free: the store alone
+/// may have space left in its own files.
 void check_writable(store::DatabaseFacts& store, const std::filesystem::path& data) {
   constexpr std::uint64_t least_free = std::uint64_t{1} << 20U;
   store.check_writable();
+  constexpr std::uint64_t least_files = 16;  // of a job: its folder and what it makes
   if (store::free_bytes(data) < least_free) throw store::DiskFull("less than 1 MiB is free in " + data.string());
+  if (store::free_files(data) < least_files) throw store::DiskFull("no more files can be made in " + data.string());
 }
 
 /// On a full disk the folders are made later, when there is space.

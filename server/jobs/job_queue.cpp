@@ -276,6 +276,9 @@ void JobQueue::write_next(const JobRecord& next, std::uint64_t room_needed) {
     for (const auto& hash : finish_without_outcome(next, stores_.jobs)) blobs_.remove(hash);
     return;
   }
+  constexpr std::uint64_t files_needed = 64;  // its folder, and what it makes
+  if (room_needed > 0 && store::free_files(blobs_.temporary()) < files_needed)
+    throw store::NotEnoughRoom("job " + next.id + " needs about " + std::to_string(files_needed) + " files");
   if (store::free_bytes(blobs_.temporary()) < room_needed)
     throw store::NotEnoughRoom("job " + next.id + " needs about " + std::to_string(room_needed) + " bytes");
   stores_.jobs.update_job(next);

@@ -16,6 +16,12 @@ std::uint64_t free_bytes(const std::filesystem::path& folder) {
   return static_cast<std::uint64_t>(facts.f_bavail) * facts.f_frsize;
 }
 
+std::uint64_t free_files(const std::filesystem::path& folder) {
+  struct statvfs facts {};
+  if (::statvfs(folder.c_str(), &facts) != 0 || facts.f_files == 0) return UINT64_MAX;
+  return facts.f_favail;
+}
+
 DiskReserve::DiskReserve(std::filesystem::path file, std::uint64_t bytes) : file_(std::move(file)), bytes_(bytes) {}
 
 bool DiskReserve::is_full() const {

@@ -9,6 +9,9 @@ namespace semblante::store {
 /// Bytes that this process may still write on the disk of `folder`; the largest number when the system does not tell.
 std::uint64_t free_bytes(const std::filesystem::path& folder);
 
+/// Files that this process may still make there; the largest number when the system does not tell, or sets no limit.
+std::uint64_t free_files(const std::filesystem::path& folder);
+
 /// A file without content that reserves disk space. Released when the disk is full, so that a removal (which must write
 /// before it frees anything) and the end of a job or a recording can still be committed. Any thread.
 class DiskReserve {

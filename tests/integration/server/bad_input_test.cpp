@@ -142,7 +142,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 13U);
+  EXPECT_EQ(sent, 16U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

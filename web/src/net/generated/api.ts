@@ -3450,11 +3450,9 @@ export interface operations {
             };
         };
         responses: {
-            /** @description What the token allows; the cookie is set */
+            /** @description What the token allows. A server that asks for tokens sets the cookie: HttpOnly, SameSite=Strict, and Secure with TLS */
             200: {
                 headers: {
-                    /** @description HttpOnly, SameSite=Strict, and Secure with TLS */
-                    "Set-Cookie"?: string;
                     [name: string]: unknown;
                 };
                 content: {
