@@ -144,7 +144,7 @@ std::string qr_code(std::string_view text) {
   const std::unique_ptr<QRcode, Freed<QRcode_free>> code(
       QRcode_encodeString8bit(std::string(text).c_str(), 0, QR_ECLEVEL_L));
   if (!code) return {};
-  constexpr int margin = 2;
+  constexpr int margin = 4;  // as the standard asks
   const auto dark = [&](int row, int column) {
     if (row < 0 || column < 0 || row >= code->width || column >= code->width) return false;
     return (code->data[row * code->width + column] & 1U) != 0;
