@@ -40,10 +40,10 @@ import { Toasts } from './ui/shared/toast.ts';
 const demo = { id: 'demo', title: 'Demo' };
 
 /** Composes the page; the only module that knows all others. */
-function main(root: HTMLElement, session: Session | null): void {
+function main(root: HTMLElement, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
   const api = new Api();
-  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), themeButton());
+  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);
@@ -139,13 +139,18 @@ function showSelected(studio: Studio, points: PointsModel, scene: SceneView): vo
 }
 
 const root = document.querySelector<HTMLElement>('#studio');
-if (root) letIn('', root).then((session) => main(root, session)).catch((error: unknown) => {
-  root.replaceChildren(
-    h(
-      'div',
-      { class: 'no-stage', role: 'alert' },
-      h('h1', {}, 'Semblante'),
-      h('p', {}, error instanceof Error ? error.message : String(error)),
-    ),
-  );
-});
+if (root) {
+  const theme = themeButton(); // the sign-in has its colours too
+  letIn('', root)
+    .then((session) => main(root, session, theme))
+    .catch((error: unknown) => {
+      root.replaceChildren(
+        h(
+          'div',
+          { class: 'no-stage', role: 'alert' },
+          h('h1', {}, 'Semblante'),
+          h('p', {}, error instanceof Error ? error.message : String(error)),
+        ),
+      );
+    });
+}

@@ -30,7 +30,7 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
 export function signOutButton(base: string, session: Session | null): HTMLElement | null {
   if (!session?.asks_for_tokens) return null;
   const leave = () => void signOut(base).finally(() => location.reload());
-  return h('button', { type: 'button', class: 'quiet', on: { click: leave } }, 'Sign out');
+  return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, 'Sign out');
 }
 
 function askForToken(base: string, root: HTMLElement, reason: string): Promise<Session> {
