@@ -6,6 +6,7 @@
 #include "server/api/access.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
+#include "server/api/routes.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
 
