@@ -13,7 +13,6 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -24,6 +23,7 @@
 #include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
 #include "server/store/disk_space.h"
+#include "server/upkeep/data_lock.h"
 
 namespace semblante {
 namespace {
@@ -75,15 +75,6 @@ void check_space(InstallationFindings& findings, const fs::path& folder, std::ui
                         "Remove files of this file system: it has few inodes left."});
 }
 
-/// Whether a running server holds the folder's lock.
-bool is_locked(const fs::path& data) {
-  const int file = ::open((data / "lock").c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(file);
-  return locked;
-}
-
 void check_owner(InstallationFindings& findings, const fs::path& data) {
   struct stat state {};
   if (::stat(data.c_str(), &state) != 0) return;
@@ -106,7 +97,7 @@ bool check_data_folder(InstallationFindings& findings, const ServeOptions& optio
     findings.push_back({Level::error, "data folder", folder.string() + " is no folder", "Choose another with --data."});
     return false;
   }
-  const bool locked = exists && is_locked(folder);
+  const bool locked = exists && upkeep::is_server_running(folder);
   if (!can_write(folder))
     findings.push_back({Level::error, "data folder", folder.string() + " cannot be written: " + reason(),
                         "Give it to the account of the server (chown), mount it for writing, or choose another with "

@@ -9,7 +9,6 @@
 #include <thread>
 #include <unistd.h>
 
-#include <sys/file.h>
 #include <sys/stat.h>
 
 #include "server/access/new_token.h"
@@ -28,6 +27,7 @@
 #include "server/net/server.h"
 #include "server/store/sqlite_store.h"
 #include "server/store/trash_purger.h"
+#include "server/upkeep/data_lock.h"
 
 namespace semblante {
 namespace {
@@ -39,15 +39,15 @@ constexpr std::chrono::seconds lock_patience{5};
   throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
 }
 
-/// Refuses a second server on one data folder, because they would undo each other's changes. The lock is held until the
-/// process ends. Retries for a short time: a worker just started by a killed server holds the lock until the kernel has
-/// killed it.
-void lock_data(const std::filesystem::path& data) {
-  const auto file = data / "lock";
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0) fail_input("--data: " + data.string() + " cannot be written: " + std::strerror(errno));
+/// Refuses a second server on one data folder, because they would undo each other's changes. Retries for a short time:
+/// a worker just started by a killed server holds the lock until the kernel has killed it.
+std::unique_ptr<upkeep::DataLock> lock_data(const std::filesystem::path& data) {
   const auto deadline = std::chrono::steady_clock::now() + lock_patience;
-  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+  while (true) {
+    auto lock = upkeep::DataLock::take(data);
+    if (lock) return std::move(*lock);
+    if (lock.error().code == ErrorCode::io)
+      fail_input("--data: " + data.string() + " cannot be written: " + lock.error().message);
     if (std::chrono::steady_clock::now() > deadline)
       fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -195,7 +195,7 @@ void run_serve(const ServeOptions& options) {
   const auto listening = check_listening(listen_options, options.data);
   auto hosts = options.allowed_hosts;
   add_own_names(hosts, listen_options, listening);
-  lock_data(options.data);
+  const auto lock = lock_data(options.data);
 
   auto blobs = store::BlobStore::open(options.data);
   if (!blobs) fail("serve: --data", blobs.error());

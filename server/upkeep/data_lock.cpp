@@ -1,20 +1,26 @@
 #include "server/upkeep/data_lock.h"
 
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
 #include <sys/file.h>
 
 namespace semblante::upkeep {
 namespace {
 
-constexpr const char* lock_name = "lock";  // as server/app/serve.cpp names it
+constexpr const char* lock_name = "lock";
 
 }  // namespace
 
 DataLock::DataLock(const std::filesystem::path& file) : file_(file, O_RDWR | O_CREAT) {}
 
-std::unique_ptr<DataLock> DataLock::take(const std::filesystem::path& data) {
+Result<std::unique_ptr<DataLock>> DataLock::take(const std::filesystem::path& data) {
   std::unique_ptr<DataLock> lock(new DataLock(data / lock_name));
-  if (!lock->file_.ok() || ::flock(lock->file_.get(), LOCK_EX | LOCK_NB) != 0) return nullptr;
-  return lock;
+  if (!lock->file_.ok()) return Error{ErrorCode::io, "", std::strerror(errno)};
+  if (::flock(lock->file_.get(), LOCK_EX | LOCK_NB) != 0)
+    return Error{ErrorCode::mismatch, "", "another process holds the lock"};
+  return Result<std::unique_ptr<DataLock>>(std::move(lock));
 }
 
 bool is_server_running(const std::filesystem::path& data) {

@@ -3,15 +3,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/types/result.h"
 #include "server/store/descriptor.h"
 
 namespace semblante::upkeep {
 
-/// The lock of a data folder, which a running server holds. Released by the destructor.
+/// Holds the lock of a data folder. A server holds it while it runs. The destructor releases it.
 class DataLock {
  public:
-  /// nullptr when a server holds it, or the folder cannot be written.
-  static std::unique_ptr<DataLock> take(const std::filesystem::path& data);
+  /// Errors: `io` (the folder cannot be written), `mismatch` (another process holds the lock).
+  static Result<std::unique_ptr<DataLock>> take(const std::filesystem::path& data);
 
  private:
   explicit DataLock(const std::filesystem::path& file);
