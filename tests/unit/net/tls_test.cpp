@@ -11,9 +11,9 @@
 #include <openssl/tls1.h>
 #include <sys/socket.h>
 
+#include "server/net/self_signed.h"
 #include "server/net/server.h"
 #include "server/net/tls_context.h"
-#include "tests/support/certificate.h"
 #include "tests/support/tls_client.h"
 #include "tests/support/wait.h"
 #include "tests/unit/net/echo_application.h"
@@ -45,12 +45,19 @@ std::string text_frame(std::string_view payload) {
   return bytes.append(4, '\0').append(payload);
 }
 
+/// A self-signed certificate of this common name, for localhost.
+TlsFiles certificate_in(const std::filesystem::path& folder, const std::string& common_name) {
+  const TlsFiles files{folder / "certificate.pem", folder / "key.pem"};
+  EXPECT_TRUE(write_self_signed(files, common_name, {"localhost", "127.0.0.1"}, std::chrono::hours(1)));
+  return files;
+}
+
 class TlsTest : public ::testing::Test {
  protected:
   TlsTest() {
     std::signal(SIGPIPE, SIG_IGN);
     std::filesystem::create_directories(folder_);
-    files_ = semblante::testing::make_certificate(folder_, "first");
+    files_ = certificate_in(folder_, "first");
     ServerConfig config;
     config.listeners = {{"127.0.0.1", 0, true}, {"127.0.0.1", 0, false}};
     config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace =
@@ -59,7 +66,7 @@ class TlsTest : public ::testing::Test {
     const auto ports = server_->listen().value();
     port_ = ports[0];
     plain_port_ = ports[1];
-    server_->set_tls(TlsContext::load({files_.certificate, files_.key}).value());
+    server_->set_tls(TlsContext::load(files_).value());
     thread_ = std::thread([this] { server_->run([] {}); });
   }
   ~TlsTest() override {
@@ -71,7 +78,7 @@ class TlsTest : public ::testing::Test {
 
   const std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("semblante-tls-" + std::to_string(::getpid()));
-  semblante::testing::CertificateFiles files_;
+  TlsFiles files_;
   EchoApplication application_;
   std::unique_ptr<Server> server_;
   std::uint16_t port_ = 0, plain_port_ = 0;
@@ -155,8 +162,8 @@ TEST_F(TlsTest, NewCertificate_IsForNewConnections_AndNoneIsLost) {
   EXPECT_EQ(old.certificate_name(), "first");
   ASSERT_TRUE(old.send(upgrading));
   EXPECT_TRUE(old.read_head().starts_with("HTTP/1.1 101 "));
-  files_ = semblante::testing::make_certificate(folder_, "second");
-  server_->set_tls(TlsContext::load({files_.certificate, files_.key}).value());
+  files_ = certificate_in(folder_, "second");
+  server_->set_tls(TlsContext::load(files_).value());
   EXPECT_EQ(TlsClient(port_).certificate_name(), "second");
   ASSERT_TRUE(old.send(text_frame("still")));
   EXPECT_EQ(old.read(7), "\x81\x05still");
@@ -181,8 +188,8 @@ TEST(TlsFiles, ThatCannotBeUsed_AreNamed) {
   const auto folder = std::filesystem::temp_directory_path() / ("semblante-tls-files-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder / "a");
   std::filesystem::create_directories(folder / "b");
-  const auto a = semblante::testing::make_certificate(folder / "a", "a");
-  const auto b = semblante::testing::make_certificate(folder / "b", "b");
+  const auto a = certificate_in(folder / "a", "a");
+  const auto b = certificate_in(folder / "b", "b");
   const auto missing = TlsContext::load({folder / "none.pem", a.key});
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().where, "--tls-cert");
