@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <arpa/inet.h>
+#include "server/http/address_range.h"
 
 namespace semblante::api {
 namespace {
@@ -29,10 +29,7 @@ std::optional<std::string> host_of(std::string_view authority) {
 }
 
 bool is_loopback(const std::string& host) {
-  in_addr four{};
-  in6_addr six{};
-  if (inet_pton(AF_INET, host.c_str(), &four) == 1) return (ntohl(four.s_addr) >> 24U) == 127U;
-  if (inet_pton(AF_INET6, host.c_str(), &six) == 1) return IN6_IS_ADDR_LOOPBACK(&six);
+  if (const auto address = http::parse_address(host)) return http::is_loopback(*address);
   return http::equal_ignoring_case(host, "localhost");
 }
 

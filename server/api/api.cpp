@@ -114,9 +114,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
   const auto& security = context_.config.security;
   if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
     return to_response(*problem);
-  if (auto elsewhere = api::redirect_to_https(security, head)) return std::move(*elsewhere);
-  if (auto refusal = refuse_bypass(security, head)) return std::move(*refusal);
-  if (auto refusal = refuse_rate(security, head)) return std::move(*refusal);
+  if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (head.route == page_kind()) return http::BodyPlan{};
   if (head.allow.empty()) return to_response(make_problem("not-found", "there is no route " + head.path));
   if (head.method == "OPTIONS") {
@@ -186,9 +184,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   if (route == nullptr || route->handler != get_stream)
     return to_response(make_problem("not-found", head.path + " is no stream"));
   const auto& security = context_.config.security;
-  if (auto elsewhere = api::redirect_to_https(security, head)) return std::move(*elsewhere);
-  if (auto refusal = refuse_bypass(security, head)) return std::move(*refusal);
-  if (auto refusal = refuse_rate(security, head)) return std::move(*refusal);
+  if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
   const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");

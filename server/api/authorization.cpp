@@ -154,19 +154,23 @@ std::string in_words(const Rights& rights) {
 
 Asking ask(const Security& security, const http::Request& head, bool is_upgrade) {
   Asking asking{access::requester_of(head, security.proxies), {}, {}};
-  if (!security.asks_for_tokens) {
-    asking.rights.scope = Scope::admin;
-    return asking;
-  }
   const auto ticket = head.query_value("ticket");
-  if (ticket && (is_upgrade || only_reads(head, is_upgrade))) {
+  if (security.asks_for_tokens && ticket && (is_upgrade || only_reads(head, is_upgrade))) {
     if (auto rights = security.tickets->redeem(*ticket, head.path))
       asking.rights = std::move(*rights);
     else
       asking.refused = Verdict::unknown;
     return asking;
   }
-  const auto token = token_of(head, is_upgrade);
+  return ask_with(security, std::move(asking.from), token_of(head, is_upgrade));
+}
+
+Asking ask_with(const Security& security, access::Requester from, std::string_view token) {
+  Asking asking{std::move(from), {}, {}};
+  if (!security.asks_for_tokens) {
+    asking.rights.scope = Scope::admin;
+    return asking;
+  }
   if (token.empty()) return asking;
   const auto network = network_of(asking.from.address);
   if (!security.rates->may_try(network)) {
@@ -242,6 +246,12 @@ void refuse_foreign_recording(Context& context, const http::Request& request, st
   if (!rights.limited()) return;
   const auto recording = context.store.recording(id);
   if (rights.stream.empty() || !recording || recording->stream != rights.stream) refuse_other(rights);
+}
+
+std::optional<http::Response> refuse_entry(const Security& security, const http::Request& head) {
+  if (auto elsewhere = redirect_to_https(security, head)) return elsewhere;
+  if (auto refusal = refuse_bypass(security, head)) return refusal;
+  return refuse_rate(security, head);
 }
 
 std::optional<http::Response> redirect_to_https(const Security& security, const http::Request& head) {

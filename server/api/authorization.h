@@ -24,6 +24,8 @@ struct Asking {
 
 /// What find_route() finds out: address, and the rights of the token, ticket or cookie. Uses a ticket up.
 Asking ask(const Security& security, const http::Request& head, bool is_upgrade);
+/// The same for a token that a body carries.
+Asking ask_with(const Security& security, access::Requester from, std::string_view token);
 /// The Asking in a request; one without rights when there is none.
 const Asking& asking_of(const http::Request& request);
 
@@ -41,6 +43,10 @@ std::optional<http::Response> refuse_access(const Security& security, streams::S
 void refuse_foreign_resource(Context& context, const http::Request& request);
 /// The same for a recording that a body names.
 void refuse_foreign_recording(Context& context, const http::Request& request, std::string_view id);
+
+/// The answer to a request that does not get in, whatever it asks for: it is redirected to https, or refused by
+/// refuse_bypass() or refuse_rate(). nullopt when it may go on.
+std::optional<http::Response> refuse_entry(const Security& security, const http::Request& head);
 
 /// The redirection to https; nullopt when the request has come by TLS, or no such port is open.
 std::optional<http::Response> redirect_to_https(const Security& security, const http::Request& head);

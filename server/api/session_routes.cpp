@@ -43,14 +43,7 @@ http::Response create_session(Context& context, http::Request& request) {
   if (!body.contains("token")) refuse("invalid-field", "it is required", "/token");
   const auto token = checked_text(body["token"], max_token_bytes, "/token");
   const auto& security = context.config.security;
-  // As if the request had carried it: with the same limits of wrong tokens.
-  http::Request with_token;
-  with_token.method = request.method;
-  with_token.peer = request.peer;
-  for (const auto* name : {"X-Forwarded-For", "X-Forwarded-Proto"})
-    if (const auto value = request.header(name)) with_token.headers[name] = std::string(*value);
-  with_token.headers["Authorization"] = "Bearer " + token;
-  const auto asking = ask(security, with_token, false);
+  const auto asking = ask_with(security, asking_of(request).from, token);
   if (asking.refused == access::Verdict::busy)
     refuse_for_now("too many tokens that are not accepted were sent; wait before the next", retry_after_tickets);
   if (asking.refused == access::Verdict::expired) refuse("unauthorized", "the token has expired", "/token");
