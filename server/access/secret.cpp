@@ -20,7 +20,7 @@ constexpr std::size_t secret_bytes = 32;
 constexpr std::size_t secret_characters = 43;
 constexpr std::size_t longest_id = 32;
 
-// A secret has 256 random bits, so guessing it is hopeless even with a fast hash: these parameters only have to make a
+// A secret has 256 random bits and cannot be guessed even if the hash is fast. These parameters only have to make a
 // stolen database useless for precomputed tables, and to cost little at the first use of a token (1 MiB, about 2 ms).
 constexpr std::string_view method = "scrypt$1024$8$1$";
 constexpr std::uint64_t scrypt_n = 1024, scrypt_r = 8, scrypt_p = 1, scrypt_memory = 8U << 20U;

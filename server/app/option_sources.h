@@ -42,7 +42,8 @@ class OptionSources {
   std::filesystem::path file_;
   bool print_ = false;
   std::map<const CLI::Option*, std::string> variables_;
-  std::map<const CLI::Option*, std::string> sources_;  ///< of options set by neither command line nor default
+  std::map<const CLI::Option*, std::string> sources_;  ///< by option: the source of a value from the file or
+                                                       ///< the environment; other options are not in it
 };
 
 }  // namespace semblante

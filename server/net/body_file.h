@@ -20,8 +20,9 @@ class BodyFile {
 
   /// -1 if it is not open.
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  /// Why it is not open: there are as many as the limit, or errno of open().
+  /// True if the file was not opened because the limit of open files is reached.
   [[nodiscard]] bool is_over_limit() const { return !is_counted_; }
+  /// errno of open(); 0 if that was not called.
   [[nodiscard]] int error() const { return error_; }
 
  private:

@@ -8,9 +8,9 @@
 
 namespace semblante::upkeep {
 
-/// Copies the bytes that a file has now, over an earlier copy, and returns their hash and number. Not durable before
-/// sync_file_system(). Errors: missing, io (`from` cannot be read; message without the path). Throws store::StoreError
-/// when `to` cannot be written.
+/// Copies the bytes that a file has now, over an earlier copy, and returns their hash and number. The copy is durable
+/// after sync_file_system(). Errors: `missing`, `io` (`from` cannot be read; the message does not contain the path).
+/// Throws store::StoreError when `to` cannot be written.
 Result<store::Blob> copy_bytes(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Makes everything on the file system of this folder durable. Throws store::StoreError.

@@ -334,7 +334,7 @@ class Kills : public ::testing::Test {
       const auto model = json_of(reply);
       EXPECT_EQ(model["source"]["sha256"], hash);
       const std::string state = model["state"];
-      // Three kills during one import are a reason to give up.
+      // The server gives an import up when it was killed during three attempts.
       if (state == "failed") {
         EXPECT_EQ(model["problem"]["type"], "/problems/worker-crashed") << model["problem"];
       } else {

@@ -60,9 +60,9 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 /// One request on a connection of its own, written by hand: the tests must not share the server's library.
 Reply request(int port, const std::string& method, const std::string& target, const std::string& body = {},
               const Fields& fields = {});
-/// Sends these bytes and reads until the server closes, or the time is over. Fails the test when the answer is not one
-/// that server/api/openapi.json describes (tests/support/api_exchange.h), or contains the path of a TemporaryFolder;
-/// request() and WebSocket do as well.
+/// Sends these bytes and reads until the server closes, or the time is over. Fails the test when
+/// server/api/openapi.json does not describe the answer (tests/support/api_exchange.h), or when the answer contains the
+/// path of a TemporaryFolder. request() and WebSocket check the same.
 std::string raw_exchange(int port, std::string_view bytes, std::chrono::milliseconds limit = testing::patience);
 Reply parse_reply(const std::string& text);
 

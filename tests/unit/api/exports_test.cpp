@@ -1,4 +1,4 @@
-// Exports of recordings: how many at a time, and the room that they leave on the disk.
+// Exports of recordings: the number that runs at the same time, and the disk space that they leave free.
 #include <cstdlib>
 #include <fstream>
 #include <limits>

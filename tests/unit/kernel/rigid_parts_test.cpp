@@ -1,4 +1,4 @@
-// Vertices of head, eyes, lids, pupils and tongue, against cases computed by hand.
+// The kernel moves vertices of head, eyes, lids, pupils and tongue as computed by hand.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -53,7 +53,7 @@ TEST(Kernel_Eyes, AreThrustForwardAsAWhole_ThenTurnWithTheHead) {
   frame.fap[27] = 1.5F;  // 1.5 * ES = 3 forward
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 1), {3, 0, 4});
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 2), {3, 0, 1});
-  frame.fap[49] = quarter_turn;  // head last: (3, 0, 4) -> (4, 0, -3)
+  frame.fap[49] = quarter_turn;  // the head turns after the eyes: (3, 0, 4) -> (4, 0, -3)
   expect_near(one_vertex(rig, frame, {3, 0, 1}, 1), {4, 0, -3});
 }
 
@@ -91,7 +91,7 @@ TEST(Kernel_Lids, SlideRoundTheEye_ToTheHeightOfEq7_AndMeet) {
                 1e-5F);
   }
   frame.fap[19] = 6.0F;
-  frame.fap[21] = 6.0F;  // both three quarters: they meet half way and do not cross
+  frame.fap[21] = 6.0F;  // each lid closes by three quarters: they meet half way and do not cross
   expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 1.0), 1e-5F);
   expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, 1.0), 1e-5F);
 }
