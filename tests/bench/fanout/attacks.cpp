@@ -6,8 +6,6 @@
 #include <random>
 #include <thread>
 
-#include <sys/socket.h>
-
 #include "protocol/cpp/messages.h"
 #include "tests/bench/fanout/subscriber_pool.h"
 #include "tests/bench/fanout/websocket_wire.h"
@@ -28,15 +26,13 @@ class Wrongdoer {
   explicit Wrongdoer(Socket socket) : socket_(std::move(socket)) {}
 
   void say(std::string_view bytes) {
-    if (!ended_ && ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) < 0 &&
-        errno != EAGAIN)
-      listen();
+    if (!ended_ && socket_.send(bytes) < 0 && errno != EAGAIN) listen();
   }
   /// Reads what there is.
   void listen() {
     char buffer[16 * 1024];
     while (!ended_) {
-      const ssize_t size = recv(socket_.get(), buffer, sizeof buffer, MSG_DONTWAIT);
+      const ssize_t size = socket_.receive(buffer, sizeof buffer);
       if (size < 0 && errno == EAGAIN) break;
       if (size <= 0)
         ended_ = true;

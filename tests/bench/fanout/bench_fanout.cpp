@@ -58,10 +58,12 @@ int main(int count, char** words) {
   app.add_option("--minutes", minutes, "The same in minutes")->check(CLI::Range(0.01, 1'440.0));
   app.add_option("--repetitions", options.repetitions, "Rounds of the comparison")->check(CLI::Range(1, 100));
   app.add_option("--stalled", options.stalled, "Share of readers that stop reading")->check(CLI::Range(0.0, 0.5));
-  app.add_option("--servers", options.servers, "Which to compare: semblante, epoll, beast, ws")
+  app.add_option("--servers", options.servers, "Which to compare: " + CLI::detail::join(options.servers, ", "))
       ->delimiter(',')
-      ->check(CLI::IsMember({"semblante", "epoll", "beast", "ws"}));
-  app.add_option("--url", options.url, "A server that runs already, http://127.0.0.1:PORT, in place of one of our own");
+      ->check(CLI::IsMember(options.servers));
+  app.add_flag("--tls", options.tls, "The server listens with TLS, in the other modes");
+  app.add_option("--url", options.url,
+                 "A server that runs already, http://127.0.0.1:PORT or https, in place of one of our own");
   app.add_option("--pid", options.pid, "Its process, for processor time and memory");
   app.add_option("--program", options.program, "The semblante to start; else the one beside this program");
   app.add_flag("--smoke", options.smoke, "Short and small, to see that it works: judges no time");

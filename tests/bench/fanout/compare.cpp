@@ -58,9 +58,10 @@ double messages_per_second(const Options& options) {
   return std::min(options.feed.messages_per_second, 1000.0 / options.batch_ms);
 }
 
-std::optional<Run> run_one(const std::string& name, const Options& options, std::size_t bytes) {
+std::optional<Run> run_one(const std::string& name, Options options, std::size_t bytes) {
   const double rate = messages_per_second(options);
-  if (name == "semblante") {
+  options.tls = name.ends_with("-tls");
+  if (name.starts_with("semblante")) {
     SemblanteServer server(options);
     FedStream stream(server, options, options.seconds + 600.0);
     SubscriberPool pool(server.endpoint(), stream.path, stream.timeline);

@@ -6,18 +6,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fcntl.h>
 #include <unistd.h>
-#include <utility>
 
 #include <arpa/inet.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 
 namespace semblante::bench {
 namespace {
 
-constexpr timeval socket_timeout{120, 0};
 /// Of the 28 thousand ports a source address has, so many are used, which leaves room for those in TIME_WAIT.
 constexpr std::size_t connections_per_source = 12'000;
 
@@ -43,54 +41,36 @@ std::string Endpoint::authority() const {
 }
 
 Endpoint parse_endpoint(std::string_view text) {
-  constexpr std::string_view scheme = "http://";
-  const auto at = text.find(scheme);
-  const auto rest = at == std::string_view::npos ? std::string_view() : text.substr(at + scheme.size());
+  constexpr std::string_view after_scheme = "://";
+  const auto at = text.find(after_scheme);
+  const auto scheme = text.substr(0, at == std::string_view::npos ? 0 : at);
+  const auto rest = scheme.empty() ? std::string_view() : text.substr(at + after_scheme.size());
   const auto colon = rest.find(':');
   Endpoint endpoint;
+  endpoint.tls = scheme.ends_with("https");
   endpoint.address.sin_family = AF_INET;
   std::uint16_t port = 0;
-  if (colon == std::string_view::npos ||
+  if (colon == std::string_view::npos || !(endpoint.tls || scheme.ends_with("http")) ||
       std::from_chars(rest.data() + colon + 1, rest.data() + rest.size(), port).ec != std::errc() ||
       inet_pton(AF_INET, std::string(rest.substr(0, colon)).c_str(), &endpoint.address.sin_addr) != 1)
-    give_up("wanted http://127.0.0.1:PORT, not \"" + std::string(text) + "\"");
+    give_up("wanted http://127.0.0.1:PORT or https, not \"" + std::string(text) + "\"");
   if ((ntohl(endpoint.address.sin_addr.s_addr) >> 24U) != 127U)
     give_up("this program stays on loopback (127.0.0.0/8): " + std::string(text));
   endpoint.address.sin_port = htons(port);
   return endpoint;
 }
 
-Socket& Socket::operator=(Socket&& other) noexcept {
-  if (this != &other) {
-    close();
-    descriptor_ = other.release();
-  }
-  return *this;
-}
-
-int Socket::release() { return std::exchange(descriptor_, -1); }
-
-void Socket::close() {
-  if (descriptor_ >= 0) ::close(release());
-}
-
-void Socket::reset() {
-  if (descriptor_ < 0) return;
-  const linger now{1, 0};
-  setsockopt(descriptor_, SOL_SOCKET, SO_LINGER, &now, sizeof now);
-  close();
-}
-
 Socket connect_to(const Endpoint& endpoint, int receive_buffer) {
   Socket socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   const int on = 1;
   setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &socket_timeout, sizeof socket_timeout);
-  setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &socket_timeout, sizeof socket_timeout);
   if (receive_buffer > 0) setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
   sockaddr_in address = endpoint.address;
   if (connect(socket.get(), plain(address), sizeof address) != 0)
     give_up("cannot connect to " + endpoint.authority() + ": " + std::strerror(errno));
+  fcntl(socket.get(), F_SETFL, O_NONBLOCK);
+  if (endpoint.tls) socket.use_tls();
+  if (!socket.handshake_in_time()) give_up("the handshake of TLS with " + endpoint.authority() + " failed");
   return socket;
 }
 
@@ -109,20 +89,12 @@ Socket begin_connect(const Endpoint& endpoint, std::size_t number) {
   sockaddr_in address = endpoint.address;
   if (connect(socket.get(), plain(address), sizeof address) != 0 && errno != EINPROGRESS)
     give_up("cannot connect to " + endpoint.authority() + ": " + std::strerror(errno));
+  if (endpoint.tls) socket.use_tls();
   return socket;
 }
 
-bool try_send(const Socket& socket, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t sent = ::send(socket.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(sent));
-  }
-  return true;
-}
-
 void send_all(const Socket& socket, std::string_view bytes) {
-  if (!try_send(socket, bytes)) give_up(std::string("send: ") + std::strerror(errno));
+  if (!socket.send_all_in_time(bytes)) give_up(std::string("send: ") + std::strerror(errno));
 }
 
 Reply request(const Endpoint& endpoint, std::string_view method, std::string_view path, std::string_view body) {
@@ -135,7 +107,7 @@ Reply request(const Endpoint& endpoint, std::string_view method, std::string_vie
   send_all(socket, head);
   std::string text;
   char buffer[16 * 1024];
-  for (ssize_t size = 0; (size = recv(socket.get(), buffer, sizeof buffer, 0)) > 0;)
+  for (ssize_t size = 0; (size = socket.receive_in_time(buffer, sizeof buffer)) > 0;)
     text.append(buffer, static_cast<std::size_t>(size));
   Reply reply;
   if (text.size() > 12) std::from_chars(text.data() + 9, text.data() + 12, reply.status);

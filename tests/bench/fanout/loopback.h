@@ -6,45 +6,27 @@
 
 #include <netinet/in.h>
 
+#include "tests/bench/fanout/socket.h"
+
 namespace semblante::bench {
 
 /// Where a server listens. Loopback only: this program makes thousands of connections, which is nobody else's to bear.
 struct Endpoint {
   sockaddr_in address{};
+  bool tls = false;
   [[nodiscard]] std::string authority() const;  ///< "127.0.0.1:8080"
 };
 
-/// "http://127.0.0.1:8080", also as a part of a longer line. Ends the program for what is not in 127.0.0.0/8.
+/// "http://127.0.0.1:8080" or https, also as a part of a longer line. Ends the program for what is not in 127.0.0.0/8.
 Endpoint parse_endpoint(std::string_view text);
 
-/// A descriptor that closes itself.
-class Socket {
- public:
-  Socket() = default;
-  explicit Socket(int descriptor) : descriptor_(descriptor) {}
-  ~Socket() { close(); }
-  Socket(Socket&& other) noexcept : descriptor_(other.release()) {}
-  Socket& operator=(Socket&& other) noexcept;
-
-  [[nodiscard]] int get() const { return descriptor_; }
-  [[nodiscard]] bool open() const { return descriptor_ >= 0; }
-  int release();
-  void close();
-  /// Without a farewell: no port stays in TIME_WAIT.
-  void reset();
-
- private:
-  int descriptor_ = -1;
-};
-
-/// A blocking connection with a limit of time on each call; ends the program when there is none. `receive_buffer`:
-/// bytes the kernel may hold for a reader that does not read; 0: as the system has it.
+/// A connection, its handshake of TLS done; ends the program when there is none. `receive_buffer`: bytes the kernel may
+/// hold for a reader that does not read; 0: as the system has it.
 Socket connect_to(const Endpoint& endpoint, int receive_buffer = 0);
-/// A connection that comes about in the background. `number` chooses the source address, so that ports do not run out.
+/// A connection that comes about in the background; with TLS its handshake follows. `number` chooses the source
+/// address, so that ports do not run out.
 Socket begin_connect(const Endpoint& endpoint, std::size_t number);
-/// All of it, or false when the far side is gone or takes no more.
-[[nodiscard]] bool try_send(const Socket& socket, std::string_view bytes);
-/// Ends the program when it cannot.
+/// Ends the program when the far side is gone or takes no more.
 void send_all(const Socket& socket, std::string_view bytes);
 
 struct Reply {

@@ -16,10 +16,11 @@ struct Options {
   double seconds = 0.0;  ///< of each measurement; 0: as the mode has it
   int repetitions = 3;
   double stalled = 0.01;
-  std::vector<std::string> servers = {"semblante", "epoll", "beast", "ws"};
+  std::vector<std::string> servers = {"semblante", "semblante-tls", "epoll", "epoll-tls", "beast", "ws"};
   std::string url;      ///< a server that runs already; empty: one of our own
   pid_t pid = 0;        ///< of that
   std::string program;  ///< semblante; empty: the one beside the bench
+  bool tls = false;     ///< a server of our own listens with TLS
   bool smoke = false;   ///< correctness only: no judgement of any time
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include <sys/socket.h>
-
 #include "protocol/cpp/frame_codec.h"
 #include "tests/bench/fanout/trace.h"
 #include "tests/bench/fanout/websocket_wire.h"
@@ -28,7 +26,7 @@ Socket open_websocket(const Endpoint& endpoint, const std::string& path, std::st
   // A byte at a time, so that nothing after the head is taken with it.
   std::string head;
   for (char c = 0; !head.ends_with("\r\n\r\n"); head.push_back(c))
-    if (recv(socket.get(), &c, 1, 0) != 1) give_up("the handshake for " + path + " was cut off");
+    if (socket.receive_in_time(&c, 1) != 1) give_up("the handshake for " + path + " was cut off");
   if (!head.starts_with("HTTP/1.1 101"))
     give_up("the handshake for " + path + " was answered " + head.substr(0, head.find("\r\n")));
   return socket;
@@ -41,7 +39,7 @@ Publisher::Publisher(const Endpoint& endpoint, const std::string& path, const Fe
   FrameEncoder encoder;
   send_all(socket_, frame_of(encoder, hello));
   char first = 0;  // the header says that it may publish
-  if (recv(socket_.get(), &first, 1, 0) != 1) give_up("the server does not let the bench publish to " + path);
+  if (socket_.receive_in_time(&first, 1) != 1) give_up("the server does not let the bench publish to " + path);
   received_.push_back(first);
   thread_ = std::thread([this] { run(); });
 }
@@ -63,7 +61,7 @@ void Publisher::run() {
     const auto bytes = frame_of(encoder, message);
     const auto now = now_ns();
     for (std::uint64_t i = 0; i < frames; ++i) sent_.set(number + i, now);
-    if (!try_send(socket_, bytes)) lost_ = true;
+    if (!socket_.send_all_in_time(bytes)) lost_ = true;
     number += frames;
     frames_sent_ = number - 1;
   };
@@ -89,7 +87,7 @@ void Publisher::run() {
 
 void Publisher::listen() {
   char buffer[16 * 1024];
-  for (ssize_t size = 0; (size = recv(socket_.get(), buffer, sizeof buffer, MSG_DONTWAIT)) >= 0;) {
+  for (ssize_t size = 0; (size = socket_.receive(buffer, sizeof buffer)) >= 0;) {
     if (size == 0) {
       lost_ = true;
       return;
@@ -101,7 +99,7 @@ void Publisher::listen() {
          received_.size() >= head.head_bytes + head.payload_bytes) {
     const auto payload = received_.substr(head.head_bytes, head.payload_bytes);
     received_.erase(0, head.head_bytes + head.payload_bytes);
-    if (head.opcode == Opcode::ping && !try_send(socket_, client_frame(Opcode::pong, payload))) lost_ = true;
+    if (head.opcode == Opcode::ping && !socket_.send_all_in_time(client_frame(Opcode::pong, payload))) lost_ = true;
     if (head.opcode == Opcode::close) lost_ = true;
     if (head.opcode != Opcode::binary) continue;
     const auto message =

@@ -24,7 +24,7 @@ std::string line_with_address(int output) {
   for (char c = 0; read(output, &c, 1) == 1;) {
     if (c != '\n') {
       line.push_back(c);
-    } else if (line.find("http://") != std::string::npos) {
+    } else if (line.find("://") != std::string::npos) {
       return line;
     } else {
       line.clear();

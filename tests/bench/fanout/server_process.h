@@ -20,7 +20,8 @@ ProcessorTime processor_time(pid_t process);
 /// Resident memory of a process, bytes; 0 when it is gone.
 std::size_t resident_bytes(pid_t process);
 
-/// A server as a process of its own, which ends with the object. It must print a line with its http:// address.
+/// A server as a process of its own, which ends with the object. It must print a line with its address, http:// or
+/// https://.
 class ServerProcess {
  public:
   /// Nothing, when the program ends without such a line; what it says on standard error is the bench's own.

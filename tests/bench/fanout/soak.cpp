@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <unistd.h>
 
 #include "tests/bench/fanout/target.h"
 #include "tests/bench/fanout/verdict.h"
@@ -28,7 +29,7 @@ int soak(const Options& given) {
   std::printf(
       "| s | MiB resident | delivered | gaps | replaced | disconnected | late |\n|---|---|---|---|---|---|---|\n");
   const auto begin = now_ns();
-  const auto before = processor_time(server.pid());
+  const auto before = processor_time(server.pid()), own_before = processor_time(getpid());
   constexpr int reports = 10;
   for (int report = 1; report <= reports; ++report) {
     pool.run_for(std::chrono::duration<double>(options.seconds / reports));
@@ -40,12 +41,14 @@ int soak(const Options& given) {
   }
   const double seconds = static_cast<double>(now_ns() - begin) * 1e-9;
   const auto used = processor_time(server.pid()).total - before.total;
+  const auto own = processor_time(getpid()).total - own_before.total;
+  const auto delivered = static_cast<double>(std::max<std::uint64_t>(1, pool.counts().delivered));
   std::printf("after the first subscriber: %s\n", words(pool.spread()).c_str());
   std::printf("server: %.2f us a message, %.1f %% of a processor; %.0f bytes a message, %.2f kbit/s a subscriber\n",
-              used * 1e6 / static_cast<double>(std::max<std::uint64_t>(1, pool.counts().delivered)),
-              used * 100.0 / seconds, stream.timeline.mean_bytes(),
-              stream.timeline.mean_bytes() * 8e-3 * static_cast<double>(pool.counts().delivered) /
-                  (seconds * static_cast<double>(options.subscribers)));
+              used * 1e6 / delivered, used * 100.0 / seconds, stream.timeline.mean_bytes(),
+              stream.timeline.mean_bytes() * 8e-3 * delivered / (seconds * static_cast<double>(options.subscribers)));
+  std::printf("this program: %.2f us a message, %.1f %% of a processor\n", own * 1e6 / delivered,
+              own * 100.0 / seconds);
 
   Verdict verdict;
   verdict.expect_whole(pool, stream.timeline, "soak");

@@ -6,9 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include <sys/socket.h>
-#include <sys/time.h>
-
 #include "tests/bench/fanout/median.h"
 #include "tests/bench/fanout/target.h"
 #include "tests/bench/fanout/verdict.h"
@@ -24,12 +21,10 @@ enum class Ending : std::uint8_t { open, reset, closed, told_1013 };
 
 /// Reads to the end; `open` when nothing comes for a while and there is none.
 Ending ending_of(const Socket& socket) {
-  const timeval while_{10, 0};
-  setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &while_, sizeof while_);
   std::string tail;  // the close frame, if it got through, is the last thing there is: 88 0L 03 F5 and words
   char buffer[64 * 1024];
   ssize_t size = 0;
-  while ((size = recv(socket.get(), buffer, sizeof buffer, 0)) > 0) {
+  while ((size = socket.receive_in_time(buffer, sizeof buffer, std::chrono::seconds(10))) > 0) {
     tail.append(buffer, static_cast<std::size_t>(size));
     if (tail.size() > 256) tail.erase(0, tail.size() - 256);
   }

@@ -93,16 +93,25 @@ void SubscriberPool::connected(Subscriber& subscriber, std::size_t number) {
   socklen_t size = sizeof error;
   getsockopt(subscriber.socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
   if (error != 0) return lose(subscriber, std::string("connect: ") + std::strerror(error));
+  // Edges: a level would be looked at twice for each message. OpenSSL does not tell whether it has taken all there is.
   epoll_event event{};
-  event.events = EPOLLIN;
+  event.events = EPOLLIN | EPOLLRDHUP | (endpoint_.tls ? 0U : static_cast<unsigned>(EPOLLET));
   event.data.u64 = number;
   epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, subscriber.socket.get(), &event);
+  subscriber.state = State::securing;
+  secure(subscriber);
+}
+
+void SubscriberPool::secure(Subscriber& subscriber) {
+  const auto step = subscriber.socket.handshake();
+  if (step == Socket::Step::failed) return lose(subscriber, "the handshake of TLS failed");
+  if (step == Socket::Step::wait) return;
   subscriber.state = State::upgrading;
   say(subscriber, upgrade_);
 }
 
 void SubscriberPool::say(Subscriber& subscriber, std::string_view bytes) {
-  if (!try_send(subscriber.socket, bytes)) lose(subscriber, std::string("send: ") + std::strerror(errno));
+  if (!subscriber.socket.send_all_in_time(bytes)) lose(subscriber, std::string("send: ") + std::strerror(errno));
 }
 
 std::string_view SubscriberPool::take_upgrade(Subscriber& subscriber, std::string_view bytes) {
@@ -154,9 +163,16 @@ void SubscriberPool::ready(std::size_t number, std::uint32_t events) {
   Subscriber& subscriber = subscribers_[number];
   if (subscriber.state == State::gone) return;
   if (subscriber.state == State::connecting) return connected(subscriber, number);
-  const ssize_t size = recv(subscriber.socket.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
-  if (size > 0) return take(subscriber, {buffer_.data(), static_cast<std::size_t>(size)}, now_ns());
-  if (size < 0 && errno == EAGAIN && (events & EPOLLHUP) == 0) return;
+  if (subscriber.state == State::securing) return secure(subscriber);
+  // One call takes all there is, unless it fills the buffer or the end follows.
+  const bool ends = (events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0;
+  ssize_t size = 0;
+  while ((size = subscriber.socket.receive(buffer_.data(), buffer_.size())) > 0) {
+    take(subscriber, {buffer_.data(), static_cast<std::size_t>(size)}, now_ns());
+    if (subscriber.state == State::gone) return;
+    if (!ends && static_cast<std::size_t>(size) < buffer_.size() && !subscriber.socket.holds_more()) return;
+  }
+  if (size < 0 && errno == EAGAIN) return;
   lose(subscriber, size == 0 ? "the server closed the connection" : std::string("recv: ") + std::strerror(errno));
 }
 

@@ -59,7 +59,7 @@ class SubscriberPool {
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
-  enum class State : std::uint8_t { connecting, upgrading, joining, live, gone };
+  enum class State : std::uint8_t { connecting, securing, upgrading, joining, live, gone };
   struct Early {
     std::string bytes;
     std::int64_t when;
@@ -78,6 +78,7 @@ class SubscriberPool {
 
   void ready(std::size_t number, std::uint32_t events);
   void connected(Subscriber& subscriber, std::size_t number);
+  void secure(Subscriber& subscriber);
   void say(Subscriber& subscriber, std::string_view bytes);
   void take(Subscriber& subscriber, std::string_view bytes, std::int64_t now);
   /// What of the bytes is not yet whole.

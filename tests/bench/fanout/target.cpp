@@ -6,9 +6,29 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/net/self_signed.h"
+
 namespace semblante::bench {
 
 using Json = nlohmann::json;
+
+namespace {
+
+/// A folder for one run; ends the program when there is none.
+std::filesystem::path make_folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "semblante-fanout-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) give_up("no folder " + pattern);
+  return pattern;
+}
+
+net::TlsFiles make_certificate(const std::filesystem::path& folder) {
+  net::TlsFiles files{folder / "cert.pem", folder / "key.pem"};
+  const auto made = net::write_self_signed(files, "bench", {"127.0.0.1"}, std::chrono::hours(24 * 90));
+  if (!made.ok()) give_up("no certificate: " + made.error().message);
+  return files;
+}
+
+}  // namespace
 
 std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
@@ -18,12 +38,16 @@ SemblanteServer::SemblanteServer(const Options& options) {
     pid_ = options.pid;
     return;
   }
-  std::string pattern = (std::filesystem::temp_directory_path() / "semblante-fanout-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) give_up("no folder " + pattern);
-  data_ = pattern;
+  data_ = make_folder();
   const auto program = options.program.empty() ? (program_folder() / "semblante").string() : options.program;
-  auto started = ServerProcess::start({program, "serve", "--port", "0", "--data", (data_ / "data").string(),
-                                       "--max-connections", "30000", "--log-level", "warning"});
+  std::vector<std::string> command = {
+      program, "serve",       "--listen", "127.0.0.1:0", "--data", (data_ / "data").string(), "--max-connections",
+      "30000", "--log-level", "warning"};
+  if (options.tls) {
+    const auto files = make_certificate(data_);
+    command.insert(command.end(), {"--tls-cert", files.certificate.string(), "--tls-key", files.key.string()});
+  }
+  auto started = ServerProcess::start(command);
   if (!started) give_up("the server does not start: " + program);
   process_.emplace(std::move(*started));
   endpoint_ = process_->endpoint();
@@ -70,6 +94,8 @@ FedStream::FedStream(SemblanteServer& server, const Options& options, double sec
 
 std::optional<ServerProcess> start_rival(const std::string& name, double messages_per_second, std::size_t bytes) {
   std::vector<std::string> command;
+  constexpr std::string_view with_tls = "-tls";
+  const bool tls = name.ends_with(with_tls);
   if (name == "ws") {
     const std::filesystem::path folder(SEMBLANTE_FANOUT_RIVALS);
     if (!std::filesystem::exists(folder / "node_modules/ws")) {
@@ -78,11 +104,21 @@ std::optional<ServerProcess> start_rival(const std::string& name, double message
     }
     command = {"node", (folder / "ws_broadcast.mjs").string()};
   } else {
-    command = {(program_folder() / ("bench_fanout_" + name)).string()};
+    const auto program = name.substr(0, name.size() - (tls ? with_tls.size() : 0));
+    command = {(program_folder() / ("bench_fanout_" + program)).string()};
   }
   command.push_back(std::to_string(messages_per_second));
   command.push_back(std::to_string(bytes));
-  auto process = ServerProcess::start(command);
+  std::filesystem::path folder;
+  if (tls) {
+    folder = make_folder();
+    const auto files = make_certificate(folder);
+    command.push_back(files.certificate.string());
+    command.push_back(files.key.string());
+  }
+  auto process = ServerProcess::start(command);  // it listens once it has read the files
+  std::error_code ignored;
+  if (tls) std::filesystem::remove_all(folder, ignored);
   if (!process) std::printf("%s: left out; it does not start: %s\n", name.c_str(), command.front().c_str());
   return process;
 }

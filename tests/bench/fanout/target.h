@@ -49,7 +49,7 @@ struct FedStream {
   Publisher publisher;
 };
 
-/// A baseline: epoll, beast or ws. Nothing, after a word why, when it cannot run here.
+/// A baseline: epoll, epoll-tls, beast or ws. Nothing, after a word why, when it cannot run here.
 std::optional<ServerProcess> start_rival(const std::string& name, double messages_per_second, std::size_t bytes);
 
 }  // namespace semblante::bench

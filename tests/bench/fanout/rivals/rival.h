@@ -14,18 +14,24 @@ namespace semblante::bench::rivals {
 struct Arguments {
   double messages_per_second = 25.0;
   std::size_t bytes = 64;
+  const char* certificate = nullptr;  ///< PEM files; null: without TLS
+  const char* key = nullptr;
 };
 
 inline Arguments arguments_of(int count, char** words) {
   Arguments arguments;
   if (count > 1) arguments.messages_per_second = std::atof(words[1]);
   if (count > 2) arguments.bytes = static_cast<std::size_t>(std::atol(words[2]));
+  if (count > 4) {
+    arguments.certificate = words[3];
+    arguments.key = words[4];
+  }
   if (!(arguments.messages_per_second > 0.0)) std::exit(2);
   return arguments;
 }
 
-inline void announce(unsigned port) {
-  std::printf("listening on http://127.0.0.1:%u\n", port);
+inline void announce(unsigned port, const char* scheme = "http") {
+  std::printf("listening on %s://127.0.0.1:%u\n", scheme, port);
   std::fflush(stdout);
 }
 
