@@ -24,6 +24,7 @@
 #include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
+#include "server/net/ring_sender.h"
 #include "server/net/server.h"
 #include "server/store/sqlite_store.h"
 #include "server/store/trash_purger.h"
@@ -230,7 +231,7 @@ void run_serve(const ServeOptions& options) {
   if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
-  streams::InProcessHub hub(stream_limits);
+  streams::InProcessHub hub(stream_limits, net::make_group_sender());
   hub.set_listener(*recorder);
   open_streams(**store, hub, options);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,21 @@ class WebSocketSink {
  public:
   virtual ~WebSocketSink() = default;
   virtual Sent send(const SharedWire& message, Purpose purpose) = 0;
+
+  /// send() of state in two steps, for one who hands over the messages of many connections together. If `descriptor` is
+  /// not negative, the caller hands the bytes to it and then calls end_send(); until then nobody else writes to it, and
+  /// it stays open. Otherwise `sent` is the result. The caller holds `handing` from before begin_send() to after
+  /// end_send().
+  struct SendStep {
+    int descriptor = -1;
+    Sent sent = Sent::refused;
+  };
+  virtual SendStep begin_send(const SharedWire& message, std::mutex& /*handing*/) {
+    return {-1, send(message, Purpose::state)};
+  }
+  /// `result`: how many bytes the kernel accepted, or -errno.
+  virtual Sent end_send(const SharedWire& /*message*/, long /*result*/) { return Sent::closed; }
+
   /// Drops waiting state, except for a partly sent message; returns the number of dropped messages.
   virtual std::size_t drop_state() = 0;
   /// True when nothing waits, and no call of WebSocketPeer::writable is pending.

@@ -10,6 +10,19 @@ namespace semblante::net {
 using http::Sent;
 using Clock = std::chrono::steady_clock;
 
+namespace {
+
+/// Of the result of send(): how many bytes the kernel accepted; nullopt: the connection is closed.
+std::optional<std::size_t> accepted(long result) {
+  if (result >= 0) return static_cast<std::size_t>(result);
+  // A signal or a kernel without memory does not end a connection: both are temporary.
+  for (const int temporary : {EAGAIN, EWOULDBLOCK, EINTR, ENOBUFS, ENOMEM})
+    if (result == -temporary) return 0;
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<std::size_t> Outbox::hand_encrypted(std::string_view bytes) {
   std::size_t handed = 0;
   while (handed < bytes.size()) {
@@ -24,10 +37,7 @@ std::optional<std::size_t> Outbox::hand_encrypted(std::string_view bytes) {
 std::optional<std::size_t> Outbox::hand(std::string_view bytes) {
   if (tls_) return hand_encrypted(bytes);
   const auto count = ::send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-  if (count >= 0) return static_cast<std::size_t>(count);
-  // A signal or a kernel without memory does not end a connection: both are temporary.
-  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ENOBUFS || errno == ENOMEM) return 0;
-  return std::nullopt;
+  return accepted(count >= 0 ? count : -errno);
 }
 
 void Outbox::fail() {
@@ -53,28 +63,43 @@ void Outbox::count(const Item& item, bool comes) {
   change(waiting_->state_bytes, item.message->bytes.size());
 }
 
-Sent Outbox::send(const http::SharedWire& message, Kind kind, std::unique_lock<std::mutex>& lock) {
-  std::size_t taken = 0;
-  if (!waiting_) {
-    const auto handed = hand(message->bytes);
-    if (!handed) {
-      fail();
-      return Sent::closed;
-    }
-    if (*handed == message->bytes.size()) return Sent::handed;
-    taken = *handed;
-    waiting_ = std::make_unique<Waiting>();
-    waiting_->sent_of_first = taken;
-    waiting_->progress = Clock::now();
-  } else if (!has_room(kind, message->bytes.size())) {
-    return Sent::refused;
+Sent Outbox::settle(const http::SharedWire& message, Kind kind, std::optional<std::size_t> handed,
+                    std::unique_lock<std::mutex>& lock) {
+  if (!handed) {
+    fail();
+    return Sent::closed;
   }
-  waiting_->items.push_back({message, kind});
-  count(waiting_->items.back(), true);
-  if (armed_) return Sent::waits;
+  const bool whole = *handed == message->bytes.size();
+  if (whole && !waiting_) return Sent::handed;
+  if (!waiting_) waiting_ = std::make_unique<Waiting>();
+  if (!whole) {
+    waiting_->items.push_front({message, kind});
+    count(waiting_->items.front(), true);
+    waiting_->sent_of_first = *handed;
+  }
+  waiting_->progress = Clock::now();
+  ask_for_flush(lock);
+  return whole ? Sent::handed : Sent::waits;
+}
+
+void Outbox::ask_for_flush(std::unique_lock<std::mutex>& lock) {
+  // end_send() asks for what came meanwhile.
+  if (armed_ || handing_ != nullptr) return;
   armed_ = true;
   lock.unlock();
   if (const auto owner = owner_.lock()) owner->on_blocked();
+}
+
+Sent Outbox::send(const http::SharedWire& message, Kind kind, std::unique_lock<std::mutex>& lock) {
+  if (!waiting_ && handing_ == nullptr) return settle(message, kind, hand(message->bytes), lock);
+  if (!waiting_) {
+    waiting_ = std::make_unique<Waiting>();
+    waiting_->progress = Clock::now();
+  }
+  if (!has_room(kind, message->bytes.size())) return Sent::refused;
+  waiting_->items.push_back({message, kind});
+  count(waiting_->items.back(), true);
+  ask_for_flush(lock);
   return Sent::waits;
 }
 
@@ -106,6 +131,7 @@ void Outbox::close(http::CloseReason reason, const http::SharedWire& last) {
 
 Outbox::Flushed Outbox::flush() {
   const std::lock_guard lock(mutex_);
+  if (handing_ != nullptr) return Flushed::some;  // for a fraction of a millisecond
   if (descriptor_ < 0 || (close_framed_ && !waiting_)) {
     armed_ = false;
     return descriptor_ < 0 ? Flushed::closed : Flushed::all;
@@ -135,6 +161,20 @@ Outbox::Flushed Outbox::flush() {
   return Flushed::all;
 }
 
+http::WebSocketSink::SendStep Outbox::begin_send(const http::SharedWire& message, std::mutex& handing) {
+  std::unique_lock lock(mutex_);
+  if (descriptor_ < 0 || closing_) return {-1, Sent::closed};
+  if (tls_ || waiting_) return {-1, send(message, Kind::state, lock)};
+  handing_ = &handing;
+  return {descriptor_, Sent::refused};
+}
+
+Sent Outbox::end_send(const http::SharedWire& message, long result) {
+  std::unique_lock lock(mutex_);
+  handing_ = nullptr;
+  return settle(message, Kind::state, accepted(result), lock);
+}
+
 std::size_t Outbox::drop_state() {
   const std::lock_guard lock(mutex_);
   if (!waiting_) return 0;
@@ -157,7 +197,7 @@ std::size_t Outbox::drop_state() {
 
 bool Outbox::idle() const {
   const std::lock_guard lock(mutex_);
-  return !waiting_ && !armed_;
+  return !waiting_ && !armed_ && handing_ == nullptr;
 }
 
 std::optional<Clock::time_point> Outbox::stalled_since() const {
@@ -168,7 +208,14 @@ std::optional<Clock::time_point> Outbox::stalled_since() const {
 
 void Outbox::detach() {
   std::unique_ptr<Waiting> forgotten;
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  while (handing_ != nullptr) {
+    auto& handing = *handing_;
+    lock.unlock();
+    handing.lock();
+    handing.unlock();
+    lock.lock();
+  }
   descriptor_ = -1;
   closing_ = true;
   close_framed_ = true;

@@ -41,6 +41,8 @@ class Outbox : public http::WebSocketSink {
 
   // ---- the peer's side: any thread
   http::Sent send(const http::SharedWire& message, http::Purpose purpose) override;
+  SendStep begin_send(const http::SharedWire& message, std::mutex& handing) override;
+  http::Sent end_send(const http::SharedWire& message, long result) override;
   std::size_t drop_state() override;
   [[nodiscard]] bool idle() const override;
   [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> stalled_since() const override;
@@ -74,6 +76,10 @@ class Outbox : public http::WebSocketSink {
   };
 
   http::Sent send(const http::SharedWire& message, Kind kind, std::unique_lock<std::mutex>& lock);
+  /// What the kernel has not accepted of a message that was handed to it goes first.
+  http::Sent settle(const http::SharedWire& message, Kind kind, std::optional<std::size_t> handed,
+                    std::unique_lock<std::mutex>& lock);
+  void ask_for_flush(std::unique_lock<std::mutex>& lock);
   [[nodiscard]] bool has_room(Kind kind, std::size_t bytes) const;
   void count(const Item& item, bool comes);
   /// Number of these bytes that the kernel accepted; nullopt: the connection is closed.
@@ -84,9 +90,10 @@ class Outbox : public http::WebSocketSink {
   // The members used by every send come first, in few cache lines: there are thousands of outboxes.
   mutable std::mutex mutex_;  ///< guards the members below
   int descriptor_;
-  bool closing_ = false;       ///< messages of the peer are refused
-  bool close_framed_ = false;  ///< a close frame was sent; nothing may follow
-  bool armed_ = false;         ///< flush() will be called
+  bool closing_ = false;           ///< messages of the peer are refused
+  bool close_framed_ = false;      ///< a close frame was sent; nothing may follow
+  bool armed_ = false;             ///< flush() will be called
+  std::mutex* handing_ = nullptr;  ///< between begin_send() and end_send(): held by the caller of both
   std::unique_ptr<Waiting> waiting_;
   // Never changed.
   const std::shared_ptr<TlsSession> tls_;

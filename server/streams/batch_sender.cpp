@@ -15,7 +15,9 @@ constexpr std::chrono::milliseconds retry_interval{200};
 
 }  // namespace
 
-BatchSender::BatchSender() : thread_([this] { log::keep_running("the batch sender", [this] { run(); }); }) {}
+BatchSender::BatchSender(std::unique_ptr<http::GroupSender> group_sender)
+    : group_sender_(group_sender ? std::move(group_sender) : std::make_unique<http::GroupSender>()),
+      thread_([this] { log::keep_running("the batch sender", [this] { run(); }); }) {}
 
 void BatchSender::wake(std::weak_ptr<Stream> stream, Clock::time_point when) {
   bool is_next = false;

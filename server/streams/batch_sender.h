@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/http/group_sender.h"
 #include "server/streams/stream.h"
 
 namespace semblante::streams {
@@ -17,13 +18,16 @@ namespace semblante::streams {
 /// most.
 class BatchSender {
  public:
-  BatchSender();
+  /// `group_sender` is used on this thread only; null: one call for each message.
+  explicit BatchSender(std::unique_ptr<http::GroupSender> group_sender = nullptr);
   ~BatchSender() { stop(); }
   BatchSender(const BatchSender&) = delete;
   BatchSender& operator=(const BatchSender&) = delete;
 
   /// Schedules a call of stream->work(when) at that time. Any thread.
   void wake(std::weak_ptr<Stream> stream, Stream::Clock::time_point when);
+  /// For Stream::work.
+  [[nodiscard]] http::GroupSender& group_sender() { return *group_sender_; }
   /// Ends the thread; nothing is sent after it returns. Must not be called by the thread itself.
   void stop();
 
@@ -36,6 +40,7 @@ class BatchSender {
   };
   void run();
 
+  const std::unique_ptr<http::GroupSender> group_sender_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::priority_queue<Turn> turns_;

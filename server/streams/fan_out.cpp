@@ -1,5 +1,7 @@
 #include "server/streams/fan_out.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "server/streams/stream_peer.h"
@@ -12,34 +14,22 @@ using Clock = FanOut::Clock;
 /// Subscribers per slice, after which another stream has its turn.
 constexpr std::size_t slice_size = 256;
 /// The clock is read once per this number of messages.
-constexpr std::size_t messages_per_look = 16;
-/// Outboxes are scattered over memory: those of the next few targets are prefetched.
-constexpr std::size_t looks_ahead = 4;
-
-void fetch(const http::WebSocketSink* sink) {
-  constexpr std::size_t line = 64;
-  __builtin_prefetch(sink, 1);
-  __builtin_prefetch(reinterpret_cast<const char*>(sink) + line, 1);
-}
+constexpr std::size_t messages_per_look = 64;
 
 }  // namespace
 
-void Slice::send(metrics::LatenessHistogram& lateness) {
+void Slice::send(http::GroupSender& sender, metrics::LatenessHistogram& lateness) {
   metrics::LatenessPart part(metrics::lateness_bounds);
-  std::uint64_t handed = 0;
-  const auto look = [&] {
+  for (std::size_t begin = 0; begin < deliveries_.size(); begin += messages_per_look) {
+    const auto group = std::span(deliveries_).subspan(begin, std::min(messages_per_look, deliveries_.size() - begin));
+    sender.send(group);
+    std::uint64_t handed = 0;
+    for (const auto& delivery : group) {
+      if (delivery.sent == http::Sent::handed) ++handed;
+      if (delivery.sent == http::Sent::refused) replaced_ += delivery.sink->drop_state() + 1;
+    }
     part.observe(std::chrono::duration<double>(Clock::now() - due_).count(), handed);
-    handed = 0;
-  };
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    auto& target = targets_[i];
-    if (i + looks_ahead < targets_.size()) fetch(targets_[i + looks_ahead].sink);
-    target.sent = target.sink->send(wires_[static_cast<std::size_t>(target.coding)], http::Purpose::state);
-    if (target.sent == http::Sent::handed) ++handed;
-    if (target.sent == http::Sent::refused) replaced_ += target.sink->drop_state() + 1;
-    if (handed == messages_per_look) look();
   }
-  look();
   lateness.add(part);
 }
 
@@ -83,6 +73,7 @@ bool FanOut::next_slice(Slice& slice, BatchLog& log) {
   if (passes_.empty()) return false;
   auto& batch = *passes_.front();
   slice.targets_.clear();
+  slice.deliveries_.clear();
   slice.wires_ = {};
   slice.due_ = batch.due;
   slice.replaced_ = 0;
@@ -95,24 +86,27 @@ bool FanOut::next_slice(Slice& slice, BatchLog& log) {
     }
     auto& wire = slice.wires_[static_cast<std::size_t>(subscriber.coding)];
     if (!wire) wire = log.wire(batch, subscriber.coding);
-    slice.targets_.push_back({subscriber.sink, subscriber.client, subscriber.coding, http::Sent::refused});
+    slice.targets_.push_back({subscriber.client, subscriber.coding});
+    slice.deliveries_.push_back({subscriber.sink, &wire, http::Sent::refused});
   }
   return true;
 }
 
 void FanOut::finish_slice(Slice& slice, BatchLog& log) {
   counts_.messages_replaced += slice.replaced_;
-  for (const auto& target : slice.targets_) {
-    if (target.sent == http::Sent::closed) continue;
-    if (target.sent != http::Sent::refused) {
+  for (std::size_t i = 0; i < slice.targets_.size(); ++i) {
+    const auto& target = slice.targets_[i];
+    const auto sent = slice.deliveries_[i].sent;
+    if (sent == http::Sent::closed) continue;
+    if (sent != http::Sent::refused) {
       count_sent(*slice.wires_[static_cast<std::size_t>(target.coding)]);
-      if (target.sent == http::Sent::handed) continue;
+      if (sent == http::Sent::handed) continue;
     }
     const auto slot = target.client->notes().subscriber;
     if (slot == Subscriber::nowhere) continue;  // removed meanwhile
     auto& subscriber = subscribers_[slot];
     subscriber.waits = true;
-    if (target.sent != http::Sent::refused) continue;
+    if (sent != http::Sent::refused) continue;
     subscriber.behind = true;
     // The socket may have become writable meanwhile; no other event would report that.
     if (subscriber.sink->idle()) send_newest(subscriber, log);

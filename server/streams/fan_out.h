@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "server/http/websocket_peer.h"
+#include "server/http/group_sender.h"
 #include "server/metrics/histogram.h"
 #include "server/streams/batch_log.h"
 #include "server/streams/stream_counts.h"
@@ -20,18 +20,17 @@ namespace semblante::streams {
 /// results are processed with it.
 class Slice {
  public:
-  /// Sends each target its message. Uses only the slice, the sockets' outboxes and the histogram.
-  void send(metrics::LatenessHistogram& lateness);
+  /// Sends each target its message. Uses only the slice, the sockets' outboxes, the sender and the histogram.
+  void send(http::GroupSender& sender, metrics::LatenessHistogram& lateness);
 
  private:
   friend class FanOut;
   struct Target {
-    http::WebSocketSink* sink;
     StreamPeer* client;
     Coding coding;
-    http::Sent sent;  ///< `refused` until it is sent
   };
   std::vector<Target> targets_;
+  std::vector<http::Delivery> deliveries_;  ///< of each target, in their order
   std::array<http::SharedWire, coding_count> wires_;
   std::chrono::steady_clock::time_point due_;
   std::size_t replaced_ = 0;  ///< pending messages dropped for targets that fell behind

@@ -345,7 +345,8 @@ Clock::time_point Stream::advance(Clock::time_point now) {
   // After a fault the slice is finished all the same: targets that were not reached get the newest state.
   std::exception_ptr fault;
   try {
-    slice_.send(*lateness_);
+    http::GroupSender one_by_one;
+    slice_.send(sender_ ? sender_->group_sender() : one_by_one, *lateness_);
   } catch (...) {
     fault = std::current_exception();
   }

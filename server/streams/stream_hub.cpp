@@ -17,8 +17,10 @@ constexpr std::uint64_t no_ticket = 0;
 
 }  // namespace
 
-InProcessHub::InProcessHub(StreamLimits limits)
-    : limits_(limits), thread_([this] { log::keep_running("the hub", [this] { run(); }); }) {}
+InProcessHub::InProcessHub(StreamLimits limits, std::unique_ptr<http::GroupSender> group_sender)
+    : limits_(limits),
+      sender_(std::make_shared<BatchSender>(std::move(group_sender))),
+      thread_([this] { log::keep_running("the hub", [this] { run(); }); }) {}
 
 InProcessHub::~InProcessHub() {
   {

@@ -57,7 +57,8 @@ class StreamHub {
 /// BatchSender sends. Any thread may call it.
 class InProcessHub : public StreamHub {
  public:
-  explicit InProcessHub(StreamLimits limits = {});
+  /// `group_sender` sends the batches; null: one call for each message.
+  explicit InProcessHub(StreamLimits limits = {}, std::unique_ptr<http::GroupSender> group_sender = nullptr);
   ~InProcessHub() override;
   InProcessHub(const InProcessHub&) = delete;
   InProcessHub& operator=(const InProcessHub&) = delete;
@@ -96,7 +97,7 @@ class InProcessHub : public StreamHub {
   void forget(const std::vector<std::shared_ptr<Playing>>& finished);
 
   const StreamLimits limits_;
-  const std::shared_ptr<BatchSender> sender_ = std::make_shared<BatchSender>();
+  const std::shared_ptr<BatchSender> sender_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<BatchListener> listener_;

@@ -4,6 +4,7 @@
 //   bench_fanout --idle        memory of a subscriber that only waits
 //   bench_fanout --stall       what readers that stop reading do to the others
 //   bench_fanout --hostile     what clients that misbehave do to the others
+//   bench_fanout --pressure    how much later batches are under loads that have nothing to do with them
 
 #include <csignal>
 #include <map>
@@ -33,13 +34,15 @@ int main(int count, char** words) {
   raise_descriptors();
   Options options;
   double minutes = 0.0;
-  bool is_soak = false, is_idle = false, is_stall = false, is_hostile = false;
+  bool is_soak = false, is_idle = false, is_stall = false, is_hostile = false, is_pressure = false;
   CLI::App app("Subscribers of one stream by the thousand, on loopback. Built for measuring servers one owns.");
   auto* modes = app.add_option_group("modes", "without one: cost of a message beside the baselines");
   modes->add_flag("--soak", is_soak, "Many subscribers for long: gaps, disconnects, lateness, memory");
   modes->add_flag("--idle", is_idle, "Memory of subscribers that only wait");
   modes->add_flag("--stall", is_stall, "What readers that stop reading do to the others");
   modes->add_flag("--hostile", is_hostile, "What clients that misbehave do to the others");
+  modes->add_flag("--pressure", is_pressure,
+                  "How much later batches are under loads that have nothing to do with them");
   modes->require_option(0, 1);
   app.add_option("--subscribers", options.subscribers, "How many; else as the mode has it")
       ->check(CLI::Range(1, 19'000));
@@ -74,5 +77,6 @@ int main(int count, char** words) {
   if (is_idle) return idle(options);
   if (is_stall) return stall(options);
   if (is_hostile) return hostile(options);
+  if (is_pressure) return pressure(options);
   return compare(options);
 }

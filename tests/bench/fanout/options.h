@@ -30,5 +30,6 @@ int soak(const Options& options);
 int idle(const Options& options);
 int stall(const Options& options);
 int hostile(const Options& options);
+int pressure(const Options& options);
 
 }  // namespace semblante::bench

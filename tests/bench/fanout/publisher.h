@@ -48,6 +48,9 @@ class Publisher {
   std::thread thread_;
 };
 
+/// For a reader that is slow: the kernel holds little for it, and it falls behind within seconds.
+inline constexpr int small_receive_buffer = 4096;
+
 /// A connection with its handshake done, for one that publishes or one that misbehaves.
 Socket open_websocket(const Endpoint& endpoint, const std::string& path, std::string_view subprotocol,
                       int receive_buffer = 0);

@@ -13,9 +13,6 @@
 namespace semblante::bench {
 namespace {
 
-/// So that the kernel holds little for them: they fall behind within seconds.
-constexpr int small_receive_buffer = 4096;
-
 /// What a connection that was not read ended with, after all that lay in it is read.
 enum class Ending : std::uint8_t { open, reset, closed, told_1013 };
 

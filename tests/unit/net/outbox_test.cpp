@@ -9,26 +9,13 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include "tests/unit/net/outbox_ends.h"
+
 namespace semblante::net {
 namespace {
 
 using http::Purpose;
 using http::Sent;
-
-http::SharedWire wire(std::string bytes) {
-  http::WireMessage message;
-  message.bytes = std::move(bytes);
-  return std::make_shared<const http::WireMessage>(std::move(message));
-}
-
-struct Owner : OutboxOwner {
-  void on_blocked() override { ++blocked; }
-  void on_close(const http::CloseReason& reason) override { code = reason.code; }
-  void on_over() override { over = true; }
-  std::atomic<int> blocked{0};
-  std::atomic<int> code{0};
-  std::atomic<bool> over{false};
-};
 
 /// An outbox on one end of a pair of sockets with a small buffer, and a client that reads when it is told to.
 class OutboxTest : public ::testing::Test {
