@@ -4,9 +4,8 @@
 #include <stddef.h>
 
 #include "core/kernel/export.h"
-#include "core/kernel/head_motion.h"
-#include "core/kernel/local_motion.h"
-#include "core/kernel/rigid_motion.h"
+#define SEMBLANTE_LANES 1
+#include "core/kernel/lane_motions.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/tables/generated/mpeg4_tables.h"
 
@@ -18,18 +17,38 @@ _Static_assert(sizeof(semblante_face) == 28, "face");
 /* Four lanes, three used: one multiply-add per influence. Lanes are independent, so the bits do not depend on it. */
 typedef float lanes __attribute__((vector_size(16)));
 
-/* The weights of the lids' points in the row of a vertex. */
-static semblante_lid_weights lid_weights(const semblante_face* face, uint32_t v) {
-  semblante_lid_weights weights = {0.0F, 0.0F};
-  const int eye = semblante_lids_of(face->rigid[v]);
-  for (uint32_t k = face->row_offsets[v]; eye >= 0 && k < face->row_offsets[v + 1]; ++k) {
-    if (face->row_points[k] == SEMBLANTE_UPPER_LID(eye)) {
-      weights.upper = face->row_weights[k];
-    } else if (face->row_points[k] == SEMBLANTE_LOWER_LID(eye)) {
-      weights.lower = face->row_weights[k];
+/* The weight of a point in the row of a vertex; 0 if the row does not have it. */
+static float weight_of(const semblante_face* face, uint32_t v, uint32_t point) {
+  for (uint32_t k = face->row_offsets[v]; k < face->row_offsets[v + 1]; ++k) {
+    if (face->row_points[k] == point) {
+      return face->row_weights[k];
     }
   }
-  return weights;
+  return 0.0F;
+}
+
+/* The motion of a vertex of an eye, iris, lid or the tongue. */
+static void move_part(const semblante_local_motions* local, const semblante_face* face, uint32_t v, const float* rest,
+                      float p[3]) {
+  const semblante_pose* const pose = local->pose;
+  const uint8_t rigid = face->rigid[v];
+  if (rigid >= SEMBLANTE_RIGID_TONGUE) {
+    semblante_roll_tongue(pose, rigid, rest, p);
+    return;
+  }
+  for (int eye = 0; eye < 2; ++eye) {
+    if (rigid == SEMBLANTE_RIGID_LEFT_LIDS + eye) {
+      const float upper = weight_of(face, v, SEMBLANTE_UPPER_LID(eye));
+      const float lower = weight_of(face, v, SEMBLANTE_LOWER_LID(eye));
+      roll_lids(&local->lids[eye], 1, upper, lower, rest, p);
+    }
+    if (rigid == SEMBLANTE_RIGID_LEFT_IRIS + eye) {
+      move_iris(&pose->iris[eye], pose->eye_pivot[eye], pose->pupil_growth[eye], rest, p);
+    }
+    if (rigid == SEMBLANTE_RIGID_LEFT_EYE + eye || rigid == SEMBLANTE_RIGID_LEFT_IRIS + eye) {
+      move_rigidly(&local->eye[eye], 1, p);
+    }
+  }
 }
 
 SEMBLANTE_EXPORT(semblante_deform)
@@ -54,14 +73,13 @@ void semblante_deform(const semblante_face* face, const semblante_pose* pose, fl
     }
     float p[3] = {rest[0] + d[0], rest[1] + d[1], rest[2] + d[2]};
     if (face->rigid != NULL && face->rigid[v] != SEMBLANTE_RIGID_NONE) {
-      semblante_move_local(&local, face->rigid[v], lid_weights(face, v), rest, p);
+      move_part(&local, face, v, rest, p);
     }
     const uint8_t turn = face->turn == NULL ? SEMBLANTE_TURN_FULL : face->turn[v];
     if (turn == SEMBLANTE_TURN_FULL) {
-      semblante_move(&head, p);
+      move_rigidly(&head, 0, p);
     } else if (turn != 0) {
-      const semblante_rigid_motion part = semblante_part_of_turn(pose->head_rotation, pose->head_pivot, turn);
-      semblante_move(&part, p);
+      turn_partly(pose->head_rotation, pose->head_pivot, turn, p);
     }
     positions[0] = p[0];
     positions[1] = p[1];

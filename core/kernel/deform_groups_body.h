@@ -2,23 +2,17 @@
  * SEMBLANTE_LANES, the number of floats per register (4 or 8), and SEMBLANTE_DEFORM_GROUPS, the name of the function.
  * Every lane adds the same terms as semblante_deform in the same order, so that all variants are bit-identical to it.
  */
-#include "core/kernel/head_motion.h"
+#include "core/kernel/lane_motions.h"
 #include "core/kernel/prepared_layout.h"
 #include "core/tables/generated/mpeg4_tables.h"
 
-#if SEMBLANTE_LANES == 8
-#include <immintrin.h>
-#endif
-
 #define REGISTERS (SEMBLANTE_GROUP / SEMBLANTE_LANES) /* registers per coordinate of a group */
 
-typedef float reg __attribute__((vector_size(4 * SEMBLANTE_LANES)));
 /* For the caller's floats: only 4-byte alignment, and may alias other types. */
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 typedef float quad __attribute__((vector_size(16)));
 
-/* Stores x, y, z of four (or eight) vertices as x y z x y z ... All shuffles stay within 128-bit lanes, so that each is
- * one instruction on every machine. */
+/* Stores x, y, z of four (or eight) vertices as x y z x y z ... Shuffles stay within 128 bits as far as possible. */
 static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z, float* to) {
 #if SEMBLANTE_LANES == 8
   const reg xy = __builtin_shufflevector(x, y, 0, 2, 8, 10, 4, 6, 12, 14);
@@ -27,13 +21,9 @@ static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z
   const reg a = __builtin_shufflevector(xy, zx, 0, 2, 8, 10, 4, 6, 12, 14);
   const reg b = __builtin_shufflevector(yz, xy, 0, 2, 9, 11, 4, 6, 13, 15);
   const reg c = __builtin_shufflevector(zx, yz, 1, 3, 9, 11, 5, 7, 13, 15);
-  *(loose_quad*)(to + 0) = __builtin_shufflevector(a, a, 0, 1, 2, 3);
-  *(loose_quad*)(to + 4) = __builtin_shufflevector(b, b, 0, 1, 2, 3);
-  *(loose_quad*)(to + 8) = __builtin_shufflevector(c, c, 0, 1, 2, 3);
-  /* Intrinsics, because a built-in shuffle would need an additional register. */
-  _mm_storeu_ps(to + 12, _mm256_extractf128_ps((__m256)a, 1));
-  _mm_storeu_ps(to + 16, _mm256_extractf128_ps((__m256)b, 1));
-  _mm_storeu_ps(to + 20, _mm256_extractf128_ps((__m256)c, 1));
+  _mm256_storeu_ps(to, _mm256_insertf128_ps((__m256)a, _mm256_castps256_ps128((__m256)b), 1));
+  _mm256_storeu_ps(to + 8, _mm256_blend_ps((__m256)c, (__m256)a, 0xF0));
+  _mm256_storeu_ps(to + 16, _mm256_permute2f128_ps((__m256)b, (__m256)c, 0x31));
 #else
   const reg xy = __builtin_shufflevector(x, y, 0, 2, 4, 6);
   const reg yz = __builtin_shufflevector(y, z, 1, 3, 5, 7);
@@ -44,70 +34,101 @@ static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z
 #endif
 }
 
-/* semblante_move with one vertex per lane. `slides`: the motion may have a translation. */
-static inline __attribute__((always_inline)) void move_registers(const semblante_rigid_motion* m, int slides,
-                                                                 reg p[3]) {
-  const reg d[3] = {p[0] - m->pivot[0], p[1] - m->pivot[1], p[2] - m->pivot[2]};
-  for (int i = 0; i < 3; ++i) {
-    const reg turned = m->change[i][0] * d[0] + m->change[i][1] * d[1] + m->change[i][2] * d[2];
-    p[i] += slides ? turned + m->translation[i] : turned;
-  }
-}
-
 /* The current position in the arrays of the prepared face. */
 typedef struct cursor {
   const reg* rest;
   const reg* weights;
   const uint8_t* points;
   const uint32_t* first;
+  const uint8_t* lids;
   uint32_t written;
 } cursor;
 
-/* The points of one group and their weights, eight for each point. */
-typedef struct group_row {
-  const uint8_t* points;
-  const float* weights;
-  uint32_t count;
-} group_row;
-
-/* The weights that one vertex of a group has of the points of its lids. */
-static semblante_lid_weights lid_weights(const group_row* row, uint32_t lane, uint8_t rigid) {
-  semblante_lid_weights weights = {0.0F, 0.0F};
-  const int eye = semblante_lids_of(rigid);
-  for (uint32_t k = 0; eye >= 0 && k < row->count; ++k) {
-    if (row->points[k] == SEMBLANTE_UPPER_LID(eye)) {
-      weights.upper = row->weights[k * SEMBLANTE_GROUP + lane];
-    } else if (row->points[k] == SEMBLANTE_LOWER_LID(eye)) {
-      weights.lower = row->weights[k * SEMBLANTE_GROUP + lane];
-    }
-  }
-  return weights;
+/* The weights of one register's vertices for the point of a lid. `weights`: of the group; `at`: see
+ * semblante_prepared_face.lids. */
+static inline __attribute__((always_inline)) reg lid_weights(const reg* weights, uint32_t r, uint8_t at) {
+  return at == SEMBLANTE_NO_POINT ? (reg){0} : weights[at * REGISTERS + r];
 }
 
-/* Local motions and the head's vertex by vertex, for groups with different motions and for an incomplete last group. */
-static __attribute__((noinline)) void finish_by_vertex(const semblante_prepared_face* face,
-                                                       const semblante_group_pose* pose, const group_row* row,
-                                                       const float* rest, uint32_t first, const float* moved,
-                                                       float* to) {
+/* With eight lanes, a copy of these formulas in every loop gains a twentieth of the time; with four it gains nothing,
+ * and the WebAssembly module is to stay small. */
+#if SEMBLANTE_LANES == 8
+#define EACH_FUNCTION LANE_FUNCTION
+#else
+#define EACH_FUNCTION static __attribute__((noinline))
+#endif
+
+/* The lids of one eye in one register. `at`: where their upper and lower point are, see semblante_prepared_face.lids.
+ */
+EACH_FUNCTION void roll_register(const semblante_lid_roll* roll, mask where, const reg* weights, uint32_t r,
+                                 const uint8_t* at, const reg* rest, reg p[3]) {
+  const reg own_rest[3] = {rest[r], rest[REGISTERS + r], rest[2 * REGISTERS + r]};
+  roll_lids(roll, where, lid_weights(weights, r, at[0]), lid_weights(weights, r, at[1]), own_rest, p);
+}
+
+/* The tongue's motion, vertex by vertex: few heads roll it often. */
+static __attribute__((noinline)) void roll_tongue(const semblante_pose* pose, const uint8_t* rigid, const reg rest[3],
+                                                  reg p[3]) {
+  for (int lane = 0; lane < SEMBLANTE_LANES; ++lane) {
+    if (rigid[lane] >= SEMBLANTE_RIGID_TONGUE) {
+      const float from[3] = {rest[0][lane], rest[1][lane], rest[2][lane]};
+      float to[3] = {p[0][lane], p[1][lane], p[2][lane]};
+      semblante_roll_tongue(pose, rigid[lane], from, to);
+      for (int i = 0; i < 3; ++i) {
+        p[i][lane] = to[i];
+      }
+    }
+  }
+}
+
+/* The head's motion where vertices of one register have different shares of it. */
+EACH_FUNCTION void turn_each(const semblante_rigid_motion* head, const float rotation[4], ints turn, reg p[3]) {
+  const mask fully = turn == SEMBLANTE_TURN_FULL;
+  const mask partly = (turn != SEMBLANTE_TURN_FULL) & (turn != 0);
+  const reg before[3] = {p[0], p[1], p[2]};
+  if (any(fully)) {
+    reg q[3] = {before[0], before[1], before[2]};
+    move_rigidly(head, 0, q);
+    choose_point(fully, q, p);
+  }
+  if (any(partly)) {
+    reg q[3] = {before[0], before[1], before[2]};
+    turn_partly(rotation, head->pivot, turn, q);
+    choose_point(partly, q, p);
+  }
+}
+
+/* Local motions and the head's where vertices of one register differ in them. */
+static __attribute__((noinline)) void move_each(const semblante_prepared_face* face, const semblante_group_pose* pose,
+                                                const reg* weights, const uint8_t* lid_points, uint32_t r,
+                                                uint32_t first, const reg* rest, reg p[3]) {
   const uint8_t* const rigid = face->rigid + first;
-  const uint32_t left = face->vertex_count - first;
-  const uint32_t count = left < SEMBLANTE_GROUP ? left : SEMBLANTE_GROUP;
-  for (uint32_t v = 0; v < count; ++v) {
-    float p[3] = {moved[v * 3], moved[v * 3 + 1], moved[v * 3 + 2]};
-    if (rigid[v] != SEMBLANTE_RIGID_NONE) {
-      const float at_rest[3] = {rest[v], rest[v + SEMBLANTE_GROUP], rest[v + 2 * SEMBLANTE_GROUP]};
-      semblante_move_local(&pose->local, rigid[v], lid_weights(row, v, rigid[v]), at_rest, p);
+  const ints parts = load_bytes(rigid);
+  if (any(parts != SEMBLANTE_RIGID_NONE)) {
+    const semblante_pose* const of = pose->local.pose;
+    const reg own_rest[3] = {rest[r], rest[REGISTERS + r], rest[2 * REGISTERS + r]};
+    for (int eye = 0; eye < 2; ++eye) {
+      const mask lids = parts == SEMBLANTE_RIGID_LEFT_LIDS + eye;
+      if (any(lids)) {
+        roll_register(&pose->local.lids[eye], lids, weights, r, lid_points + 2 * eye, rest, p);
+      }
+      const mask iris = parts == SEMBLANTE_RIGID_LEFT_IRIS + eye;
+      const mask ball = iris | (parts == SEMBLANTE_RIGID_LEFT_EYE + eye);
+      if ((pose->iris_moves[eye] || pose->eye_moves[eye]) && any(ball)) {
+        reg q[3] = {p[0], p[1], p[2]};
+        move_iris(&of->iris[eye], of->eye_pivot[eye], of->pupil_growth[eye], own_rest, q);
+        choose_point(iris, q, p);
+        q[0] = p[0], q[1] = p[1], q[2] = p[2];
+        move_rigidly(&pose->local.eye[eye], 1, q);
+        choose_point(ball, q, p);
+      }
     }
-    const uint8_t turn = face->turn[first + v];
-    if (turn == SEMBLANTE_TURN_FULL) {
-      semblante_move(&pose->head, p);
-    } else if (turn != 0) {
-      const semblante_rigid_motion part = semblante_part_of_turn(pose->head_rotation, pose->head.pivot, turn);
-      semblante_move(&part, p);
+    if (pose->tongue_moves) {
+      roll_tongue(of, rigid, own_rest, p);
     }
-    to[v * 3] = p[0];
-    to[v * 3 + 1] = p[1];
-    to[v * 3 + 2] = p[2];
+  }
+  if (pose->head_moves) {
+    turn_each(&pose->head, pose->head_rotation, load_bytes(face->turn + first), p);
   }
 }
 
@@ -124,9 +145,17 @@ static inline __attribute__((always_inline)) int any_changed(const uint8_t* chan
 static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4], const uint8_t* points,
                                                             const reg* weights, uint32_t count, const reg* rest,
                                                             reg p[REGISTERS][3]) {
+  if (count == 0) {
+    for (uint32_t r = 0; r < REGISTERS; ++r) {
+      for (uint32_t i = 0; i < 3; ++i) {
+        p[r][i] = rest[i * REGISTERS + r];
+      }
+    }
+    return;
+  }
   for (uint32_t r = 0; r < REGISTERS; ++r) {
     for (uint32_t i = 0; i < 3; ++i) {
-      p[r][i] = count == 0 ? (reg){0} : weights[r] * fp[points[0]][i];
+      p[r][i] = weights[r] * fp[points[0]][i];
     }
   }
   for (uint32_t k = 1; k < count; ++k) {
@@ -146,7 +175,7 @@ static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4]
 }
 
 /* The motions of a run's vertices after Eq. 7. */
-typedef enum after { AFTER_NOTHING, AFTER_HEAD, AFTER_PART_AND_HEAD, AFTER_BY_VERTEX } after;
+typedef enum after { AFTER_NOTHING, AFTER_HEAD, AFTER_PART_AND_HEAD, AFTER_LIDS, AFTER_NECK, AFTER_EACH } after;
 
 static inline __attribute__((always_inline)) void deform_run(const semblante_prepared_face* face,
                                                              const semblante_group_pose* pose, float* positions,
@@ -156,33 +185,52 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   const semblante_rigid_motion head = pose->head;
   const semblante_rigid_motion own = part != NULL ? *part : head;
   const uint32_t groups = run->group_count;
-  const int part_changed = run->part != SEMBLANTE_GROUP_BODY &&
-                           (pose->head_changed || (run->part != SEMBLANTE_GROUP_NONE && pose->local_changed));
+  const int is_skin =
+      run->part == SEMBLANTE_GROUP_NONE || run->part == SEMBLANTE_GROUP_BODY || run->part == SEMBLANTE_GROUP_NECK;
+  const int part_changed =
+      (run->part != SEMBLANTE_GROUP_BODY && pose->head_changed) || (!is_skin && pose->local_changed);
   const uint8_t* const changed = part_changed ? NULL : pose->changed_points;
   const reg* weights = at->weights;
   const reg* rest = at->rest;
   const uint8_t* points = at->points;
   const uint32_t* const first = at->first;
+  const uint8_t* const lids = at->lids;
   uint32_t written = 0;
   for (uint32_t g = 0; g < groups; ++g) {
     if (changed == NULL || any_changed(changed, points, count)) {
       reg p[REGISTERS][3];
       sum_group(pose->fp, points, weights, count, rest, p);
       float* const to = positions + (size_t)first[g] * 3;
-      if (then == AFTER_BY_VERTEX) {
-        float moved[SEMBLANTE_GROUP * 3];
+      if (then == AFTER_EACH) {
+        const uint32_t left = face->vertex_count - first[g];
+        float partial[SEMBLANTE_GROUP * 3];
+        float* const whole_group = left < SEMBLANTE_GROUP ? partial : to;
         for (uint32_t r = 0; r < REGISTERS; ++r) {
-          store_rows(p[r][0], p[r][1], p[r][2], moved + (size_t)r * SEMBLANTE_LANES * 3);
+          move_each(face, pose, weights, lids + g * 4U, r, first[g] + r * SEMBLANTE_LANES, rest, p[r]);
+          store_rows(p[r][0], p[r][1], p[r][2], whole_group + (size_t)r * SEMBLANTE_LANES * 3);
         }
-        const group_row row = {points, (const float*)weights, count};
-        finish_by_vertex(face, pose, &row, (const float*)rest, first[g], moved, to);
+        for (uint32_t i = 0; left < SEMBLANTE_GROUP && i < left * 3; ++i) {
+          to[i] = partial[i];
+        }
       } else {
         for (uint32_t r = 0; r < REGISTERS; ++r) {
-          if (then == AFTER_PART_AND_HEAD) {
-            move_registers(&own, 1, p[r]);
+          if (then == AFTER_LIDS) {
+            const uint32_t eye = run->part == SEMBLANTE_GROUP_RIGHT_LIDS;
+            const mask where =
+                load_bytes(face->rigid + first[g] + r * SEMBLANTE_LANES) == (int32_t)(SEMBLANTE_RIGID_LEFT_LIDS + eye);
+            roll_register(&pose->local.lids[eye], where, weights, r, lids + g * 4U + eye * 2U, rest, p[r]);
+            if (pose->head_moves) {
+              move_rigidly(&head, 0, p[r]);
+            }
           }
-          if (then != AFTER_NOTHING) {
-            move_registers(&head, 0, p[r]);
+          if (then == AFTER_NECK) {
+            turn_each(&head, pose->head_rotation, load_bytes(face->turn + first[g] + r * SEMBLANTE_LANES), p[r]);
+          }
+          if (then == AFTER_PART_AND_HEAD) {
+            move_rigidly(&own, 1, p[r]);
+          }
+          if (then == AFTER_HEAD || then == AFTER_PART_AND_HEAD) {
+            move_rigidly(&head, 0, p[r]);
           }
           store_rows(p[r][0], p[r][1], p[r][2], to + (size_t)r * SEMBLANTE_LANES * 3);
         }
@@ -197,6 +245,7 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   at->rest = rest;
   at->points = points;
   at->first = first + groups;
+  at->lids = lids + groups * 4U;
   at->written += written * SEMBLANTE_GROUP;
 }
 
@@ -221,6 +270,26 @@ static inline __attribute__((always_inline)) void deform_run_of(const semblante_
     case 4:
       deform_run(face, pose, positions, run, 4, then, NULL, at);
       break;
+#if SEMBLANTE_LANES == 8
+    case 5:
+      deform_run(face, pose, positions, run, 5, then, NULL, at);
+      break;
+    case 6:
+      deform_run(face, pose, positions, run, 6, then, NULL, at);
+      break;
+    case 7:
+      deform_run(face, pose, positions, run, 7, then, NULL, at);
+      break;
+    case 8:
+      deform_run(face, pose, positions, run, 8, then, NULL, at);
+      break;
+    case 9:
+      deform_run(face, pose, positions, run, 9, then, NULL, at);
+      break;
+    case 10:
+      deform_run(face, pose, positions, run, 10, then, NULL, at);
+      break;
+#endif
 #endif
     default:
       deform_run(face, pose, positions, run, run->point_count, then, NULL, at);
@@ -234,11 +303,17 @@ static after after_of(uint32_t part, const semblante_group_pose* pose, uint32_t*
   if (part == SEMBLANTE_GROUP_BODY) {
     return AFTER_NOTHING;
   }
+  if (part == SEMBLANTE_GROUP_NECK) {
+    return pose->head_moves ? AFTER_NECK : AFTER_NOTHING;
+  }
+  if (part == SEMBLANTE_GROUP_LEFT_LIDS || part == SEMBLANTE_GROUP_RIGHT_LIDS) {
+    return AFTER_LIDS;
+  }
   *eye = part == SEMBLANTE_GROUP_RIGHT_EYE || part == SEMBLANTE_GROUP_RIGHT_IRIS;
   const int iris = part == SEMBLANTE_GROUP_LEFT_IRIS || part == SEMBLANTE_GROUP_RIGHT_IRIS;
   if (part == SEMBLANTE_GROUP_MIXED || (part == SEMBLANTE_GROUP_TONGUE && pose->tongue_moves) ||
       (iris && pose->iris_moves[*eye])) {
-    return AFTER_BY_VERTEX;
+    return AFTER_EACH;
   }
   if (part != SEMBLANTE_GROUP_NONE && part != SEMBLANTE_GROUP_TONGUE && pose->eye_moves[*eye]) {
     return AFTER_PART_AND_HEAD;
@@ -248,7 +323,7 @@ static after after_of(uint32_t part, const semblante_group_pose* pose, uint32_t*
 
 uint32_t SEMBLANTE_DEFORM_GROUPS(const semblante_prepared_face* face, const semblante_group_pose* pose,
                                  float* positions) {
-  cursor at = {(const reg*)face->rest, (const reg*)face->weights, face->points, face->first, 0};
+  cursor at = {(const reg*)face->rest, (const reg*)face->weights, face->points, face->first, face->lids, 0};
   for (uint32_t r = 0; r < face->run_count; ++r) {
     const semblante_run* const run = &face->runs[r];
     uint32_t eye = 0;
@@ -262,8 +337,14 @@ uint32_t SEMBLANTE_DEFORM_GROUPS(const semblante_prepared_face* face, const semb
       case AFTER_PART_AND_HEAD:
         deform_run(face, pose, positions, run, run->point_count, AFTER_PART_AND_HEAD, &pose->local.eye[eye], &at);
         break;
-      case AFTER_BY_VERTEX:
-        deform_run(face, pose, positions, run, run->point_count, AFTER_BY_VERTEX, NULL, &at);
+      case AFTER_LIDS:
+        deform_run(face, pose, positions, run, run->point_count, AFTER_LIDS, NULL, &at);
+        break;
+      case AFTER_NECK:
+        deform_run(face, pose, positions, run, run->point_count, AFTER_NECK, NULL, &at);
+        break;
+      case AFTER_EACH:
+        deform_run(face, pose, positions, run, run->point_count, AFTER_EACH, NULL, &at);
         break;
     }
   }

@@ -9,6 +9,11 @@
 #define SEMBLANTE_UPPER_LID(eye) ((uint32_t)(SEMBLANTE_FP_LEFT_UPPER_LID + (eye)))
 #define SEMBLANTE_LOWER_LID(eye) ((uint32_t)(SEMBLANTE_FP_LEFT_LOWER_LID + (eye)))
 
+/* A lid gains its clearance from the ball over the first radians of its way, or of the ball's. */
+#define SEMBLANTE_LID_GAIN_OVER 0.1F
+/* A vertex slides on its circle while its depth before the axis is more than this share of the circle's radius. */
+#define SEMBLANTE_LID_NEAREST 0.05F
+
 /* pose->lid_closure of one eye, from the displacements in pose->fp and the eye's pitch (radians, positive down). */
 void semblante_close_lids(int eye, float pitch, semblante_pose* pose);
 
@@ -20,15 +25,14 @@ typedef struct semblante_lid_roll {
   const float* closure; /* upper, lower */
   const float* pivot;
   float ball_center[3];
-  float pole[3]; /* of the ball in this pose */
-  int moves;     /* 0: lids and ball are neutral, so that a vertex at rest stays bit for bit */
+  float pole[3];      /* of the ball in this pose */
+  float swing;        /* length of the way of the pole from the neutral face */
+  float clearance;    /* that a lid keeps from the ball */
+  float square_reach; /* squared distance from the ball's centre from which on every vertex has its clearance */
+  int moves;          /* 0: lids and ball are neutral, so that a vertex at rest stays bit for bit */
 } semblante_lid_roll;
 
 void semblante_prepare_lid_roll(int eye, const semblante_pose* pose, const semblante_rigid_motion* ball,
                                 semblante_lid_roll* roll);
-
-/* Moves one vertex with the weights `upper` and `lower` of the two points. `p`: on input the position by Eq. 7, on
- * output with the height that the closures give it, on its circle round the eye, and off the ball. */
-void semblante_roll_lid(const semblante_lid_roll* roll, float upper, float lower, const float rest[3], float p[3]);
 
 #endif

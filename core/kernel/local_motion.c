@@ -4,33 +4,12 @@ static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1]
 
 static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
 
-/* Changes the size of a pupil: adds to p the displacement of the rest position along its radius and along the curved
- * surface. */
-static void move_iris(const semblante_iris* iris, const float pivot[3], float growth, const float rest[3], float p[3]) {
-  if (growth == 0.0F || iris->pupil_radius <= 0.0F) {
-    return;
-  }
-  const float d[3] = {rest[0] - pivot[0], rest[1] - pivot[1], rest[2] - pivot[2]};
-  const float along = dot(d, iris->axis);
-  const float out[3] = {d[0] - along * iris->axis[0], d[1] - along * iris->axis[1], d[2] - along * iris->axis[2]};
-  const float r = __builtin_sqrtf(dot(out, out));
-  float stretch = 0.0F; /* the vertex moves outwards by stretch * r */
-  if (r < iris->pupil_radius) {
-    stretch = growth / iris->pupil_radius;
-  } else if (r < iris->iris_radius) {
-    stretch = growth * (iris->iris_radius - r) / ((iris->iris_radius - iris->pupil_radius) * r);
-  }
-  /* bend * ((r + stretch r)^2 - r^2) */
-  const float sink = iris->bend * (r * r) * (stretch * (2.0F + stretch));
-  for (int i = 0; i < 3; ++i) {
-    p[i] += stretch * out[i] + sink * iris->axis[i];
-  }
-}
-
 /* Bends a sheet of half width w about its middle line, so that its borders rotate by `roll`: an arc of curvature
  * k = roll / w. A point at u across the sheet and v above it moves to (sin(t) / k - v sin(t), (1 - cos(t)) / k + v
  * cos(t)) with t = k u; beyond the border it continues along the tangent. */
-static void roll_tongue(const semblante_tongue* tongue, float roll, const float rest[3], float p[3]) {
+void semblante_roll_tongue(const semblante_pose* pose, uint8_t rigid, const float rest[3], float p[3]) {
+  const semblante_tongue* const tongue = &pose->tongue;
+  const float roll = (float)(rigid - (SEMBLANTE_RIGID_TONGUE - 1)) / 128.0F * pose->tongue_roll;
   if (roll == 0.0F || tongue->half_width <= 0.0F) {
     return;
   }
@@ -59,24 +38,4 @@ void semblante_prepare_local(const semblante_pose* pose, semblante_local_motions
         semblante_rigid_motion_of(pose->eye_rotation[eye], pose->eye_pivot[eye], pose->eye_translation[eye]);
     semblante_prepare_lid_roll(eye, pose, &motions->eye[eye], &motions->lids[eye]);
   }
-}
-
-void semblante_move_local(const semblante_local_motions* motions, uint8_t rigid, semblante_lid_weights weights,
-                          const float rest[3], float p[3]) {
-  const semblante_pose* const pose = motions->pose;
-  const int lids = semblante_lids_of(rigid);
-  if (lids >= 0) {
-    semblante_roll_lid(&motions->lids[lids], weights.upper, weights.lower, rest, p);
-    return;
-  }
-  if (rigid >= SEMBLANTE_RIGID_TONGUE) {
-    const float share = (float)(rigid - (SEMBLANTE_RIGID_TONGUE - 1)) / 128.0F;
-    roll_tongue(&pose->tongue, share * pose->tongue_roll, rest, p);
-    return;
-  }
-  const int eye = rigid == SEMBLANTE_RIGID_LEFT_EYE || rigid == SEMBLANTE_RIGID_LEFT_IRIS ? 0 : 1;
-  if (rigid == SEMBLANTE_RIGID_LEFT_IRIS || rigid == SEMBLANTE_RIGID_RIGHT_IRIS) {
-    move_iris(&pose->iris[eye], pose->eye_pivot[eye], pose->pupil_growth[eye], rest, p);
-  }
-  semblante_move(&motions->eye[eye], p);
 }

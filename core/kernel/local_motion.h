@@ -16,11 +16,6 @@ typedef struct semblante_local_motions {
   semblante_lid_roll lids[2];
 } semblante_local_motions;
 
-/* The weights that a vertex of lids has of their two points. */
-typedef struct semblante_lid_weights {
-  float upper, lower;
-} semblante_lid_weights;
-
 /* The eye (0 left, 1 right) whose lids a vertex belongs to, or -1. */
 static inline int semblante_lids_of(uint8_t rigid) {
   return rigid == SEMBLANTE_RIGID_LEFT_LIDS ? 0 : rigid == SEMBLANTE_RIGID_RIGHT_LIDS ? 1 : -1;
@@ -29,9 +24,8 @@ static inline int semblante_lids_of(uint8_t rigid) {
 /* `pose` must outlive the motions. */
 void semblante_prepare_local(const semblante_pose* pose, semblante_local_motions* motions);
 
-/* Moves one vertex. `rigid` must not be SEMBLANTE_RIGID_NONE; `weights`: read for lids alone; `rest`: its position on
- * the neutral face; `p`: on input the position by Eq. 7, on output the position before the motion of the head. */
-void semblante_move_local(const semblante_local_motions* motions, uint8_t rigid, semblante_lid_weights weights,
-                          const float rest[3], float p[3]);
+/* Moves one vertex of the tongue: `rigid` is at least SEMBLANTE_RIGID_TONGUE; `rest`: its position on the neutral face;
+ * `p`: on input the position by Eq. 7, on output the position before the motion of the head. */
+void semblante_roll_tongue(const semblante_pose* pose, uint8_t rigid, const float rest[3], float p[3]);
 
 #endif

@@ -1,9 +1,11 @@
 /* Regroups the influence table: see semblante_prepared_face.h. */
 #include "core/kernel/export.h"
+#include "core/kernel/lids.h"
 #include "core/kernel/prepared_layout.h"
+#include "core/tables/generated/mpeg4_tables.h"
 
 /* Groups are sorted within windows of this size, so that writes stay local. */
-#define WINDOW 256U
+#define WINDOW 4096U
 #define KEYS (SEMBLANTE_GROUP_PARTS * (SEMBLANTE_FP_COUNT + 1))
 
 /* The properties of one group, before it is written. */
@@ -22,14 +24,16 @@ static uint8_t turn_of(const semblante_face* face, uint32_t v) {
   return face->turn == NULL ? SEMBLANTE_TURN_FULL : face->turn[v];
 }
 
-/* The part of a group of one vertex. Only skin may stay when the head turns, and vertices of the neck and of lids are
- * moved one by one. */
+/* The part of a group of one vertex. */
 static uint32_t part_of(uint8_t rigid, uint8_t turn) {
   if (turn != SEMBLANTE_TURN_FULL) {
-    return turn == 0 && rigid == SEMBLANTE_RIGID_NONE ? SEMBLANTE_GROUP_BODY : SEMBLANTE_GROUP_MIXED;
+    return rigid != SEMBLANTE_RIGID_NONE ? SEMBLANTE_GROUP_MIXED
+           : turn == 0                   ? SEMBLANTE_GROUP_BODY
+                                         : SEMBLANTE_GROUP_NECK;
   }
   return rigid >= SEMBLANTE_RIGID_TONGUE       ? SEMBLANTE_GROUP_TONGUE
-         : semblante_lids_of(rigid) >= 0       ? SEMBLANTE_GROUP_MIXED
+         : rigid == SEMBLANTE_RIGID_LEFT_LIDS  ? SEMBLANTE_GROUP_LEFT_LIDS
+         : rigid == SEMBLANTE_RIGID_RIGHT_LIDS ? SEMBLANTE_GROUP_RIGHT_LIDS
          : rigid == SEMBLANTE_RIGID_LEFT_EYE   ? SEMBLANTE_GROUP_LEFT_EYE
          : rigid == SEMBLANTE_RIGID_RIGHT_EYE  ? SEMBLANTE_GROUP_RIGHT_EYE
          : rigid == SEMBLANTE_RIGID_LEFT_IRIS  ? SEMBLANTE_GROUP_LEFT_IRIS
@@ -49,10 +53,13 @@ static uint32_t join_part(uint32_t part, int is_first, uint32_t own) {
   if (both == (1U << SEMBLANTE_GROUP_RIGHT_EYE | 1U << SEMBLANTE_GROUP_RIGHT_IRIS)) {
     return SEMBLANTE_GROUP_RIGHT_IRIS;
   }
-  if (both == (1U << SEMBLANTE_GROUP_NONE | 1U << SEMBLANTE_GROUP_TONGUE)) {
-    return SEMBLANTE_GROUP_TONGUE;
+  const uint32_t beside_none = both & ~(1U << SEMBLANTE_GROUP_NONE);
+  if (beside_none == 1U << SEMBLANTE_GROUP_TONGUE || beside_none == 1U << SEMBLANTE_GROUP_LEFT_LIDS ||
+      beside_none == 1U << SEMBLANTE_GROUP_RIGHT_LIDS) {
+    return part == SEMBLANTE_GROUP_NONE ? own : part;
   }
-  return SEMBLANTE_GROUP_MIXED;
+  const uint32_t skin = 1U << SEMBLANTE_GROUP_NONE | 1U << SEMBLANTE_GROUP_BODY | 1U << SEMBLANTE_GROUP_NECK;
+  return (both & ~skin) == 0 ? SEMBLANTE_GROUP_NECK : SEMBLANTE_GROUP_MIXED;
 }
 
 static __attribute__((noinline)) group_facts facts_of(const semblante_face* face, uint32_t group) {
@@ -114,7 +121,7 @@ static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, 
 
 /* The offsets of the arrays of a prepared face from its header, and its total size. */
 typedef struct layout {
-  size_t runs, first, rest, weights, points, rigid, turn, end;
+  size_t runs, first, rest, weights, points, lids, rigid, turn, end;
   uint32_t run_count;
 } layout;
 
@@ -145,6 +152,7 @@ static layout lay_out(const semblante_face* face) {
   l.rest = place(&l.end, (size_t)groups * SEMBLANTE_GROUP * 3 * sizeof(float));
   l.weights = place(&l.end, united * SEMBLANTE_GROUP * sizeof(float));
   l.points = place(&l.end, united);
+  l.lids = place(&l.end, (size_t)groups * 4);
   l.rigid = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
   l.turn = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
   return l;
@@ -153,11 +161,12 @@ static layout lay_out(const semblante_face* face) {
 SEMBLANTE_EXPORT(semblante_prepared_size)
 size_t semblante_prepared_size(const semblante_face* face) { return lay_out(face).end; }
 
+/* Minus zero becomes zero, as it does when Eq. 7 adds a displacement of zero: groups without points need no sum. */
 static void write_rest(const semblante_face* face, uint32_t group, float* rest) {
   for (uint32_t lane = 0; lane < SEMBLANTE_GROUP; ++lane) {
     const uint32_t v = group * SEMBLANTE_GROUP + lane;
     for (uint32_t i = 0; i < 3; ++i) {
-      rest[i * SEMBLANTE_GROUP + lane] = v < face->vertex_count ? face->rest[(size_t)v * 3 + i] : 0.0F;
+      rest[i * SEMBLANTE_GROUP + lane] = v < face->vertex_count ? face->rest[(size_t)v * 3 + i] + 0.0F : 0.0F;
     }
   }
 }
@@ -181,6 +190,19 @@ static void write_weights(const semblante_face* face, uint32_t group, const grou
   }
 }
 
+static void write_lids(const group_facts* facts, uint8_t lids[4]) {
+  const uint32_t wanted[4] = {SEMBLANTE_UPPER_LID(0), SEMBLANTE_LOWER_LID(0), SEMBLANTE_UPPER_LID(1),
+                              SEMBLANTE_LOWER_LID(1)};
+  for (uint32_t i = 0; i < 4; ++i) {
+    lids[i] = SEMBLANTE_NO_POINT;
+    for (uint32_t k = 0; k < facts->point_count; ++k) {
+      if (facts->points[k] == wanted[i]) {
+        lids[i] = (uint8_t)k;
+      }
+    }
+  }
+}
+
 SEMBLANTE_EXPORT(semblante_prepare)
 const semblante_prepared_face* semblante_prepare(const semblante_face* face, void* memory) {
   char* const base = memory;
@@ -191,10 +213,11 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
   float* rest = (float*)(base + l.rest);
   float* weights = (float*)(base + l.weights);
   uint8_t* points = (uint8_t*)(base + l.points);
+  uint8_t* lids = (uint8_t*)(base + l.lids);
   uint8_t* const rigid = (uint8_t*)(base + l.rigid);
   uint8_t* const turn = (uint8_t*)(base + l.turn);
   const semblante_prepared_face prepared = {
-      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, rigid, turn};
+      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, lids, rigid, turn};
   *(semblante_prepared_face*)memory = prepared;
 
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
@@ -221,9 +244,11 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
       const group_facts facts = facts_of(face, group);
       write_rest(face, group, rest);
       write_weights(face, group, &facts, weights);
+      write_lids(&facts, lids);
       for (uint32_t k = 0; k < facts.point_count; ++k) {
         points[k] = facts.points[k];
       }
+      lids += 4;
       rest += (size_t)SEMBLANTE_GROUP * 3;
       weights += (size_t)facts.point_count * SEMBLANTE_GROUP;
       points += facts.point_count;

@@ -15,11 +15,17 @@ typedef enum semblante_group_part {
   SEMBLANTE_GROUP_RIGHT_EYE,
   SEMBLANTE_GROUP_LEFT_IRIS, /* all vertices belong to the eye, some to its iris */
   SEMBLANTE_GROUP_RIGHT_IRIS,
-  SEMBLANTE_GROUP_BODY,   /* no vertex has a local motion or turns with the head */
-  SEMBLANTE_GROUP_TONGUE, /* some vertices belong to the tongue, the others have no local motion */
-  SEMBLANTE_GROUP_MIXED,  /* any other combination, and an incomplete last group */
+  SEMBLANTE_GROUP_BODY,      /* no vertex has a local motion or turns with the head */
+  SEMBLANTE_GROUP_NECK,      /* no vertex has a local motion, and not all turn fully with the head */
+  SEMBLANTE_GROUP_TONGUE,    /* some vertices belong to the tongue, the others have no local motion */
+  SEMBLANTE_GROUP_LEFT_LIDS, /* some vertices belong to the lids of one eye, the others have no local motion */
+  SEMBLANTE_GROUP_RIGHT_LIDS,
+  SEMBLANTE_GROUP_MIXED, /* any other combination, and an incomplete last group */
   SEMBLANTE_GROUP_PARTS
 } semblante_group_part;
+
+/* The point of a lid (0 left upper, 1 left lower, 2 right upper, 3 right lower) has no weight in a group. */
+#define SEMBLANTE_NO_POINT 255U
 
 /* Consecutive groups with the same number of points and the same part: a loop with predictable branches. */
 typedef struct semblante_run {
@@ -38,6 +44,7 @@ struct semblante_prepared_face {
   const float* rest;     /* #G by 3 by 8: eight x, eight y, eight z */
   const float* weights;  /* #U by 8: for each point of each group the weights of the group's vertices */
   const uint8_t* points; /* #U, increasing within a group */
+  const uint8_t* lids;   /* #G by 4: where the points of the lids are among the group's points; NO_POINT: nowhere */
   const uint8_t* rigid;  /* #V padded to whole groups, by vertex: SEMBLANTE_RIGID_* */
   const uint8_t* turn;   /* likewise: 255ths of the head's rotation */
 };

@@ -1,4 +1,4 @@
-/* Internal: the motion of a rigid part in a pose. Inline, because the head's motion applies to every vertex. */
+/* Internal: the motion of a rigid part in a pose. lane_motions.h applies it to vertices. */
 #ifndef SEMBLANTE_KERNEL_RIGID_MOTION_H
 #define SEMBLANTE_KERNEL_RIGID_MOTION_H
 
@@ -22,13 +22,6 @@ static inline semblante_rigid_motion semblante_rigid_motion_of(const float q[4],
                                     {pivot[0], pivot[1], pivot[2]},
                                     {translation[0], translation[1], translation[2]}};
   return m;
-}
-
-static inline void semblante_move(const semblante_rigid_motion* m, float p[3]) {
-  const float d[3] = {p[0] - m->pivot[0], p[1] - m->pivot[1], p[2] - m->pivot[2]};
-  for (int i = 0; i < 3; ++i) {
-    p[i] += (m->change[i][0] * d[0] + m->change[i][1] * d[1] + m->change[i][2] * d[2]) + m->translation[i];
-  }
 }
 
 #endif

@@ -1,5 +1,6 @@
 #include "tests/bench/kernel/baselines.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace semblante::bench {
@@ -14,6 +15,16 @@ Matrix matrix_of(const float* q) {
   return {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z),
            1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x),
            1 - 2 * (x * x + y * y)}};
+}
+
+/// The share of a rotation that a vertex of the neck has.
+Matrix part_of(const float* q, std::uint8_t turn) {
+  const float share = static_cast<float>(turn) / SEMBLANTE_TURN_FULL;
+  const float side = q[3] < 0 ? -share : share;
+  float r[4] = {side * q[0], side * q[1], side * q[2], 1 - share + side * q[3]};
+  const float length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  for (float& number : r) number /= length;
+  return matrix_of(r);
 }
 
 /// x, y, z turned about a pivot.
@@ -42,7 +53,11 @@ void scalar_deform(const semblante_face& face, const semblante_pose& pose, float
       const int eye = face.rigid[v] % 2 == 1 ? 0 : 1;
       turn(eyes[eye], pose.eye_pivot[eye], x, y, z);
     }
-    turn(head, pose.head_pivot, x, y, z);
+    if (face.turn[v] == SEMBLANTE_TURN_FULL) {
+      turn(head, pose.head_pivot, x, y, z);
+    } else if (face.turn[v] != 0) {
+      turn(part_of(pose.head_rotation, face.turn[v]), pose.head_pivot, x, y, z);
+    }
     positions[v * 3] = x;
     positions[v * 3 + 1] = y;
     positions[v * 3 + 2] = z;

@@ -63,6 +63,8 @@ BenchHead head_of(std::string name, const Model& model, const Surface& surface, 
   for (const FeaturePointId id : table.rows.points) head.points.push_back(id.value());
   head.weights = std::move(table.rows.weights);
   head.rigid = std::move(table.rigid);
+  head.turn = std::move(table.turn);
+  if (head.turn.empty()) head.turn.assign(head.rigid.size(), SEMBLANTE_TURN_FULL);
   head.triangles = mesh.triangles();
   return head;
 }
@@ -77,6 +79,7 @@ semblante_face BenchHead::face() const {
   face.row_points = points.data();
   face.row_weights = weights.data();
   face.rigid = rigid.data();
+  face.turn = turn.data();
   return face;
 }
 
@@ -135,7 +138,7 @@ void write_bench_head(const BenchHead& head, const std::string& file) {
   };
   const std::uint32_t counts[3] = {head.vertex_count(), static_cast<std::uint32_t>(head.points.size()),
                                    static_cast<std::uint32_t>(head.triangles.size())};
-  put("SBH1", 4);
+  put("SBH2", 4);
   put(counts, sizeof counts);
   put(head.rest.data(), head.rest.size() * 4);
   put(head.offsets.data(), head.offsets.size() * 4);
@@ -145,6 +148,7 @@ void write_bench_head(const BenchHead& head, const std::string& file) {
   put(&pose, sizeof pose);
   put(head.points.data(), head.points.size());
   put(head.rigid.data(), head.rigid.size());
+  put(head.turn.data(), head.turn.size());
 }
 
 }  // namespace semblante::bench

@@ -20,6 +20,7 @@ struct BenchHead {
   std::vector<std::uint8_t> points;    ///< #entries
   std::vector<float> weights;          ///< #entries
   std::vector<std::uint8_t> rigid;     ///< #V
+  std::vector<std::uint8_t> turn;      ///< #V: 255ths of the head's rotation
   std::vector<Triangle> triangles;     ///< #T by 3
 
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rigid.size()); }
@@ -35,8 +36,9 @@ std::vector<BenchHead> real_bench_heads(WeightMethod method);
 /// A vowel in a smile with raised brows; with the head and the eyes turned too, or not.
 semblante_pose talking_pose(const BenchHead& head, bool head_and_eyes);
 
-/// The head in words and numbers for a program in another language: magic "SBH1", then as little-endian uint32 #V,
-/// #entries, #T; rest, offsets, weights, triangles and a semblante_pose (4 bytes each), points and rigid (1 byte each).
+/// The head in words and numbers for a program in another language: magic "SBH2", then as little-endian uint32 #V,
+/// #entries, #T; rest, offsets, weights, triangles and a semblante_pose (4 bytes each), points, rigid and turn (1 byte
+/// each).
 void write_bench_head(const BenchHead& head, const std::string& file);
 
 }  // namespace semblante::bench

@@ -107,6 +107,15 @@ TEST(KernelPrepared_Size, HoldsAFaceWithoutVerticesRowsOrParts) {
   semblante_deform_prepared(prepared.face, &pose, found.data());
   EXPECT_TRUE(same_bits(found, rows));
 
+  // Minus zero plus a displacement of zero is zero, also where no sum is made.
+  const std::vector<float> minus_zero(72, -0.0F);
+  bare.rest = minus_zero.data();
+  const Prepared at_zero(bare);
+  const semblante_pose still = face.pose(RandomFace::neutral);
+  semblante_deform(&bare, &still, rows.data());
+  semblante_deform_prepared(at_zero.face, &still, found.data());
+  EXPECT_TRUE(same_bits(found, rows));
+
   bare.vertex_count = 0;
   const Prepared none(bare);
   semblante_deform_prepared(none.face, &pose, nullptr);

@@ -1,0 +1,149 @@
+/* Internal: the motions of a vertex after Eq. 7, one vertex per lane (see lanes.h): rigid parts, irises, lids and the
+ * head's rotation. semblante_deform uses them with one lane, the loops over groups with as many as a register has. */
+#ifndef SEMBLANTE_KERNEL_LANE_MOTIONS_H
+#define SEMBLANTE_KERNEL_LANE_MOTIONS_H
+
+#include "core/kernel/lanes.h"
+#include "core/kernel/local_motion.h"
+
+/* The rigid motion m of all lanes. `slides`: it may have a translation. */
+LANE_FUNCTION void move_rigidly(const semblante_rigid_motion* m, int slides, reg p[3]) {
+  const reg d[3] = {p[0] - m->pivot[0], p[1] - m->pivot[1], p[2] - m->pivot[2]};
+  for (int i = 0; i < 3; ++i) {
+    const reg turned = m->change[i][0] * d[0] + m->change[i][1] * d[1] + m->change[i][2] * d[2];
+    p[i] += slides ? turned + m->translation[i] : turned;
+  }
+}
+
+LANE_FUNCTION void choose_point(mask where, const reg yes[3], reg p[3]) {
+  for (int i = 0; i < 3; ++i) {
+    p[i] = choose(where, yes[i], p[i]);
+  }
+}
+
+/* The head's motion where a vertex has only `turn` 255ths of it, 1 to 254: the rotation between none and q, by
+ * normalized linear interpolation along the shorter arc. */
+LANE_FUNCTION void turn_partly(const float q[4], const float pivot[3], ints turn, reg p[3]) {
+  const reg share = as_reals(turn) / (float)SEMBLANTE_TURN_FULL;
+  const reg side = q[3] < 0.0F ? -share : share;
+  const reg r[4] = {side * q[0], side * q[1], side * q[2], (1.0F - share) + side * q[3]};
+  /* The length is at least sqrt(1/2). */
+  const reg length = square_root(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  const reg x = r[0] / length;
+  const reg y = r[1] / length;
+  const reg z = r[2] / length;
+  const reg w = r[3] / length;
+  const reg change[3][3] = {{-2.0F * (y * y + z * z), 2.0F * (x * y - w * z), 2.0F * (x * z + w * y)},
+                            {2.0F * (x * y + w * z), -2.0F * (x * x + z * z), 2.0F * (y * z - w * x)},
+                            {2.0F * (x * z - w * y), 2.0F * (y * z + w * x), -2.0F * (x * x + y * y)}};
+  const reg d[3] = {p[0] - pivot[0], p[1] - pivot[1], p[2] - pivot[2]};
+  for (int i = 0; i < 3; ++i) {
+    p[i] += change[i][0] * d[0] + change[i][1] * d[1] + change[i][2] * d[2];
+  }
+}
+
+/* Changes the size of a pupil: adds to p the displacement of the rest position along its radius and along the curved
+ * surface. */
+LANE_FUNCTION void move_iris(const semblante_iris* iris, const float pivot[3], float growth, const reg rest[3],
+                             reg p[3]) {
+  if (growth == 0.0F || iris->pupil_radius <= 0.0F) {
+    return;
+  }
+  const reg d[3] = {rest[0] - pivot[0], rest[1] - pivot[1], rest[2] - pivot[2]};
+  const reg along = dot_with(d, iris->axis);
+  const reg out[3] = {d[0] - along * iris->axis[0], d[1] - along * iris->axis[1], d[2] - along * iris->axis[2]};
+  const reg r = square_root(dot_product(out, out));
+  /* The vertex moves outwards by stretch * r. */
+  const reg ring = growth * (iris->iris_radius - r) / ((iris->iris_radius - iris->pupil_radius) * r);
+  const reg stretch = choose(r < iris->pupil_radius, all_lanes(growth / iris->pupil_radius),
+                             choose(r < iris->iris_radius, ring, all_lanes(0.0F)));
+  /* bend * ((r + stretch r)^2 - r^2) */
+  const reg sink = iris->bend * (r * r) * (stretch * (2.0F + stretch));
+  for (int i = 0; i < 3; ++i) {
+    p[i] += stretch * out[i] + sink * iris->axis[i];
+  }
+}
+
+/* The radius of the ball in the direction of d, a vector of length `distance` from its centre. */
+LANE_FUNCTION reg radius_towards(const semblante_lids* lids, const float pole[3], const reg d[3], reg distance) {
+  const float last = (float)(SEMBLANTE_BALL_PLACES - 1);
+  const reg at = square_root(1.0F - within(dot_with(d, pole) / distance, 0.0F, 1.0F)) * last;
+  /* Not a number counts as the equator, so that the look-up stays within the table. */
+  const ints k = whole(choose(at < last, at, all_lanes(last - 1.0F)));
+  reg here;
+  reg next;
+  look_up_two(lids->ball, k, &here, &next);
+  return here + (at - as_reals(k)) * (next - here);
+}
+
+/* Moves p away from the ball to the vertex's clearance. `way`: by which its height changes. */
+LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg way, const reg rest[3], reg p[3]) {
+  const semblante_lids* const lids = roll->lids;
+  const float radius = lids->ball[SEMBLANTE_BALL_PLACES - 1];
+  const float wanted = roll->clearance;
+  if (!(wanted > 0.0F)) {
+    return;
+  }
+  const reg d[3] = {p[0] - roll->ball_center[0], p[1] - roll->ball_center[1], p[2] - roll->ball_center[2]};
+  const reg square_distance = dot_product(d, d);
+  where &= square_distance < roll->square_reach;
+  if (!any(where)) {
+    return;
+  }
+  const reg r[3] = {rest[0] - roll->pivot[0], rest[1] - roll->pivot[1], rest[2] - roll->pivot[2]};
+  const reg at_rest = square_root(dot_product(r, r));
+  const reg distance = square_root(square_distance);
+  where &= (at_rest > 0.0F) & (distance > 0.0F);
+  const reg own = at_rest - radius_towards(lids, lids->gaze, r, at_rest);
+  const reg gained = (choose(way < 0.0F, -way, way) / radius + roll->swing) / SEMBLANTE_LID_GAIN_OVER;
+  const reg grown = own + within(gained, 0.0F, 1.0F) * (wanted - own);
+  /* What lies deeper on the neutral face is the inside of a lid: hidden. */
+  const reg clearance = choose(own >= wanted, all_lanes(wanted), choose(own > -wanted, grown, own));
+  const reg least = radius_towards(lids, roll->pole, d, distance) + clearance;
+  where &= distance < least;
+  if (!any(where)) {
+    return;
+  }
+  /* Forwards, so that the height stays that of Eq. 7; at the border of the ball away from its centre. */
+  const reg square = least * least - d[0] * d[0] - d[1] * d[1];
+  const mask forwards = (d[2] > 0.0F) & (square > 0.25F * least * least);
+  const reg share = (least - distance) / distance;
+  const reg cleared[3] = {choose(forwards, p[0], p[0] + d[0] * share), choose(forwards, p[1], p[1] + d[1] * share),
+                          p[2] + choose(forwards, square_root(square) - d[2], d[2] * share)};
+  choose_point(where, cleared, p);
+}
+
+/* Moves the lanes `where` with the weights `upper` and `lower` of the two points of their lids. `p`: on input the
+ * position by Eq. 7, on output with the height that the closures give it, on its circle round the eye, and off the
+ * ball. */
+LANE_FUNCTION void roll_lids(const semblante_lid_roll* roll, mask where, reg upper, reg lower, const reg rest[3],
+                             reg p[3]) {
+  if (!(roll->lids->opening > 0.0F)) {
+    return;
+  }
+  if (!roll->moves) { /* what is at rest stays bit for bit */
+    where &= (p[0] != rest[0]) | (p[1] != rest[1]) | (p[2] != rest[2]);
+    if (!any(where)) {
+      return;
+    }
+  }
+  reg q[3];
+  for (int i = 0; i < 3; ++i) {
+    q[i] = p[i] - (upper * roll->upper[i] + lower * roll->lower[i]);
+  }
+  const reg way = roll->lids->opening * (lower * roll->closure[1] - upper * roll->closure[0]);
+  const mask rises = where & (way != 0.0F);
+  if (any(rises)) {
+    const reg y = q[1] - roll->pivot[1];
+    const reg z = q[2] - roll->pivot[2];
+    const reg least = SEMBLANTE_LID_NEAREST * square_root(y * y + z * z);
+    const reg square = y * y + z * z - (y + way) * (y + way);
+    const reg slid = q[2] + (choose(square > least * least, square_root(square), least) - z);
+    q[2] = choose(rises & (z > least), slid, q[2]); /* what lies behind the axis does not slide */
+  }
+  q[1] += way;
+  clear_ball(roll, where, way, rest, q);
+  choose_point(where, q, p);
+}
+
+#endif

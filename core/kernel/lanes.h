@@ -1,0 +1,137 @@
+/* Internal: numbers of SEMBLANTE_LANES vertices at once, one vertex per lane of a register. The including file defines
+ * SEMBLANTE_LANES as 1 (plain floats), 4 (SSE2, NEON, WebAssembly SIMD) or 8 (AVX2). A formula that is written with
+ * these types gives the same bits with every number of lanes: each lane does the same operations in the same order. */
+#ifndef SEMBLANTE_KERNEL_LANES_H
+#define SEMBLANTE_KERNEL_LANES_H
+
+#include <stdint.h>
+
+#if SEMBLANTE_LANES == 8
+#include <immintrin.h>
+#elif SEMBLANTE_LANES == 4 && defined(__SSE2__)
+#include <emmintrin.h>
+#elif SEMBLANTE_LANES == 4 && defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+#define LANE_FUNCTION static inline __attribute__((always_inline, unused))
+
+#if SEMBLANTE_LANES == 1
+typedef float reg;
+typedef int32_t mask; /* by lane: a comparison of two `reg`s */
+typedef int32_t ints;
+#else
+typedef float reg __attribute__((vector_size(4 * SEMBLANTE_LANES)));
+typedef int32_t mask __attribute__((vector_size(4 * SEMBLANTE_LANES)));
+typedef int32_t ints __attribute__((vector_size(4 * SEMBLANTE_LANES)));
+#endif
+
+/* The lanes of `yes` where `where` holds, those of `no` elsewhere. */
+LANE_FUNCTION reg choose(mask where, reg yes, reg no) {
+#if SEMBLANTE_LANES == 1
+  return where ? yes : no;
+#elif SEMBLANTE_LANES == 8
+  return (reg)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)where);
+#else
+  return (reg)((where & (mask)yes) | (~where & (mask)no));
+#endif
+}
+
+/* Whether a mask holds in any lane. */
+LANE_FUNCTION int any(mask where) {
+#if SEMBLANTE_LANES == 1
+  return where != 0;
+#elif SEMBLANTE_LANES == 8
+  return _mm256_movemask_ps((__m256)where) != 0;
+#elif defined(__SSE2__)
+  return _mm_movemask_ps((__m128)where) != 0;
+#elif defined(__aarch64__)
+  return vmaxvq_u32((uint32x4_t)where) != 0;
+#elif defined(__wasm_simd128__)
+  typedef signed char bytes __attribute__((vector_size(16)));
+  return __builtin_wasm_any_true_v128((bytes)where);
+#else
+  return (where[0] | where[1] | where[2] | where[3]) != 0;
+#endif
+}
+
+LANE_FUNCTION reg square_root(reg x) {
+#if SEMBLANTE_LANES == 1
+  return __builtin_sqrtf(x);
+#elif SEMBLANTE_LANES == 8
+  return (reg)_mm256_sqrt_ps((__m256)x);
+#elif defined(__SSE2__)
+  return (reg)_mm_sqrt_ps((__m128)x);
+#elif defined(__aarch64__)
+  return (reg)vsqrtq_f32((float32x4_t)x);
+#elif defined(__wasm_simd128__)
+  return (reg)__builtin_wasm_sqrt_f32x4(x);
+#else
+  return (reg){__builtin_sqrtf(x[0]), __builtin_sqrtf(x[1]), __builtin_sqrtf(x[2]), __builtin_sqrtf(x[3])};
+#endif
+}
+
+/* Rounded towards zero; within the range of int32_t. */
+LANE_FUNCTION ints whole(reg x) {
+#if SEMBLANTE_LANES == 1
+  return (int32_t)x;
+#else
+  return __builtin_convertvector(x, ints);
+#endif
+}
+
+LANE_FUNCTION reg as_reals(ints x) {
+#if SEMBLANTE_LANES == 1
+  return (float)x;
+#else
+  return __builtin_convertvector(x, reg);
+#endif
+}
+
+/* One byte of each vertex. */
+LANE_FUNCTION ints load_bytes(const uint8_t* from) {
+#if SEMBLANTE_LANES == 1
+  return *from;
+#else
+  typedef uint8_t bytes __attribute__((vector_size(SEMBLANTE_LANES)));
+  bytes all;
+  __builtin_memcpy(&all, from, sizeof all);
+  return __builtin_convertvector(all, ints);
+#endif
+}
+
+/* from[index] and from[index + 1] of each lane. */
+LANE_FUNCTION void look_up_two(const float* from, ints index, reg* here, reg* next) {
+#if SEMBLANTE_LANES == 1
+  *here = from[index];
+  *next = from[index + 1];
+#elif SEMBLANTE_LANES == 8
+  *here = (reg)_mm256_i32gather_ps(from, (__m256i)index, 4);
+  *next = (reg)_mm256_i32gather_ps(from + 1, (__m256i)index, 4);
+#else
+  *here = *next = (reg){0};
+  for (int lane = 0; lane < SEMBLANTE_LANES; ++lane) {
+    (*here)[lane] = from[index[lane]];
+    (*next)[lane] = from[index[lane] + 1];
+  }
+#endif
+}
+
+LANE_FUNCTION reg all_lanes(float x) {
+#if SEMBLANTE_LANES == 1
+  return x;
+#else
+  return (reg){0} + x;
+#endif
+}
+
+LANE_FUNCTION reg within(reg value, float low, float high) {
+  return choose(value < low, all_lanes(low), choose(value > high, all_lanes(high), value));
+}
+
+LANE_FUNCTION reg dot_product(const reg a[3], const reg b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* The same with a vector that all lanes share. */
+LANE_FUNCTION reg dot_with(const reg a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+#endif
