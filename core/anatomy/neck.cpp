@@ -18,19 +18,20 @@ namespace semblante {
 namespace {
 
 // Lengths in units of the height from the chin to the eyes. Human proportions; the shoulders are measured.
-constexpr double step_down = 0.05;          ///< between the sections of the neck
-constexpr double first_section = 0.15;      ///< below the chin: above it a section cuts the jaw
-constexpr double longest_neck = 1.6;        ///< the narrowest section is no farther below the chin
-constexpr double shoulders_within = 3.0;    ///< and the shoulders begin no farther below it
-constexpr double shortest_neck = 0.3;       ///< a cut nearer to the chin: the head turns as a whole
-constexpr double nape_below_eyes = 0.6;     ///< the head ends there at the back
-constexpr double shoulder_widening = 1.45;  ///< shoulders begin where the neck is wider than its least by this
-constexpr double beyond_neck = 1.5;         ///< radii of the neck from its axis: not neck, whatever its height
-constexpr double chin_below_mouth = 0.6;    ///< in heights of the eyes above the mouth, without a point of the chin
-constexpr double border_height = 0.04;      ///< of the lower border of a neck that is cut
-/// Ends of the smooth step from the shoulders (0) to the head (1): outside, vertices stay or turn fully.
-constexpr double still_until = 0.04;
-constexpr double full_from = 0.98;
+constexpr double step_down = 0.05;         ///< between the sections of the neck
+constexpr double above_line = 0.01;        ///< how far below the line of the jaw the head still reaches
+constexpr double first_section = 0.15;     ///< below the chin: above it a section cuts the jaw
+constexpr double longest_neck = 1.6;       ///< the narrowest section is no farther below the chin
+constexpr double shoulders_within = 3.0;   ///< and the shoulders begin no farther below it
+constexpr double shortest_neck = 0.3;      ///< a cut nearer to the chin: the head turns as a whole
+constexpr double nape_below_eyes = 0.6;    ///< the head ends there at the back
+constexpr double shoulder_widening = 1.6;  ///< shoulders begin where the neck is wider than its least by this
+constexpr double beyond_neck = 1.5;        ///< radii of the neck from its axis: not neck, whatever its height
+constexpr double chin_below_mouth = 0.6;   ///< in heights of the eyes above the mouth, without a point of the chin
+constexpr double border_height = 0.04;     ///< from the border of the skin: still
+constexpr double spanning = 0.5;  ///< of the width of the neck: a border that is less wide is a hole, not its end
+constexpr double full_from =
+    0.98;  ///< of the way from the shoulders (0) to the head (1): from there vertices turn fully
 
 constexpr std::array<std::string_view, 2> pupil_points = {"3.5", "3.6"};
 constexpr std::array<std::string_view, 8> lid_points = {"3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12"};
@@ -90,7 +91,7 @@ std::optional<Landmarks> landmarks_of(const FeaturePointSet& points, std::span<c
 bool above_jaw(const Landmarks& marks, const glm::dvec3& p) {
   const double t = (p.z - marks.chin.z) / (marks.nape.z - marks.chin.z);
   const double line = marks.chin.y + std::clamp(t, 0.0, 1.0) * (marks.nape.y - marks.chin.y);
-  return p.y >= line - step_down * marks.height;
+  return p.y >= line - above_line * marks.height;
 }
 
 /// The vertices of the head: those above the jaw that are joined to the face above it, so that raised hands are none.
@@ -108,6 +109,57 @@ std::vector<SurfaceVertexId> head_vertices(const Surface& surface, std::span<con
     for (const Surface::Step& step : surface.steps_from(head[next])) visit(step.to);
   }
   return head;
+}
+
+/// A line where the skin ends below the jaw: of a cut neck, of a bust, at a collar.
+struct Border {
+  std::vector<SurfaceVertexId> vertices;
+  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< x
+  double top = -std::numeric_limits<double>::infinity();              ///< y
+};
+
+/// Whether fewer than two triangles have the edge: both ends of it are joined to their third vertices.
+bool is_open_edge(const Surface& surface, SurfaceVertexId a, SurfaceVertexId b) {
+  const auto at_a = surface.steps_from(a);
+  const auto at_b = surface.steps_from(b);
+  const auto common = std::count_if(at_a.begin(), at_a.end(), [&](const Surface::Step& from_a) {
+    return std::any_of(at_b.begin(), at_b.end(), [&](const Surface::Step& from_b) { return from_a.to == from_b.to; });
+  });
+  return common < 2;
+}
+
+std::vector<Border> borders_below_jaw(const Surface& surface, const std::vector<bool>& is_skin,
+                                      const Landmarks& marks) {
+  std::vector<Border> borders;
+  std::vector<bool> seen(surface.vertex_count(), false);
+  const auto is_below = [&](SurfaceVertexId v) {
+    return is_skin[v.value()] && !above_jaw(marks, surface.positions[v.value()]);
+  };
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (seen[s] || !is_below(SurfaceVertexId(s))) continue;
+    Border border;
+    std::vector<SurfaceVertexId> pending = {SurfaceVertexId(s)};
+    while (!pending.empty()) {
+      const SurfaceVertexId v = pending.back();
+      pending.pop_back();
+      bool is_open = false;
+      for (const Surface::Step& step : surface.steps_from(v)) {
+        if (!is_below(step.to) || !is_open_edge(surface, v, step.to)) continue;
+        is_open = true;
+        if (!seen[step.to.value()]) pending.push_back(step.to);
+        seen[step.to.value()] = true;
+      }
+      if (!is_open) continue;
+      seen[v.value()] = true;
+      const glm::dvec3& p = surface.positions[v.value()];
+      border.vertices.push_back(v);
+      border.low = std::min(border.low, p.x);
+      border.high = std::max(border.high, p.x);
+      border.top = std::max(border.top, p.y);
+    }
+    if (!border.vertices.empty()) borders.push_back(std::move(border));
+  }
+  return borders;
 }
 
 /// A horizontal section of the skin near the neck's axis.
@@ -151,15 +203,27 @@ std::vector<NeckSection> neck_sections(const Surface& surface, const std::vector
   return sections;
 }
 
-std::optional<Neck> find_neck(const Surface& surface, const std::vector<bool>& is_skin, const Landmarks& marks) {
+/// y of the highest border that is no small hole: sections below it are not whole. Minus infinity without one.
+double end_of_whole_sections(std::span<const Border> borders, const std::vector<NeckSection>& sections,
+                             std::size_t first) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Border& border : borders) {
+    if (border.high - border.low >= spanning * sections[first].width()) top = std::max(top, border.top);
+  }
+  return top;
+}
+
+std::optional<Neck> find_neck(const Surface& surface, const std::vector<bool>& is_skin, const Landmarks& marks,
+                              std::span<const Border> borders) {
   const std::vector<NeckSection> sections = neck_sections(surface, is_skin, marks);
   const double step = step_down * marks.height;
   const auto first = static_cast<std::size_t>(first_section / step_down);
   const auto lowest = static_cast<std::size_t>(longest_neck / step_down);
+  const double whole = end_of_whole_sections(borders, sections, first);
   std::optional<std::size_t> narrowest;
   std::size_t end = first;
   for (; end < sections.size() && sections[end].width() > 0.0; ++end) {
-    if (end > lowest) continue;
+    if (end > lowest || (narrowest && marks.chin.y - static_cast<double>(end) * step <= whole)) continue;
     if (!narrowest || sections[end].width() < sections[*narrowest].width()) narrowest = end;
   }
   if (!narrowest) return std::nullopt;
@@ -188,6 +252,18 @@ bool is_still(const Neck& neck, const Landmarks& marks, const glm::dvec3& p) {
   if (neck.is_cut || p.y >= marks.chin.y) return false;
   return std::hypot(p.x - neck.axis.x, p.z - neck.axis.z) > beyond_neck * neck.radius &&
          p.y < marks.chin.y - first_section * marks.height;
+}
+
+/// The share of the head's turn at `way` from the shoulders (0) to the head (1). In front most of the turn is near the
+/// shoulders: if the chin goes down, the skin under it makes a pocket before the throat instead of being pushed through
+/// it. At the back most of it is near the head, so that the nape does not slide out of the collar.
+double share_of_turn(double way, const Neck& neck, const glm::dvec3& p) {
+  const double x = p.x - neck.axis.x;
+  const double z = p.z - neck.axis.z;
+  const double from_axis = std::hypot(x, z);
+  const double to_front = from_axis > 0.0 ? z * std::abs(z) / (from_axis * from_axis) : 0.0;  // -1 back .. 1 front
+  constexpr double steepness = 1.5;
+  return std::pow(rounded_ramp(0.0, full_from, way), std::pow(steepness, -to_front));
 }
 
 std::uint8_t in_255ths(double share) { return static_cast<std::uint8_t>(std::lround(255.0 * share)); }
@@ -232,7 +308,8 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
   const std::optional<Landmarks> marks = landmarks_of(points, parts, head_pivot);
   if (!marks) return {};
   const std::vector<bool> is_skin = skin_of(surface, parts);
-  const std::optional<Neck> neck = find_neck(surface, is_skin, *marks);
+  const std::vector<Border> borders = borders_below_jaw(surface, is_skin, *marks);
+  const std::optional<Neck> neck = find_neck(surface, is_skin, *marks, borders);
   if (!neck) return {};
 
   std::vector<SurfaceVertexId> seeds;
@@ -244,6 +321,11 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
     if (is_skin[s] && is_still(*neck, *marks, surface.positions[s])) still.emplace_back(s);
   }
   EdgePathSearch search(surface);
+  for (const Border& border : borders) {
+    if (border.high - border.low >= spanning * 2.0 * neck->radius)
+      still.insert(still.end(), border.vertices.begin(), border.vertices.end());
+  }
+  const double margin = border_height * marks->height;
   const auto from_head_view = search.from(head_vertices(surface, seeds, *marks));
   const std::vector<double> from_head(from_head_view.begin(), from_head_view.end());
   const auto from_still = search.from(still);
@@ -254,11 +336,11 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
   for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
     if (!is_skin[s]) continue;
     const double down = from_head[s];
-    const double up = from_still[s];
+    const double up = std::max(0.0, from_still[s] - margin);
     if (std::isinf(down)) {
       turn[s] = std::isinf(up) ? 255 : 0;
     } else if (!std::isinf(up)) {
-      turn[s] = down + up > 0.0 ? in_255ths(rounded_ramp(still_until, full_from, up / (down + up))) : 255;
+      turn[s] = down + up > 0.0 ? in_255ths(share_of_turn(up / (down + up), *neck, surface.positions[s])) : 255;
     }
     skin.push_back(surface.positions[s]);
     turn_of_skin.push_back(turn[s]);

@@ -13,11 +13,13 @@
 namespace semblante {
 
 /// Computes how much of the head's rotation (FAP 48 to 50) each surface vertex gets, in 255ths: 255 on the head, 0 on
-/// shoulders and body. Along the neck it decreases with the distance along the surface from the head. Returns #S
-/// values; empty if the model has no neck, so that all of it turns.
+/// shoulders and body. Along the neck it decreases with the distance along the surface from the head: in front mostly
+/// at the shoulders, at the back mostly at the head. Returns #S values; empty if the model has no neck, so that all of
+/// it turns.
 ///
 /// Head and neck are measured on the skin of the face: the head is above the line from the chin to the nape; the
-/// shoulders begin where the neck widens, or at the lower border if the mesh ends at the neck. Each other part gets one
+/// shoulders begin where the neck widens. Where the skin ends below the jaw (a neck that is cut, also askew, or that
+/// ends in a collar), it stays. Each other part gets one
 /// value: 255 (hair, glasses, eyes), or 0 if it hangs at the shoulders. The latter also gets the role `body`, unless
 /// the user set another role.
 ///

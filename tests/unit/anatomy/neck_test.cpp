@@ -96,6 +96,34 @@ TEST(TurnWithHead, EndsAtTheBorderOfACutNeck) {
   EXPECT_GT(figure.at(22), 60);
 }
 
+TEST(TurnWithHead, EndsAtTheBorder_OfANeckCutAskew) {
+  Figure figure(-0.9);
+  // In front the neck ends at ring 28, at the back at ring 24.
+  const auto last_ring = [](std::uint32_t slice) {
+    return 26.0 + 2.0 * std::cos(2.0 * std::numbers::pi * slice / slices);
+  };
+  std::erase_if(figure.model.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return v / slices > last_ring(v % slices); });
+  });
+  figure.find();
+  ASSERT_FALSE(figure.turn.empty());
+  for (std::uint32_t slice = 0; slice < slices; ++slice) {
+    const auto last = static_cast<std::uint32_t>(last_ring(slice));
+    EXPECT_EQ(figure.at(last, slice), 0) << slice;
+    EXPECT_GT(figure.at(last - 4, slice), 0) << slice;
+    EXPECT_EQ(figure.at(10, slice), 255) << slice;
+  }
+}
+
+TEST(TurnWithHead, HasMostOfTheTurnLow_InFrontOnly) {
+  Figure figure(-4.0);
+  figure.find();
+  ASSERT_FALSE(figure.turn.empty());
+  const std::uint32_t middle = 22;  // of the rings of the neck
+  EXPECT_GT(figure.at(middle, 0), figure.at(middle, slices / 4));
+  EXPECT_GT(figure.at(middle, slices / 4), figure.at(middle, slices / 2));
+}
+
 TEST(TurnWithHead, IsTheWholeModel_WithoutANeck) {
   Figure figure(0.0);
   figure.find();
