@@ -39,31 +39,32 @@ Vec2 outline(double a) {
   const double back = -std::cos(a);
   const double length = up > 0.0 ? 2.9 : 2.95;
   double width = back > 0.0 ? 2.05 : 1.25;
-  width *= 1.0 - 0.30 * glm::smoothstep(0.2, -0.9, up);
+  width *= 1.0 - 0.16 * glm::smoothstep(0.2, -0.9, up);
   return {length * rounded(up, 0.94), width * rounded(back, up < 0.0 ? 0.72 : 0.85) + 0.15 * up};
 }
 
 /// A ring of the ear: outline scaled by `size` about a centre that shifts by (up, back), at height `out` (cm). `front`
-/// is the height at the front, where helix and tragus join the cheek.
+/// is the height at the front, where helix and tragus join the cheek; `lobe_size` and `lobe` are size and height at the
+/// lobe, a soft round pad whose foot joins the cheek nearly at its outline.
 struct EarRing {
-  double size, up, back, out, front;
+  double size, up, back, out, front, lobe_size, lobe;
 };
 
 constexpr EarRing ring_table[] = {
-    {0.70, 0.0, 0.00, 0.20, 0.12},     // foot, behind
-    {0.78, 0.0, 0.05, 0.62, 0.20},     // back of the shell
-    {0.94, 0.0, 0.02, 0.98, 0.28},     // behind the rim
-    {1.00, 0.0, 0.00, 1.20, 0.36},     // outermost edge of the helix
-    {0.975, 0.0, 0.00, 1.36, 0.44},    // top of the helix
-    {0.90, 0.0, 0.00, 1.36, 0.46},     // its inner edge
-    {0.84, 0.0, 0.00, 1.12, 0.36},     // groove
-    {0.76, 0.0, 0.00, 1.06, 0.34},     // floor of the groove
-    {0.66, 0.0, 0.02, 1.24, 0.44},     // rise to the antihelix
-    {0.58, -0.02, 0.02, 1.27, 0.50},   // antihelix
-    {0.48, -0.12, 0.00, 1.08, 0.52},   // rim of the bowl
-    {0.40, -0.18, -0.04, 0.60, 0.46},  // wall of the bowl
-    {0.30, -0.20, -0.10, 0.30, 0.30},  // floor of the bowl
-    {0.14, -0.20, -0.20, 0.15, 0.12},
+    {0.70, 0.0, 0.00, 0.20, 0.12, 0.86, 0.02},     // foot, behind
+    {0.78, 0.0, 0.05, 0.62, 0.20, 0.95, 0.26},     // back of the shell
+    {0.94, 0.0, 0.02, 0.98, 0.28, 0.99, 0.46},     // behind the rim
+    {1.00, 0.0, 0.00, 1.20, 0.36, 1.00, 0.66},     // outermost edge of the helix
+    {0.975, 0.0, 0.00, 1.36, 0.44, 0.97, 0.84},    // top of the helix
+    {0.90, 0.0, 0.00, 1.36, 0.46, 0.90, 0.96},     // its inner edge
+    {0.84, 0.0, 0.00, 1.12, 0.36, 0.84, 1.00},     // groove
+    {0.76, 0.0, 0.00, 1.06, 0.34, 0.76, 1.02},     // floor of the groove
+    {0.66, 0.0, 0.02, 1.24, 0.44, 0.66, 1.03},     // rise to the antihelix
+    {0.58, -0.02, 0.02, 1.27, 0.50, 0.58, 1.06},   // antihelix
+    {0.48, -0.12, 0.00, 1.08, 0.52, 0.48, 1.02},   // rim of the bowl
+    {0.40, -0.18, -0.04, 0.60, 0.46, 0.40, 0.60},  // wall of the bowl
+    {0.30, -0.20, -0.10, 0.30, 0.30, 0.30, 0.30},  // floor of the bowl
+    {0.14, -0.20, -0.20, 0.15, 0.12, 0.14, 0.15},
 };
 
 /// The vertex of the back edge nearest to the height half way between top and lobe, moved to exactly that height.
@@ -95,15 +96,12 @@ void add_ear(Skin& skin, const Loop& hole) {
       const Vec2 o = outline(a);
       const double up = std::sin(a);
       const double to_front = glm::smoothstep(0.35, 0.95, std::cos(a));
-      const double lobe = glm::smoothstep(-0.45, -0.95, up);
-      double out = glm::mix(ring.out, ring.front, to_front);
-      // The lobe is a soft pad: the rings of groove and antihelix flatten there.
-      if (index >= 5 && index <= 10) out = glm::mix(out, 1.12, 0.85 * lobe);
-      out *= 0.74;  // close to the head
-      out -= 0.22 * lobe * glm::smoothstep(0.0, 3.0, static_cast<double>(index));
+      const double lobe = glm::smoothstep(-0.35, -0.9, up);
+      const double out = 0.74 * glm::mix(glm::mix(ring.out, ring.front, to_front), ring.lobe, lobe);  // near the head
+      const double size = glm::mix(ring.size, ring.lobe_size, lobe);
       Paint paint;
       paint.flush = 0.6;
-      loop.push_back(mesh.add(frame.at(o.x * ring.size + ring.up, o.y * ring.size + ring.back, out), paint));
+      loop.push_back(mesh.add(frame.at(o.x * size + ring.up, o.y * size + ring.back, out), paint));
     }
     if (index == 0) {
       bridge_doubling(mesh, outer, loop, Chart::outer);

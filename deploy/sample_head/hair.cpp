@@ -26,27 +26,60 @@ constexpr std::array<BorderPoint, 15> border_points = {{{0, 31},
                                                         {42, 23.5},
                                                         {52, 12.5},
                                                         {60, 0},
-                                                        {67, -11},
-                                                        {73, -15},
-                                                        {79, -11},
-                                                        {86, -2},
+                                                        {67, -9},
+                                                        {73, -13},
+                                                        {79, -12},
+                                                        {86, -3},
                                                         {96, 2},
-                                                        {108, -4},
-                                                        {122, -22},
-                                                        {140, -36},
-                                                        {180, -42}}};
+                                                        {108, -5},
+                                                        {122, -21},
+                                                        {142, -32},
+                                                        {180, -36}}};
 
-/// Strands from front to back: lines of equal angle about the long axis of the head.
-double angle_across(const Vec3& p) { return std::atan2(p.x, std::max(p.y - 0.5, 0.3)); }
+/// Strands from the forehead over the crown to the nape: lines of equal angle about an axis whose ends are under the
+/// border of the hair, so that no strands are seen to meet.
+double angle_across(const Vec3& p) {
+  const double up = 0.943 * (p.y + 2.5) - 0.333 * p.z;
+  return std::atan2(p.x, std::max(up, 0.3));
+}
 
 /// Thickness of the hair in cm at azimuth a, t = 0 at the border .. 1 at the crown.
 double thickness(double a, double t, const Vec3& p) {
   const double front = 0.5 + 0.5 * std::cos(a);
-  const double body = 0.12 + 0.80 * glm::smoothstep(0.0, 0.45, t) +
-                      1.25 * front * front * glm::smoothstep(0.0, 0.26, t) * (1.0 - glm::smoothstep(0.40, 1.0, t));
+  // The locks are off the forehead, whose skin moves under them.
+  const double body = 0.12 + 0.16 * glm::smoothstep(1.3, 0.9, a) + 0.80 * glm::smoothstep(0.0, 0.45, t) +
+                      0.95 * front * front * glm::smoothstep(0.0, 0.26, t) * (1.0 - glm::smoothstep(0.40, 1.0, t));
   const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
   const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
   return body - 0.38 * groove;
+}
+
+/// Locks that fall over the forehead: how far below the roots, tips and the gaps between them. Swept outwards.
+struct LockPoint {
+  double azimuth, fall;  ///< degrees
+};
+constexpr std::array<LockPoint, 14> locks = {{{0, 6},
+                                              {5, 8.5},
+                                              {7.5, 4.5},
+                                              {15, 10},
+                                              {20, 5},
+                                              {27.5, 9.5},
+                                              {32.5, 4.5},
+                                              {40, 8},
+                                              {45, 3.5},
+                                              {52.5, 5.5},
+                                              {57.5, 1.5},
+                                              {65, 2.5},
+                                              {70, 0},
+                                              {180, 0}}};
+
+double fringe(double azimuth) {
+  const double degrees = std::clamp(azimuth * 180.0 / pi, 0.0, 180.0);
+  const auto next = std::upper_bound(locks.begin(), locks.end() - 1, degrees,
+                                     [](double at, const LockPoint& p) { return at < p.azimuth; });
+  const auto before = next - 1;
+  const double t = (degrees - before->azimuth) / (next->azimuth - before->azimuth);
+  return glm::mix(before->fall, next->fall, t) * pi / 180.0;
 }
 
 }  // namespace
@@ -70,13 +103,13 @@ double hairline(double azimuth) {
 }
 
 Hair make_hair() {
-  constexpr int columns = 52;
-  constexpr int rows = 24;
+  constexpr int columns = 72;  // the locks end at columns
+  constexpr int rows = 16;
   Hair hair;
   HalfMesh& mesh = hair.mesh;
   const auto place = [&](int column, double t, double offset_scale, double sink) {
     const double a = pi * column / columns;
-    const double elevation = glm::mix(hairline(a), 0.5 * pi, t);
+    const double elevation = glm::mix(hairline(a) - fringe(a), 0.5 * pi, t);
     Vec3 direction(std::cos(elevation) * std::sin(a), std::sin(elevation), std::cos(elevation) * std::cos(a));
     if (column == 0 || column == columns) direction.x = 0.0;
     const Vec3 foot = cast_from_inside(hair_centre, direction);
@@ -115,7 +148,7 @@ Vec2 brow_line(double t) {
 }
 
 double brow_half_height(double t) {
-  return 0.30 * std::pow(std::max(1.0 - std::pow(t, 2.2), 0.0), 0.8) * (0.72 + 0.28 * glm::smoothstep(0.0, 0.12, t)) +
+  return 0.30 * std::pow(std::max(1.0 - std::pow(t, 2.2), 0.0), 0.8) * (0.5 + 0.5 * glm::smoothstep(0.0, 0.22, t)) +
          0.02;
 }
 

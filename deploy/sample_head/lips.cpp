@@ -39,7 +39,7 @@ LipPlace lip_place(int k) {
 }
 
 /// The corners are a little higher than the middle: a mouth that is level in the mesh looks sad under light from above.
-double corner_rise(double s) { return 0.33 * std::pow(s, 2.4); }
+double corner_rise(double s) { return 0.25 * std::pow(s, 2.4); }
 
 /// Border of the red (8.x): cupid's bow above, a full curve below.
 Vec2 border(const LipPlace& place) {

@@ -42,7 +42,7 @@ double nose_end_distance(const Vec3& q) {
 
 /// Neck, shoulders and chest.
 double bust_distance(const Vec3& q) {
-  double d = capsule(q, {0.0, -5.5, -3.5}, {0.0, -16.0, -4.0}, 4.3, 4.65);           // neck
+  double d = capsule(q, {0.0, -5.5, -3.2}, {0.0, -16.0, -4.3}, 4.5, 4.95);           // neck
   d = join(d, capsule(q, {4.4, -6.0, -2.2}, {1.6, -17.5, 0.0}, 0.7, 0.7), 2.4);      // sternomastoid
   d = join(d, capsule(q, {0.0, -15.5, -5.6}, {9.5, -20.4, -5.0}, 2.5, 2.2), 4.0);    // trapezius
   d = join(d, capsule(q, {11.4, -22.6, -4.2}, {12.6, -28.0, -4.0}, 3.7, 3.5), 4.0);  // shoulder
@@ -75,7 +75,7 @@ double head_distance(const Vec3& p) {
   d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
   d = join(d, bridge_distance(q), 2.3);
   d = join(d, nose_end_distance(q), 1.15);
-  return join(d, bust_distance(q), 2.4);
+  return join(d, bust_distance(q), 3.4);
 }
 
 Vec3 head_normal(const Vec3& p) {

@@ -53,9 +53,9 @@ double brow_cover(const Vec2& p) {
   const double lean = p.x - 0.9 * p.y;
   const double hair =
       0.5 + 0.17 * std::sin(31.0 * lean) + 0.17 * std::sin(53.0 * lean + 1.0) + 0.16 * std::sin(19.0 * lean + 2.0);
-  const double ends = glm::smoothstep(-0.03, 0.14, at);
+  const double ends = glm::smoothstep(-0.03, 0.24, at);
   return (1.0 - glm::smoothstep(0.55 + 0.25 * hair, 1.15 + 0.15 * hair, best)) * (0.72 + 0.2 * hair) *
-         (0.5 + 0.5 * ends);
+         (0.06 + 0.94 * ends);
 }
 
 Colour skin_colour(const Vec3& p, const Paint& paint) {
@@ -79,14 +79,16 @@ Colour skin_colour(const Vec3& p, const Paint& paint) {
                         0.13 * std::sin(29.0 * azimuth + 2.0);
   const double roots = 0.85 * glm::smoothstep(-0.08 - 0.025 * strand, 0.06, over);
   c = glm::mix(c, Colour(0.24, 0.15, 0.11), roots * (paint.flush > 0.0 ? 0.0 : 1.0));
-  c = glm::mix(c, Colour(0.800, 0.470, 0.435), 0.9 * paint.lip);
+  c = glm::mix(c, Colour(0.765, 0.440, 0.410), 0.9 * paint.lip);
   c = glm::mix(c, Colour(0.72, 0.46, 0.42), 0.8 * paint.lid);
   return glm::mix(c, Colour(0.13, 0.08, 0.06), glm::smoothstep(0.55, 0.9, paint.lash));
 }
 
 Colour lining_colour(int kind, double depth) {
   if (kind == 3) {  // the upper lid, from its lashes to its root
-    const Colour skin = glm::mix(Colour(0.80, 0.575, 0.50), Colour(0.86, 0.66, 0.575), depth);
+    // Lighter where raised brows bare it: there it lies in their shadow.
+    const Colour seen = glm::mix(Colour(0.80, 0.575, 0.50), Colour(0.86, 0.66, 0.575), depth);
+    const Colour skin = glm::mix(seen, Colour(0.95, 0.77, 0.68), glm::smoothstep(0.85, 1.0, depth));
     return glm::mix(Colour(0.13, 0.08, 0.06), skin, glm::smoothstep(0.10, 0.17, depth));
   }
   constexpr double soft[3] = {0.28, 0.5, 0.4};

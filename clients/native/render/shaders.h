@@ -105,7 +105,8 @@ void main() {
   sum += shade(n, v, key_direction, vec3(1.20, 1.15, 1.08), albedo, key);
   sum += shade(n, v, fill_direction, vec3(0.40, 0.43, 0.48), albedo, open);
   float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0) * max(dot(n, rim_direction), 0.0);
-  sum += vec3(0.42, 0.46, 0.54) * rim * open;
+  // By the albedo, so that the dark lining of an open mouth stays dark: the light has no shadow map.
+  sum += vec3(0.42, 0.46, 0.54) * (0.1 + 1.2 * albedo) * rim * open;
   // Prevents clipped highlights without greying the rest.
   sum = sum / (1.0 + 0.16 * max(max(sum.r, sum.g), sum.b)) * 1.08;
   color = vec4(sum, base.a);
