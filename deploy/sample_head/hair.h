@@ -11,7 +11,8 @@ namespace semblante::sample_head_detail {
 double hairline(double azimuth);
 inline const Vec3 hair_centre{0.0, 2.6, -0.7};
 
-/// Short hair: a shell over the skull with grooves and locks over the forehead. `top` is its vertex above the crown (11.5).
+/// Short hair: a shell over the skull with grooves and locks over the forehead. `top` is its vertex above the crown
+/// (11.5).
 struct Hair {
   HalfMesh mesh;
   int top = 0;
