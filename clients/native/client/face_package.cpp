@@ -90,6 +90,7 @@ Result<Face> Face::create(const PackageBytes& bytes) {
     return std::move(mesh).error();
   }
   semblante_package package{};
+  package.size = sizeof(package);
   package.positions = &mesh->positions[0].x;
   package.vertex_count = static_cast<std::uint32_t>(mesh->positions.size());
   package.mesh_sha256 = mesh_hash.data();

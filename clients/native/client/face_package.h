@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "clients/capi/semblante.h"
+#include "clients/runtime/semblante.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"

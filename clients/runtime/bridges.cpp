@@ -5,14 +5,14 @@
 #include <span>
 #include <string_view>
 
-#include "clients/capi/copy_text.h"
-#include "clients/capi/semblante.h"
+#include "clients/runtime/copy_text.h"
+#include "clients/runtime/semblante.h"
 #include "core/bridges/arkit.h"
 #include "core/bridges/oculus.h"
 
 namespace {
 
-using semblante::capi::copy_text;
+using semblante::runtime::copy_text;
 
 static_assert(semblante::arkit_count == 52 && semblante::oculus_count == 15, "as the header says");
 

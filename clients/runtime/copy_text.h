@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace semblante::capi {
+namespace semblante::runtime {
 
 /// Copies a text to a field of a C struct: truncated to its size, and zero-terminated.
 template <std::size_t N>
@@ -15,4 +15,4 @@ void copy_text(char (&to)[N], std::string_view text) {
   to[length] = '\0';
 }
 
-}  // namespace semblante::capi
+}  // namespace semblante::runtime

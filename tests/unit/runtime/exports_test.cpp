@@ -44,7 +44,7 @@ std::string output_of(const std::string& command) {
 
 TEST(SdkExports, SharedLibrary_ShowsExactlyTheList) {
   const auto listed =
-      matches(read(SEMBLANTE_SOURCE_DIR "/clients/capi/exports.map"), std::regex(R"((semblante_\w+);)"));
+      matches(read(SEMBLANTE_SOURCE_DIR "/clients/runtime/exports.map"), std::regex(R"((semblante_\w+);)"));
   ASSERT_GT(listed.size(), 10U);
   const auto shown =
       matches(output_of("nm -D --defined-only '" SEMBLANTE_SDK_LIBRARY "'"), std::regex(R"( [A-Z] (\S+))"));
@@ -53,8 +53,8 @@ TEST(SdkExports, SharedLibrary_ShowsExactlyTheList) {
 
 TEST(SdkExports, Header_DeclaresExactlyTheList) {
   const auto listed =
-      matches(read(SEMBLANTE_SOURCE_DIR "/clients/capi/exports.map"), std::regex(R"((semblante_\w+);)"));
-  std::string headers = read(SEMBLANTE_SOURCE_DIR "/clients/capi/semblante.h");
+      matches(read(SEMBLANTE_SOURCE_DIR "/clients/runtime/exports.map"), std::regex(R"((semblante_\w+);)"));
+  std::string headers = read(SEMBLANTE_SOURCE_DIR "/clients/runtime/semblante.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_prepared_face.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_normals.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_ease.h");

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/capi/semblante.h"
+#include "clients/runtime/semblante.h"
 
 namespace semblante::testing {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "clients/capi/copy_text.h"
-#include "clients/capi/semblante.h"
+#include "clients/runtime/copy_text.h"
+#include "clients/runtime/semblante.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/rig_kernel.h"
 #include "protocol/cpp/weights_format.h"
@@ -38,7 +38,7 @@ struct semblante_head {
 
 namespace {
 
-using semblante::capi::copy_text;
+using semblante::runtime::copy_text;
 
 using semblante::ErrorCode;
 using semblante::RigDocument;

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/capi/semblante.h"
-#include "tests/unit/capi/sdk_from_c.h"
-#include "tests/unit/capi/small_package.h"
+#include "clients/runtime/semblante.h"
+#include "tests/unit/runtime/sdk_from_c.h"
+#include "tests/unit/runtime/small_package.h"
 
 namespace semblante::testing {
 namespace {

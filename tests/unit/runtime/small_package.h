@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/capi/semblante.h"
+#include "clients/runtime/semblante.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 
@@ -59,6 +59,7 @@ struct SmallPackage {
 
   [[nodiscard]] semblante_package view() const {
     semblante_package package{};
+    package.size = sizeof(package);
     package.positions = positions.data();
     package.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
     package.mesh_sha256 = table.mesh_sha256.data();

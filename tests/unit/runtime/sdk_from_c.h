@@ -1,7 +1,7 @@
 #ifndef SEMBLANTE_TESTS_SDK_FROM_C_H
 #define SEMBLANTE_TESTS_SDK_FROM_C_H
 
-#include "clients/capi/semblante.h"
+#include "clients/runtime/semblante.h"
 
 #ifdef __cplusplus
 extern "C" {
