@@ -1,80 +1,66 @@
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <new>
 #include <span>
-#include <string_view>
 
-#include "clients/runtime/copy_text.h"
-#include "clients/runtime/semblante.h"
+#include "clients/runtime/border.h"
 #include "core/bridges/arkit.h"
 #include "core/bridges/oculus.h"
 
+namespace semblante::runtime {
 namespace {
 
-using semblante::runtime::copy_text;
+static_assert(arkit_count == 52 && oculus_count == 15, "as the header says");
 
-static_assert(semblante::arkit_count == 52 && semblante::oculus_count == 15, "as the header says");
-
-/// Runs `make`, which returns a Result of a value with a frame; catches all exceptions.
+/// Runs `make`, which returns a Result of a value with a frame.
 template <class Make>
 semblante_result make_frame(semblante_frame* frame, semblante_error* error, const Make& make) {
-  try {
+  return guarded(error, [&] {
     const auto made = make();
-    if (made) {
-      *frame = made->frame;
-      return SEMBLANTE_OK;
-    }
-    if (error != nullptr) {
-      copy_text(error->where, made.error().where);
-      copy_text(error->message, made.error().message);
-    }
-    return SEMBLANTE_INVALID_ARGUMENT;
-  } catch (const std::bad_alloc&) {
-    return SEMBLANTE_OUT_OF_MEMORY;
-  } catch (...) {
-    return SEMBLANTE_INTERNAL;
-  }
+    if (!made) return fail(error, SEMBLANTE_INVALID_ARGUMENT, made.error().where, made.error().message);
+    *frame = made->frame;
+    return SEMBLANTE_OK;
+  });
 }
 
 template <class Read>
 semblante_result read_frame(const semblante_frame* frame, float* to, const Read& read) {
-  if (frame == nullptr || to == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
-  const bool finite =
-      std::all_of(std::begin(frame->fap), std::end(frame->fap), [](float f) { return std::isfinite(f); });
-  if (!finite) return SEMBLANTE_INVALID_ARGUMENT;
-  try {
+  if (frame == nullptr || to == nullptr || !is_finite(*frame)) return SEMBLANTE_INVALID_ARGUMENT;
+  return guarded(nullptr, [&] {
     const auto values = read(*frame);
     std::copy(values.begin(), values.end(), to);
     return SEMBLANTE_OK;
-  } catch (const std::bad_alloc&) {
-    return SEMBLANTE_OUT_OF_MEMORY;
-  } catch (...) {
-    return SEMBLANTE_INTERNAL;
-  }
+  });
 }
 
 }  // namespace
+}  // namespace semblante::runtime
+
+using namespace semblante;
+
+extern "C" {
 
 semblante_result semblante_frame_from_arkit(const float coefficients[52], semblante_frame* frame,
                                             semblante_error* error) {
   if (coefficients == nullptr || frame == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
-  return make_frame(frame, error, [&] {
-    return semblante::frame_from_arkit(std::span<const float, semblante::arkit_count>(coefficients, 52));
-  });
+  return runtime::make_frame(
+      frame, error, [&] { return frame_from_arkit(std::span<const float, arkit_count>(coefficients, arkit_count)); });
 }
 
 semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float coefficients[52]) {
-  return read_frame(frame, coefficients, semblante::arkit_from_frame);
+  return runtime::read_frame(frame, coefficients, arkit_from_frame);
 }
 
 semblante_result semblante_frame_from_oculus(const float weights[15], semblante_frame* frame, semblante_error* error) {
   if (weights == nullptr || frame == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
-  return make_frame(frame, error, [&] {
-    return semblante::frame_from_oculus(std::span<const float, semblante::oculus_count>(weights, 15));
-  });
+  return runtime::make_frame(
+      frame, error, [&] { return frame_from_oculus(std::span<const float, oculus_count>(weights, oculus_count)); });
 }
 
 semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]) {
-  return read_frame(frame, weights, semblante::oculus_from_frame);
+  return runtime::read_frame(frame, weights, oculus_from_frame);
 }
+
+const char* semblante_arkit_name(uint32_t shape) {
+  return shape < arkit_count ? arkit_name(shape).data() : nullptr;  // a literal, so it ends with a zero
+}
+
+}  // extern "C"

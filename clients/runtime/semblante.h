@@ -245,7 +245,8 @@ typedef enum semblante_event_type {
   SEMBLANTE_EVENT_NONE = 0,
   SEMBLANTE_EVENT_STATE = 1,    /* `state` */
   SEMBLANTE_EVENT_CONNECT = 2,  /* open a WebSocket, then call semblante_stream_opened, or _closed if it fails */
-  SEMBLANTE_EVENT_CLOSE = 3,    /* close the WebSocket with `code`, then call semblante_stream_closed */
+  SEMBLANTE_EVENT_CLOSE = 3,    /* close the WebSocket with `code` and forget it: its messages and its end are not
+                                   reported any more */
   SEMBLANTE_EVENT_HEADER = 4,   /* see semblante_stream_header; `resumed`, `epoch`, `sequence`, `media_time` */
   SEMBLANTE_EVENT_KEYFRAME = 5, /* one frame, after the header or in place of frames that were missed */
   SEMBLANTE_EVENT_FRAMES = 6,   /* see semblante_stream_frames; `sequence` of the first, `media_time` of the last */

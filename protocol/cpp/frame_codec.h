@@ -18,6 +18,8 @@ class FrameEncoder {
  public:
   /// Asserts that the message is within the documented ranges, and that frames follow a keyframe without a gap.
   std::vector<std::uint8_t> encode(const Message& message);
+  /// Appends to `to`.
+  void encode(const Message& message, std::vector<std::uint8_t>& to);
 
   /// Drops the last frame: the next state must be a keyframe.
   void reset() { last_.reset(); }
@@ -35,6 +37,9 @@ class FrameDecoder {
   /// frames before a keyframe or after a gap (reconnect), other codes for malformed bytes. An error leaves the
   /// decoder's state unchanged.
   Result<Message> decode(std::span<const std::uint8_t> bytes);
+  /// The same for a message of which is_packed_frames is true. `to` has no meaning after an error; its memory is used
+  /// again, so that frames need none of their own.
+  Status decode_frames(std::span<const std::uint8_t> bytes, Frames& to);
 
   void reset() {
     last_.reset();

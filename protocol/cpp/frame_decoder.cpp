@@ -1,4 +1,5 @@
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <type_traits>
 
@@ -195,10 +196,16 @@ Result<Message> FrameDecoder::decode_packed(std::span<const std::uint8_t> bytes)
     last_.reset();
     return Message(*keyframe);
   }
+  Frames frames;
+  if (auto status = decode_frames(bytes, frames); !status) return std::move(status).error();
+  return Message(std::move(frames));
+}
+
+Status FrameDecoder::decode_frames(std::span<const std::uint8_t> bytes, Frames& to) {
+  assert(!bytes.empty() && is_packed_frames(bytes[0]));
+  if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
   if (!packed_) return Error{ErrorCode::mismatch, "/sequence", "packed frames before a packed keyframe"};
-  auto frames = read_packed_frames(bytes, *packed_);
-  if (!frames) return std::move(frames).error();
-  return Message(*std::move(frames));
+  return read_packed_frames(bytes, *packed_, to);
 }
 
 }  // namespace semblante

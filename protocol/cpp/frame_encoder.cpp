@@ -90,17 +90,22 @@ class BinaryFieldWriter {
 }  // namespace
 
 std::vector<std::uint8_t> FrameEncoder::encode(const Message& message) {
+  std::vector<std::uint8_t> bytes;
+  encode(message, bytes);
+  return bytes;
+}
+
+void FrameEncoder::encode(const Message& message, std::vector<std::uint8_t>& to) {
   const auto* keyframe = std::get_if<Keyframe>(&message);
   const auto* frames = std::get_if<Frames>(&message);
   assert(frames == nullptr || (last_.has_value() && "frames need a keyframe before them"));
   assert(frames == nullptr || frames->sequence == 0 || frames->sequence == last_sequence_ + 1);
 
-  std::vector<std::uint8_t> bytes;
   const FaceFrame neutral;
-  BinaryFieldWriter writer(bytes, last_.has_value() ? *last_ : neutral);
+  BinaryFieldWriter writer(to, last_.has_value() ? *last_ : neutral);
   std::visit(
       [&]<class M>(const M& m) {
-        bytes.push_back(MessageTraits<M>::type);
+        to.push_back(MessageTraits<M>::type);
         visit_fields(m, writer);
       },
       message);
@@ -111,7 +116,6 @@ std::vector<std::uint8_t> FrameEncoder::encode(const Message& message) {
     last_ = frames->frames.back().state;
     last_sequence_ += frames->frames.size();
   }
-  return bytes;
 }
 
 }  // namespace semblante

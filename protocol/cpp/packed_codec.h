@@ -25,6 +25,8 @@ class PackedEncoder {
 
   /// Asserts that the message is within the documented ranges and follows without a gap (`sequence` 0 means the next).
   std::vector<std::uint8_t> encode(const Frames& frames);
+  /// Appends to `to`.
+  void encode(const Frames& frames, std::vector<std::uint8_t>& to);
 
   /// A keyframe: the newest frame and the codec state that a decoder needs for the next result of encode(). Valid for
   /// decoders that have read the stream from the start and for those that join now.
@@ -49,7 +51,8 @@ constexpr bool is_packed_frames(std::uint8_t type) { return type >= packed_frame
 /// `mismatch` at "/sequence": the frames do not follow `state`.
 Result<Keyframe> read_packed_keyframe(std::span<const std::uint8_t> bytes, PackedState& state,
                                       const PackedTable& table = packed_tables::values);
-Result<Frames> read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& state,
-                                  const PackedTable& table = packed_tables::values);
+/// `frames` has no meaning after an error; its memory is used again.
+Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& state, Frames& frames,
+                          const PackedTable& table = packed_tables::values);
 
 }  // namespace semblante

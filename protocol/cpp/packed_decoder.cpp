@@ -8,15 +8,17 @@
 namespace semblante {
 namespace {
 
-Status check(const RangeDecoder& coder, const PackedModel<RangeDecoder>& model, const std::string& where) {
-  if (!coder.valid()) return Error{ErrorCode::malformed, where, "is not the start of a packed message"};
-  if (coder.truncated()) return Error{ErrorCode::truncated, where, "the message ends within a packed state"};
-  if (!model.fault().empty()) return Error{ErrorCode::out_of_range, where + model.fault(), "outside its range"};
+/// `where()`: the pointer, made only for an error.
+template <class Where>
+Status check(const RangeDecoder& coder, const PackedModel<RangeDecoder>& model, const Where& where) {
+  if (!coder.valid()) return Error{ErrorCode::malformed, where(), "is not the start of a packed message"};
+  if (coder.truncated()) return Error{ErrorCode::truncated, where(), "the message ends within a packed state"};
+  if (!model.fault().empty()) return Error{ErrorCode::out_of_range, where() + model.fault(), "outside its range"};
   return Unit{};
 }
 
 /// Refuses bytes after the code: it has no end marker, so later versions cannot append fields and use new types.
-Status check_end(const RangeDecoder& coder, const std::string& where) {
+Status check_end(const RangeDecoder& coder, const char* where) {
   if (coder.has_more()) return Error{ErrorCode::malformed, where, "bytes after the end"};
   return Unit{};
 }
@@ -41,13 +43,15 @@ Result<Keyframe> read_packed_keyframe(std::span<const std::uint8_t> bytes, Packe
   PackedModel model(coder, table, read);
   model.history(PackedState{});
   read.media_time = media_time;
-  if (auto status = check(coder, model, "/state"); !status) return std::move(status).error();
+  if (auto status = check(coder, model, [] { return std::string("/state"); }); !status)
+    return std::move(status).error();
   if (auto status = check_end(coder, "/state"); !status) return std::move(status).error();
   state = read;
   return Keyframe{read.sequence, media_time, read.before[0]};
 }
 
-Result<Frames> read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& state, const PackedTable& table) {
+Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& state, Frames& frames,
+                          const PackedTable& table) {
   const std::uint64_t next = state.sequence + 1;
   if (bytes.empty() || (bytes[0] & 0x7FU) != (next & 0x7FU)) {
     return Error{ErrorCode::mismatch, "/sequence", "frame " + std::to_string(next) + " is expected"};
@@ -55,29 +59,29 @@ Result<Frames> read_packed_frames(std::span<const std::uint8_t> bytes, PackedSta
   PackedState read = state;
   RangeDecoder coder(bytes.subspan(1));
   PackedModel model(coder, table, read);
-  Frames frames;
+  frames.frames.clear();
   frames.sequence = next;
   const std::uint64_t count = model.count(0);
   frames.media_time = model.base_time(0);
   std::uint64_t time = model.offset(0);
-  if (auto status = check(coder, model, ""); !status) return std::move(status).error();
+  if (auto status = check(coder, model, [] { return std::string(); }); !status) return std::move(status).error();
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::string where = "/frames/" + std::to_string(i);
+    const auto where = [i] { return "/frames/" + std::to_string(i); };
     TimedFrame frame;
     if (i > 0) time += model.step(0);
     if (time > max_frame_time) {
-      return Error{ErrorCode::out_of_range, where + "/time", "more than a day after media_time"};
+      return Error{ErrorCode::out_of_range, where() + "/time", "more than a day after media_time"};
     }
     frame.time = static_cast<std::uint32_t>(time);
     model.frame(frame.state);
     if (auto status = check(coder, model, where); !status) return std::move(status).error();
     frames.frames.push_back(frame);
   }
-  if (auto status = check_end(coder, "/frames"); !status) return std::move(status).error();
+  if (auto status = check_end(coder, "/frames"); !status) return status;
   read.sequence += count;
   read.fresh = false;
   state = read;
-  return frames;
+  return Unit{};
 }
 
 }  // namespace semblante

@@ -15,12 +15,18 @@ PackedEncoder::PackedEncoder(const Keyframe& start, const PackedTable& table) : 
 }
 
 std::vector<std::uint8_t> PackedEncoder::encode(const Frames& frames) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(16 * frames.frames.size());
+  encode(frames, bytes);
+  return bytes;
+}
+
+void PackedEncoder::encode(const Frames& frames, std::vector<std::uint8_t>& to) {
   assert(frames.sequence == 0 || frames.sequence == state_.sequence + 1);
   assert(!frames.frames.empty() && frames.frames.size() <= max_frames_per_message);
   assert(frames.media_time <= max_media_time);
-  std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU))};
-  bytes.reserve(16 * frames.frames.size());
-  RangeEncoder coder(bytes);
+  to.push_back(static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU)));
+  RangeEncoder coder(to);
   PackedModel model(coder, *table_, state_);
   model.count(frames.frames.size());
   model.base_time(frames.media_time);
@@ -36,7 +42,6 @@ std::vector<std::uint8_t> PackedEncoder::encode(const Frames& frames) {
   coder.finish();
   state_.sequence += frames.frames.size();
   state_.fresh = false;
-  return bytes;
 }
 
 std::vector<std::uint8_t> PackedEncoder::keyframe() const {

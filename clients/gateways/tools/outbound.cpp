@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <exception>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -12,7 +11,7 @@
 #include "clients/gateways/net/pacer.h"
 #include "clients/gateways/net/udp_socket.h"
 #include "clients/gateways/tools/stop_signal.h"
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/live_stream.h"
 #include "protocol/cpp/kernel_values.h"
 
 namespace semblante::gateways {
@@ -34,18 +33,10 @@ class Outbound {
       : options_(options), url_(std::move(url)), socket_(socket) {}
 
   Status run() {
-    milliseconds retry = first_retry;
     while (!stop_requested()) {
-      auto stream = client::StreamClient::connect(url_, options_.stream, wanted());
-      if (!stream && stream.error().code == ErrorCode::missing) return std::move(stream).error();
-      std::string why = stream ? why_it_ends(*stream) : stream.error().message;
-      if (stop_requested()) {
-        if (stream) stream->close();
-        break;
-      }
-      std::cerr << options_.program << ": no connection to " << options_.stream << ": " << why << '\n';
-      retry = stream ? first_retry : std::min(2 * retry, last_retry);
-      for (const auto until = Clock::now() + retry; Clock::now() < until && !stop_requested();) {
+      auto ended = follow();
+      if (!ended) return ended;
+      for (const auto until = Clock::now() + first_retry; Clock::now() < until && !stop_requested();) {
         send_due();
         static_cast<void>(socket_.wait(longest_wait));
       }
@@ -61,55 +52,57 @@ class Outbound {
  private:
   [[nodiscard]] double now() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
 
-  [[nodiscard]] client::StreamOptions wanted() const {
-    client::StreamOptions options;
-    options.timeout = connect_time;
-    if (epoch_ != 0) options.resume = ResumePoint{epoch_, sequence_};
+  [[nodiscard]] client::LiveStreamOptions wanted() const {
+    client::LiveStreamOptions options;
+    options.stream.timeout = connect_time;
+    options.stream.resume = resume_;
+    options.first_pause = first_retry;
+    options.longest_pause = last_retry;
     return options;
   }
 
-  std::string why_it_ends(client::StreamClient& stream) {
-    try {
-      return follow(stream);
-    } catch (const std::exception& fault) {  // ends the connection, not the gateway
-      return fault.what();
-    }
-  }
-
-  /// Why the connection ended.
-  std::string follow(client::StreamClient& stream) {
+  /// Until the stream ends for good, which may be there again later. Errors: there is no such stream.
+  Status follow() {
+    client::LiveStream stream(url_, options_.stream, wanted());
+    bool was_waiting = false;
     while (!stop_requested()) {
       const double left = waiting_.empty() ? static_cast<double>(longest_wait.count()) : waiting_.front().first - now();
       const milliseconds patience(
           std::clamp<long long>(static_cast<long long>(left), 1, static_cast<long long>(longest_wait.count())));
       auto message = stream.next(patience);
-      if (!message) return message.error().message;
-      if (*message && !take(**message)) return "the stream ended";
+      if (!message) return std::move(message).error();
+      const bool is_waiting = stream.machine().state() == SEMBLANTE_STREAM_WAITING;
+      if (is_waiting && !was_waiting) {
+        std::cerr << options_.program << ": no connection to " << options_.stream << '\n';
+      }
+      was_waiting = is_waiting;
+      if (*message && !take(**message, stream.machine().steps())) {
+        resume_ = stream.resume();
+        break;
+      }
       send_due();
     }
-    return {};
+    stream.close();
+    return Unit{};
   }
 
   /// False at the stream's end.
-  bool take(const Message& message) {
-    if (const auto* header = std::get_if<Header>(&message)) {
-      steps_ = quantizers_of(*header);
-      epoch_ = header->epoch;
-    } else if (const auto* key = std::get_if<Keyframe>(&message)) {
+  bool take(const Message& message, const QuantizerSteps& steps) {
+    steps_ = steps;
+    if (const auto* key = std::get_if<Keyframe>(&message)) {
       // The current state, however old, replaces all waiting frames.
-      sequence_ = key->sequence;
       waiting_.clear();
       waiting_.emplace_back(now(), key->state);
     } else if (const auto* batch = std::get_if<Frames>(&message)) {
       const auto base = static_cast<double>(batch->media_time);
       pacer_.arrived(base + batch->frames.front().time, now());
       for (const TimedFrame& frame : batch->frames) waiting_.emplace_back(pacer_.due(base + frame.time), frame.state);
-      sequence_ = batch->sequence + batch->frames.size() - 1;
       while (waiting_.size() > most_waiting) waiting_.pop_front();
     } else if (const auto* error = std::get_if<StreamError>(&message)) {
       std::cerr << options_.program << ": error of the server: " << error->message << '\n';
     }
-    return !std::holds_alternative<End>(message);
+    const auto* end = std::get_if<End>(&message);
+    return end == nullptr || end->reason == EndReason::shutdown || end->reason == EndReason::slow;
   }
 
   void send_due() {
@@ -137,7 +130,7 @@ class Outbound {
   client::Url url_;
   UdpSocket& socket_;
   QuantizerSteps steps_ = standard_quantizers();
-  std::uint64_t epoch_ = 0, sequence_ = 0;
+  std::optional<ResumePoint> resume_;
   Pacer pacer_;
   std::deque<std::pair<double, FaceFrame>> waiting_;  ///< with their due times
   std::optional<semblante_frame> newest_;

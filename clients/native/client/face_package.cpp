@@ -4,7 +4,7 @@
 #include <numeric>
 #include <span>
 
-#include "clients/native/client/decode_mesh.h"
+#include "clients/runtime/face_mesh.h"
 #include "protocol/cpp/rig_material.h"
 #include "protocol/hash/sha256.h"
 
@@ -20,7 +20,7 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
 }
 
 /// Triangles in runs of one material each; vertices keep their numbers.
-Result<Model> to_model(DecodedMesh&& mesh, const RigDocument& rig) {
+Result<Model> to_model(runtime::FaceMesh&& mesh, const RigDocument& rig) {
   Model model;
   model.format = "drc";
   for (const RigDocument::MaterialInfo& info : rig.materials) {
@@ -82,10 +82,7 @@ Result<Face> Face::create(const PackageBytes& bytes) {
   if (mesh_hash != rig->mesh.sha256) {
     return Error{ErrorCode::mismatch, "mesh.drc", "the SHA-256 differs from the one in rig.json"};
   }
-  if (sha256(as_bytes(bytes.weights)) != rig->weights.sha256) {
-    return Error{ErrorCode::mismatch, "weights", "the SHA-256 differs from the one in rig.json"};
-  }
-  auto mesh = decode_mesh(as_bytes(bytes.mesh_drc), rig->mesh);
+  auto mesh = runtime::decode_mesh(as_bytes(bytes.mesh_drc), rig->mesh);
   if (!mesh) {
     return std::move(mesh).error();
   }

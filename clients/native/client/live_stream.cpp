@@ -1,131 +1,127 @@
 #include "clients/native/client/live_stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <utility>
-#include <variant>
+
+#include "clients/native/client/carry.h"
+#include "protocol/cpp/json_codec.h"
 
 namespace semblante::client {
 namespace {
 
 using Clock = LiveStream::Clock;
 
-Clock::duration milliseconds(double ms) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double, std::milli>(ms));
+double to_ms(std::chrono::milliseconds time) { return static_cast<double>(time.count()); }
+
+/// The earlier of a deadline and a time of the machine.
+Clock::time_point earlier(Clock::time_point deadline, double wake_time) {
+  const double left = wake_time - LiveStream::now();
+  if (!(left < 1e9)) return deadline;
+  return std::min(deadline, Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                               std::chrono::duration<double, std::milli>(std::max(left, 0.0))));
 }
 
-double to_ms(Clock::time_point when) {
-  return std::chrono::duration<double, std::milli>(when.time_since_epoch()).count();
+void append_json(const Message& message, const QuantizerSteps& steps, std::vector<std::uint8_t>& to) {
+  const std::string text = encode_json(message, steps);
+  to.insert(to.end(), text.begin(), text.end());
+}
+
+runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
+  runtime::StreamOptions options;
+  options.role = from.stream.role;
+  options.take_over = from.stream.take_over;
+  options.resume = from.stream.resume;
+  options.coding = from.stream.json ? StreamCoding::plain : from.stream.coding;
+  options.retry_first = to_ms(from.first_pause);
+  options.retry_longest = to_ms(from.longest_pause);
+  options.seed = from.seed;
+  if (from.stream.json) options.encode = append_json;
+  return options;
 }
 
 }  // namespace
 
 LiveStream::LiveStream(Url url, std::string stream, LiveStreamOptions options)
-    : url_(std::move(url)), stream_(std::move(stream)), options_(options), random_(options.seed) {
-  resume_ = options_.stream.resume;
+    : url_(std::move(url)), stream_(std::move(stream)), options_(options.stream), machine_(machine_options(options)) {
+  machine_.start(now());
 }
 
-double LiveStream::now() { return to_ms(Clock::now()); }
+double LiveStream::now() { return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count(); }
+
+void LiveStream::close() {
+  machine_.stop();
+  if (client_) client_->close();
+  client_.reset();
+}
 
 Status LiveStream::connect() {
-  StreamOptions options = options_.stream;
-  options.resume = resume_;
-  greeted_ = false;
   ++connections_;
-  auto client = StreamClient::connect(url_, stream_, options);
+  decoder_.reset();
+  auto client = StreamClient::open(url_, stream_, options_);
   if (!client) {
-    lose();
+    machine_.closed(now());
     const ErrorCode code = client.error().code;
     return code == ErrorCode::missing || code == ErrorCode::mismatch ? Status(std::move(client).error()) : Unit{};
   }
   client_.emplace(*std::move(client));
-  sent_resume_ = resume_;
+  machine_.opened(now());
   return Unit{};
 }
 
-void LiveStream::lose() {
-  client_.reset();
-  greeted_ = false;
-  const auto longest = static_cast<double>(options_.longest_pause.count());
-  const double doubled = static_cast<double>(options_.first_pause.count()) *
-                         static_cast<double>(std::uint64_t{1} << std::min<std::uint64_t>(tries_, 30));
-  ++tries_;
-  // Half of the pause is random, so that many clients do not reconnect at the same time.
-  const double share = std::uniform_real_distribution<double>(0.5, 1.0)(random_);
-  next_try_ = Clock::now() + milliseconds(std::min(longest, doubled) * share);
+Status LiveStream::obey() {
+  machine_.tick(now());
+  while (!machine_.events().empty()) {
+    const runtime::Event event = machine_.events().take();
+    if (event.type == SEMBLANTE_EVENT_CLOSE) client_.reset();
+    if (event.type != SEMBLANTE_EVENT_CONNECT) continue;
+    if (auto connected = connect(); !connected) return connected;
+  }
+  // If something cannot be sent, the next read reports the error.
+  if (client_) static_cast<void>(send_all(machine_, *client_, options_.json));
+  return Unit{};
+}
+
+std::optional<Message> LiveStream::receive(Clock::time_point until) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+  auto bytes = client_->read(std::max(left, std::chrono::milliseconds(0)));
+  if (!bytes) {
+    client_.reset();
+    machine_.closed(now());
+    return std::nullopt;
+  }
+  if (!*bytes) return std::nullopt;
+  const double received = now();
+  const std::span<const std::uint8_t> data = **bytes;
+  auto message = options_.json
+                     ? decode_json({reinterpret_cast<const char*>(data.data()), data.size()}, machine_.steps())
+                     : decoder_.decode(data);
+  if (message) {
+    machine_.take(*message, received);
+    return *std::move(message);
+  }
+  if (message.error().code != ErrorCode::unsupported) machine_.fail(std::move(message).error(), received);
+  return std::nullopt;
 }
 
 Result<std::optional<Message>> LiveStream::next(std::chrono::milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
-  while (!over_) {
-    if (!client_) {
-      if (next_try_ > deadline) {
-        break;
-      }
-      std::this_thread::sleep_until(next_try_);
-      if (auto connected = connect(); !connected) {
-        return std::move(connected).error();
-      }
+  while (true) {
+    if (auto done = obey(); !done) return std::move(done).error();
+    const auto until = earlier(deadline, machine_.wake_time());
+    std::optional<Message> message;
+    if (client_) {
+      message = receive(until);
+    } else {
+      std::this_thread::sleep_until(until);
     }
-    if (!client_) {
-      continue;
-    }
-    ping();
-    const auto until = greeted_ ? std::min(deadline, next_ping_) : deadline;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-    auto message = client_->next(std::max(left, std::chrono::milliseconds(0)));
-    if (!message) {
-      // Closed, or not readable: a missed message affects every later difference, so the client must reconnect.
-      lose();
-    } else if (*message) {
-      take(**message, now());
+    if (message) {
+      if (auto done = obey(); !done) return std::move(done).error();
       return message;
     }
-    if (Clock::now() >= deadline) {
-      return std::optional<Message>();
-    }
+    if (Clock::now() >= deadline) return std::optional<Message>();
   }
-  std::this_thread::sleep_until(deadline);
-  return std::optional<Message>();
-}
-
-void LiveStream::take(const Message& message, double received) {
-  if (const auto* header = std::get_if<Header>(&message)) {
-    if (header_ && header_->epoch != header->epoch) {
-      clock_.clear();
-    }
-    clock_.answered(to_ms(client_->hello_sent()), received, static_cast<double>(header->media_time));
-    header_ = *header;
-    if (!resume_ || resume_->epoch != header->epoch) {
-      resume_.reset();  // there is no resume point until the keyframe
-    }
-    greeted_ = true;
-    tries_ = 0;
-    pings_ = 0;
-    next_ping_ = Clock::now();
-  } else if (const auto* keyframe = std::get_if<Keyframe>(&message); keyframe != nullptr && header_) {
-    resume_ = ResumePoint{header_->epoch, keyframe->sequence};
-  } else if (const auto* frames = std::get_if<Frames>(&message); frames != nullptr && header_) {
-    resume_ = ResumePoint{header_->epoch, frames->sequence + frames->frames.size() - 1};
-  } else if (const auto* pong = std::get_if<Pong>(&message)) {
-    clock_.answered(pong->client_time, received, static_cast<double>(pong->media_time));
-  } else if (const auto* end = std::get_if<End>(&message)) {
-    over_ =
-        end->reason == EndReason::finished || end->reason == EndReason::deleted || end->reason == EndReason::replaced;
-  }
-}
-
-void LiveStream::ping() {
-  if (!greeted_ || Clock::now() < next_ping_) {
-    return;
-  }
-  Ping ping;
-  ping.id = ++ping_id_;
-  ping.client_time = now();
-  ++pings_;
-  next_ping_ = Clock::now() + milliseconds(ping_pause(pings_, clock_.uncertainty().value_or(0)));
-  // If it cannot be sent, the next read reports the error.
-  static_cast<void>(client_->send(ping));
 }
 
 }  // namespace semblante::client

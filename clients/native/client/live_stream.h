@@ -6,9 +6,10 @@
 #include <random>
 #include <string>
 
-#include "clients/native/client/clock_estimate.h"
 #include "clients/native/client/stream_client.h"
+#include "clients/runtime/stream.h"
 #include "core/types/result.h"
+#include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/http/url.h"
 
@@ -22,9 +23,9 @@ struct LiveStreamOptions {
   std::uint64_t seed = std::random_device{}();
 };
 
-/// A subscription across connections: reconnects after a loss, resumes where it stopped, and measures the stream's
-/// clock continuously. For one thread, which should be in next() as much as possible: messages received otherwise get
-/// late timestamps.
+/// A subscription across connections: carries bytes between a socket and a `runtime::Stream`, which reconnects after a
+/// loss, resumes where it stopped, and measures the stream's clock. For one thread, which should be in next() as much
+/// as possible: messages received otherwise get late timestamps.
 class LiveStream {
  public:
   using Clock = std::chrono::steady_clock;
@@ -34,39 +35,35 @@ class LiveStream {
   /// The next message; nullopt at the timeout, and without a connection. Errors: missing (no such stream), mismatch
   /// (another subprotocol), for which reconnecting does not help. No messages follow the stream's final `end`.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
-  /// The estimate of the stream's clock relative to now().
-  ClockEstimate& clock() { return clock_; }
+  /// Closes the connection; next() opens no other.
+  void close();
   /// The current time of the clock of all timestamps, ms; its origin is arbitrary.
   static double now();
 
-  [[nodiscard]] bool connected() const { return client_.has_value() && greeted_; }
-  [[nodiscard]] const std::optional<Header>& header() const { return header_; }
+  /// The state of the stream, for players to follow.
+  runtime::Stream& machine() { return machine_; }
+  [[nodiscard]] bool connected() const { return machine_.state() == SEMBLANTE_STREAM_OPEN; }
+  [[nodiscard]] const std::optional<Header>& header() const { return machine_.header(); }
   /// The resume point for the next hello.
-  [[nodiscard]] const std::optional<ResumePoint>& resume() const { return resume_; }
+  [[nodiscard]] const std::optional<ResumePoint>& resume() const { return machine_.resume(); }
   /// The resume point that the last hello sent.
-  [[nodiscard]] const std::optional<ResumePoint>& sent_resume() const { return sent_resume_; }
+  [[nodiscard]] const std::optional<ResumePoint>& sent_resume() const { return machine_.sent_resume(); }
   [[nodiscard]] std::uint64_t connections() const { return connections_; }
 
  private:
   Status connect();
-  void lose();
-  void take(const Message& message, double received);
-  /// Sends a ping when one is due.
-  void ping();
+  /// Does what the machine asks for.
+  Status obey();
+  /// Reads a message until `until`.
+  std::optional<Message> receive(Clock::time_point until);
 
   Url url_;
   std::string stream_;
-  LiveStreamOptions options_;
-  std::mt19937_64 random_;
+  StreamOptions options_;
+  runtime::Stream machine_;
+  FrameDecoder decoder_;
   std::optional<StreamClient> client_;
-  std::optional<Header> header_;
-  std::optional<ResumePoint> resume_, sent_resume_;
-  ClockEstimate clock_;
-  Clock::time_point next_try_{}, next_ping_{};
-  std::uint64_t tries_ = 0, connections_ = 0;
-  std::size_t pings_ = 0;
-  std::uint32_t ping_id_ = 0;
-  bool greeted_ = false, over_ = false;
+  std::uint64_t connections_ = 0;
 };
 
 }  // namespace semblante::client

@@ -1,5 +1,6 @@
 #include "clients/native/client/stream_client.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,7 +39,6 @@ struct StreamClient::Impl {
   QuantizerSteps steps = standard_quantizers();
   bool reading = false;
   std::optional<error_code> read_result;
-  Clock::time_point hello_sent{};
   std::string fault;  ///< an exception that ended an operation and the connection
 
   /// Runs handlers until `done` or the deadline.
@@ -123,9 +123,7 @@ struct StreamClient::Impl {
                 [&](auto done) { socket.async_write(asio::buffer(bytes.data(), bytes.size()), std::move(done)); });
   }
 
-  Result<Message> decode() {
-    const auto data = buffer.cdata();
-    const std::span bytes(static_cast<const std::uint8_t*>(data.data()), data.size());
+  Result<Message> decode(std::span<const std::uint8_t> bytes) {
     // The kind of each message is used, not the subprotocol: the decoder reports a server that mixes them.
     auto message = socket.got_text() ? decode_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, steps)
                                      : decoder.decode(bytes);
@@ -134,7 +132,6 @@ struct StreamClient::Impl {
         steps = quantizers_of(*header);
       }
     }
-    buffer.clear();
     return message;
   }
 };
@@ -144,7 +141,7 @@ StreamClient::~StreamClient() = default;
 StreamClient::StreamClient(StreamClient&&) noexcept = default;
 StreamClient& StreamClient::operator=(StreamClient&&) noexcept = default;
 
-Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stream, const StreamOptions& options) {
+Result<StreamClient> StreamClient::open(const Url& url, std::string_view stream, const StreamOptions& options) {
   auto impl = std::make_unique<Impl>();
   const std::string target = url.path + "/v1/streams/" + escape_segment(stream);
   impl->where = url.authority() + target;
@@ -152,44 +149,64 @@ Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stre
   if (auto opened = impl->open(url, target); !opened) {
     return std::move(opened).error();
   }
-  StreamClient client(std::move(impl));
+  return StreamClient(std::move(impl));
+}
+
+Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stream, const StreamOptions& options) {
+  auto client = open(url, stream, options);
+  if (!client) {
+    return client;
+  }
   Hello hello;
   hello.role = options.role;
   hello.resume = options.resume;
   hello.coding = options.json ? StreamCoding::plain : options.coding;
   hello.take_over = options.take_over;
-  client.impl_->hello_sent = Clock::now();
-  if (auto said = client.send(hello); !said) {
+  if (auto said = client->send(hello); !said) {
     return std::move(said).error();
   }
   return client;
 }
 
-Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds timeout) {
+Result<std::optional<std::span<const std::uint8_t>>> StreamClient::read(std::chrono::milliseconds timeout) {
+  using Bytes = std::optional<std::span<const std::uint8_t>>;
   Impl& impl = *impl_;
+  if (!impl.reading) {
+    impl.reading = true;
+    impl.read_result.reset();
+    impl.buffer.clear();
+    impl.socket.async_read(impl.buffer,
+                           [&impl](const error_code& problem, std::size_t) { impl.read_result = problem; });
+  }
+  const bool ended = impl.run_until(Clock::now() + timeout, [&] { return impl.read_result.has_value(); });
+  if (!impl.fault.empty()) {
+    return Error{ErrorCode::internal, impl.where, "the stream ended: " + impl.fault};
+  }
+  if (!ended) {
+    return Bytes();
+  }
+  impl.reading = false;
+  if (*impl.read_result) {
+    const bool large = *impl.read_result == websocket::error::message_too_big;
+    return Error{large ? ErrorCode::too_large : ErrorCode::io, impl.where,
+                 "the stream ended: " + impl.read_result->message()};
+  }
+  const auto data = impl.buffer.cdata();
+  return Bytes(std::span(static_cast<const std::uint8_t*>(data.data()), data.size()));
+}
+
+Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds timeout) {
   const Clock::time_point deadline = Clock::now() + timeout;
   while (true) {
-    if (!impl.reading) {
-      impl.reading = true;
-      impl.read_result.reset();
-      impl.socket.async_read(impl.buffer, [&impl](const error_code& problem, std::size_t) {
-        impl.read_result = problem;
-        impl.reading = false;
-      });
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    auto bytes = read(std::max(left, std::chrono::milliseconds(0)));
+    if (!bytes) {
+      return std::move(bytes).error();
     }
-    const bool ended = impl.run_until(deadline, [&] { return impl.read_result.has_value(); });
-    if (!impl.fault.empty()) {
-      return Error{ErrorCode::internal, impl.where, "the stream ended: " + impl.fault};
-    }
-    if (!ended) {
+    if (!*bytes) {
       return std::optional<Message>();
     }
-    if (*impl.read_result) {
-      const bool large = *impl.read_result == websocket::error::message_too_big;
-      return Error{large ? ErrorCode::too_large : ErrorCode::io, impl.where,
-                   "the stream ended: " + impl.read_result->message()};
-    }
-    auto message = impl.decode();
+    auto message = impl_->decode(**bytes);
     if (message) {
       return std::optional<Message>(*std::move(message));
     }
@@ -198,8 +215,6 @@ Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds time
     }
   }
 }
-
-Clock::time_point StreamClient::hello_sent() const { return impl_->hello_sent; }
 
 Status StreamClient::send(const Message& message) {
   if (impl_->options.json) {

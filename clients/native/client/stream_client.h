@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,8 @@ struct StreamOptions {
 /// before they are read.
 class StreamClient {
  public:
+  /// Connects without a word: for `read` and `send_raw`. Errors like `connect`.
+  static Result<StreamClient> open(const Url& url, std::string_view stream, const StreamOptions& options = {});
   /// Connects and sends a hello. Errors: io, missing (no such stream), mismatch (the server uses another subprotocol).
   static Result<StreamClient> connect(const Url& url, std::string_view stream, const StreamOptions& options = {});
   ~StreamClient();
@@ -36,12 +39,13 @@ class StreamClient {
   /// the connection is closed (see close_code), else the error of the message.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
 
-  /// When the hello was sent, which the header answers.
-  [[nodiscard]] std::chrono::steady_clock::time_point hello_sent() const;
+  /// The bytes of the next message, valid until the next call; nullopt at the timeout. Errors: io when the connection
+  /// is closed (see close_code), too_large.
+  Result<std::optional<std::span<const std::uint8_t>>> read(std::chrono::milliseconds timeout);
 
   /// Sends in the subprotocol in use. Frames must follow a keyframe of the same client. Errors: io.
   Status send(const Message& message);
-  /// Sends any bytes, for tests of protocol violations.
+  /// Sends any bytes.
   Status send_raw(std::string_view bytes, bool as_text);
 
   /// Closes with a handshake; waits at most the connection's timeout for the server.

@@ -1,53 +1,104 @@
 #include "clients/native/client/stream_publisher.h"
 
-#include <algorithm>
+#include <random>
+#include <span>
 #include <utility>
-#include <variant>
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/cpp/kernel_values.h"
+#include "clients/native/client/carry.h"
 #include "protocol/http/http_client.h"
 
 namespace semblante::client {
+namespace {
+
+runtime::StreamOptions machine_options(const PublisherOptions& from) {
+  runtime::StreamOptions options;
+  options.role = StreamRole::publish;
+  options.take_over = from.take_over;
+  options.retry_first = static_cast<double>(from.retry_first.count());
+  options.retry_longest = static_cast<double>(from.retry_most.count());
+  options.seed = std::random_device{}();
+  return options;
+}
+
+}  // namespace
 
 StreamPublisher::StreamPublisher(Url url, std::string stream, PublisherOptions options)
-    : url_(std::move(url)), stream_(std::move(stream)), options_(std::move(options)), wait_(options_.retry_first) {}
+    : url_(std::move(url)),
+      stream_(std::move(stream)),
+      options_(std::move(options)),
+      machine_(machine_options(options_)),
+      start_at_(now()) {}
+
+double StreamPublisher::now() {
+  return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
+}
 
 Status StreamPublisher::look_after() {
-  if (client_) {
-    // The connection's handlers run only while it is polled for messages.
-    static_cast<void>(listen(std::chrono::milliseconds(1)));
-    return Unit{};
+  if (start_at_ && *start_at_ <= now()) {
+    start_at_.reset();
+    machine_.start(now());
   }
-  return Clock::now() < next_try_ ? Status(Unit{}) : connect();
+  if (auto done = obey(); !done) return done;
+  // The connection's handlers run only while it is polled for messages.
+  if (client_) listen(std::chrono::milliseconds(1));
+  return obey();
+}
+
+Status StreamPublisher::obey() {
+  machine_.tick(now());
+  while (!machine_.events().empty()) {
+    const runtime::Event event = machine_.events().take();
+    switch (event.type) {
+      case SEMBLANTE_EVENT_CONNECT:
+        if (auto connected = connect(); !connected) return connected;
+        break;
+      case SEMBLANTE_EVENT_CLOSE:
+        client_.reset();
+        break;
+      case SEMBLANTE_EVENT_REFUSED:
+        trouble("error of the server: ", event.error->message);
+        break;
+      case SEMBLANTE_EVENT_FAULT:
+        trouble("no connection to " + stream_ + ": ", event.error->message);
+        break;
+      case SEMBLANTE_EVENT_END:
+        trouble("no connection to " + stream_ + ": ", "the server ended the stream");
+        if (event.is_final) start_at_ = now() + static_cast<double>(options_.retry_first.count());
+        break;
+      default:
+        break;
+    }
+  }
+  if (client_) {
+    if (auto sent = send_all(machine_, *client_, false); !sent) lose(sent.error().message);
+  }
+  return Unit{};
 }
 
 Status StreamPublisher::connect() {
   StreamOptions wanted;
-  wanted.role = StreamRole::publish;
-  wanted.take_over = options_.take_over;
   wanted.timeout = options_.timeout;
-  auto client = StreamClient::connect(url_, stream_, wanted);
+  auto client = StreamClient::open(url_, stream_, wanted);
   if (!client && client.error().code == ErrorCode::missing) {
     if (!options_.create) return std::move(client).error();
     if (auto made = make_stream(); !made) return made;
-    client = StreamClient::connect(url_, stream_, wanted);
+    client = StreamClient::open(url_, stream_, wanted);
   }
   if (!client) {
     lose(client.error().message);
     return Unit{};
   }
   client_ = *std::move(client);
-  has_header_ = false;
-  needs_keyframe_ = true;
+  machine_.opened(now());
+  if (auto sent = send_all(machine_, *client_, false); !sent) lose(sent.error().message);
   const Clock::time_point deadline = Clock::now() + options_.timeout;
-  while (client_ && !has_header_ && Clock::now() < deadline) {
-    static_cast<void>(listen(std::chrono::milliseconds(50)));
+  while (client_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING && Clock::now() < deadline) {
+    listen(std::chrono::milliseconds(50));
   }
-  if (client_ && !has_header_) lose("the server sends no header");
-  if (client_) {
-    wait_ = options_.retry_first;
+  if (client_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING) lose("the server sends no header");
+  if (connected()) {
     last_trouble_.clear();
     news_ = "publishing to " + stream_;
   }
@@ -61,7 +112,7 @@ Status StreamPublisher::make_stream() {
   limits.timeout = options_.timeout;
   const auto answer = HttpClient(url_, limits).post("/v1/streams", body.dump(), "application/json");
   if (!answer) {
-    lose(answer.error().message);
+    trouble("no connection to " + stream_ + ": ", answer.error().message);
     return Unit{};
   }
   // Another client may have made it meanwhile.
@@ -71,54 +122,43 @@ Status StreamPublisher::make_stream() {
       "the server does not create this stream: " + std::to_string(answer->status) + " " + answer->body.substr(0, 500)};
 }
 
-bool StreamPublisher::listen(std::chrono::milliseconds patience) {
-  auto message = client_->next(patience);
-  if (!message) {
+void StreamPublisher::listen(std::chrono::milliseconds patience) {
+  auto bytes = client_->read(patience);
+  if (!bytes) {
     const std::string reason = client_->close_reason();
-    lose(reason.empty() ? message.error().message : reason);
-    return false;
+    return lose(reason.empty() ? bytes.error().message : reason);
   }
-  if (!*message) return true;
-  if (const auto* header = std::get_if<Header>(&**message)) {
-    steps_ = quantizers_of(*header);
-    has_header_ = true;
-  } else if (const auto* error = std::get_if<StreamError>(&**message)) {
-    // The server's state is that before the refused message.
-    needs_keyframe_ = true;
-    if (last_trouble_ != error->message) news_ = "error of the server: " + error->message;
-    last_trouble_ = error->message;
-  } else if (std::holds_alternative<End>(**message)) {
-    lose("the server ended the stream");
-    return false;
-  }
-  return true;
+  if (*bytes) machine_.receive(**bytes, now());
 }
 
 bool StreamPublisher::publish(const semblante_frame& frame, std::uint64_t media_time) {
-  if (!client_) return false;
-  const FaceFrame state = quantized(frame, steps_);
-  ++sequence_;
-  const Message message = needs_keyframe_ ? Message(Keyframe{sequence_, media_time, state})
-                                          : Message(Frames{sequence_, media_time, {TimedFrame{0, state}}});
-  if (auto sent = client_->send(message); !sent) {
+  if (!connected()) return false;
+  const semblante_timed_frame timed{0, frame};
+  const auto published = machine_.publish({&timed, 1}, static_cast<double>(media_time), now());
+  if (published != runtime::Stream::Published::sent) return false;
+  if (auto sent = send_all(machine_, *client_, false); !sent) {
     lose(sent.error().message);
     return false;
   }
-  needs_keyframe_ = false;
   return true;
 }
 
 void StreamPublisher::lose(const std::string& why) {
   client_.reset();
-  next_try_ = Clock::now() + wait_;
-  wait_ = std::min(2 * wait_, options_.retry_most);
-  if (last_trouble_ != why) news_ = "no connection to " + stream_ + ": " + why;
+  machine_.closed(now());
+  trouble("no connection to " + stream_ + ": ", why);
+}
+
+void StreamPublisher::trouble(const std::string& what, const std::string& why) {
+  if (last_trouble_ != why) news_ = what + why;
   last_trouble_ = why;
 }
 
 std::optional<std::string> StreamPublisher::take_news() { return std::exchange(news_, std::nullopt); }
 
 void StreamPublisher::close() {
+  machine_.stop();
+  start_at_.reset();
   if (client_) client_->close();
   client_.reset();
 }

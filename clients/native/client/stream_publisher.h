@@ -6,9 +6,9 @@
 #include <string>
 
 #include "clients/native/client/stream_client.h"
+#include "clients/runtime/stream.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/types/result.h"
-#include "protocol/cpp/quantizers.h"
 
 namespace semblante::client {
 
@@ -21,8 +21,8 @@ struct PublisherOptions {
   std::chrono::milliseconds retry_most{5000};
 };
 
-/// A publisher that reconnects when the connection is lost and continues with a keyframe. For one thread; all work is
-/// done within its calls.
+/// A publisher: carries bytes between a socket and a `runtime::Stream`, which reconnects when the connection is lost
+/// and continues with a keyframe. For one thread; all work is done within its calls.
 class StreamPublisher {
  public:
   StreamPublisher(Url url, std::string stream, PublisherOptions options = {});
@@ -32,7 +32,7 @@ class StreamPublisher {
   /// and the server's error on creating one; other errors are retried.
   Status look_after();
 
-  [[nodiscard]] bool connected() const { return client_.has_value(); }
+  [[nodiscard]] bool connected() const { return client_ && machine_.state() == SEMBLANTE_STREAM_OPEN; }
   /// Sends the state of the face. `media_time`: ms of a monotonic clock of the caller, more than 0; the server keeps
   /// its spacing. The FAPs must be finite. False when there is no connection: the frame is lost.
   bool publish(const semblante_frame& frame, std::uint64_t media_time);
@@ -44,22 +44,23 @@ class StreamPublisher {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static double now();
   Status connect();
   Status make_stream();
-  /// False when the connection has ended.
-  bool listen(std::chrono::milliseconds patience);
+  /// Does what the machine asks for.
+  Status obey();
+  void listen(std::chrono::milliseconds patience);
   void lose(const std::string& why);
+  /// News, unless they are those of before.
+  void trouble(const std::string& what, const std::string& why);
 
   Url url_;
   std::string stream_;
   PublisherOptions options_;
   std::optional<StreamClient> client_;
-  QuantizerSteps steps_ = standard_quantizers();
-  bool has_header_ = false;
-  bool needs_keyframe_ = true;
-  std::uint64_t sequence_ = 0;
-  Clock::time_point next_try_ = Clock::now();
-  std::chrono::milliseconds wait_;
+  runtime::Stream machine_;
+  /// When to go on after an end for good: the stream may be there again, or free.
+  std::optional<double> start_at_;
   std::optional<std::string> news_;
   std::string last_trouble_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/native/client/playout.h"
+#include "clients/runtime/playout.h"
 #include "protocol/http/url.h"
 #include "tests/support/tcp_proxy.h"
 
@@ -34,7 +34,7 @@ struct Skew {
   /// proxy's likewise.
   std::size_t disturbed = 0;
   double worst_late = 0, worst_proxy = 0;
-  client::PlayoutStats stats;
+  runtime::PlayoutStats stats;
   double uncertainty = 0;
 
   [[nodiscard]] double at(double share) const {

@@ -48,8 +48,8 @@ Coded packed(const Trace& trace, std::size_t per_message, const PackedTable& tab
   Coded coded{start.size(), 1};
   for (const Frames& batch : batches(trace, per_message)) {
     const Bytes bytes = encoder.encode(batch);
-    const auto read = read_packed_frames(bytes, reader, table);
-    if (!read || !(*read == batch)) throw std::runtime_error("not lossless: " + trace.name);
+    Frames read;
+    if (!read_packed_frames(bytes, reader, read, table) || !(read == batch)) throw std::runtime_error("not lossless: " + trace.name);
     coded.payload += bytes.size();
     ++coded.messages;
   }

@@ -26,7 +26,7 @@ using client::DisplayedFrame;
 using client::LivePlayer;
 using client::LiveStream;
 using client::PlayedFrame;
-using client::Playout;
+using runtime::Playout;
 using std::chrono::milliseconds;
 
 /// Every frame of the demo, as a client gets it that nothing lies between. By sequence.

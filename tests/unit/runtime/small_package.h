@@ -7,6 +7,7 @@
 #include "clients/runtime/semblante.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
+#include "protocol/hash/sha256.h"
 
 namespace semblante::testing {
 
@@ -54,6 +55,7 @@ struct SmallPackage {
   /// To be called after a change of `table` or `rig`.
   void seal() {
     weights = encode_weights(table, {.bits = 16});
+    rig.weights.sha256 = sha256(weights);
     rig_json = write_rig(rig);
   }
 

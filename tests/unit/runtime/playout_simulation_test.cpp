@@ -1,4 +1,4 @@
-#include "tests/unit/client/playout_simulation.h"
+#include "tests/unit/runtime/playout_simulation.h"
 
 #include <cmath>
 #include <iostream>

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <optional>
 
-#include "clients/native/client/clock_estimate.h"
+#include "clients/runtime/clock_estimate.h"
+#include "clients/runtime/ring.h"
 #include "protocol/cpp/messages.h"
 
-namespace semblante::client {
+namespace semblante::runtime {
 
 struct PlayoutOptions {
   /// Fixed delay behind the stream's clock, ms; empty: the delay adapts to the lateness of frames.
@@ -29,8 +29,7 @@ struct PlayoutStats {
 
 /// Computes the media time to show: the stream's clock minus a delay that is long enough for frames to arrive in time.
 /// The shown time advances at a nearly constant speed and never backwards. Uses only times, in ms; `now` is the
-/// client's clock. protocol/SPEC.md, 7.2; clients/js/playout.ts is the same algorithm; both are tested with
-/// protocol/vectors/clock.
+/// client's clock. protocol/SPEC.md, 7.2; protocol/vectors/clock has traces.
 class Playout {
  public:
   static constexpr double max_speed_change = 0.05;
@@ -54,9 +53,14 @@ class Playout {
   static constexpr double motion_after_rest = 100;
 
   explicit Playout(const PlayoutOptions& options = {}) : options_(options) {}
+  Playout(const Playout&) = delete;
+  Playout& operator=(const Playout&) = delete;
 
-  ClockEstimate& clock() { return clock_; }
-  [[nodiscard]] const ClockEstimate& clock() const { return clock_; }
+  /// The estimate of the stream's clock: its own, or that of a stream, which must outlive its use.
+  ClockEstimate& clock() { return *clock_; }
+  [[nodiscard]] const ClockEstimate& clock() const { return *clock_; }
+  /// Null: its own, from nothing.
+  void use_clock(ClockEstimate* clock);
 
   /// A header was received, at first or after a lost connection. Returns true for another epoch, which has another
   /// timeline.
@@ -91,7 +95,8 @@ class Playout {
   void measure_interval(double gap);
 
   PlayoutOptions options_;
-  ClockEstimate clock_;
+  ClockEstimate own_clock_;
+  ClockEstimate* clock_ = &own_clock_;
   std::optional<std::uint64_t> epoch_;
   double message_interval_ = 0, frame_interval_ = 0;  ///< from the header; 0: unknown
   double measured_interval_ = 0;                      ///< between frames
@@ -102,8 +107,8 @@ class Playout {
   double transit_ = std::numeric_limits<double>::quiet_NaN();
   double delay_ = std::numeric_limits<double>::quiet_NaN();
   double wanted_delay_ = std::numeric_limits<double>::quiet_NaN();
-  std::deque<Second> seconds_;
+  Ring<Second> seconds_;
   PlayoutStats stats_;
 };
 
-}  // namespace semblante::client
+}  // namespace semblante::runtime

@@ -1,27 +1,32 @@
-#include "clients/native/client/decode_mesh.h"
+#include "clients/runtime/face_mesh.h"
 
+#ifdef SEMBLANTE_WITH_DRACO
 #include "core/draco/draco_mesh.h"
+#endif
 #include "protocol/cpp/weights_format.h"
 
-namespace semblante::client {
+namespace semblante::runtime {
 namespace {
 
 Error refused(ErrorCode code, std::string message) { return {code, "mesh.drc", std::move(message)}; }
 
+#ifdef SEMBLANTE_WITH_DRACO
 template <class T>
 std::vector<T> value_or_empty(Result<std::vector<T>> values) {
   return values ? *std::move(values) : std::vector<T>{};
 }
+#endif
 
 }  // namespace
 
-Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh) {
+Result<FaceMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocument::Mesh& mesh) {
   if (mesh.vertices == 0 || mesh.triangles == 0) {
     return refused(ErrorCode::empty, "rig.json declares no vertices or no triangles");
   }
   if (mesh.vertices > max_weights_vertices || mesh.triangles > 2U * max_weights_vertices) {
     return refused(ErrorCode::too_large, "rig.json declares more than 4 million vertices or 8 million triangles");
   }
+#ifdef SEMBLANTE_WITH_DRACO
   const auto draco = DracoMesh::decode(bytes, {mesh.vertices, mesh.triangles});
   if (!draco) {
     return refused(draco.error().code, draco.error().message);
@@ -36,8 +41,11 @@ Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDo
   if (!positions) {
     return refused(positions.error().code, positions.error().message);
   }
-  DecodedMesh decoded;
+  FaceMesh decoded;
   decoded.positions = *std::move(positions);
+  if (mesh.attributes.normal) {
+    decoded.normals = value_or_empty(draco->vectors3(*mesh.attributes.normal));
+  }
   if (mesh.attributes.uv) {
     decoded.uvs = value_or_empty(draco->vectors2(*mesh.attributes.uv));
   }
@@ -46,6 +54,10 @@ Result<DecodedMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDo
   }
   decoded.triangles = draco->triangles();
   return decoded;
+#else
+  static_cast<void>(bytes);
+  return refused(ErrorCode::unsupported, "this build has no Draco decoder");
+#endif
 }
 
-}  // namespace semblante::client
+}  // namespace semblante::runtime

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "clients/native/client/playout.h"
+#include "clients/runtime/playout.h"
 
 namespace semblante::testing {
 namespace {
@@ -22,12 +22,12 @@ struct Played {
 
 /// What protocol/vectors/README.md says of a trace.
 Played play(const Json& trace) {
-  client::PlayoutOptions options;
+  runtime::PlayoutOptions options;
   if (trace["options"].contains("delay")) {
     options.delay = trace["options"]["delay"].get<double>();
   }
   options.eased = trace["options"].value("eased", false);
-  client::Playout playout(options);
+  runtime::Playout playout(options);
   Played played;
   for (const Json& event : trace["events"]) {
     const auto kind = event[0].get<std::string>();
@@ -52,8 +52,8 @@ Played play(const Json& trace) {
       played.shown.push_back({rounded(playout.playhead()), rounded(playout.delay())});
     }
   }
-  const client::PlayoutStats stats = playout.stats();
-  const client::ClockEstimate& clock = playout.clock();
+  const runtime::PlayoutStats stats = playout.stats();
+  const runtime::ClockEstimate& clock = playout.clock();
   played.stats = {{"starved", stats.starved},
                   {"starved_time", rounded(stats.starved_time)},
                   {"snaps", stats.snaps},

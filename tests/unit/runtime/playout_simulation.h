@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "clients/native/client/playout.h"
+#include "clients/runtime/playout.h"
 
 namespace semblante::testing {
 

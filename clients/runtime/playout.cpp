@@ -1,14 +1,15 @@
-#include "clients/native/client/playout.h"
+#include "clients/runtime/playout.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace semblante::client {
-namespace {
+#include "clients/runtime/times.h"
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace semblante::runtime {
+void Playout::use_clock(ClockEstimate* clock) {
+  own_clock_.clear();
+  clock_ = clock != nullptr ? clock : &own_clock_;
+}
 
 bool Playout::begin(const Header& header) {
   frame_interval_ = header.fps_hint > 0 ? 1000 / header.fps_hint : 0;
@@ -23,7 +24,7 @@ bool Playout::begin(const Header& header) {
 }
 
 void Playout::clear() {
-  playhead_ = newest_ = before_newest_ = transit_ = delay_ = wanted_delay_ = unknown;
+  playhead_ = newest_ = before_newest_ = transit_ = delay_ = wanted_delay_ = unknown_time;
   measured_interval_ = 0;
   seconds_.clear();
 }
@@ -43,7 +44,7 @@ double Playout::first_delay() const {
     return *options_.delay;
   }
   const double intervals = (options_.eased ? 3 : 2) * message_interval_;
-  return std::min(greatest_delay, std::max(least_delay, intervals) + clock_.uncertainty().value_or(0));
+  return std::min(greatest_delay, std::max(least_delay, intervals) + clock_->uncertainty().value_or(0));
 }
 
 void Playout::measure_jitter(double transit) {
@@ -68,7 +69,8 @@ void Playout::count_lateness(double lateness, double now) {
   }
   double worst = -std::numeric_limits<double>::infinity();
   double second_worst = worst;
-  for (const Second& each : seconds_) {
+  for (std::size_t i = 0; i < seconds_.size(); ++i) {
+    const Second& each = seconds_[i];
     second_worst = std::max(second_worst, std::min(worst, each.worst));
     worst = std::max(worst, each.worst);
   }
@@ -80,8 +82,8 @@ void Playout::count_lateness(double lateness, double now) {
 }
 
 double Playout::arrived(double first, double before_last, double last, double now) {
-  clock_.heard(now, last);
-  const double clock = *clock_.at(now);
+  clock_->heard(now, last);
+  const double clock = *clock_->at(now);
   const double before = newest_;
   const double base = options_.eased ? before_newest_ : before;
   newest_ = last;
@@ -125,10 +127,14 @@ void Playout::advance(double now, double elapsed) {
   if (std::isnan(playhead_)) {
     return;
   }
+  const std::optional<double> clock = clock_->at(now);
+  if (!clock) {
+    return;  // that of a stream followed since, which has sent nothing yet
+  }
   elapsed = std::max(0.0, elapsed);
   const double step = std::clamp(wanted_delay_ - delay_, -delay_rate * elapsed, delay_rate * elapsed);  // of the delay
   delay_ += step;
-  const double wanted = *clock_.at(now) - delay_;
+  const double wanted = *clock - delay_;
   const double error = wanted - (playhead_ + elapsed - step);
   double next = playhead_;
   if (error > snap_threshold) {
@@ -157,4 +163,4 @@ void Playout::move_to(double media_time) {
   }
 }
 
-}  // namespace semblante::client
+}  // namespace semblante::runtime

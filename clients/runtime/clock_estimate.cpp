@@ -1,13 +1,14 @@
-#include "clients/native/client/clock_estimate.h"
+#include "clients/runtime/clock_estimate.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace semblante::client {
+namespace semblante::runtime {
 
 ClockEstimate::Bounds ClockEstimate::bounds_at(double local) const {
   Bounds all{local, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  for (const Bounds& each : answers_) {
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    const Bounds& each = answers_[i];
     const double age = local - each.at;
     all.low = std::max(all.low, each.low + (drift_ - drift_slack) * age);
     all.high = std::min(all.high, each.high + (drift_ + drift_slack) * age);
@@ -30,7 +31,7 @@ void ClockEstimate::answered(double sent, double received, double media_time) {
       ++steps_;
     }
   }
-  while (!answers_.empty() && received - answers_.front().at > window) {
+  while (!answers_.empty() && (received - answers_.front().at > window || answers_.size() >= most_answers)) {
     answers_.pop_front();
   }
   answers_.push_back(bounds);
@@ -73,7 +74,15 @@ void ClockEstimate::heard(double received, double media_time) {
   }
 }
 
-void ClockEstimate::clear() { *this = ClockEstimate(); }
+void ClockEstimate::clear() {
+  answers_.clear();
+  past_.clear();
+  now_ = {};
+  known_ = answered_ = false;
+  half_width_ = drift_ = heard_at_ = 0;
+  round_trip_.reset();
+  steps_ = 0;
+}
 
 std::optional<double> ClockEstimate::at(double local) const {
   if (!known_) {
@@ -86,4 +95,4 @@ std::optional<double> ClockEstimate::uncertainty() const {
   return answered_ ? std::optional(half_width_) : std::nullopt;
 }
 
-}  // namespace semblante::client
+}  // namespace semblante::runtime

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 
-namespace semblante::client {
+#include "clients/runtime/ring.h"
+
+namespace semblante::runtime {
 
 /// A client's estimate of the stream's clock: its offset from the client's own clock, from the round trips of hello and
 /// header and of ping and pong. Times in ms; the client's clock may have any origin but must be steady.
-/// protocol/SPEC.md, 7.1; clients/js/clock_estimate.ts is the same algorithm; both are tested with
-/// protocol/vectors/clock.
+/// protocol/SPEC.md, 7.1; protocol/vectors/clock has traces.
 class ClockEstimate {
  public:
   /// Round trips older than this are ignored.
@@ -23,6 +23,8 @@ class ClockEstimate {
   static constexpr double drift_step = 30'000;
   /// Maximum time of frames ahead of the stream's clock, as limited by the server.
   static constexpr double farthest_ahead = 10'000;
+  /// Round trips kept; beyond it the oldest are dropped. More come only if a caller measures the clock all the time.
+  static constexpr std::size_t most_answers = 256;
   /// Without a round trip the earliest arrival within this time is used.
   static constexpr double heard_window = 10'000;
 
@@ -56,8 +58,8 @@ class ClockEstimate {
   [[nodiscard]] Bounds bounds_at(double local) const;
   void measure_drift();
 
-  std::deque<Bounds> answers_;
-  std::deque<Point> past_;  ///< estimates drift_step apart
+  Ring<Bounds> answers_;
+  Ring<Point> past_;  ///< estimates drift_step apart
   Point now_;
   bool known_ = false, answered_ = false;
   double half_width_ = 0, drift_ = 0, heard_at_ = 0;
@@ -71,4 +73,4 @@ constexpr double ping_pause(std::size_t sent, double uncertainty, double steady 
   return sent < 5 ? 200 : sent < 15 ? 1000 : uncertainty > 10 ? 0.4 * steady : steady;
 }
 
-}  // namespace semblante::client
+}  // namespace semblante::runtime

@@ -1,4 +1,4 @@
-#include "tests/unit/client/playout_simulation.h"
+#include "tests/unit/runtime/playout_simulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +99,7 @@ class Simulation {
         playout_.clock().answered(sent, client_clock(), media_time);
       });
     });
-    at(now_ + client::ping_pause(++pings_, playout_.clock().uncertainty().value_or(0)),
+    at(now_ + runtime::ping_pause(++pings_, playout_.clock().uncertainty().value_or(0)),
        [this, connection = connection_] {
          if (connection == connection_) ping();
        });
@@ -168,7 +168,7 @@ class Simulation {
   const NetworkModel network_;
   const SimulationOptions options_;
   std::mt19937_64 random_;
-  client::Playout playout_;
+  runtime::Playout playout_;
   std::multimap<double, std::function<void()>> events_;
   double now_ = 0, last_up_ = 0, last_down_ = 0, displayed_at_ = 0;
   double sent_until_ = 0, has_until_ = 0;
