@@ -1,0 +1,51 @@
+"""Faces of other systems: ARKit's 52 blend shapes and the 15 visemes of Oculus Lipsync."""
+
+import ctypes
+
+from ._library import Error, Frame, library
+from .errors import check
+
+ARKIT_NAMES = tuple(library.semblante_arkit_name(i).decode() for i in range(52))
+# In the order of Oculus Lipsync, which is that of FAP 1.
+OCULUS_NAMES = ("sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "ih", "oh", "ou")
+
+
+def _numbers(values, names, kind):
+    if isinstance(values, dict):
+        unknown = set(values) - set(names)
+        if unknown:
+            raise ValueError(f"{kind} has no {', '.join(sorted(unknown))}")
+        values = [values.get(name, 0.0) for name in names]
+    if len(values) != len(names):
+        raise ValueError(f"{kind} has {len(names)} values, not {len(values)}")
+    return (ctypes.c_float * len(names))(*values)
+
+
+def from_arkit(coefficients):
+    """A Frame of coefficients: {name: 0..1}, or 52 numbers in the order of ARKIT_NAMES."""
+    frame, error = Frame(), Error()
+    numbers = _numbers(coefficients, ARKIT_NAMES, "ARKit")
+    check(library.semblante_frame_from_arkit(numbers, ctypes.byref(frame), ctypes.byref(error)), error)
+    return frame
+
+
+def to_arkit(frame):
+    """{name: coefficient 0..1} of a Frame."""
+    numbers = (ctypes.c_float * 52)()
+    check(library.semblante_arkit_from_frame(ctypes.byref(frame), numbers))
+    return dict(zip(ARKIT_NAMES, numbers))
+
+
+def from_oculus(weights):
+    """A Frame of weights: {name: weight}, or 15 numbers in the order of OCULUS_NAMES."""
+    frame, error = Frame(), Error()
+    numbers = _numbers(weights, OCULUS_NAMES, "Oculus Lipsync")
+    check(library.semblante_frame_from_oculus(numbers, ctypes.byref(frame), ctypes.byref(error)), error)
+    return frame
+
+
+def to_oculus(frame):
+    """{name: weight} of the visemes of a Frame, with sum 1."""
+    numbers = (ctypes.c_float * 15)()
+    check(library.semblante_oculus_from_frame(ctypes.byref(frame), numbers))
+    return dict(zip(OCULUS_NAMES, numbers))

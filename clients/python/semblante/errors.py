@@ -1,0 +1,55 @@
+"""Errors of the library as exceptions."""
+
+import ctypes
+
+from ._library import Error, library
+
+
+class SemblanteError(Exception):
+    """`code`: the name of the result, such as "malformed"; `where`: the member or byte at fault, may be empty."""
+
+    def __init__(self, code, where, message):
+        super().__init__(": ".join(part for part in (where, message or code) if part))
+        self.code = code
+        self.where = where
+
+
+def check(result, error=None):
+    """Raises SemblanteError unless `result` is OK. `error`: the struct that the function has filled."""
+    if result == 0:
+        return
+    code = library.semblante_result_name(result).decode()
+    if error is None:
+        raise SemblanteError(code, "", "")
+    raise SemblanteError(code, error.where.decode("utf-8", "replace"), error.message.decode("utf-8", "replace"))
+
+
+def make(function, *arguments):
+    """Calls a function `..._create(arguments..., handle, error)` and returns the handle."""
+    handle = ctypes.c_void_p()
+    error = Error()
+    check(function(*arguments, ctypes.byref(handle), ctypes.byref(error)), error)
+    return handle
+
+
+class Owner:
+    """Owns a handle of the library and destroys it, at the latest when the object is collected."""
+
+    _destroy = None
+
+    def __init__(self, handle):
+        self._handle = handle
+
+    def close(self):
+        """Frees the memory. The object must not be used afterwards."""
+        handle, self._handle = getattr(self, "_handle", None), None
+        if handle:
+            type(self)._destroy(handle)
+
+    __del__ = close
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()

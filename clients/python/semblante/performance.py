@@ -1,0 +1,85 @@
+"""Performances and takes: a face over time from a document or a file."""
+
+import ctypes
+import enum
+
+from ._library import Error, Frame, TakeWarning, TimedFrame, library
+from .errors import Owner, check, make
+
+
+class Performance(Owner):
+    """A performance document (protocol/SPEC.md, section 9): the face at any time."""
+
+    _destroy = library.semblante_performance_destroy
+
+    def __init__(self, document):
+        """`document`: JSON as text or bytes. Raises SemblanteError whose `where` is the JSON pointer."""
+        text = document.encode() if isinstance(document, str) else bytes(document)
+        super().__init__(make(library.semblante_performance_create, text, len(text)))
+
+    @property
+    def name(self):
+        return library.semblante_performance_name(self._handle).decode()
+
+    @property
+    def duration(self):
+        """ms; 0: endless."""
+        return library.semblante_performance_duration(self._handle)
+
+    def frame_at(self, ms, idle_ms=None):
+        """The Frame at `ms`. `idle_ms`: time of idle life, if the cues are looped."""
+        frame = Frame()
+        idle_ms = ms if idle_ms is None else idle_ms
+        check(library.semblante_performance_frame_at(self._handle, ms, idle_ms, ctypes.byref(frame)))
+        return frame
+
+
+class TakeFormat(enum.IntEnum):
+    FAP = 0
+    LIVE_LINK_CSV = 1
+
+
+class Take(Owner):
+    """A file of recorded motion: .fap, or the CSV of Live Link Face."""
+
+    _destroy = library.semblante_take_destroy
+
+    def __init__(self, text, format=TakeFormat.FAP):
+        text = text.encode() if isinstance(text, str) else bytes(text)
+        super().__init__(make(library.semblante_take_read, int(format), text, len(text)))
+
+    @property
+    def frames(self):
+        """The TimedFrames by rising time from the start, ms: a view that lives as long as the take."""
+        count = ctypes.c_uint32()
+        first = library.semblante_take_frames(self._handle, ctypes.byref(count))
+        if not first:
+            return ()
+        block = (TimedFrame * count.value).from_address(ctypes.addressof(first.contents))
+        block.owner = self
+        return block
+
+    @property
+    def frame_rate(self):
+        return library.semblante_take_frame_rate(self._handle)
+
+    @property
+    def warnings(self):
+        """What deviates from the format and was accepted, in words."""
+        found = []
+        for i in range(library.semblante_take_warning_count(self._handle)):
+            warning = TakeWarning()
+            check(library.semblante_take_get_warning(self._handle, i, ctypes.byref(warning)))
+            found.append(warning)
+        return found
+
+
+def write_take(frames, format=TakeFormat.FAP, rate=0.0):
+    """The bytes of a file from TimedFrames by rising time. `rate`: frames per second; 0: by the times."""
+    block = (TimedFrame * len(frames))(*frames)
+    size, error = ctypes.c_size_t(0), Error()
+    library.semblante_take_write(int(format), block, len(frames), rate, None, ctypes.byref(size), ctypes.byref(error))
+    text = ctypes.create_string_buffer(max(size.value, 1))
+    check(library.semblante_take_write(int(format), block, len(frames), rate, text, ctypes.byref(size), ctypes.byref(error)),
+          error)
+    return text.raw[:size.value]

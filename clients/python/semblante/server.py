@@ -1,0 +1,177 @@
+"""A server: fetching a face package, and following a stream over a blocking WebSocket."""
+
+import os
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
+
+from .errors import SemblanteError
+from .head import Head
+from .player import Player
+from .stream import SUBPROTOCOL, EventType, Stream
+from .websocket import Closed, WebSocket, WebSocketError
+
+_largest_part = 256 << 20
+
+
+def now():
+    """ms of a steady clock."""
+    return time.monotonic() * 1000.0
+
+
+def _token(token):
+    return os.environ.get("SEMBLANTE_TOKEN") if token is None else token
+
+
+def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_context=None, timeout=30.0, **options):
+    """The Head of a model: `fetch_head("http://127.0.0.1:8080", "sample")`. `lod` or `max_vertices` select a level of detail.
+    `token`: default SEMBLANTE_TOKEN of the environment. `options`: those of Head. Raises urllib.error.URLError,
+    SemblanteError."""
+    query = {name: value for name, value in (("lod", lod), ("max_vertices", max_vertices)) if value is not None}
+    folder = f"{server.rstrip('/')}/v1/models/{urllib.parse.quote(model, safe='')}"
+    suffix = "?" + urllib.parse.urlencode(query) if query else ""
+    token = _token(token)
+
+    def part(name):
+        request = urllib.request.Request(f"{folder}/{name}{suffix}")
+        if token:
+            request.add_header("Authorization", f"Bearer {token}")
+        with urllib.request.urlopen(request, timeout=timeout, context=ssl_context) as answer:
+            content = answer.read(_largest_part + 1)
+        if len(content) > _largest_part:
+            raise SemblanteError("too_large", name, f"is larger than {_largest_part} bytes")
+        return content
+
+    for attempt in (1, 2):
+        try:
+            return Head(part("mesh.drc"), part("weights"), part("rig.json"), **options)
+        except SemblanteError as error:
+            # The package may have been replaced between the requests.
+            if error.code != "mismatch" or attempt == 2:
+                raise
+    raise AssertionError("unreachable")
+
+
+class Connection:
+    """A Stream with its WebSocket. Call `poll` often: it reconnects, sends what is due and returns events."""
+
+    def __init__(self, server, stream, *, token=None, ssl_context=None, connect_timeout=5.0, **options):
+        """`options`: those of Stream."""
+        self.url = f"{server.rstrip('/')}/v1/streams/{urllib.parse.quote(stream, safe='')}"
+        self.stream = Stream(seed=int.from_bytes(os.urandom(8), "little"), **options)
+        self._token = _token(token)
+        self._ssl_context = ssl_context
+        self._connect_timeout = connect_timeout
+        self._socket = None
+        self.stream.start(now())
+
+    def poll(self, timeout=0.0):
+        """Waits up to `timeout` seconds for a message and returns the events since the last call. Raises WebSocketError when
+        the server refuses for good: no such stream (404), no rights (401, 403)."""
+        events = self._settle()
+        if events or self._socket is None:
+            if not events:
+                time.sleep(min(timeout, max(0.0, (self.stream.wake_time - now()) / 1000.0)))
+                self.stream.tick(now())
+                events = self._settle()
+            return events
+        wait = min(timeout, max(0.0, (self.stream.wake_time - now()) / 1000.0))
+        try:
+            message = self._socket.receive(wait)
+            while message is not None:
+                if isinstance(message, bytes):
+                    self.stream.receive(message, now())
+                events += self._settle()
+                message = self._socket.receive(0.0) if self._socket else None
+        except Closed as closed:
+            self._lose(closed.code)
+        except OSError:
+            self._lose(1006)
+        self.stream.tick(now())
+        return events + self._settle()
+
+    def _settle(self):
+        """Does what the stream asks for, until it asks for nothing; the events on the way."""
+        events = []
+        while True:
+            event = self.stream.next_event()
+            if event is None:
+                if not self._send():
+                    return events
+                continue
+            events.append(event)
+            if event.type == EventType.CONNECT:
+                self._connect()
+            elif event.type == EventType.CLOSE and self._socket:
+                self._socket.close(event.code or 1000)
+                self._lose(event.code)
+
+    def _connect(self):
+        headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
+        try:
+            self._socket = WebSocket(self.url, [SUBPROTOCOL], headers=headers, timeout=self._connect_timeout,
+                                     ssl_context=self._ssl_context)
+        except WebSocketError as error:
+            if error.status in (401, 403, 404):
+                raise
+            self.stream.closed(0, now())
+        except OSError:
+            self.stream.closed(0, now())
+        else:
+            self.stream.opened(now())
+
+    def _send(self):
+        """Sends what waits; False when there was nothing."""
+        message = self.stream.take_bytes()
+        if message is None:
+            return False
+        if self._socket:
+            try:
+                self._socket.send(message)
+            except OSError:
+                self._lose(1006)
+        return True
+
+    def _lose(self, code):
+        if self._socket:
+            self._socket.close()
+            self._socket = None
+        self.stream.closed(code, now())
+
+    def close(self):
+        self.stream.stop(now())
+        self._settle()
+        if self._socket:
+            self._socket.close()
+            self._socket = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def follow(server, stream, *, head=None, rate=60.0, **options):
+    """Follows a stream at `rate` display frames per second. Yields a Player for each display frame at which there is something
+    to show, after setting the pose of `head`. Ends with the stream. `options`: those of Connection."""
+    player = Player()
+    step = 1.0 / rate
+    with Connection(server, stream, **options) as connection:
+        player.follow(connection.stream)
+        due = time.monotonic()
+        while True:
+            due = max(due + step, time.monotonic() - step)
+            ended = False
+            while True:
+                for event in connection.poll(max(0.0, due - time.monotonic())):
+                    ended = ended or (event.type == EventType.END and event.is_final)
+                if time.monotonic() >= due:
+                    break
+            if player.advance(now()):
+                if head is not None:
+                    player.show(head)
+                yield player
+            if ended:
+                return

@@ -1,0 +1,126 @@
+"""A stream: the protocol's state machine, which moves no bytes by itself."""
+
+import ctypes
+import enum
+
+from ._library import Clock, Event, Header, StreamOptions, TimedFrame, library
+from .errors import Owner, check, make
+
+SUBPROTOCOL = "semblante.v1"
+
+
+class EventType(enum.IntEnum):
+    STATE = 1
+    CONNECT = 2
+    CLOSE = 3
+    HEADER = 4
+    KEYFRAME = 5
+    FRAMES = 6
+    CLOCK = 7
+    REFUSED = 8
+    FAULT = 9
+    END = 10
+
+
+class State(enum.IntEnum):
+    CLOSED = 0
+    CONNECTING = 1
+    OPEN = 2
+    WAITING = 3
+
+
+class Stream(Owner):
+    """One stream across connections: bytes and times go in, events and bytes to send come out. `now`: ms of a steady clock.
+    `semblante.follow` is a ready loop around it."""
+
+    _destroy = library.semblante_stream_destroy
+
+    def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None):
+        """`batch`: a publisher's frames of this many ms travel in one message. `resume`: what `resume_point` of an earlier
+        object gave."""
+        epoch, sequence = resume or (0, 0)
+        options = StreamOptions(role=int(publish), take_over=int(take_over), batch=batch, seed=seed,
+                                ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence)
+        super().__init__(make(library.semblante_stream_create, ctypes.byref(options)))
+
+    def start(self, now):
+        library.semblante_stream_start(self._handle, now)
+
+    def stop(self, now):
+        library.semblante_stream_stop(self._handle, now)
+
+    def opened(self, now):
+        """The WebSocket is open."""
+        library.semblante_stream_opened(self._handle, now)
+
+    def receive(self, message, now):
+        """One binary message of the server."""
+        check(library.semblante_stream_receive(self._handle, message, len(message), now))
+
+    def closed(self, code, now):
+        """The connection is closed, lost, or could not be opened; `code` 0 if there is none."""
+        library.semblante_stream_closed(self._handle, code, now)
+
+    def tick(self, now):
+        library.semblante_stream_tick(self._handle, now)
+
+    @property
+    def wake_time(self):
+        """When `tick` has something to do; infinity: never."""
+        return library.semblante_stream_wake_time(self._handle)
+
+    @property
+    def state(self):
+        return State(library.semblante_stream_get_state(self._handle))
+
+    def take_bytes(self):
+        """The next message to send; None when there is none."""
+        size = ctypes.c_size_t()
+        address = library.semblante_stream_take_bytes(self._handle, ctypes.byref(size))
+        return ctypes.string_at(address, size.value) if address else None
+
+    def next_event(self):
+        """The next Event, None when there is none; its `type` is an EventType."""
+        event = Event()
+        return event if library.semblante_stream_next_event(self._handle, ctypes.byref(event)) else None
+
+    def events(self):
+        while (event := self.next_event()) is not None:
+            yield event
+
+    def frames(self):
+        """Copies of the frames of the newest KEYFRAME or FRAMES event, as TimedFrame with absolute media times."""
+        count = ctypes.c_uint32()
+        first = library.semblante_stream_frames(self._handle, ctypes.byref(count))
+        return [TimedFrame.from_buffer_copy(first[i]) for i in range(count.value)]
+
+    def header(self):
+        """The newest Header; None before the first."""
+        header = Header()
+        if library.semblante_stream_header(self._handle, ctypes.byref(header)) != 0:
+            return None
+        return header
+
+    def clock(self, now):
+        """What is known of the stream's clock; None before the first message with a time."""
+        clock = Clock()
+        if library.semblante_stream_clock(self._handle, now, ctypes.byref(clock)) != 0:
+            return None
+        return clock
+
+    def measure_clock(self, now):
+        library.semblante_stream_measure_clock(self._handle, now)
+
+    @property
+    def resume_point(self):
+        """(epoch, sequence) of the last frame received; (0, 0): none."""
+        epoch, sequence = ctypes.c_uint64(), ctypes.c_uint64()
+        library.semblante_stream_resume_point(self._handle, ctypes.byref(epoch), ctypes.byref(sequence))
+        return epoch.value, sequence.value
+
+    def publish(self, frames, now, media_time=0.0):
+        """Publishes TimedFrames, or one Frame for now. Raises SemblanteError "unavailable" while the stream is not open."""
+        if not isinstance(frames, (list, tuple)):
+            frames = [TimedFrame(0.0, frames)]
+        block = (TimedFrame * len(frames))(*frames)
+        check(library.semblante_stream_publish(self._handle, block, len(frames), media_time, now))
