@@ -1,0 +1,260 @@
+"""The package for Python on golden files and beside a real server."""
+
+import gc
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build"))
+sys.path[:0] = [str(TOP / "clients/python"), str(TOP / "tests/deploy")]
+
+import semblante  # noqa: E402
+from support import Server, eventually, temporary_folder  # noqa: E402
+
+VECTORS = TOP / "protocol/vectors"
+
+
+def golden_head():
+    return semblante.Head(*((VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
+
+
+def golden_frame(values):
+    frame = semblante.frame({int(n): v for n, v in values.get("faps", {}).items()})
+    if "viseme" in values:
+        frame.viseme1, frame.viseme2, frame.viseme_blend = (values["viseme"][k] for k in ("select1", "select2", "blend"))
+    if "expression" in values:
+        expression = values["expression"]
+        frame.expression1, frame.intensity1 = expression["select1"], expression["intensity1"]
+        frame.expression2, frame.intensity2 = expression["select2"], expression["intensity2"]
+    return frame
+
+
+class Heads(unittest.TestCase):
+    def test_the_neutral_face_is_that_of_the_mesh(self):
+        head = golden_head()
+        self.assertEqual(head.positions().tolist(), head.neutral.tolist())
+        self.assertGreater(head.vertex_count, 0)
+        self.assertLess(max(max(row) for row in head.triangles.tolist()), head.vertex_count)
+
+    def test_the_jaw_moves_its_point_by_the_unit_times_the_value(self):
+        head = golden_head()
+        head.set_frame(semblante.frame({3: 100}))
+        self.assertAlmostEqual(head.pose.fp[1], -100 * head.fapu["MNS"], places=5)
+        self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
+        head.set_frame(semblante.frame())
+        self.assertEqual(head.positions().tolist(), head.neutral.tolist())
+
+    def test_arrays_are_views_that_keep_their_head(self):
+        neutral = golden_head().neutral  # the head itself is gone
+        gc.collect()
+        self.assertEqual(neutral.tolist(), golden_head().neutral.tolist())
+        positions = golden_head().positions()
+        gc.collect()
+        self.assertEqual(positions.tolist(), neutral.tolist())
+
+    def test_arrays_are_numpys_where_it_is_installed(self):
+        try:
+            import numpy
+        except ImportError:
+            self.skipTest("numpy is not installed")
+        head = golden_head()
+        self.assertIsInstance(head.positions(), numpy.ndarray)
+        self.assertFalse(head.positions().flags.owndata)
+        self.assertIs(head.positions(), head.positions())
+
+    def test_normals_have_length_one(self):
+        head = golden_head()
+        head.set_frame(semblante.frame({3: 200}))
+        for x, y, z in head.normals().tolist():
+            self.assertAlmostEqual(x * x + y * y + z * z, 1.0, places=4)
+
+    def test_parts_that_do_not_belong_together_are_refused(self):
+        parts = [(VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")]
+        broken = bytearray(parts[0])
+        broken[-1] ^= 1
+        with self.assertRaises(semblante.SemblanteError) as caught:
+            semblante.Head(bytes(broken), *parts[1:])
+        self.assertEqual(caught.exception.code, "mismatch")
+        for i in range(3):
+            with self.assertRaises(semblante.SemblanteError):
+                semblante.Head(*parts[:i], b"", *parts[i + 1:])
+
+    def test_frames_out_of_range_are_refused(self):
+        for wrong in (lambda: semblante.frame({2: 1}), lambda: semblante.frame({69: 1}),
+                      lambda: semblante.frame(expression=(1, 1.5)), lambda: semblante.frame(viseme=(1, 2, -0.1))):
+            with self.assertRaises(ValueError):
+                wrong()
+        with self.assertRaises(semblante.SemblanteError):
+            golden_head().set_frame(semblante.frame({3: float("nan")}))
+
+
+class Documents(unittest.TestCase):
+    def test_performances_give_the_golden_frames(self):
+        for name in ("corners",):
+            performance = semblante.Performance((VECTORS / f"performance/{name}.json").read_text())
+            for golden in json.loads((VECTORS / f"performance/{name}.frames.json").read_text())["frames"]:
+                expected = golden_frame(golden)
+                frame = performance.frame_at(golden["time"], golden.get("idle_time", golden["time"]))
+                for n in range(3, 69):
+                    self.assertAlmostEqual(frame.fap[n], expected.fap[n], delta=0.01, msg=f"{name} {golden['time']} FAP {n}")
+                self.assertEqual((frame.viseme1, frame.viseme_blend, frame.expression1, frame.intensity1),
+                                 (expected.viseme1, expected.viseme_blend, expected.expression1, expected.intensity1))
+
+    def test_documents_are_accepted_and_refused_as_everywhere(self):
+        documents = json.loads((VECTORS / "performance/documents.json").read_text())
+        for good in documents["good"]:
+            semblante.Performance(json.dumps(good))
+        refused = documents["refused"]
+        self.assertGreater(len(refused), 20)
+        for bad in refused:
+            with self.assertRaises(semblante.SemblanteError) as caught:
+                semblante.Performance(json.dumps(bad["document"]))
+            self.assertEqual(caught.exception.where, bad["where"])
+
+    def test_a_take_written_is_read_again(self):
+        frames = [semblante.TimedFrame(40.0 * i, semblante.frame({3: 10.0 * i, 48: 100.0 * i})) for i in range(25)]
+        text = semblante.write_take(frames, rate=25)
+        take = semblante.Take(text)
+        self.assertEqual(take.frame_rate, 25)
+        self.assertEqual([f.frame.fap[3] for f in take.frames], [10.0 * i for i in range(25)])
+        with self.assertRaises(semblante.SemblanteError):
+            semblante.Take("this is no FAP file")
+
+    def test_bridges_read_names_and_numbers(self):
+        frame = semblante.from_arkit({"jawOpen": 0.5})
+        self.assertGreater(frame.fap[3], 0)
+        self.assertAlmostEqual(semblante.to_arkit(frame)["jawOpen"], 0.5, places=3)
+        self.assertEqual(semblante.from_oculus({"aa": 1.0}).viseme1, 10)
+        self.assertAlmostEqual(sum(semblante.to_oculus(frame).values()), 1.0, places=5)
+        with self.assertRaisesRegex(ValueError, "jawOpne"):
+            semblante.from_arkit({"jawOpne": 1})
+        with self.assertRaisesRegex(semblante.SemblanteError, "jawOpen"):
+            semblante.from_arkit({"jawOpen": float("nan")})
+
+
+class Streams(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary_folder()
+        folder = cls.folder.__enter__()
+        subprocess.run([BUILD / "bin/semblante-sample-head", folder], check=True, stdout=subprocess.DEVNULL)
+        cls.server = Server(folder / "data", "--sample", folder / "sample-head.glb", "--demo").__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.__exit__()
+        cls.folder.__exit__(None, None, None)
+
+    def head(self):
+        def fetched():
+            try:
+                return semblante.fetch_head(self.server.url, "sample")
+            except OSError:  # the sample is being imported
+                return None
+
+        return eventually(fetched, "the sample head")
+
+    def test_a_stream_is_followed_and_moves_the_face(self):
+        head = self.head()
+        times, faces = [], set()
+        for player in semblante.follow(self.server.url, "demo", head=head, rate=50):
+            times.append(player.time)
+            faces.add(tuple(head.pose.fp))
+            if len(faces) == 10:
+                break
+        self.assertEqual(times, sorted(times))
+        self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
+
+    def test_what_is_published_arrives(self):
+        request = json.dumps({"name": "python"}).encode()
+        from support import get
+        self.assertEqual(get(f"{self.server.url}/v1/streams", data=request, headers={"content-type": "application/json"})[0], 201)
+        with semblante.Connection(self.server.url, "python") as reader, \
+                semblante.Connection(self.server.url, "python", publish=True) as writer:
+            eventually(lambda: [reader.poll(0.05), writer.poll(0.05)] and reader.stream.state == writer.stream.state ==
+                       semblante.State.OPEN, "both connections")
+            got = []
+
+            def arrived():
+                writer.stream.publish(semblante.frame({3: 200}), semblante.now())
+                writer.poll()
+                for event in reader.poll(0.05):
+                    if event.type in (semblante.EventType.FRAMES, semblante.EventType.KEYFRAME):
+                        got.extend(reader.stream.frames())
+                return any(f.frame.fap[3] == 200 for f in got)
+
+            eventually(arrived, "the published frame")
+
+    def test_a_stream_that_does_not_exist_is_said(self):
+        with self.assertRaises(semblante.WebSocketError) as caught:
+            semblante.Connection(self.server.url, "no-such-stream").poll()
+        self.assertEqual(caught.exception.status, 404)
+
+    def test_the_examples_run(self):
+        self.head()
+        environment = {**os.environ, "PYTHONPATH": str(TOP / "clients/python")}
+        examples = TOP / "clients/python/examples"
+        shown = subprocess.run([sys.executable, "-B", examples / "follow.py", self.server.url, "demo", "sample", "5"],
+                               env=environment, capture_output=True, text=True, timeout=60, check=True).stdout
+        self.assertEqual(shown.count("jaw"), 5, shown)
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "face.obj")
+            subprocess.run([sys.executable, "-B", examples / "hello_face.py", VECTORS / "face", out], env=environment,
+                           timeout=60, check=True, capture_output=True)
+            self.assertEqual(out.read_text().count("v "), golden_head().vertex_count)
+
+
+class Sockets(unittest.TestCase):
+    """What a server sends that is no WebSocket is refused in words."""
+
+    def answer(self, text):
+        import socket
+        import threading
+        listener = socket.create_server(("127.0.0.1", 0))
+
+        def serve():
+            connection, _ = listener.accept()
+            request = connection.recv(65536).decode()
+            key = next((line[19:] for line in request.split("\r\n") if line.startswith("Sec-WebSocket-Key: ")), "")
+            import base64
+            import hashlib
+            accept = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
+            connection.sendall(text.replace(b"ACCEPT", accept.encode()))
+            connection.close()
+            listener.close()
+
+        threading.Thread(target=serve, daemon=True).start()
+        return semblante.WebSocket(f"ws://127.0.0.1:{listener.getsockname()[1]}/", timeout=10)
+
+    UPGRADE = b"HTTP/1.1 101 Switching\r\nSec-WebSocket-Accept: ACCEPT\r\n\r\n"
+
+    def test_no_http(self):
+        with self.assertRaises(semblante.WebSocketError):
+            self.answer(b"hello\r\n\r\n")
+
+    def test_another_key(self):
+        with self.assertRaisesRegex(semblante.WebSocketError, "another request"):
+            self.answer(b"HTTP/1.1 101 Switching\r\nSec-WebSocket-Accept: abc\r\n\r\n")
+
+    def test_frames_that_are_too_long_masked_or_reserved(self):
+        for frame in (b"\x82\x7f\xff\xff\xff\xff\xff\xff\xff\xff", b"\x82\x81abcdx", b"\xf2\x01x", b"\x83\x01x", b"\x80\x01x"):
+            with self.assertRaises(semblante.WebSocketError, msg=frame):
+                self.answer(self.UPGRADE + frame).receive(10)
+
+    def test_messages_in_parts_pings_and_the_end(self):
+        frames = b"\x02\x01a\x89\x01p\x00\x01b\x80\x01c" + b"\x81\x02hi" + b"\x88\x05\x03\xe8bye"
+        socket = self.answer(self.UPGRADE + frames)
+        self.assertEqual(socket.receive(10), b"abc")
+        self.assertEqual(socket.receive(10), "hi")
+        with self.assertRaises(semblante.Closed) as caught:
+            socket.receive(10)
+        self.assertEqual((caught.exception.code, caught.exception.reason), (1000, "bye"))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
