@@ -108,7 +108,11 @@ class Documents(unittest.TestCase):
     def test_documents_are_accepted_and_refused_as_everywhere(self):
         documents = json.loads((VECTORS / "performance/documents.json").read_text())
         for good in documents["good"]:
-            semblante.Performance(json.dumps(good))
+            if good.get("cues") or "idle" in good:
+                semblante.Performance(json.dumps(good))
+            else:  # a document, but nothing to play
+                with self.assertRaisesRegex(semblante.SemblanteError, "no cues and no idle life"):
+                    semblante.Performance(json.dumps(good))
         refused = documents["refused"]
         self.assertGreater(len(refused), 20)
         for bad in refused:
@@ -229,7 +233,9 @@ class Sockets(unittest.TestCase):
             listener.close()
 
         threading.Thread(target=serve, daemon=True).start()
-        return semblante.WebSocket(f"ws://127.0.0.1:{listener.getsockname()[1]}/", timeout=10)
+        made = semblante.WebSocket(f"ws://127.0.0.1:{listener.getsockname()[1]}/", timeout=10)
+        self.addCleanup(made.close)
+        return made
 
     UPGRADE = b"HTTP/1.1 101 Switching\r\nSec-WebSocket-Accept: ACCEPT\r\n\r\n"
 
