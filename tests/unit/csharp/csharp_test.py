@@ -10,7 +10,10 @@ import tempfile
 import unittest
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(TOP / "clients/python"))
+sys.path[:0] = [str(TOP / "clients/python"), str(TOP / "tests/deploy")]
+
+import support  # noqa: E402
+
 VECTORS = TOP / "protocol/vectors"
 
 
@@ -88,4 +91,4 @@ class CSharp(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    support.main()
