@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { deformNormals } from '../src/face/deform_reference.ts';
-import { joinSeams, smoothNormals, type DrawableMesh } from '../src/face/mesh.ts';
+import { deformNormals } from '@client/gpu/deform_reference.ts';
+import { joinSeams, smoothNormals, type DrawableMesh } from '@client/gpu/drawable_mesh.ts';
 import { neutralPose } from './support/pose.ts';
-import { makeTangentTable, tangentFrame } from '../src/face/tangent_table.ts';
+import { makeTangentTable, tangentFrame } from '@client/gpu/tangent_table.ts';
 
 /** A flat grid of n by n unit squares in the plane z = 0, moved by FP 0 with weight x / n. */
 function ramp(n: number): DrawableMesh {

@@ -1,10 +1,10 @@
 // Runs in the page: deforms the golden face by the shader only.
 import { WebGLRenderer } from 'three';
 import type { Pose } from '@client/index.ts';
-import type { DrawableMesh } from '../../../web/src/face/mesh.ts';
-import { setPose } from '../../../web/src/view/deform_material.ts';
+import type { DrawableMesh } from '@client/gpu/drawable_mesh.ts';
+import { setPose } from '@client/three/deform_material.ts';
 import { readDeformed } from '../../../web/src/view/deform_probe.ts';
-import { FaceView } from '../../../web/src/view/face_view.ts';
+import { FaceView } from '@client/three/face_view.ts';
 
 export interface GoldenMesh {
   positions: number[];

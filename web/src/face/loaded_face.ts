@@ -1,19 +1,6 @@
 import type { Kernel } from '@client/index.ts';
-import type { DrawableMesh } from './mesh.ts';
-
-/** The subset of glTF's metallic-roughness material that a face uses. */
-export interface FaceMaterial {
-  name: string;
-  /** linear RGBA */
-  baseColor: readonly [number, number, number, number];
-  metallic: number;
-  roughness: number;
-  alphaMode: 'opaque' | 'mask' | 'blend';
-  alphaCutoff: number;
-  doubleSided: boolean;
-  baseColorImage: Blob | null;
-  normalImage: Blob | null;
-}
+import type { DrawableMesh } from '@client/gpu/drawable_mesh.ts';
+import type { FaceMaterial } from '@client/gpu/face_material.ts';
 
 /** One face package, validated and ready to animate. */
 export interface LoadedFace {

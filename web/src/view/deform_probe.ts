@@ -11,8 +11,8 @@ import {
   WebGLRenderTarget,
   type WebGLRenderer,
 } from 'three';
-import { deformDeclarations } from './deform_material.ts';
-import type { FaceView } from './face_view.ts';
+import { deformDeclarations } from '@client/gpu/deform_shader.ts';
+import type { FaceView } from '@client/three/face_view.ts';
 
 /**
  * Reads back the vertices that the shader computes for the current pose: draws each vertex as a point into the pixel of

@@ -11,7 +11,7 @@ import {
   type Object3D,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { defaultMaterial, studioMaterial } from './materials.ts';
+import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
 
 /** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
 export interface Pick {

@@ -1,8 +1,8 @@
 import { neutralFrame } from '@client/index.ts';
-import { deformNormals } from '../../face/deform_reference.ts';
+import { deformNormals } from '@client/gpu/deform_reference.ts';
 import { setExpression, setVisemes } from '../../face/frame.ts';
-import { joinSeams, smoothNormals } from '../../face/mesh.ts';
-import { makeTangentTable } from '../../face/tangent_table.ts';
+import { joinSeams, smoothNormals } from '@client/gpu/drawable_mesh.ts';
+import { makeTangentTable } from '@client/gpu/tangent_table.ts';
 import { readDeformed } from '../../view/deform_probe.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { SceneView } from '../stage/scene.ts';

@@ -8,10 +8,11 @@ import {
   Uint32BufferAttribute,
   type Material,
 } from 'three';
-import { deformNormals } from '../face/deform_reference.ts';
-import type { DrawableMesh } from '../face/mesh.ts';
-import type { Pose } from '@client/index.ts';
-import { makeTangentTable, type TangentTable } from '../face/tangent_table.ts';
+import { deformNormals } from '../gpu/deform_reference.ts';
+import { rowNumbers } from '../gpu/deform_shader.ts';
+import type { DrawableMesh } from '../gpu/drawable_mesh.ts';
+import { makeTangentTable, type TangentTable } from '../gpu/tangent_table.ts';
+import type { Pose } from '../kernel.ts';
 import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
 
 export type DeformPath = 'gpu' | 'wasm';
@@ -33,7 +34,7 @@ export class FaceView {
     geometry.setAttribute('position', new BufferAttribute(mesh.positions.slice(), 3).setUsage(DynamicDrawUsage));
     geometry.setAttribute('normal', new BufferAttribute(mesh.normals.slice(), 3).setUsage(DynamicDrawUsage));
     if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
-    geometry.setAttribute('faceRow', rowAttribute(mesh, this.table));
+    geometry.setAttribute('faceRow', new Uint32BufferAttribute(rowNumbers(mesh, this.table), 2));
     geometry.setIndex(new BufferAttribute(mesh.indices, 1));
     for (const group of mesh.groups) geometry.addGroup(group.start, group.count, group.material);
     geometry.computeBoundingSphere();
@@ -90,13 +91,4 @@ export class FaceView {
     (position.array as Float32Array).set(positions);
     position.needsUpdate = true;
   }
-}
-
-function rowAttribute(mesh: DrawableMesh, table: TangentTable): Uint32BufferAttribute {
-  const rows = new Uint32Array(mesh.vertexCount * 2);
-  for (let v = 0; v < mesh.vertexCount; v += 1) {
-    rows[v * 2] = table.offsets[v]!;
-    rows[v * 2 + 1] = (table.offsets[v + 1]! - table.offsets[v]!) | (mesh.rigid[v]! << 16) | (mesh.turn[v]! << 24);
-  }
-  return new Uint32BufferAttribute(rows, 2);
 }

@@ -1,6 +1,6 @@
-import { lidFields, lidPoints, type Pose } from '@client/index.ts';
-import { eyeOf, fullTurn, lidsOf, rigidMotion, tongueShare } from '@protocol/index.ts';
-import type { DrawableMesh } from './mesh.ts';
+import { lidFields, lidPoints, type Pose } from '../kernel.ts';
+import { eyeOf, fullTurn, lidsOf, rigidMotion, tongueShare } from '../../../protocol/ts/index.ts';
+import type { DrawableMesh } from './drawable_mesh.ts';
 import { tangentFrame, type TangentTable } from './tangent_table.ts';
 
 /**

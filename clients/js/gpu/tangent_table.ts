@@ -1,4 +1,5 @@
-import { featurePointCount, joinSeams, type DrawableMesh } from './mesh.ts';
+import { featurePointCount } from '../../../protocol/ts/generated/mpeg4.ts';
+import { joinSeams, type DrawableMesh } from './drawable_mesh.ts';
 
 /**
  * The influence table in the form of the shader: for every entry the feature point, its weight (Eq. 7) and the slope of

@@ -1,4 +1,4 @@
-export { featurePointCount } from '@protocol/generated/mpeg4.ts';
+import type { Face } from '../face.ts';
 
 /** Triangles that share a material: indices `start` .. `start + count - 1` of `DrawableMesh.indices`. */
 export interface MaterialGroup {
@@ -91,3 +91,48 @@ export function joinSeams(positions: Float32Array, normals: Float32Array | null)
 
 const dot = (values: Float32Array, a: number, b: number): number =>
   values[a * 3]! * values[b * 3]! + values[a * 3 + 1]! * values[b * 3 + 1]! + values[a * 3 + 2]! * values[b * 3 + 2]!;
+
+/** Converts the package's arrays for the view: normals of unit length, triangles sorted by material. */
+export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
+  const { positions, uvs, triangles } = mesh;
+  const normals = mesh.normals ?? smoothNormals(positions, triangles, joinSeams(positions, null));
+  normalize(normals);
+  const { indices, groups } = sortByMaterial(triangles, mesh.materials, rig.materials.length);
+  const { vertexCount, rowOffsets, rowPoints, rowWeights, rigid, turn } = influence;
+  return { vertexCount, positions, normals, uvs, indices, groups, rowOffsets, rowPoints, rowWeights, rigid, turn };
+}
+
+/** Normalizes in place: quantized normals decode to slightly other lengths, and the shader assumes unit length. */
+function normalize(normals: Float32Array): void {
+  for (let i = 0; i < normals.length; i += 3) {
+    const length = Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!);
+    if (length > 1e-6) for (let k = 0; k < 3; k += 1) normals[i + k]! /= length;
+    else normals.set([0, 0, 1], i);
+  }
+}
+
+/** Sorts the triangles by material, so that each material needs one draw call. */
+export function sortByMaterial(
+  indices: Uint32Array,
+  materials: Uint8Array | null,
+  materialCount: number,
+): { indices: Uint32Array; groups: MaterialGroup[] } {
+  if (!materials) return { indices, groups: [{ start: 0, count: indices.length, material: 0 }] };
+  const counts = new Uint32Array(materialCount);
+  for (let i = 0; i < indices.length; i += 3) counts[materials[indices[i]!]!]! += 3;
+  const next = new Uint32Array(materialCount);
+  const groups: MaterialGroup[] = [];
+  let start = 0;
+  counts.forEach((count, material) => {
+    next[material] = start;
+    if (count > 0) groups.push({ start, count, material });
+    start += count;
+  });
+  const sorted = new Uint32Array(indices.length);
+  for (let i = 0; i < indices.length; i += 3) {
+    const material = materials[indices[i]!]!;
+    sorted.set(indices.subarray(i, i + 3), next[material]!);
+    next[material]! += 3;
+  }
+  return { indices: sorted, groups };
+}

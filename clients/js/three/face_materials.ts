@@ -8,8 +8,8 @@ import {
   RepeatWrapping,
   type Material,
 } from 'three';
-import type { FaceMaterial } from '../face/loaded_face.ts';
-import { studioMaterial } from './materials.ts';
+import type { FaceMaterial } from '../gpu/face_material.ts';
+import { studioMaterial } from './studio_material.ts';
 
 export function makeMaterials(facts: readonly FaceMaterial[], richSkin: boolean): Promise<Material[]> {
   return Promise.all(facts.map((one) => makeMaterial(one, richSkin)));
