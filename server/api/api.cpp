@@ -9,6 +9,7 @@
 #include "server/api/play_options.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
+#include "server/http/content_coding.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
 #include "server/http/security_headers.h"
@@ -208,7 +209,7 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   if (asking_of(head).from.secure) response.headers["Strict-Transport-Security"] = "max-age=31536000";
   const auto origin = head.header("Origin");
   if (!origin) return;
-  response.headers["Vary"] = "Origin";
+  http::vary_by(response, "Origin");
   if (!context_.config.access.origin_allowed(head)) return;
   response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
   response.headers["Access-Control-Expose-Headers"] =

@@ -2,6 +2,7 @@
 #include "server/api/generated/handlers.h"
 #include "server/api/levels.h"
 #include "server/http/conditional.h"
+#include "server/http/content_coding.h"
 
 namespace semblante::api {
 namespace {
@@ -14,7 +15,14 @@ http::Response file_response(Context& context, const http::Request& request, con
   response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";
   response.headers["Cache-Control"] = std::string(cache_control);
   response.body = http::FileBody{path, 0, artefact.bytes};
-  return http::apply_conditions(request, std::move(response));
+  // Text becomes a fifth of its size; meshes, weights and images are compressed already.
+  const bool is_text = artefact.content_type == "application/json" && artefact.bytes <= http::max_gzip_bytes;
+  if (is_text) http::vary_by(response, "Accept-Encoding");
+  const bool packed = is_text && http::wants_coding(request, "gzip");
+  if (packed) http::mark_coding(response, "gzip");
+  response = http::apply_conditions(request, std::move(response));
+  if (packed) http::gzip_body(response);
+  return response;
 }
 
 http::Response model_artefact(Context& context, const http::Request& request, const std::string& name) {

@@ -1,12 +1,15 @@
 #include "server/http/static_files.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include <sys/stat.h>
 
 #include "server/http/conditional.h"
+#include "server/http/content_coding.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
 #include "server/http/security_headers.h"
@@ -24,11 +27,35 @@ bool has_hashed_name(const std::string& path) {
   return dot != std::string::npos && dot - dash - 1 >= 8;
 }
 
+/// "/view/demo": the page that shows a stream is one file, whatever the stream. A name with a dot is a file of its own.
+bool shows_stream(const std::string& path) {
+  constexpr std::string_view folder = "/view/";
+  return path.substr(0, folder.size()) == folder && path.find_first_of("./", folder.size()) == std::string::npos;
+}
+
+std::optional<struct stat> regular_file(const std::filesystem::path& file) {
+  struct stat info {};
+  if (::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
+  return info;
+}
+
+struct Coding {
+  std::string_view name, extension;
+};
+
+/// Compressed forms that the build lays beside a file, the smallest first.
+constexpr std::array<Coding, 2> codings = {{{"br", ".br"}, {"gzip", ".gz"}}};
+
+bool is_older(const struct stat& a, const struct stat& b) {
+  return a.st_mtim.tv_sec < b.st_mtim.tv_sec ||
+         (a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec < b.st_mtim.tv_nsec);
+}
+
 }  // namespace
 
 Response static_file(const std::filesystem::path& root, const Request& request) {
   const auto absent = [&] { return to_response(make_problem("not-found", "nothing is served at " + request.path)); };
-  std::string path = request.path;
+  std::string path = shows_stream(request.path) ? "/view/" : request.path;
   if (path.back() == '/') path += "index.html";
   if (path.find("/.") != std::string::npos || path.find('\\') != std::string::npos) return absent();
 
@@ -38,16 +65,30 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
   const auto base = std::filesystem::canonical(root, error);
   const auto [end, rest] = std::mismatch(base.begin(), base.end(), file.begin(), file.end());
   if (error || end != base.end()) return absent();
-  struct stat info {};
-  if (::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return absent();
+  auto info = regular_file(file);
+  if (!info) return absent();
 
   Response response;
+  auto sent = file;
+  std::string_view coding;
+  for (const auto& [name, extension] : codings) {
+    const auto packed = std::filesystem::path(file) += extension;
+    const auto packed_info = regular_file(packed);
+    // A file that was replaced has left its compressed forms behind.
+    if (!packed_info || is_older(*packed_info, *info)) continue;
+    vary_by(response, "Accept-Encoding");
+    if (!coding.empty() || !wants_coding(request, name)) continue;
+    coding = name;
+    sent = packed;
+    info = packed_info;
+  }
   response.headers["Content-Type"] = std::string(media_type_of_file(file.filename().string()));
   response.headers["Cache-Control"] = has_hashed_name(path) ? std::string(cache_forever) : "no-cache";
-  response.headers["ETag"] = "\"" + std::to_string(info.st_size) + "-" + std::to_string(info.st_mtim.tv_sec) + "." +
-                             std::to_string(info.st_mtim.tv_nsec) + "\"";
+  response.headers["ETag"] = "\"" + std::to_string(info->st_size) + "-" + std::to_string(info->st_mtim.tv_sec) + "." +
+                             std::to_string(info->st_mtim.tv_nsec) + "\"";
   for (const auto& [name, value] : page_headers()) response.headers[name] = value;
-  response.body = FileBody{file, 0, static_cast<std::uint64_t>(info.st_size)};
+  if (!coding.empty()) mark_coding(response, coding);
+  response.body = FileBody{sent, 0, static_cast<std::uint64_t>(info->st_size)};
   return apply_conditions(request, std::move(response));
 }
 

@@ -9,7 +9,9 @@ namespace semblante::http {
 
 /// A file below `root` for a decoded request path; "/" is index.html. Paths outside the root (dot segments, links) and
 /// paths that are not regular files get 404. Files whose name has a content hash (assets/name-<8+ characters>.ext, as
-/// Vite writes them) may be cached for a year, all others are revalidated by their ETag.
+/// Vite writes them) may be cached for a year, all others are revalidated by their ETag. "/view/<stream>" is
+/// view/index.html. A file that has name.br or name.gz beside it, not older than itself, is sent in that form to those
+/// who accept it.
 Response static_file(const std::filesystem::path& root, const Request& request);
 
 }  // namespace semblante::http
