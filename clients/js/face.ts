@@ -12,7 +12,8 @@ export interface Face {
 }
 
 export interface LoadOptions {
-  draco: DracoModule;
+  /** Or a promise of it: the parts are requested meanwhile. */
+  draco: DracoModule | Promise<DracoModule>;
   /** Default: the platform's fetch. */
   fetch?: typeof fetch;
   signal?: AbortSignal;
@@ -49,7 +50,7 @@ async function fetchFace(folder: string, options: LoadOptions): Promise<Face> {
     return new Uint8Array(await response.arrayBuffer());
   };
   const [rig, weights, mesh] = await Promise.all([part('rig.json'), part('weights'), part('mesh.drc')]);
-  return assembleFace(rig, weights, mesh, options.draco);
+  return assembleFace(rig, weights, mesh, await options.draco);
 }
 
 function levelQuery(level: LoadOptions['level']): string {

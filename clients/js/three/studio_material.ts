@@ -1,4 +1,13 @@
 import { Color, DoubleSide, MeshPhysicalMaterial, MeshStandardMaterial, type Material } from 'three';
+import {
+  bareSkinColor,
+  isSkinLike,
+  leastOpacity,
+  mostMetalness,
+  skinLook,
+  skinRoughness,
+  whiteLevel,
+} from '../gpu/studio_look.ts';
 
 /**
  * The file's material, adapted to studio light: a skin colour instead of plain white, limited metalness and roughness,
@@ -7,19 +16,19 @@ import { Color, DoubleSide, MeshPhysicalMaterial, MeshStandardMaterial, type Mat
 export function studioMaterial(material: Material, richSkin: boolean): Material {
   if (!(material instanceof MeshStandardMaterial)) return material;
   const bare = material.map === null && !(material.vertexColors ?? false);
-  const white = material.color.r > 0.94 && material.color.g > 0.94 && material.color.b > 0.94;
-  if (bare && white) material.color.copy(new Color(0xd8a387));
-  material.metalness = Math.min(material.metalness, 0.4);
-  if (material.roughness < 0.25 || material.transparent || !richSkin || !isSkinLike(material)) return tidy(material);
+  const { r, g, b } = material.color;
+  if (bare && Math.min(r, g, b) > whiteLevel) material.color.copy(new Color(bareSkinColor));
+  material.metalness = Math.min(material.metalness, mostMetalness);
+  if (!richSkin || !isSkinLike(material.name, material.roughness, material.transparent)) return tidy(material);
   const skin = new MeshPhysicalMaterial();
   MeshStandardMaterial.prototype.copy.call(skin, material);
   skin.defines = { STANDARD: '', PHYSICAL: '' };
   skin.metalness = 0;
-  skin.roughness = Math.min(Math.max(material.roughness, 0.45), 0.62);
-  skin.sheen = 0.35;
-  skin.sheenRoughness = 0.55;
-  skin.sheenColor = new Color(0xff9d7a);
-  skin.specularIntensity = 0.65;
+  skin.roughness = skinRoughness(material.roughness);
+  skin.sheen = skinLook.sheen;
+  skin.sheenRoughness = skinLook.sheenRoughness;
+  skin.sheenColor = new Color(skinLook.sheenColor);
+  skin.specularIntensity = skinLook.specularIntensity;
   return tidy(skin);
 }
 
@@ -30,14 +39,9 @@ function tidy<T extends Material>(material: T): T {
   if (material.transparent) {
     // Transparent lashes and brows are not sorted per triangle; without depth writes they leave no hard edges.
     material.depthWrite = false;
-    material.alphaTest = Math.max(material.alphaTest, 0.02);
+    material.alphaTest = Math.max(material.alphaTest, leastOpacity);
   }
   return material;
-}
-
-function isSkinLike(material: MeshStandardMaterial): boolean {
-  const name = material.name.toLowerCase();
-  return !/eye|iris|cornea|sclera|teeth|tooth|tongue|lash|brow|hair|fluid/.test(name);
 }
 
 /** The material of meshes without one. */

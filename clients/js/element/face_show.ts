@@ -1,0 +1,322 @@
+import { loadDraco } from '../draco/index.ts';
+import type { Face, LoadOptions } from '../face.ts';
+import { drawableMesh } from '../gpu/drawable_mesh.ts';
+import { Kernel } from '../kernel.ts';
+import { Player, shownPose } from '../player.ts';
+import { Emitter } from '../emitter.ts';
+import { OrbitCamera } from '../view/camera.ts';
+import { FaceRenderer, type RenderQuality } from '../view/face_renderer.ts';
+import { frameOf, type Fit } from '../view/framing.ts';
+import { loadKernelModule } from '../wasm.ts';
+import { budgetOf, firstVertices, Pace, thisDevice, type Budget, type QualityName, type Step } from './detail.ts';
+import { Link } from './link.ts';
+import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
+import { FaceTrouble, isPassing } from './words.ts';
+
+/** `resting`: drawn and not moving yet, or paused. `stalled`: without a connection. */
+export type ShowState = 'loading' | 'resting' | 'playing' | 'stalled' | 'ended' | 'error';
+
+export interface ShowEvents {
+  state: ShowState;
+  /** The first picture is drawn. */
+  ready: void;
+  /** The face moves, first or again. */
+  playing: void;
+  level: { lod: number; vertices: number };
+  trouble: FaceTrouble | null;
+}
+
+export interface ShowOptions {
+  source: Source;
+  fit: Fit;
+  quality: QualityName;
+  /** Whether colours fade in; not where less motion is wished. */
+  fades: boolean;
+  paused: boolean;
+}
+
+/** ms until the next attempt after a trouble that can pass; each attempt doubles it, up to the longest. */
+const firstRetry = 1000;
+const longestRetry = 10_000;
+/** ms that the first picture waits for small images that are late */
+const imagePatience = 1500;
+
+/** One face on one canvas: loads it, follows its stream, draws it, keeps the device's pace, and comes back after a loss. */
+export class FaceShow extends Emitter<ShowEvents> {
+  state: ShowState = 'loading';
+  trouble: FaceTrouble | null = null;
+  readonly camera = new OrbitCamera();
+  readonly link: Link;
+  face: Face | null = null;
+  player: Player | null = null;
+  /** Pictures drawn in the last second in which the face moved. */
+  framesPerSecond = 0;
+
+  private readonly renderer: FaceRenderer;
+  private render: RenderQuality;
+  private readonly budget: Budget;
+  private readonly pace = new Pace();
+  private readonly images: Images;
+  private readonly work = new AbortController();
+  private kernel: Kernel | null = null;
+  private model = '';
+  private paused: boolean;
+  private visible = true;
+  private dirty = true;
+  private played = false;
+  private loadingLevel = false;
+  private lastTime = 0;
+  private busy = 0;
+  private second = { start: 0, frames: 0 };
+  private attempts = 0;
+  private retryTimer: ReturnType<typeof setTimeout> | undefined;
+  private frameRequest = 0;
+  private readonly resized: ResizeObserver;
+
+  /** Throws FaceTrouble where WebGL 2 is missing. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly options: ShowOptions,
+  ) {
+    super();
+    this.paused = options.paused;
+    this.budget = budgetOf(thisDevice(rendererName()), options.quality);
+    this.render = this.budget.render;
+    try {
+      this.renderer = new FaceRenderer(canvas, this.render, options.fades);
+    } catch {
+      throw trouble('no-webgl');
+    }
+    this.renderer.onChange = () => this.invalidate();
+    this.images = new Images(options.source);
+    this.link = new Link(options.source);
+    this.link.on('state', () => this.takeLink());
+    for (const name of ['online', 'pageshow', 'focus']) window.addEventListener(name, this.check);
+    document.addEventListener('visibilitychange', this.check);
+    this.resized = new ResizeObserver(() => this.resize());
+    this.resized.observe(canvas);
+    this.resize();
+    this.link.open();
+    void this.load();
+    this.frameRequest = requestAnimationFrame(this.frame);
+  }
+
+  /** Draws only while it is seen. */
+  setVisible(visible: boolean): void {
+    this.visible = visible;
+    if (visible) this.invalidate();
+  }
+
+  setPaused(paused: boolean): void {
+    this.paused = paused;
+    this.played = false; // the next motion is announced again
+    this.settle();
+  }
+
+  setFit(fit: Fit): void {
+    if (this.face) this.camera.subject = frameOf(this.face.rig, fit);
+    this.invalidate();
+  }
+
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  close(): void {
+    this.work.abort();
+    cancelAnimationFrame(this.frameRequest);
+    clearTimeout(this.retryTimer);
+    for (const name of ['online', 'pageshow', 'focus']) window.removeEventListener(name, this.check);
+    document.removeEventListener('visibilitychange', this.check);
+    this.resized.disconnect();
+    this.link.close();
+    this.renderer.dispose();
+  }
+
+  private readonly check = (): void => {
+    if (document.visibilityState === 'hidden') return;
+    this.link.check();
+    if (this.retryTimer !== undefined) this.retry(0);
+  };
+
+  private async load(): Promise<void> {
+    const { signal } = this.work;
+    const { source } = this.options;
+    const draco = loadDraco();
+    const module = loadKernelModule();
+    try {
+      const model = await modelOf(source, signal);
+      if (model !== this.model) {
+        const level = { maxVertices: Math.min(firstVertices, this.budget.maxVertices) };
+        const [face, compiled] = await Promise.all([faceOf(source, model, draco, level, this.images, signal), module]);
+        const small = smallImages(face.rig.images).map(({ sha256 }) => this.images.get(sha256));
+        await Promise.race([Promise.allSettled(small), new Promise((wake) => setTimeout(wake, imagePatience))]);
+        const kernel = await Kernel.create(compiled, face, { withVertices: false });
+        if (signal.aborted) return;
+        this.model = model;
+        this.kernel = kernel;
+        this.show(face);
+        this.camera.subject = frameOf(face.rig, this.options.fit);
+        this.player = new Player(kernel);
+        this.player.follow(this.link.client);
+        // What came before the player was there.
+        if (this.link.newest) this.player.pushKeyframe(this.link.newest);
+        this.emit('ready', undefined);
+      }
+      this.attempts = 0;
+      this.setTrouble(null);
+      if (this.link.state === 'ended') this.link.open();
+    } catch (error) {
+      if (signal.aborted) return;
+      const cause = error instanceof FaceTrouble ? error : trouble('unreachable');
+      this.setTrouble(cause);
+      if (isPassing(cause.code)) this.retry(Math.min(longestRetry, firstRetry * 2 ** this.attempts++));
+    }
+  }
+
+  private retry(pause: number): void {
+    clearTimeout(this.retryTimer);
+    this.retryTimer = setTimeout(() => {
+      this.retryTimer = undefined;
+      void this.load();
+    }, pause);
+  }
+
+  private show(face: Face): void {
+    this.face = face;
+    const mesh = drawableMesh(face);
+    this.renderer.setFace(mesh, face.rig.materials);
+    const wanted = face.rig.materials.map(({ base_color_image, normal_image }) => [base_color_image, normal_image] as const);
+    const first = new Set(smallImages(face.rig.images).map(({ sha256 }) => sha256));
+    const fill = (choose: (sha256: string) => boolean): void =>
+      wanted.forEach((hashes, i) => {
+        const named = hashes.filter((hash) => hash !== null);
+        if (named.length === 0 || !choose(named[0]!)) return;
+        void Promise.all(hashes.map((hash) => (hash === null ? null : this.images.get(hash))))
+          .then(([base, normal]) => {
+            if (this.face === face) this.renderer.setImages(i, base ?? null, normal ?? null);
+          })
+          .catch(() => undefined); // the plain colour stays
+      });
+    fill((hash) => first.has(hash));
+    // The large ones must not keep the face from moving.
+    const later = (): void => fill((hash) => !first.has(hash));
+    if (this.played || this.paused) later();
+    else setTimeout(later, imagePatience);
+    this.invalidate();
+    this.emit('level', { lod: face.rig.lod, vertices: face.rig.mesh.vertices });
+  }
+
+  private takeLink(): void {
+    if (this.link.state === 'lost') this.retry(firstRetry); // learns why
+    if (this.link.state === 'ended') {
+      this.attempts = 2;
+      this.retry(firstRetry * 4);
+    }
+    this.settle();
+  }
+
+  private setTrouble(cause: FaceTrouble | null): void {
+    if (cause?.code === this.trouble?.code) return;
+    this.trouble = cause;
+    this.emit('trouble', cause);
+    this.settle();
+  }
+
+  /** Computes the state from what is known. */
+  private settle(): void {
+    const { link } = this;
+    const state: ShowState =
+      this.trouble !== null && this.face === null
+        ? 'error'
+        : this.face === null
+          ? 'loading'
+          : link.state === 'ended'
+            ? 'ended'
+            : link.state === 'lost'
+              ? 'stalled'
+              : this.played && !this.paused
+                ? 'playing'
+                : 'resting';
+    if (state === this.state) return;
+    this.state = state;
+    this.emit('state', state);
+  }
+
+  private readonly frame = (time: number): void => {
+    this.frameRequest = requestAnimationFrame(this.frame); // first: an exception below must not end the loop
+    const delta = Math.min(0.5, (time - this.lastTime) / 1000);
+    this.lastTime = time;
+    if (!this.visible || !this.kernel || !this.player) return;
+    const begun = performance.now();
+    const moved = !this.paused && this.player.update(delta);
+    if (moved || this.dirty || this.renderer.isFading) {
+      this.dirty = false;
+      this.renderer.draw(this.kernel.poses[shownPose]!, this.camera, delta);
+    }
+    if (!moved) return;
+    if (!this.played) {
+      this.played = true;
+      this.emit('playing', undefined);
+      this.settle();
+    }
+    this.busy += (performance.now() - begun - this.busy) * 0.1;
+    this.count(time);
+    const levels = this.face?.rig.levels ?? [];
+    const lod = this.face?.rig.lod ?? 0;
+    const hasLarger = lod > 0 && (levels[lod - 1]?.vertices ?? Infinity) <= this.budget.maxVertices;
+    const step = this.pace.tick(delta, this.busy / 1000, lod + 1 < levels.length, hasLarger);
+    if (step) this.take(step, lod);
+  };
+
+  private count(time: number): void {
+    this.second.frames += 1;
+    const passed = time - this.second.start;
+    if (passed < 1000) return;
+    if (passed < 2000) this.framesPerSecond = (this.second.frames * 1000) / passed;
+    this.second = { start: time, frames: 0 };
+  }
+
+  private take(step: Step, lod: number): void {
+    if (step === 'fewer-pixels') this.render = { ...this.render, maxPixelRatio: 1 };
+    if (step === 'plainer') this.render = { ...this.render, shadows: false, richSkin: false };
+    if (step === 'fewer-pixels' || step === 'plainer') {
+      this.renderer.setQuality(this.render);
+      return this.resize();
+    }
+    void this.changeLevel({ lod: step === 'larger' ? lod - 1 : lod + 1 });
+  }
+
+  private async changeLevel(level: NonNullable<LoadOptions['level']>): Promise<void> {
+    if (this.loadingLevel) return;
+    this.loadingLevel = true;
+    try {
+      const face = await faceOf(this.options.source, this.model, loadDraco(), level, this.images, this.work.signal);
+      // The poses are the same for all levels, so the kernel and its player stay.
+      this.show(face);
+    } catch {
+      // The level that is shown stays; the pace will ask again.
+    } finally {
+      this.loadingLevel = false;
+    }
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ratio = Math.min(window.devicePixelRatio || 1, this.render.maxPixelRatio);
+    const width = Math.max(1, Math.round(clientWidth * ratio));
+    const height = Math.max(1, Math.round(clientHeight * ratio));
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    this.invalidate();
+  }
+}
+
+/** Name of the graphics processor; empty where the browser does not tell it. */
+function rendererName(): string {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const facts = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl && facts ? String(gl.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return name;
+}

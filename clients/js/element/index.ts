@@ -1,0 +1,14 @@
+import { SemblanteFace } from './semblante_face.ts';
+
+export { SemblanteFace, type Connection, type FaceState } from './semblante_face.ts';
+
+export const elementName = 'semblante-face';
+
+// Importing this module defines the element; twice, from two copies, does no harm.
+if (typeof customElements !== 'undefined' && !customElements.get(elementName)) customElements.define(elementName, SemblanteFace);
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'semblante-face': SemblanteFace;
+  }
+}

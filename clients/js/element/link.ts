@@ -1,0 +1,102 @@
+import { StreamClient, streamUrl, type StreamEvents } from '../stream_client.ts';
+import type { Keyframe } from '../../../protocol/ts/messages.ts';
+import { Emitter } from '../emitter.ts';
+import type { Source } from './loader.ts';
+
+export type LinkState = 'connecting' | 'open' | 'lost' | 'ended';
+
+/** ms; a stream sends pongs at least every 5 s */
+const silence = 12_000;
+/** ms to answer after this page has slept, or the network has changed */
+const answerTime = 3_000;
+
+/**
+ * The connection of a page to its stream. Adds to StreamClient what a page on a phone needs: it notices a connection that
+ * is open and dead (the phone slept, the network changed), connects at once when there is reason to hope, and holds the
+ * last face, for a player that is made later.
+ */
+export class Link extends Emitter<{ state: LinkState }> {
+  readonly client: StreamClient;
+  state: LinkState = 'connecting';
+  /** The newest state of the face; null before the first. */
+  newest: Keyframe | null = null;
+  private heard = performance.now();
+  private readonly timer: ReturnType<typeof setInterval>;
+  private answer: ReturnType<typeof setTimeout> | undefined;
+  private ended = false;
+  private readonly stops: (() => void)[];
+
+  constructor(source: Source) {
+    super();
+    const base = source.base === '' ? location.origin : source.base;
+    this.client = new StreamClient(streamUrl(base, source.stream), source.token === null ? {} : { token: source.token });
+    const hear = (): void => {
+      this.heard = performance.now();
+      clearTimeout(this.answer);
+      this.answer = undefined;
+    };
+    this.stops = [
+      this.client.on('header', hear),
+      this.client.on('clock', hear),
+      this.client.on('keyframe', (keyframe) => {
+        hear();
+        this.newest = keyframe;
+      }),
+      this.client.on('frames', (batch) => {
+        hear();
+        const last = batch.frames.at(-1);
+        if (!last) return;
+        const { time, state } = last;
+        const sequence = batch.sequence + batch.frames.length - 1;
+        this.newest = { type: 'keyframe', sequence, media_time: batch.media_time + time, state };
+      }),
+      this.client.on('end', ({ reason }) => (this.ended = reason === 'finished' || reason === 'deleted')),
+      this.client.on('state', (state) => this.take(state)),
+    ];
+    this.timer = setInterval(() => {
+      if (this.state === 'open' && performance.now() - this.heard > silence) this.renew();
+    }, 1000);
+  }
+
+  open(): void {
+    this.ended = false;
+    this.client.connect();
+  }
+
+  /** To call when the page is shown again, or the network is back. */
+  check(): void {
+    if (this.state === 'lost') return this.client.connect();
+    if (this.state !== 'open' || this.answer !== undefined) return;
+    this.client.ping();
+    this.answer = setTimeout(() => {
+      this.answer = undefined;
+      this.renew();
+    }, answerTime);
+  }
+
+  close(): void {
+    clearInterval(this.timer);
+    clearTimeout(this.answer);
+    for (const stop of this.stops) stop();
+    this.client.close();
+  }
+
+  /** Drops a dead connection, which may not notice for minutes, for a new one that resumes. */
+  private renew(): void {
+    this.client.close();
+    this.client.connect();
+    this.become('lost');
+  }
+
+  private take(state: StreamEvents['state']): void {
+    if (state === 'open') this.become('open');
+    else if (state === 'waiting') this.become('lost');
+    else if (state === 'closed') this.become(this.ended ? 'ended' : 'lost');
+  }
+
+  private become(state: LinkState): void {
+    if (state === this.state) return;
+    this.state = state;
+    this.emit('state', state);
+  }
+}

@@ -1,0 +1,112 @@
+import { loadFace, type Face, type LoadOptions } from '../face.ts';
+import { FaceError } from '../face_error.ts';
+import type { DracoModule } from '../draco_mesh.ts';
+import { ProtocolError } from '../../../protocol/ts/protocol_error.ts';
+import { FaceTrouble, troubleWords, type Trouble } from './words.ts';
+
+/** Where a face comes from. */
+export interface Source {
+  /** the server's address; empty: the server of this page */
+  base: string;
+  stream: string;
+  /** null: the model that the stream shows */
+  model: string | null;
+  /** for a server that asks for tokens, from a page that is not its own */
+  token: string | null;
+}
+
+export function requestOf(source: Source): typeof fetch {
+  if (source.token === null) return fetch;
+  const headers = { Authorization: `Bearer ${source.token}` };
+  return (address, init) => fetch(address, { ...init, headers });
+}
+
+export function trouble(code: Trouble, name = ''): FaceTrouble {
+  return new FaceTrouble(code, troubleWords[code](name));
+}
+
+/** What a status of the server means here. */
+function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
+  if (status === 401 || status === 403) return trouble('private');
+  return trouble(status === 404 ? absent : 'server', name);
+}
+
+/** The id of the model that a stream shows. Throws FaceTrouble. */
+export async function modelOf(source: Source, signal: AbortSignal): Promise<string> {
+  const address = `${source.base}/v1/streams/${encodeURIComponent(source.stream)}`;
+  const response = await requestOf(source)(address, { signal }).catch((error: unknown) => {
+    throw signal.aborted ? error : trouble('unreachable');
+  });
+  if (!response.ok) throw troubleOf(response.status, 'no-stream', source.stream);
+  const { model } = (await response.json().catch(() => ({}))) as { model?: unknown };
+  if (source.model !== null) return source.model;
+  if (typeof model !== 'string' || model === '') throw trouble('no-model', source.stream);
+  return model;
+}
+
+/** Loads the face package. `images` begin to load as soon as rig.json names them. Throws FaceTrouble. */
+export async function faceOf(
+  source: Source,
+  model: string,
+  draco: DracoModule | Promise<DracoModule>,
+  level: NonNullable<LoadOptions['level']>,
+  images: Images,
+  signal: AbortSignal,
+): Promise<Face> {
+  const request = requestOf(source);
+  const tapped: typeof fetch = (address, init) => {
+    const response = request(address, init);
+    if (String(address).includes('/rig.json')) response.then((rig) => images.prefetch(rig.clone()), () => undefined);
+    return response;
+  };
+  try {
+    return await loadFace(source.base, model, { draco, fetch: tapped, signal, level });
+  } catch (error) {
+    if (signal.aborted) throw error;
+    if (error instanceof FaceError && error.code === 'http') throw troubleOf(error.status ?? 0, 'model-unready', '');
+    if (error instanceof FaceError || error instanceof ProtocolError) throw trouble('damaged');
+    throw trouble('unreachable');
+  }
+}
+
+/** Bytes of images that are loaded before the first picture. */
+const firstImageBytes = 48 * 1024;
+
+/** The smallest images, up to `firstImageBytes` in all. */
+export function smallImages<T extends { bytes: number }>(images: readonly T[]): T[] {
+  let sum = 0;
+  return [...images].sort((a, b) => a.bytes - b.bytes).filter(({ bytes }) => (sum += bytes) <= firstImageBytes);
+}
+
+/** Images by their hash, each fetched and decoded once; a face's levels of detail share them. */
+export class Images {
+  private readonly known = new Map<string, Promise<ImageBitmap>>();
+
+  constructor(private readonly source: Source) {}
+
+  get(sha256: string): Promise<ImageBitmap> {
+    let image = this.known.get(sha256);
+    if (!image) {
+      image = this.load(sha256);
+      image.catch(() => this.known.delete(sha256));
+      this.known.set(sha256, image);
+    }
+    return image;
+  }
+
+  /** Begins with the small images of a rig.json, such as eyes: a face without them looks wrong, not only plain. */
+  prefetch(rigJson: Response): void {
+    void rigJson.json().then(
+      (rig: { images?: { sha256: string; bytes: number }[] }) => {
+        for (const { sha256 } of smallImages(rig.images ?? [])) void this.get(sha256).catch(() => undefined);
+      },
+      () => undefined,
+    );
+  }
+
+  private async load(sha256: string): Promise<ImageBitmap> {
+    const response = await requestOf(this.source)(`${this.source.base}/v1/artefacts/${sha256}`);
+    if (!response.ok) throw new Error(`image ${sha256}: status ${response.status}`);
+    return createImageBitmap(await response.blob(), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+  }
+}

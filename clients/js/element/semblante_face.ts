@@ -1,0 +1,362 @@
+import type { Fit } from '../view/framing.ts';
+import type { QualityName } from './detail.ts';
+import { FaceShow, type ShowState } from './face_show.ts';
+import type { Source } from './loader.ts';
+import { styleText } from './style.ts';
+import { FaceTrouble } from './words.ts';
+
+export type FaceState = ShowState | 'idle';
+
+/** How good the connection is. */
+export type Connection = 'none' | 'good' | 'fair' | 'poor' | 'lost';
+
+const fits: readonly string[] = ['head', 'face', 'model'] satisfies Fit[];
+const qualities: readonly string[] = ['auto', 'low', 'medium', 'high'] satisfies QualityName[];
+/** Loading begins this far before the element is scrolled into view. */
+const ahead = '200px';
+/** Radians for a stroke across the whole element, and for an arrow key. */
+const strokeTurn = 2.4;
+const keyTurn = 0.15;
+
+let sheet: CSSStyleSheet | null = null;
+function styles(): CSSStyleSheet {
+  if (!sheet) {
+    sheet = new CSSStyleSheet();
+    sheet.replaceSync(styleText);
+  }
+  return sheet;
+}
+
+// Node has no elements; a page that is rendered there can import this module all the same.
+const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ?? (class {} as typeof HTMLElement);
+
+/**
+ * `<semblante-face src stream>`: a face that follows a stream. README.md lists attributes, properties, methods and
+ * events.
+ */
+export class SemblanteFace extends Base {
+  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt'];
+
+  private show: FaceShow | null = null;
+  private failed: FaceTrouble | null = null;
+  private secret: string | null = null;
+  private paused_: boolean | null = null;
+  private seen: IntersectionObserver | null = null;
+  private inView = false;
+  private canvas: HTMLCanvasElement | null = null;
+  private readonly picture = this.make('img');
+  private readonly words = this.make('p');
+  private readonly wheel = this.make('i');
+  private readonly playButton = this.make('button');
+  private fingers = new Map<number, { x: number; y: number }>();
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: 'open' });
+    root.adoptedStyleSheets = [styles()];
+    this.picture.alt = '';
+    this.picture.className = 'gone';
+    this.words.setAttribute('role', 'status');
+    this.wheel.hidden = true;
+    this.playButton.type = 'button';
+    this.playButton.textContent = 'Play';
+    this.playButton.hidden = true;
+    this.playButton.addEventListener('click', () => this.play());
+    root.append(this.picture, this.wheel, this.words, this.playButton);
+    this.addEventListener('keydown', (event) => this.turnByKey(event));
+  }
+
+  private make<Name extends keyof HTMLElementTagNameMap>(name: Name): HTMLElementTagNameMap[Name] {
+    return document.createElement(name);
+  }
+
+  // ---- attributes as properties -----------------------------------------------------------------------------
+
+  get src(): string {
+    return this.getAttribute('src') ?? '';
+  }
+  set src(value: string) {
+    this.setAttribute('src', value);
+  }
+  get stream(): string {
+    return this.getAttribute('stream') ?? '';
+  }
+  set stream(value: string) {
+    this.setAttribute('stream', value);
+  }
+  get model(): string | null {
+    return this.getAttribute('model');
+  }
+  set model(value: string | null) {
+    if (value === null) this.removeAttribute('model');
+    else this.setAttribute('model', value);
+  }
+  get poster(): string {
+    return this.getAttribute('poster') ?? '';
+  }
+  set poster(value: string) {
+    this.setAttribute('poster', value);
+  }
+  get fit(): Fit {
+    const value = this.getAttribute('fit') ?? '';
+    return fits.includes(value) ? (value as Fit) : 'head';
+  }
+  set fit(value: Fit) {
+    this.setAttribute('fit', value);
+  }
+  get quality(): QualityName {
+    const value = this.getAttribute('quality') ?? '';
+    return qualities.includes(value) ? (value as QualityName) : 'auto';
+  }
+  set quality(value: QualityName) {
+    this.setAttribute('quality', value);
+  }
+  get theme(): string {
+    return this.getAttribute('theme') ?? 'auto';
+  }
+  set theme(value: string) {
+    this.setAttribute('theme', value);
+  }
+
+  /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
+  set token(value: string | null) {
+    this.secret = value;
+    this.reload();
+  }
+
+  // ---- state ------------------------------------------------------------------------------------------------
+
+  get state(): FaceState {
+    return this.failed ? 'error' : (this.show?.state ?? 'idle');
+  }
+
+  /** What keeps the face from moving, as a sentence; empty: nothing. */
+  get message(): string {
+    const { state } = this;
+    if (state === 'error' || state === 'ended' || state === 'stalled') return this.trouble()?.message ?? '';
+    return '';
+  }
+
+  get paused(): boolean {
+    return this.paused_ ?? lessMotion();
+  }
+
+  get connection(): Connection {
+    const { show } = this;
+    if (!show?.face) return 'none';
+    if (show.link.state !== 'open') return 'lost';
+    const { roundTrip } = show.link.client.streamClock;
+    const delay = show.player?.delay ?? NaN;
+    if (roundTrip > 700 || delay > 900) return 'poor';
+    return roundTrip > 300 || delay > 450 ? 'fair' : 'good';
+  }
+
+  /** Measurements for display: a snapshot. */
+  get stats(): { framesPerSecond: number; vertices: number; lod: number; delay: number; roundTrip: number } {
+    const { show } = this;
+    return {
+      framesPerSecond: show?.framesPerSecond ?? 0,
+      vertices: show?.face?.rig.mesh.vertices ?? 0,
+      lod: show?.face?.rig.lod ?? 0,
+      delay: show?.player?.delay ?? NaN,
+      roundTrip: show?.link.client.streamClock.roundTrip ?? NaN,
+    };
+  }
+
+  // ---- methods ----------------------------------------------------------------------------------------------
+
+  play(): void {
+    this.paused_ = false;
+    this.show?.setPaused(false);
+    this.update();
+  }
+
+  pause(): void {
+    this.paused_ = true;
+    this.show?.setPaused(true);
+    this.update();
+  }
+
+  /** Turns the camera back to the front. */
+  lookFront(): void {
+    this.show?.camera.reset();
+    this.show?.invalidate();
+  }
+
+  /** Loads everything again, also after a trouble that does not pass by itself. */
+  reload(): void {
+    this.stop();
+    if (this.inView) this.start();
+    this.update();
+  }
+
+  // ---- life -------------------------------------------------------------------------------------------------
+
+  connectedCallback(): void {
+    this.name();
+    this.setPoster();
+    this.seen = new IntersectionObserver((entries) => this.look(entries.at(-1)!.isIntersecting), { rootMargin: ahead });
+    this.seen.observe(this);
+  }
+
+  disconnectedCallback(): void {
+    this.seen?.disconnect();
+    this.seen = null;
+    this.inView = false;
+    this.stop();
+  }
+
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    if (before === now || !this.isConnected) return;
+    if (name === 'poster') this.setPoster();
+    else if (name === 'alt') this.name();
+    else if (name === 'fit') this.show?.setFit(this.fit);
+    else this.reload();
+  }
+
+  private look(inView: boolean): void {
+    this.inView = inView;
+    if (inView && !this.show && !this.failed) this.start();
+    this.show?.setVisible(inView);
+  }
+
+  private start(): void {
+    if (this.stream === '') return;
+    const source: Source = {
+      base: this.src.replace(/\/+$/, ''),
+      stream: this.stream,
+      model: this.model,
+      token: this.secret,
+    };
+    const canvas = this.make('canvas');
+    this.canvas = canvas;
+    canvas.setAttribute('role', 'img');
+    this.name();
+    this.listen(canvas);
+    this.shadowRoot!.insertBefore(canvas, this.picture);
+    try {
+      const show = new FaceShow(canvas, {
+        source,
+        fit: this.fit,
+        quality: this.quality,
+        fades: !lessMotion(),
+        paused: this.paused,
+      });
+      this.show = show;
+      show.on('state', (state) => {
+        this.update();
+        if (state === 'stalled' || state === 'ended') this.tell(state);
+      });
+      show.on('trouble', (cause) => {
+        this.update();
+        if (cause && show.face === null) this.tell('error', { code: cause.code, message: cause.message });
+      });
+      show.on('ready', () => {
+        canvas.classList.add('shown');
+        this.picture.classList.add('gone');
+        this.update();
+        this.tell('ready');
+      });
+      show.on('playing', () => this.tell('playing'));
+      show.on('level', (level) => this.tell('levelchange', level));
+    } catch (error) {
+      if (!(error instanceof FaceTrouble)) throw error;
+      this.failed = error;
+      this.tell('error', { code: error.code, message: error.message });
+    }
+    this.update();
+  }
+
+  private stop(): void {
+    this.show?.close();
+    this.show = null;
+    this.failed = null;
+    this.canvas?.remove(); // a canvas whose context was given back gives no other
+    this.canvas = null;
+    this.name();
+    this.setPoster();
+  }
+
+  private tell(name: string, detail?: object): void {
+    this.dispatchEvent(new CustomEvent(name, { detail: detail ?? null }));
+  }
+
+  private trouble(): FaceTrouble | null {
+    if (this.failed) return this.failed;
+    const { show } = this;
+    if (!show) return null;
+    if (show.trouble) return show.trouble;
+    return show.state === 'ended' || show.state === 'stalled' ? new FaceTrouble('lost', stateWords[show.state]) : null;
+  }
+
+  /** Shows what the state means. */
+  private update(): void {
+    const { state } = this;
+    this.wheel.hidden = state !== 'loading';
+    const alone = state === 'error';
+    if (this.words.textContent !== this.message) this.words.textContent = this.message;
+    this.words.className = alone ? 'alone' : '';
+    this.playButton.hidden = !(this.paused && (state === 'resting' || state === 'playing'));
+    if (alone) this.canvas?.classList.remove('shown');
+    this.tell('statechange', { state, message: this.message });
+  }
+
+  // ---- presentation -----------------------------------------------------------------------------------------
+
+  /** The accessible name belongs to the picture; messages and the button beside it are read for themselves. */
+  private name(): void {
+    const label = this.getAttribute('alt') ?? `Animated face${this.stream ? `, stream ${this.stream}` : ''}`;
+    this.canvas?.setAttribute('aria-label', label);
+    this.picture.alt = this.canvas ? '' : label;
+  }
+
+  private setPoster(): void {
+    this.picture.classList.toggle('gone', this.poster === '');
+    if (this.poster !== '') this.picture.src = this.poster;
+  }
+
+  /** One finger turns the head, two change the distance; a double tap looks from the front. */
+  private listen(canvas: HTMLCanvasElement): void {
+    const { fingers } = this;
+    canvas.addEventListener('pointerdown', (event) => {
+      if (this.getAttribute('orbit') === 'none') return;
+      fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      const from = fingers.get(event.pointerId);
+      const { show } = this;
+      if (!from || !show) return;
+      const to = { x: event.clientX, y: event.clientY };
+      const size = Math.max(1, Math.min(canvas.clientWidth, canvas.clientHeight));
+      const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
+      if (other) {
+        const before = Math.hypot(from.x - other.x, from.y - other.y);
+        show.camera.zoom(before / Math.max(1, Math.hypot(to.x - other.x, to.y - other.y)));
+      } else {
+        show.camera.orbit(((from.x - to.x) / size) * strokeTurn, ((to.y - from.y) / size) * strokeTurn);
+      }
+      fingers.set(event.pointerId, to);
+      show.invalidate();
+    });
+    for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
+      canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
+    canvas.addEventListener('dblclick', () => this.lookFront());
+  }
+
+  private turnByKey(event: KeyboardEvent): void {
+    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    const { show } = this;
+    if (!show || (!by && event.key !== 'Home')) return;
+    event.preventDefault();
+    if (by) show.camera.orbit(by[0]! * keyTurn, by[1]! * keyTurn);
+    else show.camera.reset();
+    show.invalidate();
+  }
+}
+
+const stateWords = { ended: 'The stream has ended.', stalled: 'The connection was lost. Trying again.' };
+
+function lessMotion(): boolean {
+  return typeof matchMedia === 'function' && matchMedia('(prefers-reduced-motion: reduce)').matches;
+}

@@ -1,0 +1,40 @@
+/** Colours follow the attribute `theme`, else the system; a page can set the custom properties itself. */
+export const styleText = `
+:host {
+  --semblante-background: light-dark(#e9e5df, #17191d);
+  --semblante-text: light-dark(#3a3631, #d8d5d0);
+  color-scheme: light dark;
+  display: block; position: relative; overflow: hidden; contain: content;
+  width: 320px; height: 400px;
+  background: var(--semblante-background); color: var(--semblante-text);
+}
+:host([theme='light']) { color-scheme: light; }
+:host([theme='dark']) { color-scheme: dark; }
+:host([hidden]) { display: none; }
+:host(:focus-visible) { outline: 3px solid Highlight; outline-offset: -3px; }
+canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; }
+canvas { touch-action: pan-y; opacity: 0; transition: opacity 0.25s; cursor: grab; }
+:host([orbit='free']) canvas { touch-action: none; }
+:host([orbit='none']) canvas { touch-action: auto; cursor: auto; }
+canvas.shown { opacity: 1; }
+canvas:active { cursor: grabbing; }
+img { object-fit: cover; }
+img.gone { display: none; }
+p {
+  position: absolute; inset: auto 0 0; margin: 0; padding: 0.9em 1.2em calc(0.9em + env(safe-area-inset-bottom));
+  font: 15px/1.45 system-ui, sans-serif; text-align: center; text-wrap: balance;
+}
+p.alone { inset: 0; display: grid; place-content: center; max-width: 34ch; margin: auto; }
+p:empty { display: none; }
+button {
+  position: absolute; left: 50%; bottom: 12%; translate: -50%; min-width: 48px; min-height: 48px; padding: 0 1.4em;
+  border: 0; border-radius: 24px; font: 600 16px system-ui, sans-serif; cursor: pointer;
+  background: light-dark(#2b2925, #f1eee9); color: light-dark(#fff, #1a1a1a);
+}
+button[hidden] { display: none; }
+i { position: absolute; left: 50%; top: 50%; width: 34px; height: 34px; margin: -17px; border-radius: 50%;
+  border: 3px solid color-mix(in srgb, currentColor 25%, transparent); border-top-color: currentColor; animation: turn 0.9s linear infinite; }
+i[hidden] { display: none; }
+@keyframes turn { to { rotate: 1turn; } }
+@media (prefers-reduced-motion: reduce) { i { animation-duration: 6s; } canvas { transition: none; } }
+`;

@@ -1,0 +1,38 @@
+/** What can keep a face from being shown or moving, and how the page says it. */
+export type Trouble =
+  | 'no-stream'
+  | 'no-model'
+  | 'model-unready'
+  | 'private'
+  | 'unreachable'
+  | 'server'
+  | 'damaged'
+  | 'no-webgl'
+  | 'ended'
+  | 'lost';
+
+export class FaceTrouble extends Error {
+  constructor(
+    readonly code: Trouble,
+    message: string,
+  ) {
+    super(message);
+    this.name = 'FaceTrouble';
+  }
+}
+
+export const troubleWords: Record<Trouble, (name: string) => string> = {
+  'no-stream': (name) => `There is no stream “${name}” on this server.`,
+  'no-model': (name) => `The stream “${name}” has no face yet. It is shown as soon as a model is chosen for it.`,
+  'model-unready': () => 'This face is still being prepared.',
+  private: () => 'This stream is private. Open it with the link of your invitation.',
+  unreachable: () => 'The server cannot be reached. Trying again.',
+  server: () => 'The server has a problem. Trying again.',
+  damaged: () => 'This face could not be loaded: its files do not fit together.',
+  'no-webgl': () => 'This browser has no WebGL 2, which drawing a face needs. Turn on hardware acceleration, or use another browser.',
+  ended: () => 'The stream has ended.',
+  lost: () => 'The connection was lost. Trying again.',
+};
+
+/** Whether it can pass by itself, so that waiting helps. */
+export const isPassing = (code: Trouble): boolean => code !== 'no-webgl' && code !== 'private' && code !== 'damaged';

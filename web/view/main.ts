@@ -1,0 +1,88 @@
+import './view.css';
+import { type Connection, SemblanteFace } from 'semblante/element';
+import { acceptInvitation } from './invitation.ts';
+import { keepOffline } from './offline.ts';
+import { stayAwake } from './wake_lock.ts';
+
+/** "/view/demo", also below a path of a proxy: the server's address and the stream's id. */
+export function placeOf(path: string): { base: string; stream: string } {
+  const at = path.lastIndexOf('/view/');
+  return { base: path.slice(0, Math.max(at, 0)), stream: decodeURIComponent(path.slice(at + '/view/'.length)) };
+}
+
+const connectionWords: Record<Connection, string> = {
+  none: '',
+  good: 'Good connection',
+  fair: 'Slow connection',
+  poor: 'Poor connection',
+  lost: 'No connection',
+};
+
+const paths = { pause: 'M6 4h4v16H6zM14 4h4v16h-4z', play: 'M7 4l13 8-13 8z' };
+
+function svg(inside: string): SVGSVGElement {
+  const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  picture.setAttribute('viewBox', '0 0 24 24');
+  picture.setAttribute('aria-hidden', 'true');
+  picture.innerHTML = inside;
+  return picture;
+}
+
+/** The page: one face, how its connection is, and a button that pauses it. */
+async function main(root: HTMLElement): Promise<void> {
+  const { base, stream } = placeOf(location.pathname);
+  if (stream === '') {
+    root.textContent = 'No stream is named: the address of this page ends with the name of a stream, as in /view/demo.';
+    root.className = 'note';
+    return;
+  }
+  document.title = `${stream} · Semblante`;
+  await acceptInvitation(base);
+
+  const face = new SemblanteFace();
+  face.src = base === '' ? '' : location.origin + base;
+  face.stream = stream;
+  face.setAttribute('alt', `Animated face, stream ${stream}`);
+  face.setAttribute('orbit', 'free');
+  face.tabIndex = 0;
+
+  const bars = document.createElement('span');
+  bars.className = 'bars';
+  bars.append(svg('<rect x="3" y="15" width="4" height="6" rx="1"/><rect x="10" y="10" width="4" height="11" rx="1"/><rect x="17" y="4" width="4" height="17" rx="1"/>'));
+  const words = document.createElement('span');
+  words.className = 'unseen';
+  words.setAttribute('role', 'status');
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.hidden = true;
+  button.addEventListener('click', () => (face.paused ? face.play() : face.pause()));
+  const corner = document.createElement('div');
+  corner.className = 'corner';
+  corner.hidden = true;
+  corner.append(button, bars, words);
+  root.replaceChildren(face, corner);
+
+  const refresh = (): void => {
+    const level = face.connection;
+    corner.hidden = level === 'none';
+    bars.dataset['level'] = level;
+    bars.title = connectionWords[level];
+    if (words.textContent !== connectionWords[level]) words.textContent = connectionWords[level];
+    const label = face.paused ? 'Play' : 'Pause';
+    if (button.getAttribute('aria-label') !== label) {
+      button.setAttribute('aria-label', label);
+      button.title = label;
+      button.replaceChildren(svg(`<path d="${face.paused ? paths.play : paths.pause}"/>`));
+    }
+    button.hidden = face.state === 'error' || face.state === 'ended';
+  };
+  face.addEventListener('statechange', refresh);
+  setInterval(refresh, 1000);
+  face.addEventListener('playing', () => keepOffline(), { once: true });
+  stayAwake(() => face.state === 'playing');
+  refresh();
+  Object.assign(window, { semblanteFace: face });
+}
+
+const root = document.querySelector('main');
+if (root) void main(root);

@@ -1,0 +1,16 @@
+/**
+ * Registers the service worker, which keeps this page and its face for the time without a network. What was loaded before
+ * it was there is named to it; the browser's cache has it.
+ */
+export function keepOffline(): void {
+  if (!('serviceWorker' in navigator)) return;
+  const start = async (): Promise<void> => {
+    await navigator.serviceWorker.register(new URL('worker.js', location.href));
+    const { active } = await navigator.serviceWorker.ready;
+    const loaded = performance.getEntriesByType('resource').map(({ name }) => name);
+    const named = [...document.querySelectorAll<HTMLLinkElement>('link[href]')].map(({ href }) => href);
+    active?.postMessage({ keep: [location.href, ...named, ...loaded] });
+  };
+  // The larger level and the images come first; a refusal (no TLS) leaves the page as it is.
+  setTimeout(() => void start().catch(() => undefined), 4000);
+}

@@ -1,0 +1,43 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig, type Plugin } from 'vite';
+
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+/** Lets the browser fetch the WebAssembly files beside the script instead of after it. */
+function preloadWasm(): Plugin {
+  return {
+    name: 'semblante-preload-wasm',
+    transformIndexHtml: {
+      order: 'post',
+      handler: (_, { bundle }) =>
+        Object.keys(bundle ?? {})
+          .filter((name) => name.endsWith('.wasm'))
+          .map((name) => ({
+            tag: 'link',
+            attrs: { rel: 'preload', as: 'fetch', crossorigin: true, href: `./${name}` },
+            injectTo: 'head' as const,
+          })),
+    },
+  };
+}
+
+/** The page `/view/{stream}`, a build of its own: no code of the studio gets into it. It uses the npm package as it is packed. */
+export default defineConfig({
+  root: here('view'),
+  base: './',
+  resolve: {
+    alias: [{ find: /^semblante\/(\w+)$/, replacement: `${process.env['SEMBLANTE_PACKAGE'] ?? here('../build/npm/semblante')}/dist/$1.js` }],
+  },
+  plugins: [preloadWasm()],
+  build: {
+    outDir: here('dist/view'),
+    emptyOutDir: true,
+    target: 'es2022',
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    rollupOptions: {
+      input: { index: here('view/index.html'), worker: here('view/worker/worker.ts') },
+      output: { entryFileNames: ({ name }) => (name === 'worker' ? 'worker.js' : 'assets/[name]-[hash].js') },
+    },
+  },
+});
