@@ -23,7 +23,7 @@ ARROWS = {
     "deploy": ["core", "deploy"],
     "web": ["protocol", "clients", "web"],
 }
-ALIASES = {"@protocol/": "protocol/ts/", "@client/": "clients/js/"}  # web/aliases.ts
+ALIASES = {"@protocol/": "protocol/ts/", "@client/": "clients/js/", "semblante/": "clients/js/"}  # web/aliases.ts
 NOT_ROOMS = ("web/test/", "web/node_modules/", "web/dist/")  # tests depend on everything
 COLUMN = "may depend on"
 

@@ -165,6 +165,7 @@ export class FaceShow extends Emitter<ShowEvents> {
       }
       this.attempts = 0;
       this.setTrouble(null);
+      this.settle();
       if (this.link.state === 'ended') this.link.open();
     } catch (error) {
       if (signal.aborted) return;

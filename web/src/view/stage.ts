@@ -15,6 +15,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { fieldOfView, studioLight } from '@client/gpu/studio_look.ts';
 import { Flight } from './flight.ts';
 import { PaceWatch, type Quality } from './quality.ts';
 
@@ -38,7 +39,7 @@ export type FrameHook = (deltaSeconds: number) => boolean;
  */
 export class Stage {
   readonly scene = new Scene();
-  readonly camera = new PerspectiveCamera(26, 1, 0.01, 1000);
+  readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 1000);
   readonly renderer: WebGLRenderer;
   readonly controls: OrbitControls;
   /** Frames drawn in the last full second. */
@@ -56,8 +57,8 @@ export class Stage {
   private framesInSecond = 0;
   private pixelRatioLimit: number;
   private readonly pace = new PaceWatch();
-  private readonly key = new DirectionalLight(0xfff1e2, 2.1);
-  private readonly rim = new DirectionalLight(0xdfe6ff, 0.9);
+  private readonly key = new DirectionalLight(studioLight.key.color, studioLight.key.intensity);
+  private readonly rim = new DirectionalLight(studioLight.rim.color, studioLight.rim.intensity);
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -77,7 +78,7 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(new Color(0), 0);
 
-    this.scene.environmentIntensity = 0.42;
+    this.scene.environmentIntensity = studioLight.environment;
     this.drawEnvironment();
     // A phone takes the graphics context from a page in the background. three.js uploads meshes and textures again, but
     // not what was drawn into a texture.
@@ -86,7 +87,8 @@ export class Stage {
       this.invalidate();
     });
 
-    this.scene.add(new HemisphereLight(0xffffff, 0x6b5a4e, 0.35), this.key, this.key.target, this.rim, this.rim.target);
+    const { sky, ground, intensity } = studioLight.hemisphere;
+    this.scene.add(new HemisphereLight(sky, ground, intensity), this.key, this.key.target, this.rim, this.rim.target);
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
@@ -239,22 +241,27 @@ export class Stage {
 
   private placeLights(): void {
     const { center: c, radius: r } = this;
-    this.key.position.set(c.x - r * 1.6, c.y + r * 1.9, c.z + r * 2.8);
-    this.rim.position.set(c.x + r * 2.4, c.y + r * 1.2, c.z - r * 2.2);
+    for (const [light, place] of [
+      [this.key, studioLight.key.place],
+      [this.rim, studioLight.rim.place],
+    ] as const) {
+      light.position.set(place[0], place[1], place[2]).multiplyScalar(r).add(c);
+    }
     this.key.target.position.copy(c);
     this.rim.target.position.copy(c);
     this.key.castShadow = this.quality.shadows;
     const shadow = this.key.shadow;
-    shadow.mapSize.set(1024, 1024);
-    shadow.radius = 7;
-    shadow.intensity = 0.75;
-    shadow.bias = -0.0006;
-    shadow.normalBias = r * 0.012;
+    const look = studioLight.shadow;
+    shadow.mapSize.set(look.size, look.size);
+    shadow.radius = look.softness;
+    shadow.intensity = look.intensity;
+    shadow.bias = -look.bias;
+    shadow.normalBias = r * look.normalBias;
     const camera = shadow.camera;
-    camera.left = camera.bottom = -r * 1.3;
-    camera.right = camera.top = r * 1.3;
-    camera.near = r * 0.5;
-    camera.far = r * 7;
+    camera.left = camera.bottom = -r * look.reach;
+    camera.right = camera.top = r * look.reach;
+    camera.near = r * look.near;
+    camera.far = r * look.far;
     camera.updateProjectionMatrix();
   }
 

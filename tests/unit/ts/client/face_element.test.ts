@@ -1,0 +1,108 @@
+import { expect, test } from 'vitest';
+import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
+import { budgetOf, firstVertices, Pace, type Device } from '../../../../clients/js/element/detail.ts';
+import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
+import { frameOf } from '../../../../clients/js/view/framing.ts';
+
+const phone: Device = { softwareRenderer: false, cores: 8, memory: 6, handheld: true, savesData: false };
+
+test('budgetOf_WeakDevices_GetFewerVerticesAndNoShadow', () => {
+  const strong = budgetOf({ ...phone, handheld: false }, 'auto');
+  expect(strong.render.shadows).toBe(true);
+  for (const weak of [{ softwareRenderer: true }, { cores: 2 }, { memory: 1 }]) {
+    const { render, maxVertices } = budgetOf({ ...phone, ...weak }, 'auto');
+    expect(render.shadows).toBe(false);
+    expect(maxVertices).toBe(firstVertices);
+  }
+  expect(budgetOf(phone, 'auto').maxVertices).toBeGreaterThan(firstVertices);
+  expect(budgetOf({ ...phone, savesData: true }, 'auto').maxVertices).toBe(firstVertices);
+  expect(budgetOf({ ...phone, cores: 1 }, 'high').render.shadows).toBe(true);
+});
+
+/** The steps that a device takes that needs so long for a picture, s, over a time, s. */
+function steps(pace: Pace, picture: number, seconds: number, smaller: boolean, larger: boolean): string[] {
+  const taken: string[] = [];
+  for (let time = 0; time < seconds; time += picture) {
+    const step = pace.tick(picture, picture / 4, smaller, larger);
+    if (step) taken.push(step);
+  }
+  return taken;
+}
+
+test('Pace_Below30PerSecond_DrawsPlainerThenSmaller', () => {
+  expect(steps(new Pace(), 1 / 20, 30, true, false).slice(0, 3)).toEqual(['fewer-pixels', 'plainer', 'smaller']);
+  expect(steps(new Pace(), 1 / 20, 30, false, false)).toEqual(['fewer-pixels', 'plainer']);
+  expect(steps(new Pace(), 1 / 31, 30, true, false)).toEqual([]);
+});
+
+test('Pace_AtFullRate_TriesALargerLevel_AndLaterAndLaterAfterItWasTooSlow', () => {
+  const pace = new Pace();
+  expect(steps(pace, 1 / 60, 12, true, true)[0]).toBe('larger');
+  expect(steps(pace, 1 / 20, 5, true, true)[0]).toBe('smaller');
+  expect(steps(pace, 1 / 60, 10, true, true)).toEqual([]);
+  expect(steps(pace, 1 / 60, 10, true, true)).toEqual(['larger']);
+});
+
+test('Pace_HiddenPage_IsNoSlowDevice', () => {
+  const pace = new Pace();
+  for (let i = 0; i < 200; i += 1) expect(pace.tick(i % 3 === 0 ? 0.5 : 1 / 60, 0.001, true, false)).toBeNull();
+});
+
+/** A standing body of 1.8 with the feature points of a head. */
+function body(points: Record<string, Vec3>): RigDocument {
+  return {
+    bounds: { min: [-0.6, 0, -0.3], max: [0.6, 1.8, 0.3] },
+    feature_points: Object.entries(points).map(([id, position]) => ({ id, vertex: 0, position })),
+  } as unknown as RigDocument;
+}
+
+test('frameOf_ABody_ShowsItsHead', () => {
+  const rig = body({ '3.5': [0.03, 1.68, 0.08], '3.6': [-0.03, 1.68, 0.08], '2.1': [0, 1.57, 0.08], '11.4': [0, 1.79, 0] });
+  const { centre, half } = frameOf(rig, 'head');
+  expect(centre[1] + half[1]).toBeLessThan(1.8001);
+  expect(centre[1] + half[1]).toBeGreaterThanOrEqual(1.79);
+  expect(centre[1] - half[1]).toBeLessThan(1.57);
+  expect(centre[1] - half[1]).toBeGreaterThan(1.5);
+  expect(half[0]).toBeLessThan(0.2);
+  expect(frameOf(rig, 'face').half[1]).toBeLessThan(half[1]);
+  expect(frameOf(rig, 'model').half[1]).toBeCloseTo(0.9);
+});
+
+test('frameOf_WithoutEyesOrChin_ShowsTheModel', () => {
+  expect(frameOf(body({}), 'head').half[1]).toBeCloseTo(0.9);
+  expect(frameOf(body({ '3.5': [0, 1, 0], '2.1': [0, 1.2, 0] }), 'head').half[1]).toBeCloseTo(0.9);
+});
+
+/** Where a point of the model lies in the picture, -1..1. */
+function project({ matrix: m }: OrbitCamera, [x, y, z]: Vec3): number[] {
+  const row = (i: number): number => m[i]! * x + m[4 + i]! * y + m[8 + i]! * z + m[12 + i]!;
+  return [0, 1, 2].map((i) => row(i) / row(3));
+}
+
+test('OrbitCamera_PortraitAndLandscape_FillThePictureWithTheWholeSubject', () => {
+  const camera = new OrbitCamera();
+  camera.subject = { centre: [1, 2, 3], half: [0.4, 0.5, 0.4] };
+  for (const aspect of [390 / 844, 844 / 390, 1]) {
+    camera.update(aspect);
+    const [right, top] = project(camera, [1.4, 2.5, 3]);
+    expect(Math.max(right!, top!)).toBeGreaterThan(0.75);
+    expect(Math.max(right!, top!)).toBeLessThanOrEqual(1);
+    const [x, y, depth] = project(camera, [1, 2, 3]);
+    expect([x, y].map((v) => Math.abs(v!) < 1e-5)).toEqual([true, true]);
+    expect(Math.abs(depth!)).toBeLessThan(1);
+  }
+});
+
+test('OrbitCamera_Orbit_TurnsAboutTheSubject_AndStopsBeforeThePoles', () => {
+  const camera = new OrbitCamera();
+  camera.update(1);
+  const distance = camera.eye[2];
+  camera.orbit(Math.PI / 2, 0);
+  camera.update(1);
+  expect(camera.eye[0]).toBeCloseTo(distance);
+  expect(camera.eye[2]).toBeCloseTo(0);
+  camera.orbit(0, 10);
+  expect(camera.pitch).toBeLessThan(Math.PI / 2);
+  camera.reset();
+  expect([camera.yaw, camera.pitch, camera.distance]).toEqual([0, 0, 1]);
+});
