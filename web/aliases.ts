@@ -17,6 +17,7 @@ export const packagesForTests = [
   { find: /^playwright-core$/, replacement: here('node_modules/playwright-core/index.mjs') },
   { find: /^gltf-validator$/, replacement: here('node_modules/gltf-validator/module.mjs') },
   { find: /^esbuild$/, replacement: here('node_modules/esbuild/lib/main.js') },
+  { find: /^vite$/, replacement: here('node_modules/vite/dist/node/index.js') },
   { find: /^three$/, replacement: here('node_modules/three/build/three.module.js') },
   { find: /^three\/addons\/(.*)$/, replacement: here('node_modules/three/examples/jsm') + '/$1' },
 ];

@@ -36,9 +36,9 @@ function makeToken(data: string, scope: string): string {
 
 /**
  * Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. With
- * `tokenScope` it asks for tokens, and `token` is one of that scope.
+ * `tokenScope` it asks for tokens, and `token` is one of that scope. `pages`: the folder that it serves.
  */
-export async function startServer(tokenScope?: string): Promise<RunningServer> {
+export async function startServer(tokenScope?: string, pages = webRoot): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
   const token = tokenScope === undefined ? '' : makeToken(data, tokenScope);
@@ -46,7 +46,7 @@ export async function startServer(tokenScope?: string): Promise<RunningServer> {
   const url = `http://127.0.0.1:${port}`;
   const child = spawn(
     join(buildDir, 'bin/semblante'),
-    ['serve', '--port', String(port), '--data', data, '--web-root', webRoot, '--sample', sampleHead, '--demo', ...(token === '' ? [] : ['--require-tokens'])],
+    ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--demo', ...(token === '' ? [] : ['--require-tokens'])],
     { stdio: ['ignore', 'pipe', 'pipe'] },
   );
   let output = '';

@@ -1,0 +1,126 @@
+import { execFile } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { promisify } from 'node:util';
+import { gzipSync } from 'node:zlib';
+import { build } from 'vite';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { buildDir, root } from './support/paths.ts';
+import { patience } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch } from './support/studio_page.ts';
+
+/** Does not block: the runner asks for signs of life. */
+const run = promisify(execFile);
+
+/** A project of a stranger, with the packed package in node_modules. */
+let project: string;
+let unpacked: string;
+let server: RunningServer;
+
+beforeAll(async () => {
+  project = mkdtempSync(join(tmpdir(), 'semblante-npm-'));
+  const folder = join(project, 'made');
+  const environment = { ...process.env, SEMBLANTE_BUILD: buildDir };
+  await run(process.execPath, [join(root, 'clients/js/build.mjs'), folder], { env: environment });
+  const pack = ['pack', '--silent', '--ignore-scripts', '--pack-destination', project];
+  const { stdout: packed } = await run('npm', pack, { cwd: folder });
+  unpacked = join(project, 'node_modules/semblante');
+  mkdirSync(unpacked, { recursive: true });
+  await run('tar', ['-xzf', join(project, packed.trim().split('\n').at(-1)!), '--strip-components=1', '-C', unpacked]);
+  writeFileSync(join(project, 'package.json'), '{"type":"module","private":true}');
+  server = await startServer(undefined, project);
+});
+afterAll(async () => {
+  await server?.stop();
+  rmSync(project, { recursive: true, force: true });
+});
+
+const files = (folder: string): string[] =>
+  (readdirSync(folder, { recursive: true }) as string[]).filter((name) => statSync(join(folder, name)).isFile());
+
+/** A module with all that it imports from its own package, gzipped. */
+function gzipped(entry: string, seen = new Set<string>()): number {
+  if (seen.has(entry)) return 0;
+  seen.add(entry);
+  const text = readFileSync(join(unpacked, 'dist', entry), 'utf8');
+  const imports = [...text.matchAll(/(?:from|import)"\.\/([^"]+\.js)"/g)].map(([, name]) => name!);
+  return gzipSync(text, { level: 9 }).length + imports.reduce((sum, name) => sum + gzipped(name, seen), 0);
+}
+
+test('Package_HasModulesAndDeclarations_AndNoSources', () => {
+  const names = files(unpacked);
+  for (const name of ['dist/index.js', 'dist/element.js', 'dist/three.js', 'dist/draco.js', 'dist/semblante.wasm', 'README.md', 'LICENSE'])
+    expect(names).toContain(name);
+  expect(names.filter((name) => name.endsWith('.ts') && !name.endsWith('.d.ts'))).toEqual([]);
+  for (const name of names.filter((one) => /\.(js|d\.ts)$/.test(one))) {
+    const text = readFileSync(join(unpacked, name), 'utf8');
+    expect(text, name).not.toMatch(/from ?["'](@client|@protocol|draco-decoder)/);
+    expect(text, name).not.toMatch(/from ?["'][^"']*[^d]\.ts["']/);
+  }
+  const { exports } = JSON.parse(readFileSync(join(unpacked, 'package.json'), 'utf8')) as { exports: Record<string, string | Record<string, string>> };
+  for (const target of Object.values(exports).flatMap((one) => (typeof one === 'string' ? one : Object.values(one))))
+    expect(names).toContain(target.replace('./', ''));
+});
+
+test('Package_ClientWithKernel_IsAtMost60kBGzipped', () => {
+  const kernel = gzipSync(readFileSync(join(unpacked, 'dist/semblante.wasm')), { level: 9 }).length;
+  expect(gzipped('index.js') + kernel).toBeLessThanOrEqual(60_000);
+});
+
+test('Package_InNode_LoadsAFaceAndDeformsIt', async () => {
+  writeFileSync(
+    join(project, 'use.js'),
+    `import { Kernel, loadFace, loadKernelModule, neutralFrame } from 'semblante';
+import { loadDraco } from 'semblante/draco';
+const face = await loadFace(process.argv[2], 'sample', { draco: await loadDraco() });
+const kernel = await Kernel.create(await loadKernelModule(), face);
+const frame = neutralFrame();
+frame.viseme = { select1: 10, select2: 0, blend: 63 };
+kernel.evaluate(frame, 0);
+const before = kernel.positions.slice();
+kernel.deform(0);
+console.log(before.filter((x, i) => x !== kernel.positions[i]).length);
+`,
+  );
+  const { stdout: moved } = await run(process.execPath, ['use.js', server.url], { cwd: project });
+  expect(Number(moved)).toBeGreaterThan(1000);
+});
+
+/** Opens a page of the project, which the real server serves, and waits until its face moves. */
+async function moves(path: string): Promise<void> {
+  const browser = await launch();
+  try {
+    const page = await browser.newPage();
+    page.setDefaultTimeout(patience);
+    const errors: string[] = [];
+    page.on('pageerror', (error) => errors.push(String(error)));
+    page.on('console', (message) => {
+      if (message.type() === 'error' && !message.location().url.endsWith('/favicon.ico')) errors.push(message.text());
+    });
+    await page.goto(server.url + path, { timeout: patience });
+    await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
+    expect(errors).toEqual([]);
+  } finally {
+    await browser.close();
+  }
+}
+
+test('Package_BarePage_ShowsAMovingFace', async () => {
+  const example = join(unpacked, 'example.html');
+  const page = readFileSync(example, 'utf8');
+  expect(page.split('\n').length).toBeLessThanOrEqual(10);
+  expect(page).toContain('http://127.0.0.1:8080');
+  writeFileSync(example, page.replace('http://127.0.0.1:8080', server.url));
+  await moves('/node_modules/semblante/example.html');
+});
+
+test('Package_BuiltByVite_ShowsAMovingFace', async () => {
+  const source = join(project, 'site');
+  mkdirSync(source);
+  writeFileSync(join(source, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script><semblante-face stream="demo"></semblante-face>');
+  writeFileSync(join(source, 'main.js'), "import 'semblante/element';");
+  await build({ root: source, base: './', logLevel: 'error', configFile: false, build: { outDir: join(project, 'built'), assetsInlineLimit: 0 } });
+  await moves('/built/');
+});

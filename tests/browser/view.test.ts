@@ -1,0 +1,110 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { patience } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+interface Shown {
+  state: string;
+  message: string;
+  paused: boolean;
+  stats: { vertices: number };
+}
+
+async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean } = {}): Promise<{ page: Page; errors: string[] }> {
+  const context = await browser.newContext({
+    viewport: { width: 390, height: 844 },
+    reducedMotion: options.reducedMotion ?? 'no-preference',
+  });
+  context.setDefaultTimeout(patience);
+  const page = await context.newPage();
+  const errors: string[] = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && !/Failed to load resource|WebSocket/.test(message.text())) errors.push(message.text());
+  });
+  if (options.noWebGl) {
+    await page.addInitScript(() => {
+      HTMLCanvasElement.prototype.getContext = () => null;
+    });
+  }
+  await page.goto(server.url + path, { waitUntil: 'domcontentloaded', timeout: patience });
+  return { page, errors };
+}
+
+const until = (page: Page, state: string): Promise<unknown> =>
+  page.waitForFunction((wanted) => (window as unknown as { semblanteFace?: Shown }).semblanteFace?.state === wanted, state);
+const message = (page: Page): Promise<string> =>
+  page.evaluate(() => (window as unknown as { semblanteFace: Shown }).semblanteFace.message);
+
+test('View_Demo_MovesWithLessThan250kB', async () => {
+  const { page, errors } = await open('/view/demo');
+  const session = await page.context().newCDPSession(page);
+  await session.send('Network.enable');
+  let bytes = 0;
+  session.on('Network.loadingFinished', ({ encodedDataLength }) => (bytes += encodedDataLength));
+  await page.reload({ waitUntil: 'domcontentloaded' });
+  await session.send('Network.setCacheDisabled', { cacheDisabled: true });
+  bytes = 0;
+  await page.reload({ waitUntil: 'domcontentloaded' });
+  await until(page, 'playing');
+  const moved = bytes;
+  expect(moved).toBeGreaterThan(100_000); // the head and its decoder are in it
+  expect(moved).toBeLessThanOrEqual(250_000);
+  expect(await page.getByRole('img', { name: 'Animated face, stream demo' }).count()).toBe(1);
+  expect(errors).toEqual([]);
+  await page.context().close();
+});
+
+test('View_UnknownStream_SaysSo_AndShowsItOnceItIsThere', async () => {
+  const { page, errors } = await open('/view/later');
+  await until(page, 'error');
+  expect(await message(page)).toContain('There is no stream “later”');
+  const create = await fetch(`${server.url}/v1/streams`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: '{"name":"later"}',
+  });
+  expect(create.status).toBe(201);
+  await page.waitForFunction(() => (window as unknown as { semblanteFace: Shown }).semblanteFace.message.includes('has no face yet'));
+  await fetch(`${server.url}/v1/streams/later`, { method: 'DELETE' });
+  await fetch(`${server.url}/v1/streams`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: '{"name":"later","model":"sample"}',
+  });
+  await page.waitForFunction(() =>
+    ['resting', 'playing'].includes((window as unknown as { semblanteFace: Shown }).semblanteFace.state),
+  );
+  await fetch(`${server.url}/v1/streams/later`, { method: 'DELETE' });
+  await until(page, 'ended');
+  expect(errors).toEqual([]);
+  await page.context().close();
+});
+
+test('View_LessMotionWished_WaitsForPlay', async () => {
+  const { page, errors } = await open('/view/demo', { reducedMotion: 'reduce' });
+  await until(page, 'resting');
+  await page.getByRole('button', { name: 'Play' }).first().click();
+  await until(page, 'playing');
+  expect(errors).toEqual([]);
+  await page.context().close();
+});
+
+test('View_WithoutWebGl_SaysSo', async () => {
+  const { page } = await open('/view/demo', { noWebGl: true });
+  await until(page, 'error');
+  expect(await message(page)).toContain('WebGL 2');
+  await page.context().close();
+});
