@@ -58,8 +58,8 @@ class ClockEstimate {
   [[nodiscard]] Bounds bounds_at(double local) const;
   void measure_drift();
 
-  Ring<Bounds> answers_;
-  Ring<Point> past_;  ///< estimates drift_step apart
+  Ring<Bounds, 64> answers_;
+  Ring<Point, 32> past_;  ///< estimates drift_step apart
   Point now_;
   bool known_ = false, answered_ = false;
   double half_width_ = 0, drift_ = 0, heard_at_ = 0;

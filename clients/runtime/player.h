@@ -83,7 +83,7 @@ class Player {
   Playout playout_;
   Stream* stream_ = nullptr;
   QuantizerSteps steps_;
-  Ring<Held> held_;                  ///< the first is the last one at or before the playhead
+  Ring<Held, 16> held_;              ///< the first is the last one at or before the playhead
   std::optional<Held> before_;       ///< the one before the first, for curves
   double rested_at_ = unknown_time;  ///< time of the frame at which the last curve ended without velocity
   double last_advance_ = unknown_time;

@@ -107,7 +107,7 @@ class Playout {
   double transit_ = std::numeric_limits<double>::quiet_NaN();
   double delay_ = std::numeric_limits<double>::quiet_NaN();
   double wanted_delay_ = std::numeric_limits<double>::quiet_NaN();
-  Ring<Second> seconds_;
+  Ring<Second, 64> seconds_;
   PlayoutStats stats_;
 };
 

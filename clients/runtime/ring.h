@@ -9,7 +9,8 @@
 namespace semblante::runtime {
 
 /// A queue in one piece of memory, which grows by doubling and never shrinks: once it has grown, neither end allocates.
-template <class T>
+/// `first_capacity`: of the first item on, a power of two.
+template <class T, std::size_t first_capacity = 8>
 class Ring {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -42,7 +43,7 @@ class Ring {
 
  private:
   void grow() {
-    const std::size_t capacity = std::max<std::size_t>(8, 2 * capacity_);
+    const std::size_t capacity = std::max(first_capacity, 2 * capacity_);
     auto items = std::make_unique<T[]>(capacity);
     for (std::size_t i = 0; i < size_; ++i) items[i] = std::move((*this)[i]);
     items_ = std::move(items);

@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 #include <openssl/evp.h>
 
-#include "clients/native/client/decode_mesh.h"
+#include "clients/runtime/face_mesh.h"
 #include "protocol/cpp/weights_format.h"
 
 namespace semblante::testing {
 namespace {
 
-using client::decode_mesh;
+using runtime::decode_mesh;
 using client::Face;
 using client::PackageBytes;
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/runtime/semblante.h"
+#include "tests/unit/runtime/owned.h"
 #include "tests/unit/runtime/sdk_from_c.h"
 #include "tests/unit/runtime/small_package.h"
 
@@ -17,11 +18,6 @@ namespace {
 
 /// Of a weight, by 16 bits, times the greatest displacement in these tests.
 constexpr float quantization = 2e-5F;
-
-struct Destroy {
-  void operator()(semblante_head* head) const { semblante_head_destroy(head); }
-};
-using OwnedHead = std::unique_ptr<semblante_head, Destroy>;
 
 OwnedHead make(const SmallPackage& small, const semblante_head_options* options = nullptr) {
   const semblante_package package = small.view();
@@ -97,6 +93,7 @@ TEST(HeadCreate, InvalidInputs_EachIsNamed) {
   {  // A share beyond one.
     const semblante_package package = small.view();
     semblante_head_options options{};
+    options.size = sizeof(options);
     options.viseme_share = 1.5F;
     semblante_head* head = nullptr;
     EXPECT_EQ(semblante_head_create(&package, &options, &head, &error), SEMBLANTE_INVALID_ARGUMENT);
@@ -194,6 +191,7 @@ TEST(Head, VisemeShareOption_ReplacesTheRigs) {
   const SmallPackage small;
   EXPECT_FLOAT_EQ(semblante_head_rig(make(small).get())->viseme_share, 0.85F);
   semblante_head_options options{};
+  options.size = sizeof(options);
   options.viseme_share = 0.5F;
   const OwnedHead head = make(small, &options);
   EXPECT_FLOAT_EQ(semblante_head_rig(head.get())->viseme_share, 0.5F);
@@ -236,7 +234,7 @@ TEST(Sdk, UsedFromC_DeformsTheHead) {
 
 TEST(Sdk, ResultNames_AreDistinct) {
   std::vector<std::string> names;
-  for (int result = SEMBLANTE_OK; result <= SEMBLANTE_INTERNAL; ++result) {
+  for (int result = SEMBLANTE_OK; result <= SEMBLANTE_UNAVAILABLE; ++result) {
     names.emplace_back(semblante_result_name(static_cast<semblante_result>(result)));
   }
   std::sort(names.begin(), names.end());
