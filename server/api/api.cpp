@@ -7,6 +7,7 @@
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
+#include "server/api/quota.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
@@ -94,6 +95,7 @@ const Route* route_of(const http::Request& request) {
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
   context_.idempotency_keys = std::make_shared<KeyLocks>();
+  context_.quota_turns = std::make_shared<KeyLocks>();
   if (!context_.exports) context_.exports = std::make_shared<ExportSlots>(context_.config.limits.max_exports);
 }
 
@@ -144,7 +146,12 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem(
         "unsupported-media-type",
         content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
-  return plan_body(*route, content_type, context_.config.limits);
+  auto body = plan_body(*route, content_type, context_.config.limits);
+  if (!body.to_file) return body;
+  auto share = take_upload(security, head);
+  if (auto* refusal = std::get_if<http::Response>(&share)) return std::move(*refusal);
+  body.held = std::get<std::shared_ptr<const void>>(std::move(share));
+  return body;
 }
 
 http::Response Api::handle(http::Request& request) {
@@ -152,7 +159,9 @@ http::Response Api::handle(http::Request& request) {
   if (route == nullptr) return http::static_file(context_.config.web_root, request);
   try {
     refuse_foreign_resource(context_, request);
-    return route->handler(context_, request);
+    auto response = route->handler(context_, request);
+    tell_quota(request, response);
+    return response;
   } catch (const Refused& refused) {
     return to_response(refused);
   } catch (const store::StoreError& fault) {
@@ -212,7 +221,7 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   if (!context_.config.access.origin_allowed(head)) return;
   response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
   response.headers["Access-Control-Expose-Headers"] =
-      "ETag, Location, Retry-After, Content-Range, Allow, WWW-Authenticate";
+      "ETag, Location, Retry-After, Content-Range, Allow, WWW-Authenticate, X-Quota-Warning, X-Request-Id";
 }
 
 }  // namespace semblante::api

@@ -57,6 +57,7 @@ struct Context {
   std::shared_ptr<const store::Trash> trash = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
   std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
+  std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
 };
 

@@ -247,6 +247,7 @@ void run_serve(const ServeOptions& options) {
   api_config.access = {hosts, options.allowed_origins, options.frame_origins};
   api_config.security.asks_for_tokens = listening.asks_for_tokens;
   api_config.security.proxies = listening.proxies;
+  api_config.security.token_limits = options.token_limits;
   api_config.security.rates = std::make_shared<access::ClientRates>(options.client_limits);
   const auto tokens = api_config.security.tokens;
   tokens->load(**store);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/access/client_limits.h"
+#include "server/access/token_limits.h"
 #include "server/api/api.h"
 #include "server/app/listening.h"
 #include "server/jobs/worker_protocol.h"
@@ -42,6 +43,7 @@ struct ServeOptions {
   std::vector<std::string> allowed_origins;
   std::vector<std::string> frame_origins;
   access::ClientLimits client_limits;
+  access::TokenLimits token_limits;
   std::uint64_t max_connections_per_address = net::ServerLimits{}.max_connections_per_address;
   std::string log_level = "info";
 };

@@ -53,6 +53,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
     {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
+    {"quota-exceeded", 507, "The token has used up a limit"},
     {"insufficient-storage", 507, "The disk is full"},
 });
 
@@ -100,6 +101,8 @@ nlohmann::ordered_json document(const Problem& problem) {
     auto& errors = json["errors"] = nlohmann::ordered_json::array();
     for (const auto& fault : problem.faults) errors.push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
   }
+  if (problem.limit)
+    json["limit"] = {{"name", problem.limit->name}, {"value", problem.limit->value}, {"used", problem.limit->used}};
   return json;
 }
 

@@ -122,6 +122,9 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   if (!writer) return writer.error();
   running->writer = std::move(*writer);
   take_over(record, running->writer->durable());
+  record.owner = std::move(start.owner);
+  running->has_room = std::move(start.has_room);
+  running->stored_bytes = record.bytes;
   if (key) key->resource = record.id;
   // The file is made first, so that a record never refers to a missing file. The next start moves a file without a
   // record into the trash.
@@ -220,6 +223,14 @@ RecorderCounts Recorder::counts() const {
   return {running_count_.load(), frames_.load(), dropped_.load(), total_bytes_.load(), failed_.load()};
 }
 
+std::uint64_t Recorder::unstored_bytes(std::string_view owner) const {
+  const std::lock_guard lock(mutex_);
+  std::uint64_t bytes = 0;
+  for (const auto& [id, running] : running_)
+    if (running->record.owner == owner) bytes += running->record.bytes - running->stored_bytes;
+  return bytes;
+}
+
 // ---- the streams' side ------------------------------------------------------------------------------------------
 
 void Recorder::taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) {
@@ -315,6 +326,7 @@ std::string_view Recorder::write(Running& running, const std::deque<std::shared_
   }
   if (flush || !reason.empty()) {
     running.waiting_since.reset();
+    if (reason.empty() && running.has_room && !running.has_room()) reason = ended::max_token_bytes;
     if (const auto flushed = writer.flush(); !flushed) {
       log::error("recording " + running.record.id + ": " + flushed.error().message);
       reason = ended::disk_full;

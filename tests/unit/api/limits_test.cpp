@@ -11,6 +11,7 @@
 
 #include "core/performance/cue.h"
 #include "protocol/cpp/performance_document.h"
+#include "server/access/token_limits.h"
 #include "server/api/api.h"
 #include "server/api/documents.h"
 #include "server/api/play_options.h"
@@ -72,9 +73,18 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
   const streams::FloodLimits flood;
   const http::OutboxLimits outbox;
   const jobs::JobConfig job;
+  const access::TokenLimits token;
   const std::string rate = count(flood.frames_per_second) + " per second, " + count(flood.frames_burst) + " in a burst";
   const std::vector<std::pair<std::string, std::string>> kept = {
       {"model file", size(api.max_upload_bytes)},
+      {"bytes stored by one token: models with what is made from them (each content once), recordings, expressions",
+       size(token.bytes)},
+      {"models of one token", count(token.models)},
+      {"displacement sets of one token", count(token.expressions)},
+      {"streams of one token", count(token.streams)},
+      {"recordings of one token", count(token.recordings)},
+      {"jobs of one token that wait or run", count(token.jobs)},
+      {"files that one token sends at the same time", count(token.uploads)},
       {"JSON body", size(api.max_json_bytes)},
       {"request header", size(net.max_header_bytes) + ", " + count(net.max_header_fields) + " fields, " +
                              count(net.max_header_fields) + " query parameters"},
