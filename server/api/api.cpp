@@ -12,6 +12,7 @@
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/http/security_headers.h"
 #include "server/http/static_files.h"
 #include "server/log/log.h"
@@ -108,6 +109,10 @@ void Api::find_route(http::Request& head) {
     head.route = page ? page_kind() : other_kind();
   head.allow = std::move(match.allow);
   head.params = std::move(match.params);
+  // Of the hop before this server, so that one id leads through the logs of both.
+  if (const auto given = head.header(http::request_id_header);
+      given && http::is_request_id(*given) && http::any_contains(context_.config.security.proxies, head.peer))
+    head.id = *given;
   head.requester = ask(context_.config.security, head, is_upgrade(head));
 }
 

@@ -183,7 +183,10 @@ void invite(store::TokenStore& tokens, std::uint16_t port) {
 void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
   if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
+  const auto format = log::parse_format(options.log_format);
+  if (!format) fail_input("--log-format: " + options.log_format + " is not one of text, json");
   log::set_level(*level);
+  log::set_format(*format);
   // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
   ::umask(S_IRWXG | S_IRWXO);
   std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error

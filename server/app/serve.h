@@ -46,6 +46,7 @@ struct ServeOptions {
   access::TokenLimits token_limits;
   std::uint64_t max_connections_per_address = net::ServerLimits{}.max_connections_per_address;
   std::string log_level = "info";
+  std::string log_format = "text";
 };
 
 /// Serves until SIGINT or SIGTERM. Prints one line to standard output when it is ready. Throws CommandFailure.

@@ -145,6 +145,7 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "MAX_ADDRESS_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
   add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
+  add("--log-format", options->log_format, "text, or json: one object per line", "LOG_FORMAT");
 }
 
 void add_serve_command(CLI::App& app) {

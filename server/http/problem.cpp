@@ -12,6 +12,9 @@
 namespace semblante::http {
 namespace {
 
+constexpr std::string_view problem_media_type = "application/problem+json";
+constexpr std::string_view end_of_document = "\n";
+
 constexpr auto kinds = std::to_array<ProblemKind>({
     {"malformed-request", 400, "The request cannot be read"},
     {"invalid-argument", 400, "A value of the request is invalid"},
@@ -148,10 +151,20 @@ Problem problem_from_json(std::string_view text) {
 Response to_response(const Problem& problem) {
   Response response;
   response.status = problem.status;
-  response.headers["Content-Type"] = "application/problem+json";
+  response.headers["Content-Type"] = problem_media_type;
   response.headers["Cache-Control"] = "no-store";
-  response.body = to_json(problem) + "\n";
+  response.body = to_json(problem) + std::string(end_of_document);
   return response;
+}
+
+void add_request_id(Response& response, std::string_view id) {
+  const auto type = response.headers.find("Content-Type");
+  auto* document = std::get_if<std::string>(&response.body);
+  if (type == response.headers.end() || type->second != problem_media_type || document == nullptr) return;
+  const auto end = std::string("}").append(end_of_document);
+  if (!document->ends_with(end)) return;
+  document->resize(document->size() - end.size());
+  document->append(",\"request\":").append(nlohmann::json(id).dump()).append(end);
 }
 
 }  // namespace semblante::http

@@ -53,6 +53,8 @@ Problem problem_from_json(std::string_view text);
 
 /// The whole answer, with its media type.
 Response to_response(const Problem& problem);
+/// Adds the member `request` to an answer that to_response() has made; other answers stay as they are.
+void add_request_id(Response& response, std::string_view id);
 
 /// Every slug with its status and title; iterated by the documentation and the tests.
 struct ProblemKind {

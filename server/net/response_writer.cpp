@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/log/log.h"
 #include "server/net/body_file.h"
 #include "server/net/waker.h"
@@ -111,6 +112,8 @@ http::Response unreadable(const http::Response& response, const BodyFile& file) 
                                 name == "Last-Modified" || name == "Content-Location";
     if (!is_of_the_file) instead.headers.insert(field);
   }
+  if (const auto id = response.headers.find(http::request_id_header); id != response.headers.end())
+    http::add_request_id(instead, id->second);
   return instead;
 }
 

@@ -17,6 +17,7 @@
 #include <boost/asio/write.hpp>
 
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/log/log.h"
 #include "server/net/error_value.h"
@@ -49,11 +50,15 @@ namespace {
 /// Answers a connection over the limit with 503 and closes it. One that would begin with TLS is only closed: a
 /// handshake costs more than the answer.
 asio::awaitable<void> turn_away(tcp::socket socket) {
-  const auto body = std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again later")).body);
+  auto refusal = http::to_response(http::make_problem("overloaded", "try again later"));
+  const auto id = http::new_request_id();
+  http::add_request_id(refusal, id);
+  const auto& body = std::get<std::string>(refusal.body);
   const std::string text =
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/problem+json\r\nRetry-After: 1\r\nConnection: "
-      "close\r\nContent-Length: " +
-      std::to_string(body.size()) + "\r\n\r\n" + body;
+      "close\r\n" +
+      std::string(http::request_id_header) + ": " + id + "\r\nContent-Length: " + std::to_string(body.size()) +
+      "\r\n\r\n" + body;
   boost::system::error_code ignored;
   co_await asio::async_write(socket, asio::buffer(text), error_into(ignored));
 }

@@ -165,9 +165,24 @@ Reply parse_reply(const std::string& text) {
 
 namespace {
 
+/// Every answer has an id, and a problem document the same.
+void expect_request_id(std::string_view request_text, const Reply& reply) {
+  const auto id = reply.headers.find("x-request-id");
+  const auto type = reply.headers.find("content-type");
+  if (id == reply.headers.end() || id->second.empty()) {
+    ADD_FAILURE() << request_text.substr(0, 200) << " is answered " << reply.status << " without X-Request-Id";
+  } else if (!request_text.starts_with("HEAD ") && type != reply.headers.end() &&
+             type->second == "application/problem+json" &&
+             reply.body.find("\"request\":\"" + id->second + "\"") == std::string::npos) {
+    ADD_FAILURE() << "the problem document is without the id " << id->second << ": " << reply.body;
+  }
+}
+
 /// Fails the test when the answer is not one that openapi.json describes. Every exchange with a server comes here.
 void expect_documented(std::string_view request_text, const Reply& reply) {
-  if (reply.status == 0 || reply.status == 101) return;
+  if (reply.status == 0) return;
+  expect_request_id(request_text, reply);
+  if (reply.status == 101) return;
   const auto length = reply.headers.find("content-length");
   const bool head = request_text.starts_with("HEAD ");
   if (!head && length != reply.headers.end() && std::to_string(reply.body.size()) != length->second) return;  // cut off
