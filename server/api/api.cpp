@@ -25,6 +25,8 @@ using http::to_response;
 
 /// Seconds until a retry, when another connection may have closed.
 constexpr unsigned connections_retry_after = 10;
+/// Seconds that a restart takes.
+constexpr unsigned stopping_retry_after = 5;
 
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
@@ -69,6 +71,11 @@ http::Response to_response(const Refused& refused) {
   return response;
 }
 
+http::Response stopping_response() {
+  return to_response(Refused{make_problem("stopping", "nothing new is begun: try again when the server has started"),
+                             stopping_retry_after});
+}
+
 /// The kinds by which requests are counted: the routes in their order, then the rest.
 std::vector<metrics::RequestKind> request_kinds() {
   std::vector<metrics::RequestKind> kinds;
@@ -96,6 +103,7 @@ const Route* route_of(const http::Request& request) {
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
   context_.idempotency_keys = std::make_shared<KeyLocks>();
+  context_.stopping = std::make_shared<std::atomic<bool>>(false);
   context_.quota_turns = std::make_shared<KeyLocks>();
   if (!context_.exports) context_.exports = std::make_shared<ExportSlots>(context_.config.limits.max_exports);
 }
@@ -122,6 +130,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
   if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
     return to_response(*problem);
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
+  if (*context_.stopping && !is_safe(head.method)) return stopping_response();
   if (head.route == page_kind()) return http::BodyPlan{};
   if (head.allow.empty()) return to_response(make_problem("not-found", "there is no route " + head.path));
   if (head.method == "OPTIONS") {
@@ -200,6 +209,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   const auto& security = context_.config.security;
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
+  if (*context_.stopping) return stopping_response();
   const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");
   auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""),

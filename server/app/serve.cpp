@@ -276,6 +276,7 @@ void run_serve(const ServeOptions& options) {
   net_config.limits.max_connections = open_files.connections;
   net_config.limits.max_files = open_files.bodies;
   net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);
+  net_config.limits.drain_time = std::chrono::seconds(options.drain_seconds);
   net::Server server(net_config, api);
   running = &server;
   const auto ports = server.listen();
@@ -306,13 +307,16 @@ void run_serve(const ServeOptions& options) {
   }
   notify_service_manager("READY=1");
   server.run([&] {
+    log::info("stopping: finishes what has begun, within " + std::to_string(options.drain_seconds) + " s");
     notify_service_manager("STOPPING=1");
-    (*recorder)->stop_all(recordings::ended::server_stopped);
-    hub.close_all(EndReason::shutdown);
+    api.begin_stopping();
+    // What is recorded ends with its stream, after the last frame that was accepted.
+    (*recorder)->begin_closing();
+    hub.shut_down();
   });
-  log::info("stopping");
   (*recorder)->close();
   queue.stop();
+  log::info("stopped");
 }
 
 }  // namespace semblante

@@ -37,6 +37,7 @@ struct ServeOptions {
   std::uint64_t trash_grace = std::uint64_t{7} * 24 * 60 * 60;  ///< seconds
   std::uint64_t max_connections = 0;  ///< 0: three quarters of the files that the process may open, less a reserve
   std::uint64_t max_stream_connections = streams::StreamLimits{}.max_connections;
+  std::uint64_t drain_seconds = net::ServerLimits{}.drain_time.count();
   std::uint64_t worker_memory = jobs::WorkerLimits{}.memory_bytes;
   std::uint64_t worker_cpu_seconds = jobs::WorkerLimits{}.cpu_seconds;
   std::vector<std::string> allowed_hosts;
@@ -49,7 +50,7 @@ struct ServeOptions {
   std::string log_format = "text";
 };
 
-/// Serves until SIGINT or SIGTERM. Prints one line to standard output when it is ready. Throws CommandFailure.
+/// Serves until SIGINT or SIGTERM, and finishes what has begun; a second signal ends the process at once. Prints one line to standard output when it is ready. Throws CommandFailure.
 void run_serve(const ServeOptions& options);
 
 }  // namespace semblante

@@ -98,6 +98,11 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--max-stream-connections", options->max_stream_connections, "Connections of one stream",
       "MAX_STREAM_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
+  add("--drain-seconds", options->drain_seconds,
+      "Seconds after SIGTERM for pending answers, and for streams to reach their subscribers; it ends earlier when all "
+      "is done, and at once at a second SIGTERM",
+      "DRAIN_SECONDS")
+      ->check(CLI::Range(0, 3600));
   add("--worker-memory", options->worker_memory, "Address space of one job's process, bytes (or 4GB); 0: no limit",
       "WORKER_MEMORY")
       ->transform(CLI::AsSizeValue(false))

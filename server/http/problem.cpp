@@ -53,6 +53,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"damaged-data", 500, "Stored bytes are missing or damaged"},
     {"internal", 500, "A fault of the server"},
     {"overloaded", 503, "The server has reached its limit of connections"},
+    {"stopping", 503, "The server is stopping"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
     {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},

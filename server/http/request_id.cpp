@@ -8,8 +8,7 @@ namespace semblante::http {
 
 std::string new_request_id() {
   // Only has to differ from others, so no secure source is needed for each.
-  thread_local std::mt19937_64 source{
-      (std::uint64_t{std::random_device{}()} << 32U) ^ std::random_device{}()};
+  thread_local std::mt19937_64 source{(std::uint64_t{std::random_device{}()} << 32U) ^ std::random_device{}()};
   constexpr std::string_view digits = "0123456789abcdef";
   constexpr std::size_t length = 16;
   auto number = source();

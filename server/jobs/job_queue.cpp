@@ -201,7 +201,12 @@ std::optional<NextState> JobQueue::attempt(Running& running) {
   JobRun attempt(stores_, blobs_, config_);
   try {
     auto ended = run_once(running, attempt);
-    if (!ended) return std::nullopt;
+    if (!ended) {
+      // The end of the server is no fault of the job: this attempt does not count.
+      --running.job.attempts;
+      stores_.jobs.update_job(running.job);
+      return std::nullopt;
+    }
     auto shown = running.job;
     shown.stage = "saving";
     return NextState{shown, std::move(*ended)};

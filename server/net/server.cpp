@@ -36,12 +36,12 @@ struct Door {
 };
 
 struct Server::State : SharedState {
-  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), signals(io), hangup(io), grace(io) {}
+  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), signals(io), hangup(io), drain_step(io) {}
   std::deque<Door> doors;
   mutable std::mutex tls_mutex;
   std::shared_ptr<const TlsContext> tls;  ///< guarded by tls_mutex
   asio::signal_set signals, hangup;
-  asio::steady_timer grace;
+  asio::steady_timer drain_step;
   std::function<void()> on_stopping;
 };
 
@@ -126,6 +126,22 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, Context contex
   }
 }
 
+/// Ends the I/O loop when no answer and no WebSocket is pending, or at `end`; idle connections are closed then. Polled
+/// in short steps, so that an idle server stops soon. `quiet`: steps in a row without anything pending; more than one,
+/// because a request may be on its way through the kernel.
+template <class State>
+void drain(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end, int quiet) {
+  constexpr int enough = 3;
+  constexpr std::chrono::milliseconds step{20};
+  quiet = state->busy == 0 ? quiet + 1 : 0;
+  if (quiet >= enough || std::chrono::steady_clock::now() >= end) {
+    state->io.stop();
+    return;
+  }
+  state->drain_step.expires_after(step);
+  state->drain_step.async_wait([state, end, quiet](const boost::system::error_code&) { drain(state, end, quiet); });
+}
+
 }  // namespace
 
 Server::Server(ServerConfig config, http::Application& application)
@@ -196,22 +212,10 @@ void Server::stop() {
     if (state->stopping.exchange(true)) return;
     boost::system::error_code ignored;
     for (auto& door : state->doors) door.acceptor.close(ignored);
-    state->signals.cancel(ignored);
+    state->signals.clear(ignored);  // the next signal has its default effect: it ends the process
     state->hangup.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
-    // Pending answers get the grace period, idle connections are closed. Polled in short steps, so that an idle server
-    // stops immediately.
-    struct Step {
-      static void take(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end) {
-        if (state->busy == 0 || std::chrono::steady_clock::now() >= end) {
-          state->io.stop();
-          return;
-        }
-        state->grace.expires_after(std::chrono::milliseconds(20));
-        state->grace.async_wait([state, end](const boost::system::error_code&) { take(state, end); });
-      }
-    };
-    Step::take(state, std::chrono::steady_clock::now() + state->config.limits.shutdown_grace);
+    drain(state, std::chrono::steady_clock::now() + state->config.limits.drain_time, 0);
   });
 }
 

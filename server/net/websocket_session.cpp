@@ -40,8 +40,8 @@ constexpr std::size_t largest_piece_bytes = std::size_t{64} * 1024;
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
  public:
   static void start(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
-                    std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                    ConnectionCount count) {
+                    std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
+                    std::shared_ptr<SharedState> state, ConnectionCount count) {
     const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
     self->accept(std::move(socket), std::move(tls), key, request_id);
   }
@@ -208,9 +208,8 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 }  // namespace
 
 void serve_websocket(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
-                     std::string_view request_id,
-                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                     ConnectionCount connection) {
+                     std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
+                     std::shared_ptr<SharedState> state, ConnectionCount connection) {
   WebSocketConnection::start(std::move(socket), std::move(tls), key, request_id, std::move(peer), std::move(state),
                              std::move(connection));
 }

@@ -167,20 +167,17 @@ std::optional<store::RecordingRecord> Recorder::stop(std::string_view id) {
   return std::move(recording->record);
 }
 
-void Recorder::stop_all(std::string_view reason) {
+void Recorder::begin_closing() {
   const std::lock_guard lock(mutex_);
   closing_ = true;
-  for (const auto& [id, running] : running_)
-    if (running->stop_reason.empty()) running->stop_reason = reason;
-  has_work_ = true;
-  work_.notify_one();
 }
 
 void Recorder::close() {
-  stop_all(ended::server_stopped);
   {
     const std::lock_guard lock(mutex_);
-    stopping_ = true;
+    closing_ = stopping_ = has_work_ = true;
+    for (const auto& [id, running] : running_)
+      if (running->stop_reason.empty()) running->stop_reason = ended::server_stopped;
   }
   work_.notify_one();
   if (thread_.joinable()) thread_.join();
@@ -257,7 +254,8 @@ void Recorder::ended(std::string_view stream) {
   if (running_count_ == 0) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [id, running] : running_)
-    if (running->record.stream == stream && running->stop_reason.empty()) running->stop_reason = ended::stream_ended;
+    if (running->record.stream == stream && running->stop_reason.empty())
+      running->stop_reason = closing_ ? ended::server_stopped : ended::stream_ended;
   has_work_ = true;
   work_.notify_one();
 }

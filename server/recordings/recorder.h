@@ -86,9 +86,9 @@ class Recorder : public streams::BatchListener {
   /// Ends a recording, and returns when all of it is durable. Does nothing when it has ended; nullopt when it does not
   /// exist. The state is still `recording` when its end cannot be stored yet and is a pending write.
   std::optional<store::RecordingRecord> stop(std::string_view id);
-  /// Ends all recordings and refuses new ones; does not wait.
-  void stop_all(std::string_view reason);
-  /// Ends all recordings like stop_all() and waits; streams may still call the listener.
+  /// Refuses new recordings from now on; a recording whose stream ends has ended because the server stops.
+  void begin_closing();
+  /// begin_closing(), ends all recordings and returns when they are durable; streams may still call the listener.
   void close();
 
   [[nodiscard]] std::optional<RecordingStatus> find(std::string_view id) const;

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -15,6 +14,7 @@
 
 #include "tests/integration/cli/program.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/open_request.h"
 
 namespace semblante::test {
 namespace {
@@ -25,26 +25,11 @@ using ::testing::HasSubstr;
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// An upload that has begun and does not go on.
-class OpenUpload {
- public:
-  OpenUpload(int port, const std::string& token) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    const std::string begin =
-        "POST /v1/models?filename=grid.obj HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
-        "\r\nContent-Type: model/obj\r\nContent-Length: 100000\r\n\r\nv 0 0 0\n";
-    EXPECT_EQ(::send(socket_, begin.data(), begin.size(), MSG_NOSIGNAL), static_cast<ssize_t>(begin.size()));
-  }
-  ~OpenUpload() { ::close(socket_); }
-  OpenUpload(const OpenUpload&) = delete;
-  OpenUpload& operator=(const OpenUpload&) = delete;
-
- private:
-  int socket_;
-};
+std::unique_ptr<OpenRequest> open_upload(int port, const std::string& token) {
+  return std::make_unique<OpenRequest>(
+      port, "POST /v1/models?filename=grid.obj HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
+                "\r\nContent-Type: model/obj\r\nContent-Length: 100000\r\n\r\nv 0 0 0\n");
+}
 
 class QuotaTest : public ::testing::Test {
  protected:
@@ -201,7 +186,7 @@ TEST_F(QuotaTest, Jobs_WaitForEachOther) {
 
 TEST_F(QuotaTest, Uploads_AtTheSameTime) {
   start({"--token-uploads", "1"});
-  const OpenUpload slow(port(), tokens_.at("edit"));
+  const auto slow = open_upload(port(), tokens_.at("edit"));
   ASSERT_TRUE(semblante::testing::eventually([&] { return usage("edit", "uploads")["used"] == 1; }));
   expect_refused(upload("edit"), 429, "too-many-requests", "uploads", 1);
   EXPECT_EQ(upload("edit 2").status, 202);
@@ -211,7 +196,7 @@ TEST_F(QuotaTest, Uploads_AtTheSameTime) {
 TEST_F(QuotaTest, UploadThatIsGone_GivesItsShareBack) {
   start({"--token-uploads", "1"});
   {
-    const OpenUpload slow(port(), tokens_.at("edit"));
+    const auto slow = open_upload(port(), tokens_.at("edit"));
     ASSERT_TRUE(semblante::testing::eventually([&] { return usage("edit", "uploads")["used"] == 1; }));
   }
   EXPECT_TRUE(semblante::testing::eventually([&] { return usage("edit", "uploads")["used"] == 0; }));

@@ -18,6 +18,7 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 
+#include "tests/integration/server/open_request.h"
 #include "tests/support/api_exchange.h"
 
 extern char** environ;
@@ -236,6 +237,30 @@ Reply request(int port, const std::string& method, const std::string& target, co
   if (!body.empty() || method == "PUT" || method == "PATCH")
     text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
   return parse_reply(raw_exchange(port, text + "\r\n" + body));
+}
+
+OpenRequest::OpenRequest(int port, std::string_view begin) : socket_(connect_to(port)) { send(begin); }
+
+OpenRequest::~OpenRequest() { ::close(socket_); }
+
+void OpenRequest::send(std::string_view bytes) { send_all(socket_, bytes); }
+
+Reply OpenRequest::answer() {
+  const auto end = Clock::now() + testing::patience;
+  while (true) {
+    const auto head = buffer_.find("\r\n\r\n");
+    const auto reply = parse_reply(buffer_);
+    const auto length = reply.headers.find("content-length");
+    if (head != std::string::npos && length != reply.headers.end()) {
+      const auto whole = head + 4 + std::strtoul(length->second.c_str(), nullptr, 10);
+      if (buffer_.size() >= whole) {
+        auto answered = parse_reply(buffer_.substr(0, whole));
+        buffer_.erase(0, whole);
+        return answered;
+      }
+    }
+    if (!read_some(socket_, buffer_, end)) return {};
+  }
 }
 
 WebSocket::WebSocket(int port, const std::string& target, const std::string& subprotocols, const Fields& fields,

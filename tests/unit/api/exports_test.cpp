@@ -62,7 +62,7 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   const auto made = handle("POST", "/v1/streams/talk/recordings", "");
   ASSERT_EQ(made.status, 201);
   const auto content = made.headers.at("Location") + "/content";
-  recorder->stop_all("stopped");
+  recorder->close();  // ends it
 
   auto other = slots->take();
   for (const char* const format : {"performance", "fap", "arkit-csv", "frames-json", "glb"}) {
@@ -75,7 +75,6 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   other.reset();
   for (int round = 0; round < 2; ++round)
     EXPECT_EQ(handle("GET", content, "fap").status, 409) << "it has no frame; a refusal gives its slot back";
-  recorder->close();
 }
 
 TEST_F(ExportsTest, File_IsWhole_AndGoneWithItsBody) {

@@ -117,6 +117,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"time of a job", seconds(job.wall_limit)},
       {"file a job writes", size(job.limits.file_bytes)},
       {"attempts of a job over restarts", count(job.max_attempts)},
+      {"pending answers and messages for subscribers after SIGTERM", seconds(net.drain_time)},
       {"connections of a stream", count(stream.max_connections)},
       {"WebSocket message", size(max_binary_message_bytes) + " binary, " + size(max_json_message_bytes) + " JSON"},
       {"frames of one publisher", rate},

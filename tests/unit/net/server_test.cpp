@@ -96,7 +96,7 @@ class ServerTest : public ::testing::Test {
     config.limits.max_files = max_files;
     config.upload_directory = std::filesystem::temp_directory_path();
     // So long that whoever waits for one of these does not pass.
-    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 10 * testing::patience;
+    config.limits.header_timeout = config.limits.idle_timeout = config.limits.drain_time = 10 * testing::patience;
     server_ = std::make_unique<Server>(config, application_);
     port_ = server_->listen().value().front();
     thread_ = std::thread([this] { server_->run([] {}); });
