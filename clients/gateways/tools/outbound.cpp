@@ -30,14 +30,15 @@ constexpr milliseconds last_retry{5000};
 
 class Outbound {
  public:
-  Outbound(const OutboundOptions& options, client::Url url, UdpSocket& socket)
-      : options_(options), url_(std::move(url)), socket_(socket) {}
+  Outbound(const OutboundOptions& options, client::ServerAddress server, UdpSocket& socket)
+      : options_(options), server_(std::move(server)), socket_(socket) {}
 
   Status run() {
     milliseconds retry = first_retry;
     while (!stop_requested()) {
-      auto stream = client::StreamClient::connect(url_, options_.stream, wanted());
-      if (!stream && stream.error().code == ErrorCode::missing) return std::move(stream).error();
+      auto stream = client::StreamClient::connect(server_, options_.stream, wanted());
+      const auto fault = stream ? ErrorCode::io : stream.error().code;
+      if (fault == ErrorCode::missing || fault == ErrorCode::invalid_argument) return std::move(stream).error();
       std::string why = stream ? why_it_ends(*stream) : stream.error().message;
       if (stop_requested()) {
         if (stream) stream->close();
@@ -134,7 +135,7 @@ class Outbound {
   }
 
   const OutboundOptions& options_;
-  client::Url url_;
+  client::ServerAddress server_;
   UdpSocket& socket_;
   QuantizerSteps steps_ = standard_quantizers();
   std::uint64_t epoch_ = 0, sequence_ = 0;
@@ -149,15 +150,15 @@ class Outbound {
 }  // namespace
 
 Status run_outbound(const OutboundOptions& options) {
-  auto url = client::parse_url(options.server);
-  if (!url) return std::move(url).error();
+  auto server = options.server.parse();
+  if (!server) return std::move(server).error();
   const auto to = parse_endpoint(options.to, options.usual_port);
   if (!to) return to.error();
   auto socket = UdpSocket::send_to(*to, options.anywhere);
   if (!socket) return std::move(socket).error();
   catch_stop_signals();
   std::cout << "sending stream " << options.stream << " to " << to->host << " port " << to->port << std::endl;
-  Outbound outbound(options, *std::move(url), *socket);
+  Outbound outbound(options, *std::move(server), *socket);
   auto ran = outbound.run();
   outbound.print_counts();
   return ran;

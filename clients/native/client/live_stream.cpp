@@ -20,8 +20,8 @@ double to_ms(Clock::time_point when) {
 
 }  // namespace
 
-LiveStream::LiveStream(Url url, std::string stream, LiveStreamOptions options)
-    : url_(std::move(url)), stream_(std::move(stream)), options_(options), random_(options.seed) {
+LiveStream::LiveStream(ServerAddress server, std::string stream, LiveStreamOptions options)
+    : server_(std::move(server)), stream_(std::move(stream)), options_(options), random_(options.seed) {
   resume_ = options_.stream.resume;
 }
 
@@ -32,11 +32,13 @@ Status LiveStream::connect() {
   options.resume = resume_;
   greeted_ = false;
   ++connections_;
-  auto client = StreamClient::connect(url_, stream_, options);
+  auto client = StreamClient::connect(server_, stream_, options);
   if (!client) {
     lose();
     const ErrorCode code = client.error().code;
-    return code == ErrorCode::missing || code == ErrorCode::mismatch ? Status(std::move(client).error()) : Unit{};
+    const bool is_final =
+        code == ErrorCode::missing || code == ErrorCode::mismatch || code == ErrorCode::invalid_argument;
+    return is_final ? Status(std::move(client).error()) : Unit{};
   }
   client_.emplace(*std::move(client));
   sent_resume_ = resume_;

@@ -10,7 +10,7 @@
 #include "clients/native/client/stream_client.h"
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/http/url.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::client {
 
@@ -29,10 +29,11 @@ class LiveStream {
  public:
   using Clock = std::chrono::steady_clock;
 
-  LiveStream(Url url, std::string stream, LiveStreamOptions options = {});
+  LiveStream(ServerAddress server, std::string stream, LiveStreamOptions options = {});
 
   /// The next message; nullopt at the timeout, and without a connection. Errors: missing (no such stream), mismatch
-  /// (another subprotocol), for which reconnecting does not help. No messages follow the stream's final `end`.
+  /// (another subprotocol), invalid_argument (the token), for which reconnecting does not help. No messages follow the
+  /// stream's final `end`.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
   /// The estimate of the stream's clock relative to now().
   ClockEstimate& clock() { return clock_; }
@@ -54,7 +55,7 @@ class LiveStream {
   /// Sends a ping when one is due.
   void ping();
 
-  Url url_;
+  ServerAddress server_;
   std::string stream_;
   LiveStreamOptions options_;
   std::mt19937_64 random_;

@@ -9,7 +9,7 @@
 
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/http/url.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::client {
 
@@ -26,8 +26,10 @@ struct StreamOptions {
 /// before they are read.
 class StreamClient {
  public:
-  /// Connects and sends a hello. Errors: io, missing (no such stream), mismatch (the server uses another subprotocol).
-  static Result<StreamClient> connect(const Url& url, std::string_view stream, const StreamOptions& options = {});
+  /// Connects and sends a hello. Errors: io, missing (no such stream), invalid_argument (the token is not accepted),
+  /// mismatch (the server uses another subprotocol).
+  static Result<StreamClient> connect(const ServerAddress& server, std::string_view stream,
+                                      const StreamOptions& options = {});
   ~StreamClient();
   StreamClient(StreamClient&&) noexcept;
   StreamClient& operator=(StreamClient&&) noexcept;

@@ -11,8 +11,11 @@
 
 namespace semblante::client {
 
-StreamPublisher::StreamPublisher(Url url, std::string stream, PublisherOptions options)
-    : url_(std::move(url)), stream_(std::move(stream)), options_(std::move(options)), wait_(options_.retry_first) {}
+StreamPublisher::StreamPublisher(ServerAddress server, std::string stream, PublisherOptions options)
+    : server_(std::move(server)),
+      stream_(std::move(stream)),
+      options_(std::move(options)),
+      wait_(options_.retry_first) {}
 
 Status StreamPublisher::look_after() {
   if (client_) {
@@ -28,13 +31,14 @@ Status StreamPublisher::connect() {
   wanted.role = StreamRole::publish;
   wanted.take_over = options_.take_over;
   wanted.timeout = options_.timeout;
-  auto client = StreamClient::connect(url_, stream_, wanted);
+  auto client = StreamClient::connect(server_, stream_, wanted);
   if (!client && client.error().code == ErrorCode::missing) {
     if (!options_.create) return std::move(client).error();
     if (auto made = make_stream(); !made) return made;
-    client = StreamClient::connect(url_, stream_, wanted);
+    client = StreamClient::connect(server_, stream_, wanted);
   }
   if (!client) {
+    if (client.error().code == ErrorCode::invalid_argument) return std::move(client).error();
     lose(client.error().message);
     return Unit{};
   }
@@ -59,7 +63,7 @@ Status StreamPublisher::make_stream() {
   if (!options_.model.empty()) body["model"] = options_.model;
   HttpLimits limits;
   limits.timeout = options_.timeout;
-  const auto answer = HttpClient(url_, limits).post("/v1/streams", body.dump(), "application/json");
+  const auto answer = HttpClient(server_, limits).post("/v1/streams", body.dump(), "application/json");
   if (!answer) {
     lose(answer.error().message);
     return Unit{};
