@@ -17,17 +17,16 @@
 #include "server/app/data_folder.h"
 #include "server/app/lan.h"
 #include "server/app/open_files.h"
-#include "server/app/periodic.h"
 #include "server/app/sample_installer.h"
 #include "server/app/service_manager.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
+#include "server/log/periodic.h"
 #include "server/net/ring_sender.h"
 #include "server/net/server.h"
 #include "server/store/sqlite_store.h"
-#include "server/store/trash_purger.h"
 #include "server/upkeep/data_lock.h"
 
 namespace semblante {
@@ -103,6 +102,13 @@ jobs::Isolation isolation_of_workers(const std::filesystem::path& data) {
   return isolation;
 }
 
+void purge(store::Trash& trash, const std::stop_token& stop) {
+  const auto removed = trash.purge(std::chrono::system_clock::now(), stop);
+  if (removed.files > 0)
+    log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
+              " bytes) removed from the trash after the grace period");
+}
+
 void open_streams(store::StreamStore& store, streams::StreamHub& hub, const ServeOptions& options) {
   if (options.demo) {
     streams::StreamInfo demo;
@@ -145,20 +151,11 @@ ListenOptions listening_at_home(ListenOptions options, const std::filesystem::pa
   if (names.empty()) fail_input("--lan: this machine has no address in a network");
   names.emplace_back("localhost");
   names.emplace_back("127.0.0.1");
-  const auto files = self_signed_certificate(data / "lan", names);
+  const auto files = self_signed_certificate(data, names);
   options.listen = {"0.0.0.0:" + std::to_string(options.port == ListenOptions{}.port ? usual_port : options.port)};
   options.certificate = files.certificate;
   options.key = files.key;
   return options;
-}
-
-/// The names under which this server is reached: those of its certificate, and the addresses it listens on.
-void add_own_names(std::vector<std::string>& hosts, const ListenOptions& options, const Listening& listening) {
-  for (const auto& listener : listening.listeners) hosts.push_back(listener.address);
-  if (!listening.tls) return;
-  const auto context = net::TlsContext::load({options.certificate, options.key});
-  if (!context) fail("serve", context.error());
-  hosts.insert(hosts.end(), (*context)->names().begin(), (*context)->names().end());
 }
 
 /// A token for this run of `serve --lan`; those of earlier runs end. Prints how a phone gets in.
@@ -198,7 +195,7 @@ void run_serve(const ServeOptions& options) {
   const auto listen_options = options.lan ? listening_at_home(options.listening, options.data) : options.listening;
   const auto listening = check_listening(listen_options, options.data);
   auto hosts = options.allowed_hosts;
-  add_own_names(hosts, listen_options, listening);
+  for (const auto& listener : listening.listeners) hosts.push_back(listener.address);
   const auto lock = lock_data(options.data);
 
   auto blobs = store::BlobStore::open(options.data);
@@ -209,10 +206,10 @@ void run_serve(const ServeOptions& options) {
   keep_log_of_lost_database(options.data, *trash);
   auto store = open_store(options.data / store::database_file_name, reserve);
   bring_files_in_line(options.data, **store, *trash);
-  const store::TrashPurger purger(*trash, purge_interval, [](const store::Trash::Counts& removed) {
-    log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
-              " bytes) removed from the trash after the grace period");
-  });
+  // From now on the trash is only read by others.
+  const log::Periodic purger(
+      "purging the trash", purge_interval, [&trash](const std::stop_token& stop) { purge(*trash, stop); },
+      log::Periodic::First::at_once);
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});
   make_folders(pending, *blobs, reserve);
@@ -286,12 +283,16 @@ void run_serve(const ServeOptions& options) {
   if (listening.tls) {
     api.redirect_to_https(ports->front());
     certificate.emplace(net::TlsFiles{listen_options.certificate, listen_options.key},
-                        [&server](auto context) { server.set_tls(std::move(context)); });
+                        [&server, names = api_config.access.certificate](auto context) {
+                          names->set(context->names());
+                          server.set_tls(std::move(context));
+                        });
     server.reload_on_signal([&certificate] { certificate->reload(); });
   }
   // Tokens that a command line has made or revoked.
   constexpr std::chrono::seconds look_for_tokens{1};
-  const Periodic token_watch("looking for changed tokens", look_for_tokens, [&] { tokens->refresh(**store); });
+  const log::Periodic token_watch("looking for changed tokens", look_for_tokens,
+                                  [&](const auto&) { tokens->refresh(**store); });
 
   SampleInstaller sample(**store, **store, *blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });

@@ -50,7 +50,8 @@ struct ServeOptions {
   std::string log_format = "text";
 };
 
-/// Serves until SIGINT or SIGTERM, and finishes what has begun; a second signal ends the process at once. Prints one line to standard output when it is ready. Throws CommandFailure.
+/// Serves until SIGINT or SIGTERM, and finishes what has begun; a second signal ends the process at once. Prints one
+/// line to standard output when it is ready. Throws CommandFailure.
 void run_serve(const ServeOptions& options);
 
 }  // namespace semblante

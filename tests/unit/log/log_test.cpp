@@ -1,10 +1,15 @@
 #include "server/log/log.h"
 
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "server/log/periodic.h"
 
 namespace semblante::log {
 namespace {
@@ -81,6 +86,29 @@ TEST_F(LogTest, Names_AreThoseOfTheOptions) {
   EXPECT_EQ(parse_level("loud"), std::nullopt);
   EXPECT_EQ(parse_format("json"), Format::json);
   EXPECT_EQ(parse_format("xml"), std::nullopt);
+}
+
+TEST(Periodic, WorksOncePerInterval_AFaultEndsOneTurn_AndItsEndIsPrompt) {
+  std::atomic<int> turns = 0;
+  const auto lines = [&] {
+    ::testing::internal::CaptureStderr();
+    const Periodic often("counting", std::chrono::milliseconds(1), [&](const std::stop_token&) {
+      if (++turns == 2) throw std::runtime_error("a fault");
+    });
+    while (turns < 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return ::testing::internal::GetCapturedStderr();
+  }();
+  EXPECT_THAT(lines, HasSubstr("counting: a fault"));
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    std::atomic<int> first = 0;
+    const Periodic rare(
+        "once", std::chrono::hours(1), [&](const std::stop_token&) { ++first; }, Periodic::First::at_once);
+    const Periodic later("never", std::chrono::hours(1), [&](const std::stop_token&) { turns = -1; });
+    while (first == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GT(turns, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
 }
 
 }  // namespace
