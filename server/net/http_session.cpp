@@ -222,8 +222,7 @@ class Session {
     while (!parser.is_done()) {
       // Each piece has its deadline, and all together a least rate: a body of many small pieces would hold its
       // connection and its file for days.
-      const auto earned = std::chrono::seconds(request.body_size / limits.least_body_rate);
-      const auto left = begin + limits.body_grace + earned - std::chrono::steady_clock::now();
+      const auto left = limits.body_time_left(begin, request.body_size);
       transport_.expires_after(std::min<std::chrono::steady_clock::duration>(limits.read_timeout, left));
       if (const auto error = co_await step(parser)) co_return Unread{problem_of(parser, error)};
     }
