@@ -123,11 +123,11 @@ inline Error handshake_failed(Connection& connection, const Url& url, const boos
 
 // Found by Beast for the end of a WebSocket. The closing handshake has been made, so the socket is simply closed.
 inline void teardown(boost::beast::role_type role, Connection& connection, boost::system::error_code& problem) {
-  boost::beast::websocket::teardown(role, connection.next_layer(), problem);
+  teardown(role, connection.next_layer(), problem);  // that of tcp_stream
 }
 template <class Handler>
 void async_teardown(boost::beast::role_type role, Connection& connection, Handler&& handler) {
-  boost::beast::websocket::async_teardown(role, connection.next_layer(), std::forward<Handler>(handler));
+  async_teardown(role, connection.next_layer(), std::forward<Handler>(handler));
 }
 
 }  // namespace semblante::client

@@ -1,5 +1,7 @@
 #include "protocol/http/server_address.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 
 namespace semblante::client {
@@ -7,6 +9,8 @@ namespace semblante::client {
 Result<ServerAddress> ServerOptions::parse() const {
   auto url = parse_url(address);
   if (!url) return std::move(url).error();
+  if (!std::all_of(token.begin(), token.end(), [](unsigned char c) { return c > ' ' && c <= '~'; }))
+    return Error{ErrorCode::invalid_argument, "--token", "a token has letters, digits, _ and - only"};
   ServerAddress server(*std::move(url));
   server.token = token;
   server.authority = authority;

@@ -30,7 +30,7 @@ struct ServerOptions {
   std::string token, authority;
   bool insecure = false;
 
-  /// Errors: those of parse_url().
+  /// Errors: those of parse_url(); invalid_argument (a token that fits no header).
   [[nodiscard]] Result<ServerAddress> parse() const;
 };
 
