@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <boost/asio/co_spawn.hpp>
@@ -126,6 +127,12 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, Context contex
   }
 }
 
+/// Not the default effect of the signal, which the first process of a container does not have.
+extern "C" void end_at_once(int signal) {
+  constexpr int ended_by_signal = 128;  // as shells say it
+  ::_exit(ended_by_signal + signal);
+}
+
 /// Ends the I/O loop when no answer and no WebSocket is pending, or at `end`; idle connections are closed then. Polled
 /// in short steps, so that an idle server stops soon. `quiet`: steps in a row without anything pending; more than one,
 /// because a request may be on its way through the kernel.
@@ -189,7 +196,11 @@ void Server::stop_on_signals() {
   state_->signals.add(SIGINT);
   state_->signals.add(SIGTERM);
   state_->signals.async_wait([this](const boost::system::error_code& error, int) {
-    if (!error) stop();
+    if (error) return;
+    boost::system::error_code ignored;
+    state_->signals.clear(ignored);
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, end_at_once);
+    stop();
   });
 }
 
@@ -212,7 +223,7 @@ void Server::stop() {
     if (state->stopping.exchange(true)) return;
     boost::system::error_code ignored;
     for (auto& door : state->doors) door.acceptor.close(ignored);
-    state->signals.clear(ignored);  // the next signal has its default effect: it ends the process
+    state->signals.cancel(ignored);
     state->hangup.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
     drain(state, std::chrono::steady_clock::now() + state->config.limits.drain_time, 0);

@@ -166,7 +166,7 @@ TEST(Drain, SecondSignal_EndsItAtOnce_AndLosesNothing) {
     ASSERT_TRUE(semblante::testing::eventually([&] { return !std::filesystem::is_empty(data.path() / "tmp"); }));
     ::kill(server.pid(), SIGTERM);
     ASSERT_TRUE(semblante::testing::eventually([&] { return server.errors().find("stopping") != std::string::npos; }));
-    EXPECT_EQ(server.end(SIGTERM), -SIGTERM);
+    EXPECT_EQ(server.end(SIGTERM), 128 + SIGTERM);
   }
   const ServerProcess again(data.path());
   EXPECT_EQ(request(again.port(), "GET", "/v1/streams/talk").status, 200);
