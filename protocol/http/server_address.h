@@ -27,7 +27,7 @@ struct ServerAddress {
 /// The options by which all command lines name a server.
 struct ServerOptions {
   std::string address = "http://127.0.0.1:8080";
-  std::string token, authority;
+  std::string token = {}, authority = {};
   bool insecure = false;
 
   /// Errors: those of parse_url(); invalid_argument (a token that fits no header).

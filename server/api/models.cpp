@@ -103,7 +103,7 @@ std::optional<store::JobRecord> edit_frame(Context& context, http::Request& requ
     frame = apply_wish(std::move(frame), {wish.unit, {}, {}});
   } else {
     refuse_unless_room(context.jobs);
-    turn = take_quota(context, request, {.bytes = 1, .jobs = 1});
+    if (auto taken = take_quota(context, request, {.bytes = 1, .jobs = 1})) turn.emplace(*std::move(taken));
     job = jobs::new_record(jobs::ImportJob{}, model.id, origin_of(request));
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
@@ -120,7 +120,7 @@ std::optional<store::JobRecord> wear(Context& context, http::Request& request, c
   QuotaTurn turn;
   if (job) {
     refuse_unless_room(context.jobs);
-    turn = take_quota(context, request, {.bytes = 1, .jobs = 1});
+    if (auto taken = take_quota(context, request, {.bytes = 1, .jobs = 1})) turn.emplace(*std::move(taken));
     job->origin = origin_of(request);
   }
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
