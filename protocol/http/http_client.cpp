@@ -74,10 +74,8 @@ HttpResponse from_beast(http::response<http::string_body>&& message) {
   return response;
 }
 
-// Not inlined: GCC 12 then takes the frame's own operator delete for one that does not match its new.
-[[gnu::noinline]] asio::awaitable<void> exchange(const ServerAddress& server, const HttpLimits& limits,
-                                                 const HttpRequest& request,
-                                                 std::optional<Result<HttpResponse>>& outcome) {
+asio::awaitable<void> exchange(const ServerAddress& server, const HttpLimits& limits, const HttpRequest& request,
+                               std::optional<Result<HttpResponse>>& outcome) {
   const auto executor = co_await asio::this_coro::executor;
   const Url& url = server.url;
   error_code problem;
