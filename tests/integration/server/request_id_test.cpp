@@ -87,7 +87,7 @@ TEST(RequestId, IsTakenFromATrustedProxyOnly_AndOnlyIfItCanStandInALog) {
   const ServerProcess server(data.path(), {"--trusted-proxy", "127.0.0.1"});
   EXPECT_EQ(id_of(server, "4bf92f35-77b3.4da6_A"), "4bf92f35-77b3.4da6_A");
   EXPECT_EQ(id_of(server, std::string(64, 'a')), std::string(64, 'a'));
-  for (const std::string bad : {std::string(65, 'a'), std::string("a b"), std::string("a\"b"), std::string("a,b")})
+  for (const auto& bad : {std::string(65, 'a'), std::string("a b"), std::string("a\"b"), std::string("a,b")})
     EXPECT_THAT(id_of(server, bad), Not(HasSubstr(bad)));
 }
 

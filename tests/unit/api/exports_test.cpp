@@ -48,7 +48,9 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   limits.disk_reserve = 0;
   const auto recorder = *recordings::Recorder::open(*store, *store, pending, folder_ / "recordings", limits);
   const auto slots = std::make_shared<ExportSlots>(1);
-  Api api(Context{*store, blobs, pending, jobs, hub, {}, {}, recorder, nullptr, nullptr, nullptr, slots});
+  Context context{*store, blobs, pending, jobs, hub, {}, {}, recorder};
+  context.exports = slots;
+  Api api(context);
   const auto handle = [&](const std::string& method, const std::string& path, const std::string& format) {
     http::Request request;
     request.method = method;

@@ -427,6 +427,10 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
   EXPECT_EQ(
       sqlite3_exec(database,
+                   "DROP INDEX models_by_owner; ALTER TABLE models DROP COLUMN owner; "
+                   "DROP INDEX streams_by_owner; ALTER TABLE streams DROP COLUMN owner; "
+                   "DROP INDEX unfinished_jobs_by_owner; ALTER TABLE jobs DROP COLUMN owner; "
+                   "ALTER TABLE jobs DROP COLUMN request_id; "
                    "DROP TABLE tokens; ALTER TABLE streams DROP COLUMN is_public; "
                    "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                    "ALTER TABLE packages DROP COLUMN levels; "
