@@ -10,12 +10,12 @@
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.h"
 #include "core/json/read_json.h"
+#include "protocol/http/connection.h"
 
 namespace semblante::client {
 namespace {
@@ -39,16 +39,19 @@ Error failed(const Url& url, const char* step, const error_code& problem) {
   return {code, url.authority(), std::string(step) + ": " + problem.message()};
 }
 
-http::request<http::string_body> to_beast(const Url& url, const HttpRequest& request) {
+http::request<http::string_body> to_beast(const ServerAddress& server, const HttpRequest& request) {
   http::request<http::string_body> message;
   message.version(11);
   message.method_string(request.method);
-  message.target(url.path + request.target);
-  message.set(http::field::host, url.authority());
+  message.target(server.url.path + request.target);
+  message.set(http::field::host, server.url.authority());
   message.set(http::field::user_agent, "semblante-client");
   message.set(http::field::connection, "close");
   if (!request.content_type.empty()) {
     message.set(http::field::content_type, request.content_type);
+  }
+  if (!server.token.empty()) {
+    message.set(http::field::authorization, "Bearer " + server.token);
   }
   for (const auto& [name, value] : request.headers) {
     message.set(name, value);
@@ -61,6 +64,7 @@ http::request<http::string_body> to_beast(const Url& url, const HttpRequest& req
 HttpResponse from_beast(http::response<http::string_body>&& message) {
   HttpResponse response;
   response.status = static_cast<int>(message.result_int());
+  response.reason = std::string(message.reason());
   for (const auto& field : message) {
     std::string name(field.name_string());
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -70,9 +74,10 @@ HttpResponse from_beast(http::response<http::string_body>&& message) {
   return response;
 }
 
-asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const HttpRequest& request,
+asio::awaitable<void> exchange(const ServerAddress& server, const HttpLimits& limits, const HttpRequest& request,
                                std::optional<Result<HttpResponse>>& outcome) {
   const auto executor = co_await asio::this_coro::executor;
+  const Url& url = server.url;
   error_code problem;
   auto token = asio::redirect_error(asio::use_awaitable, problem);
   asio::ip::tcp::resolver resolver(executor);
@@ -81,13 +86,22 @@ asio::awaitable<void> exchange(const Url& url, const HttpLimits& limits, const H
     outcome = failed(url, "cannot find the host", problem);
     co_return;
   }
-  beast::tcp_stream stream(executor);
-  co_await stream.async_connect(endpoints, token);
+  Connection stream(executor);
+  co_await stream.next_layer().async_connect(endpoints, token);
   if (problem) {
     outcome = failed(url, "cannot connect", problem);
     co_return;
   }
-  auto message = to_beast(url, request);
+  if (auto ready = stream.secure(server); !ready) {
+    outcome = std::move(ready).error();
+    co_return;
+  }
+  co_await stream.async_handshake(token);
+  if (problem) {
+    outcome = handshake_failed(stream, url, problem);
+    co_return;
+  }
+  auto message = to_beast(server, request);
   co_await http::async_write(stream, message, token);
   // A server may answer and close before it has read a refused body completely: the answer takes precedence over the
   // write error.
@@ -132,7 +146,7 @@ Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
   asio::io_context io(1);
   std::optional<Result<HttpResponse>> outcome;
   std::exception_ptr fault;
-  asio::co_spawn(io, exchange(url_, limits_, request, outcome), [&](std::exception_ptr f) { fault = std::move(f); });
+  asio::co_spawn(io, exchange(server_, limits_, request, outcome), [&](std::exception_ptr f) { fault = std::move(f); });
   try {
     io.run_for(limits_.timeout);
   } catch (...) {
@@ -141,7 +155,7 @@ Result<HttpResponse> HttpClient::send(const HttpRequest& request) const {
   if (outcome) {
     return *std::move(outcome);
   }
-  const std::string where = url_.authority() + request.target;
+  const std::string where = server_.url.authority() + request.target;
   if (fault) {
     return Error{ErrorCode::internal, where, "the exchange failed unexpectedly"};
   }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/types/result.h"
-#include "protocol/http/url.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::client {
 
@@ -24,6 +24,7 @@ struct HttpRequest {
 
 struct HttpResponse {
   int status = 0;
+  std::string reason;                                        ///< of the first line: "OK"
   std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
   std::string body;
 
@@ -37,15 +38,16 @@ struct HttpLimits {
   std::chrono::milliseconds timeout{30'000};        ///< of one complete exchange
 };
 
-/// Plain HTTP/1.1, one connection per request, blocking. Does not trust the server: sizes and times are bounded.
-/// Copyable; a copy may be used on another thread.
+/// HTTP/1.1, with TLS or without, one connection per request, blocking. The token of the server's address is sent. Does
+/// not trust the server: sizes and times are bounded. Copyable; a copy may be used on another thread.
 class HttpClient {
  public:
-  explicit HttpClient(Url url, HttpLimits limits = {}) : url_(std::move(url)), limits_(limits) {}
+  explicit HttpClient(ServerAddress server, HttpLimits limits = {}) : server_(std::move(server)), limits_(limits) {}
 
-  [[nodiscard]] const Url& url() const { return url_; }
+  [[nodiscard]] const ServerAddress& server() const { return server_; }
 
-  /// Returns any complete response with any status. Errors: io (no connection, cut off, late), too_large, malformed.
+  /// Returns any complete response with any status. Errors: io (no connection, a certificate that is not trusted, cut
+  /// off, late), too_large, malformed.
   [[nodiscard]] Result<HttpResponse> send(const HttpRequest& request) const;
   [[nodiscard]] Result<HttpResponse> get(std::string_view target) const;
   [[nodiscard]] Result<HttpResponse> post(std::string_view target, std::string body, std::string content_type) const;
@@ -55,7 +57,7 @@ class HttpClient {
   [[nodiscard]] Result<std::string> fetch(std::string_view target, std::optional<std::size_t> max_body = {}) const;
 
  private:
-  Url url_;
+  ServerAddress server_;
   HttpLimits limits_;
 };
 

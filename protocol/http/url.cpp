@@ -8,13 +8,14 @@ namespace semblante::client {
 
 Result<Url> parse_url(std::string_view text) {
   const std::string whole(text);
+  Url url;
   if (text.starts_with("https://")) {
-    return Error{ErrorCode::unsupported, whole, "https is not spoken here; put a TLS proxy in front"};
-  }
-  if (text.starts_with("http://")) {
+    url.secure = true;
+    url.port = "443";
+    text.remove_prefix(8);
+  } else if (text.starts_with("http://")) {
     text.remove_prefix(7);
   }
-  Url url;
   const std::size_t slash = text.find('/');
   std::string_view authority = text.substr(0, slash);
   if (slash != std::string_view::npos) {
@@ -41,7 +42,7 @@ Result<Url> parse_url(std::string_view text) {
   const auto is_bad = [](unsigned char c) { return c <= ' ' || c == '@' || c == '?' || c == '#' || c > '~'; };
   if (url.host.empty() || url.host.find_first_of("[]") != std::string::npos ||
       std::any_of(whole.begin(), whole.end(), is_bad)) {
-    return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH]"};
+    return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH], or https://"};
   }
   return url;
 }

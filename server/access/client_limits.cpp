@@ -18,20 +18,21 @@ bool ClientRates::take_request(const std::string& client, Clock::time_point now)
   if (limits_.requests_per_second <= 0) return true;
   const std::lock_guard lock(mutex_);
   forget_idle(requests_, now);
-  return requests_.try_emplace(client, limits_.requests_per_second, limits_.request_burst).first->second.take(now);
+  return requests_.try_emplace(client, limits_.requests_per_second, limits_.request_burst, now)
+      .first->second.take(1.0, now);
 }
 
 bool ClientRates::may_try(const std::string& address, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   const auto found = failures_.find(address);
-  return found == failures_.end() || found->second.has_one(now);
+  return found == failures_.end() || found->second.has(1.0, now);
 }
 
 void ClientRates::count_failure(const std::string& address, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   forget_idle(failures_, now);
-  failures_.try_emplace(address, limits_.failures_per_minute / seconds_per_minute, limits_.failures_per_minute)
-      .first->second.take(now);
+  failures_.try_emplace(address, limits_.failures_per_minute / seconds_per_minute, limits_.failures_per_minute, now)
+      .first->second.take(1.0, now);
 }
 
 std::size_t ClientRates::size() const {

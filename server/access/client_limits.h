@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/access/rate.h"
+#include "core/types/token_bucket.h"
 
 namespace semblante::access {
 
@@ -23,7 +23,7 @@ struct ClientLimits {
 /// the last minute.
 class ClientRates {
  public:
-  using Clock = Rate::Clock;
+  using Clock = TokenBucket::Clock;
   explicit ClientRates(ClientLimits limits) : limits_(limits) {}
 
   /// False when this client has used up its requests.
@@ -35,7 +35,7 @@ class ClientRates {
   [[nodiscard]] std::size_t size() const;
 
  private:
-  using Rates = std::map<std::string, Rate, std::less<>>;
+  using Rates = std::map<std::string, TokenBucket, std::less<>>;
   void forget_idle(Rates& rates, Clock::time_point now);
 
   const ClientLimits limits_;

@@ -1,19 +1,17 @@
 #include "server/access/scope.h"
 
-#include <array>
-
 namespace semblante::access {
-namespace {
 
-constexpr std::array<std::string_view, 5> names = {"none", "read", "publish", "edit", "admin"};
-
-}  // namespace
-
-std::string_view scope_name(Scope scope) { return names[static_cast<std::size_t>(scope)]; }
+std::string token_scopes_in_words() {
+  std::string words;
+  for (std::size_t i = 1; i < scope_names.size(); ++i)
+    words.append(i == 1 ? "" : i + 1 == scope_names.size() ? " or " : ", ").append(scope_names[i]);
+  return words;
+}
 
 std::optional<Scope> parse_scope(std::string_view name) {
-  for (std::size_t i = 1; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<Scope>(i);
+  for (std::size_t i = 1; i < scope_names.size(); ++i)
+    if (scope_names[i] == name) return static_cast<Scope>(i);
   return std::nullopt;
 }
 

@@ -67,7 +67,7 @@ Verification TokenRegistry::verify(std::string_view text) {
     if (found == tokens_.end()) return {};
     if (!found->second.digest.empty() && equal_in_constant_time(found->second.digest, digest))
       return verdict_of(found->second, now_());
-    if (!tries_.take(Rate::Clock::now())) return {Verdict::busy, {}};
+    if (!tries_.take(1.0, TokenBucket::Clock::now())) return {Verdict::busy, {}};
     hash = found->second.record.secret_hash;
   }
   if (!matches_hash(token->secret, hash)) return {};

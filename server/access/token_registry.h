@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/access/rate.h"
+#include "core/types/token_bucket.h"
 #include "server/access/rights.h"
 #include "server/access/secret.h"
 #include "server/store/token_store.h"
@@ -63,7 +63,7 @@ class TokenRegistry {
   std::int64_t seen_changes_ = 0;  ///< guarded by loading_
   mutable std::mutex mutex_;       ///< guards what follows
   std::map<std::string, Entry, std::less<>> tokens_;
-  Rate tries_;  ///< of computations
+  TokenBucket tries_;  ///< of computations
 };
 
 }  // namespace semblante::access

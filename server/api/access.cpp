@@ -43,11 +43,18 @@ bool is_own_origin(const http::Request& head) {
          http::equal_ignoring_case(origin->substr(scheme + 3), *host);
 }
 
+bool CertificateNames::contains(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(names_.begin(), names_.end(),
+                     [&](const auto& known) { return http::equal_ignoring_case(known, name); });
+}
+
 std::optional<http::Problem> Access::refuse_reading(const http::Request& head) const {
   const auto authority = head.header("Host");
   if (!authority) return std::nullopt;  // HTTP/1.0; every browser sends a Host
   const auto host = host_of(*authority);
-  const bool known = host && (is_loopback(*host) || std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
+  const bool known = host && (is_loopback(*host) || certificate->contains(*host) ||
+                              std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
                                 return item == "*" || http::equal_ignoring_case(item, *host);
                               }));
   if (known) return std::nullopt;

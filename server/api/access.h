@@ -1,7 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/http/message.h"
@@ -13,6 +17,20 @@ namespace semblante::api {
 /// the same machine is another origin: it may be another user's program.
 bool is_own_origin(const http::Request& head);
 
+/// The names of the certificate in use, which changes while the server runs. Any thread.
+class CertificateNames {
+ public:
+  void set(std::vector<std::string> names) {
+    const std::lock_guard lock(mutex_);
+    names_ = std::move(names);
+  }
+  [[nodiscard]] bool contains(std::string_view name) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> names_;
+};
+
 /// Access control by the Host and Origin headers of a request, against foreign pages in a browser that reaches the
 /// server: on a server without tokens it is the only one.
 struct Access {
@@ -23,6 +41,8 @@ struct Access {
   std::vector<std::string> origins;
   /// Origins whose pages may show the server's pages in a frame.
   std::vector<std::string> frame_origins = {};
+  /// Accepted like `hosts`.
+  std::shared_ptr<CertificateNames> certificate = std::make_shared<CertificateNames>();
 
   /// The problem with which a read-only request is refused; nullopt when it is allowed.
   [[nodiscard]] std::optional<http::Problem> refuse_reading(const http::Request& head) const;

@@ -7,11 +7,13 @@
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
+#include "server/api/quota.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"
 #include "server/http/content_coding.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/http/security_headers.h"
 #include "server/http/static_files.h"
 #include "server/log/log.h"
@@ -24,6 +26,8 @@ using http::to_response;
 
 /// Seconds until a retry, when another connection may have closed.
 constexpr unsigned connections_retry_after = 10;
+/// Seconds that a restart takes.
+constexpr unsigned stopping_retry_after = 5;
 
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
@@ -68,6 +72,11 @@ http::Response to_response(const Refused& refused) {
   return response;
 }
 
+http::Response stopping_response() {
+  return to_response(Refused{make_problem("stopping", "nothing new is begun: try again when the server has started"),
+                             stopping_retry_after});
+}
+
 /// The kinds by which requests are counted: the routes in their order, then the rest.
 std::vector<metrics::RequestKind> request_kinds() {
   std::vector<metrics::RequestKind> kinds;
@@ -95,6 +104,8 @@ const Route* route_of(const http::Request& request) {
 Api::Api(Context context) : context_(std::move(context)) {
   context_.requests = std::make_shared<metrics::RequestCounts>(request_kinds());
   context_.idempotency_keys = std::make_shared<KeyLocks>();
+  context_.stopping = std::make_shared<std::atomic<bool>>(false);
+  context_.quota_turns = std::make_shared<KeyLocks>();
   if (!context_.exports) context_.exports = std::make_shared<ExportSlots>(context_.config.limits.max_exports);
 }
 
@@ -107,6 +118,10 @@ void Api::find_route(http::Request& head) {
     head.route = page ? page_kind() : other_kind();
   head.allow = std::move(match.allow);
   head.params = std::move(match.params);
+  // Of the hop before this server, so that one id leads through the logs of both.
+  if (const auto given = head.header(http::request_id_header);
+      given && http::is_request_id(*given) && http::any_contains(context_.config.security.proxies, head.peer))
+    head.id = *given;
   head.requester = ask(context_.config.security, head, is_upgrade(head));
 }
 
@@ -116,6 +131,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
   if (auto problem = is_safe(head.method) ? access.refuse_reading(head) : access.refuse_changing(head))
     return to_response(*problem);
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
+  if (*context_.stopping && !is_safe(head.method)) return stopping_response();
   if (head.route == page_kind()) return http::BodyPlan{};
   if (head.allow.empty()) return to_response(make_problem("not-found", "there is no route " + head.path));
   if (head.method == "OPTIONS") {
@@ -145,7 +161,12 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem(
         "unsupported-media-type",
         content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
-  return plan_body(*route, content_type, context_.config.limits);
+  auto body = plan_body(*route, content_type, context_.config.limits);
+  if (!body.to_file) return body;
+  auto share = take_upload(security, head);
+  if (auto* refusal = std::get_if<http::Response>(&share)) return std::move(*refusal);
+  body.held = std::get<std::shared_ptr<const void>>(std::move(share));
+  return body;
 }
 
 http::Response Api::handle(http::Request& request) {
@@ -153,7 +174,9 @@ http::Response Api::handle(http::Request& request) {
   if (route == nullptr) return http::static_file(context_.config.web_root, request);
   try {
     refuse_foreign_resource(context_, request);
-    return route->handler(context_, request);
+    auto response = route->handler(context_, request);
+    tell_quota(request, response);
+    return response;
   } catch (const Refused& refused) {
     return to_response(refused);
   } catch (const store::StoreError& fault) {
@@ -187,6 +210,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   const auto& security = context_.config.security;
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
+  if (*context_.stopping) return stopping_response();
   const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");
   auto connected = context_.hub.connect(id, head.header("Sec-WebSocket-Protocol").value_or(""),
@@ -213,7 +237,7 @@ void Api::decorate(const http::Request& head, http::Response& response) {
   if (!context_.config.access.origin_allowed(head)) return;
   response.headers["Access-Control-Allow-Origin"] = std::string(*origin);
   response.headers["Access-Control-Expose-Headers"] =
-      "ETag, Location, Retry-After, Content-Range, Allow, WWW-Authenticate";
+      "ETag, Location, Retry-After, Content-Range, Allow, WWW-Authenticate, X-Quota-Warning, X-Request-Id";
 }
 
 }  // namespace semblante::api

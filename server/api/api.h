@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -57,6 +58,8 @@ struct Context {
   std::shared_ptr<const store::Trash> trash = nullptr;
   std::shared_ptr<metrics::RequestCounts> requests = nullptr;  ///< made by Api
   std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
+  std::shared_ptr<std::atomic<bool>> stopping = nullptr;       ///< made by Api
+  std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
 };
 
@@ -66,6 +69,9 @@ class Api : public http::Application {
  public:
   explicit Api(Context context);
 
+  /// From now on /readyz answers 503, and requests that would change something, and connections to streams, are
+  /// refused: the server stops. Any thread.
+  void begin_stopping() { *context_.stopping = true; }
   /// Requests without TLS are answered with this port of https. Before the server runs.
   void redirect_to_https(std::uint16_t port) { context_.config.security.https_port = port; }
 

@@ -124,7 +124,8 @@ bool is_public(streams::StreamHub& hub, const http::Request& head) {
 /// Whether a token for one stream or model is accepted by this path. Paths of jobs and recordings are left to
 /// refuse_foreign_resource().
 bool covers(const Rights& rights, streams::StreamHub& hub, const http::Request& head, Scope needed) {
-  if (handler_of(head) == create_ticket) return true;  // it has the same rights
+  // A ticket has the same rights; its own use is each token's business.
+  if (handler_of(head) == create_ticket || handler_of(head) == get_usage) return true;
   const auto may_read = [&](std::string_view model) {
     if (rights.stream.empty()) return model == rights.model;
     const auto info = hub.info(rights.stream);

@@ -20,6 +20,7 @@ struct Asking {
   access::Requester from;
   access::Rights rights;
   std::optional<access::Verdict> refused;  ///< of a token that was sent and not accepted
+  std::string quota_warning = {};          ///< limits of the token that are nearly reached (quota.h)
 };
 
 /// What find_route() finds out: address, and the rights of the token, ticket or cookie. Uses a ticket up.

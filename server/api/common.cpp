@@ -8,6 +8,7 @@
 #include "core/json/json_pointer.h"
 #include "core/json/read_json.h"
 #include "protocol/hash/sha256.h"
+#include "server/api/authorization.h"
 #include "server/http/conditional.h"
 #include "server/settings/text.h"
 
@@ -110,6 +111,8 @@ std::string clean_file_name(std::string_view name) {
     if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
   return clean;
 }
+
+store::Origin origin_of(const http::Request& request) { return {asking_of(request).rights.token, request.id}; }
 
 http::Response accepted(const store::JobRecord& job) {
   auto response = json_response(202, represent(job));

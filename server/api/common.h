@@ -66,6 +66,9 @@ std::optional<std::string> cut_to_page(std::vector<Record>& records, std::size_t
 /// bytes.
 std::string clean_file_name(std::string_view name);
 
+/// Whose request this is, for the records that it makes.
+store::Origin origin_of(const http::Request& request);
+
 /// 202 with a job.
 http::Response accepted(const store::JobRecord& job);
 /// Refuses with 429 when the job queue is full.

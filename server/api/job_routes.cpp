@@ -9,6 +9,7 @@
 #include "server/api/generated/handlers.h"
 #include "server/api/job_events.h"
 #include "server/api/new_parametrization.h"
+#include "server/api/quota.h"
 #include "server/api/storage_problems.h"
 
 namespace semblante::api {
@@ -103,7 +104,8 @@ http::Response create_parametrization(Context& context, http::Request& request) 
   if (model.feature_point_count == 0)
     refuse("missing-feature-points", "no feature point is marked on this model", "/points");
   refuse_unless_room(context.jobs);
-  const auto job = add_parametrization(context.store, model.id, options, check.record);
+  const auto turn = take_quota(context, request, {.bytes = 1, .jobs = 1});
+  const auto job = add_parametrization(context.store, model.id, options, check.record, origin_of(request));
   context.jobs.enqueue(job);
   return accepted(job);
 }
@@ -121,7 +123,8 @@ http::Response create_proposals(Context& context, http::Request& request) {
   }
   if (const auto fault = find_too_few_known(placed)) refuse("missing-feature-points", fault->message, fault->where);
   refuse_unless_room(context.jobs);
-  const auto job = jobs::new_record(jobs::ProposeJob{}, model.id);
+  const auto turn = take_quota(context, request, {.jobs = 1});
+  const auto job = jobs::new_record(jobs::ProposeJob{}, model.id, origin_of(request));
   if (check.record) check.record->resource = job.id;
   context.store.create_job(job, {}, check.record);
   context.jobs.enqueue(job);

@@ -10,6 +10,7 @@
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/new_model.h"
+#include "server/api/quota.h"
 #include "server/api/sets.h"
 #include "server/http/conditional.h"
 
@@ -77,7 +78,8 @@ FrameWish frame_wish(const JsonBody& frame, const FrameWish& before) {
 
 /// Stores the user's settings of the frame. A new unit changes only a record; new axes turn the model, which needs an
 /// import. Returns that import job, if one is needed.
-std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelRecord& model, const JsonBody& body) {
+std::optional<store::JobRecord> edit_frame(Context& context, http::Request& request, const store::ModelRecord& model,
+                                           const JsonBody& body) {
   const FrameWish wish = frame_wish(body, model.frame_wish);
   // After a failed or cancelled import the wish is not applied yet: the same request again retries it.
   const auto last_import = context.store.latest_job(model.id, jobs::ImportJob::kind_name);
@@ -95,12 +97,14 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
   const bool says_unit_only =
       is_done && model.frame && wish.unit && wish.up == model.frame_wish.up && wish.front == model.frame_wish.front;
   std::optional<store::JobRecord> job;
+  QuotaTurn turn;
   ModelFrame frame = model.frame.value_or(ModelFrame{});
   if (says_unit_only) {
     frame = apply_wish(std::move(frame), {wish.unit, {}, {}});
   } else {
     refuse_unless_room(context.jobs);
-    job = jobs::new_record(jobs::ImportJob{}, model.id);
+    if (auto taken = take_quota(context, request, {.bytes = 1, .jobs = 1})) turn.emplace(*std::move(taken));
+    job = jobs::new_record(jobs::ImportJob{}, model.id, origin_of(request));
   }
   if (!context.store.edit_frame(model.id, wish, frame, job, model.revision))
     refuse("conflict", "another request changed the model at the same time: read it and try again");
@@ -110,10 +114,15 @@ std::optional<store::JobRecord> edit_frame(Context& context, const store::ModelR
 
 /// Stores the model's own sets, which take effect with the next package. An existing package is made again, unless an
 /// import will remove it.
-std::optional<store::JobRecord> wear(Context& context, const store::ModelRecord& model,
+std::optional<store::JobRecord> wear(Context& context, http::Request& request, const store::ModelRecord& model,
                                      const std::vector<store::WornSet>& worn, bool package_goes) {
   auto job = package_goes ? std::nullopt : make_package_again(context, model);
-  if (job) refuse_unless_room(context.jobs);
+  QuotaTurn turn;
+  if (job) {
+    refuse_unless_room(context.jobs);
+    if (auto taken = take_quota(context, request, {.bytes = 1, .jobs = 1})) turn.emplace(*std::move(taken));
+    job->origin = origin_of(request);
+  }
   if (!context.store.edit_worn(model.id, worn, job, model.revision))
     refuse("conflict", "another request changed the model at the same time: read it and try again");
   if (job) context.jobs.enqueue(*job);
@@ -160,7 +169,7 @@ http::Response patch_model(Context& context, http::Request& request) {
   std::optional<store::JobRecord> import;
   auto now = model;
   if (body.contains("frame")) {
-    import = edit_frame(context, model, body["frame"]);
+    import = edit_frame(context, request, model, body["frame"]);
     now = model_of(context, request);
   }
   // A job that ends between reading and writing changes the model too: retries, unless the client asked for a revision.
@@ -173,7 +182,7 @@ http::Response patch_model(Context& context, http::Request& request) {
     if (body.contains("roles")) roles = role_changes(body["roles"], now);
   }
   auto job = import;
-  if (!worn.empty()) job = wear(context, model_of(context, request), worn, import.has_value());
+  if (!worn.empty()) job = wear(context, request, model_of(context, request), worn, import.has_value());
   if (!job) job = import;
   auto response = full_model(context, model_of(context, request));
   if (job) {

@@ -14,6 +14,7 @@
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
+#include "server/api/quota.h"
 #include "server/api/sets.h"
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
@@ -163,7 +164,7 @@ void refuse_too_many(Context& context) {
     refuse("limit-exceeded", "the server has reached its limit of " + std::to_string(most) + " expressions");
 }
 
-http::Response create_by_hand(Context& context, const http::Request& request) {
+http::Response create_by_hand(Context& context, http::Request& request) {
   const NamedSet set = set_from_body(request);
   auto check = check_idempotency(context, request, sha256_hex(request.body));
   if (check.earlier) return earlier(context, *check.earlier);
@@ -174,18 +175,23 @@ http::Response create_by_hand(Context& context, const http::Request& request) {
   record.kind = std::string(to_string(set.kind));
   record.created = record.updated = store::timestamp_now();
   record.displacements = displacements_to_json(set.displacements).dump();
+  record.owner = origin_of(request).owner;
+  const auto turn = take_quota(context, request, {.bytes = record.displacements.size(), .sets = 1});
   if (check.record) check.record->resource = record.id;
   context.store.create_set(record, check.record);
   return new_set_response(record, 201);
 }
 
-http::Response create_by_example(Context& context, const http::Request& request, ExampleRequest example,
+http::Response create_by_example(Context& context, http::Request& request, ExampleRequest example,
                                  const std::string& body_hash) {
   auto check = check_idempotency(context, request, body_hash);
   if (check.earlier) return earlier(context, *check.earlier);
   if (!example.model.empty()) check_model(context, example);
   refuse_too_many(context);
   refuse_unless_room(context.jobs);
+  // The files are kept until the job has ended.
+  const auto turn = take_quota(context, request,
+                               {.bytes = example.expression.size() + example.neutral.size() + 1, .sets = 1, .jobs = 1});
   jobs::ExtractJob wish = std::move(example.wish);
   if (wish.name.empty()) wish.name = default_name(wish);
   store::JobRecord job;
@@ -194,7 +200,7 @@ http::Response create_by_example(Context& context, const http::Request& request,
     const std::shared_lock shared(context.blobs.references());
     wish.expression_sha256 = keep(context, example.expression);
     wish.neutral_sha256 = keep(context, example.neutral);
-    job = jobs::new_record(wish, example.model);
+    job = jobs::new_record(wish, example.model, origin_of(request));
     if (check.record) check.record->resource = job.id;
     context.store.create_job(job, wish.files(), check.record);
   }

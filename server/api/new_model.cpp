@@ -9,7 +9,7 @@ namespace semblante::api {
 
 Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
-                           std::optional<store::IdempotencyRecord> key) {
+                           std::optional<store::IdempotencyRecord> key, const store::Origin& origin) {
   const std::shared_lock references(blobs.references());
   auto blob = blobs.adopt(file);
   if (!blob) return blob.error();
@@ -21,7 +21,8 @@ Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blo
   model.created = model.updated = store::timestamp_now();
   model.source_bytes = blob->bytes;
   model.source_sha256 = blob->sha256;
-  made.job = jobs::new_record(jobs::ImportJob{}, model.id);
+  model.owner = origin.owner;
+  made.job = jobs::new_record(jobs::ImportJob{}, model.id, origin);
   if (key) key->resource = made.job.id;
   const store::ArtefactRecord source{"source", blob->sha256, blob->bytes, "application/octet-stream"};
   if (!store.create_model(model, source, made.job, key))

@@ -19,6 +19,6 @@ struct NewModel {
 /// Errors: io.
 Result<NewModel> add_model(store::ModelStore& store, const store::BlobStore& blobs, const std::filesystem::path& file,
                            std::string id, std::string name, std::string file_name,
-                           std::optional<store::IdempotencyRecord> key);
+                           std::optional<store::IdempotencyRecord> key, const store::Origin& origin = {});
 
 }  // namespace semblante::api

@@ -7,8 +7,9 @@
 namespace semblante::api {
 
 store::JobRecord add_parametrization(store::JobStore& store, const std::string& model,
-                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key) {
-  auto job = jobs::new_record(options, model);
+                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key,
+                                     store::Origin origin) {
+  auto job = jobs::new_record(options, model, std::move(origin));
   if (key) key->resource = job.id;
   store.create_job(job, {}, key);
   return job;

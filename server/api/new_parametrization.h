@@ -10,6 +10,7 @@ namespace semblante::api {
 
 /// Stores a parametrize job, durably. It is not queued yet.
 store::JobRecord add_parametrization(store::JobStore& store, const std::string& model,
-                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key);
+                                     const jobs::ParametrizeJob& options, std::optional<store::IdempotencyRecord> key,
+                                     store::Origin origin = {});
 
 }  // namespace semblante::api

@@ -10,6 +10,7 @@
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/play_options.h"
+#include "server/api/quota.h"
 #include "server/api/recordings_common.h"
 #include "server/api/storage_problems.h"
 #include "server/recordings/recording_source.h"
@@ -126,6 +127,9 @@ http::Response create_recording(Context& context, http::Request& request) {
     if (const auto earlier = context.recorder->find(*check.earlier)) return created(*earlier);
     refuse("conflict", "what this Idempotency-Key created has been removed");
   }
+  const auto turn = take_quota(context, request, {.bytes = 1, .recordings = 1});
+  start.owner = origin_of(request).owner;
+  start.has_room = recording_room(context, request);
   const auto record = context.recorder->start(std::move(start), std::move(check.record));
   if (!record) {
     if (record.error().code == ErrorCode::io) refuse_unkept(record.error());

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "server/access/client_limits.h"
+#include "server/access/shares.h"
 #include "server/access/tickets.h"
+#include "server/access/token_limits.h"
 #include "server/access/token_registry.h"
 #include "server/http/address_range.h"
 
@@ -18,7 +20,9 @@ struct Security {
   std::shared_ptr<access::TokenRegistry> tokens = std::make_shared<access::TokenRegistry>();
   std::shared_ptr<access::Tickets> tickets = std::make_shared<access::Tickets>();
   std::shared_ptr<access::ClientRates> rates = std::make_shared<access::ClientRates>(access::ClientLimits{});
-  std::vector<http::AddressRange> proxies;  ///< whose X-Forwarded-* are believed
+  access::TokenLimits token_limits;
+  std::shared_ptr<access::Shares> uploads = std::make_shared<access::Shares>();  ///< by token
+  std::vector<http::AddressRange> proxies;                                       ///< whose X-Forwarded-* are believed
   std::optional<std::uint16_t> https_port;  ///< requests without TLS are redirected there
 };
 

@@ -8,6 +8,7 @@
 #include "server/api/common.h"
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
+#include "server/api/quota.h"
 #include "server/settings/stream_settings.h"
 
 namespace semblante::api {
@@ -72,9 +73,11 @@ http::Response create_stream(Context& context, http::Request& request) {
   if (context.hub.list().size() >= context.config.limits.max_streams)
     refuse("limit-exceeded",
            "the server has reached its limit of " + std::to_string(context.config.limits.max_streams) + " streams");
+  const auto turn = take_quota(context, request, {.streams = 1});
   if (check.record) check.record->resource = info.id;
   // Stored before it is opened, so that a stream that a client has seen survives a crash.
-  if (context.hub.info(info.id) || !context.store.create_stream({info.id, info.created, info.settings}, check.record))
+  if (context.hub.info(info.id) ||
+      !context.store.create_stream({info.id, info.created, info.settings, origin_of(request).owner}, check.record))
     refuse("conflict", "there is a stream " + info.id + " already", "/name");
   context.hub.open(info);
   return created(context.hub.info(info.id).value_or(info));

@@ -25,6 +25,7 @@ http::Response document(std::string_view text, std::string_view content_type, st
 http::Response get_health(Context&, http::Request&) { return json_response(200, answer::Status{}); }
 
 http::Response get_ready(Context& context, http::Request&) {
+  if (*context.stopping) refuse("stopping", "the server finishes what has begun and ends");
   if (!context.store.healthy()) refuse("storage-unavailable", "the store does not answer");
   if (const auto status = context.pending.status(); !status.writable) {
     const std::string why = status.disk_full ? "the disk is full" : "the data folder cannot be written";

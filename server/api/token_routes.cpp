@@ -36,7 +36,7 @@ access::TokenWish wish_of(Context& context, const JsonBody& body) {
   access::TokenWish wish;
   wish.name = optional_text(body, "name", max_name_bytes);
   const auto scope = access::parse_scope(optional_text(body, "scope", max_id_bytes));
-  if (!scope) refuse("invalid-field", "it must be read, publish, edit or admin", "/scope");
+  if (!scope) refuse("invalid-field", "it must be " + access::token_scopes_in_words(), "/scope");
   wish.scope = *scope;
   wish.stream = optional_text(body, "stream", max_id_bytes);
   wish.model = optional_text(body, "model", max_id_bytes);

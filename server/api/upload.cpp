@@ -9,6 +9,7 @@
 #include "server/api/generated/handlers.h"
 #include "server/api/mapped_file.h"
 #include "server/api/new_model.h"
+#include "server/api/quota.h"
 #include "server/api/storage_problems.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
@@ -91,7 +92,10 @@ http::Response create_model(Context& context, http::Request& request) {
     refuse("limit-exceeded",
            "the server has reached its limit of " + std::to_string(context.config.limits.max_models) + " models");
   refuse_unless_room(context.jobs);
-  auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record);
+  const auto turn =
+      take_quota(context, request, {.bytes = std::filesystem::file_size(upload.path), .models = 1, .jobs = 1});
+  auto made = add_model(context.store, context.blobs, upload.path, {}, upload.name, upload.file_name, check.record,
+                        origin_of(request));
   if (!made) refuse_unkept(made.error());
   context.jobs.enqueue(made->job);
   return accepted(context, made->model, made->job);

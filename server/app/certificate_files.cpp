@@ -26,7 +26,7 @@ CertificateFiles::CertificateFiles(net::TlsFiles files, OnLoaded on_loaded)
     : files_(std::move(files)),
       on_loaded_(std::move(on_loaded)),
       seen_(changed()),
-      watch_("looking for a new certificate", look_interval, [this] { reload_if_changed(); }) {
+      watch_("looking for a new certificate", look_interval, [this](const auto&) { reload_if_changed(); }) {
   auto loaded = net::TlsContext::load(files_);
   if (!loaded) fail("serve", loaded.error());
   warn_if_old(**loaded, files_.certificate);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "server/app/periodic.h"
+#include "server/log/periodic.h"
 #include "server/net/tls_context.h"
 
 namespace semblante {
@@ -30,7 +30,7 @@ class CertificateFiles {
   const OnLoaded on_loaded_;
   std::mutex mutex_;
   Times seen_;  ///< guarded by mutex_
-  Periodic watch_;
+  log::Periodic watch_;
 };
 
 }  // namespace semblante

@@ -153,7 +153,7 @@ void check_addresses(InstallationFindings& findings, const ServeOptions& options
   }
 }
 
-std::string read_text(const fs::path& file) {
+std::string page_text(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return std::string(std::istreambuf_iterator<char>{stream}, {});
 }
@@ -177,7 +177,7 @@ void check_studio(InstallationFindings& findings, const ServeOptions& options) {
     return;
   }
   std::error_code error;
-  const auto page = read_text(options.web_root / "index.html");
+  const auto page = page_text(options.web_root / "index.html");
   std::vector<std::string> missing;
   if (page.empty()) missing.emplace_back("index.html");
   for (auto& name : files_of_studio(page))

@@ -12,6 +12,7 @@
 
 #include "server/cli/command_failure.h"
 #include "server/net/self_signed.h"
+#include "server/store/data_files.h"
 
 namespace semblante {
 namespace {
@@ -66,11 +67,13 @@ std::vector<std::string> network_addresses() {
   return four;
 }
 
-net::TlsFiles self_signed_certificate(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+net::TlsFiles self_signed_certificate(const std::filesystem::path& data, const std::vector<std::string>& names) {
+  const auto& [certificate, key] = store::home_certificate_files;
+  const net::TlsFiles files{data / certificate, data / key};
+  const auto folder = files.certificate.parent_path();
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) fail_certificate(folder.string() + ": " + error.message());
-  const net::TlsFiles files{folder / "certificate.pem", folder / "key.pem"};
   if (std::filesystem::exists(files.certificate, error) && still_serves(files, names)) return files;
   const auto made = net::write_self_signed(files, "Semblante at home", names, validity);
   if (!made) fail_certificate(made.error().message);

@@ -12,9 +12,10 @@ namespace semblante {
 /// Addresses of this machine in its networks, IPv4 first; loopback and link-local ones are left out.
 std::vector<std::string> network_addresses();
 
-/// A self-signed certificate for these names and addresses, with its key, in `folder`; an earlier one is used again if
-/// it names all of them and does not expire soon. Throws CommandFailure.
-net::TlsFiles self_signed_certificate(const std::filesystem::path& folder, const std::vector<std::string>& names);
+/// A self-signed certificate for these names and addresses, with its key, in a data folder
+/// (store::home_certificate_files); an earlier one is used again if it names all of them and does not expire soon.
+/// Throws CommandFailure.
+net::TlsFiles self_signed_certificate(const std::filesystem::path& data, const std::vector<std::string>& names);
 
 /// A QR code in block characters, dark on light, with its margin; empty when the text is too long for one.
 std::string qr_code(std::string_view text);

@@ -17,17 +17,16 @@
 #include "server/app/data_folder.h"
 #include "server/app/lan.h"
 #include "server/app/open_files.h"
-#include "server/app/periodic.h"
 #include "server/app/sample_installer.h"
 #include "server/app/service_manager.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/isolation.h"
 #include "server/jobs/worker_process.h"
 #include "server/log/log.h"
+#include "server/log/periodic.h"
 #include "server/net/ring_sender.h"
 #include "server/net/server.h"
 #include "server/store/sqlite_store.h"
-#include "server/store/trash_purger.h"
 #include "server/upkeep/data_lock.h"
 
 namespace semblante {
@@ -103,6 +102,13 @@ jobs::Isolation isolation_of_workers(const std::filesystem::path& data) {
   return isolation;
 }
 
+void purge(store::Trash& trash, const std::stop_token& stop) {
+  const auto removed = trash.purge(std::chrono::system_clock::now(), stop);
+  if (removed.files > 0)
+    log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
+              " bytes) removed from the trash after the grace period");
+}
+
 void open_streams(store::StreamStore& store, streams::StreamHub& hub, const ServeOptions& options) {
   if (options.demo) {
     streams::StreamInfo demo;
@@ -145,20 +151,11 @@ ListenOptions listening_at_home(ListenOptions options, const std::filesystem::pa
   if (names.empty()) fail_input("--lan: this machine has no address in a network");
   names.emplace_back("localhost");
   names.emplace_back("127.0.0.1");
-  const auto files = self_signed_certificate(data / "lan", names);
+  const auto files = self_signed_certificate(data, names);
   options.listen = {"0.0.0.0:" + std::to_string(options.port == ListenOptions{}.port ? usual_port : options.port)};
   options.certificate = files.certificate;
   options.key = files.key;
   return options;
-}
-
-/// The names under which this server is reached: those of its certificate, and the addresses it listens on.
-void add_own_names(std::vector<std::string>& hosts, const ListenOptions& options, const Listening& listening) {
-  for (const auto& listener : listening.listeners) hosts.push_back(listener.address);
-  if (!listening.tls) return;
-  const auto context = net::TlsContext::load({options.certificate, options.key});
-  if (!context) fail("serve", context.error());
-  hosts.insert(hosts.end(), (*context)->names().begin(), (*context)->names().end());
 }
 
 /// A token for this run of `serve --lan`; those of earlier runs end. Prints how a phone gets in.
@@ -183,7 +180,10 @@ void invite(store::TokenStore& tokens, std::uint16_t port) {
 void run_serve(const ServeOptions& options) {
   const auto level = log::parse_level(options.log_level);
   if (!level) fail_input("--log-level: " + options.log_level + " is not one of debug, info, warning, error");
+  const auto format = log::parse_format(options.log_format);
+  if (!format) fail_input("--log-format: " + options.log_format + " is not one of text, json");
   log::set_level(*level);
+  log::set_format(*format);
   // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
   ::umask(S_IRWXG | S_IRWXO);
   std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error
@@ -195,7 +195,7 @@ void run_serve(const ServeOptions& options) {
   const auto listen_options = options.lan ? listening_at_home(options.listening, options.data) : options.listening;
   const auto listening = check_listening(listen_options, options.data);
   auto hosts = options.allowed_hosts;
-  add_own_names(hosts, listen_options, listening);
+  for (const auto& listener : listening.listeners) hosts.push_back(listener.address);
   const auto lock = lock_data(options.data);
 
   auto blobs = store::BlobStore::open(options.data);
@@ -206,10 +206,10 @@ void run_serve(const ServeOptions& options) {
   keep_log_of_lost_database(options.data, *trash);
   auto store = open_store(options.data / store::database_file_name, reserve);
   bring_files_in_line(options.data, **store, *trash);
-  const store::TrashPurger purger(*trash, purge_interval, [](const store::Trash::Counts& removed) {
-    log::info(std::to_string(removed.files) + " files (" + std::to_string(removed.bytes) +
-              " bytes) removed from the trash after the grace period");
-  });
+  // From now on the trash is only read by others.
+  const log::Periodic purger(
+      "purging the trash", purge_interval, [&trash](const std::stop_token& stop) { purge(*trash, stop); },
+      log::Periodic::First::at_once);
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});
   make_folders(pending, *blobs, reserve);
@@ -247,6 +247,7 @@ void run_serve(const ServeOptions& options) {
   api_config.access = {hosts, options.allowed_origins, options.frame_origins};
   api_config.security.asks_for_tokens = listening.asks_for_tokens;
   api_config.security.proxies = listening.proxies;
+  api_config.security.token_limits = options.token_limits;
   api_config.security.rates = std::make_shared<access::ClientRates>(options.client_limits);
   const auto tokens = api_config.security.tokens;
   tokens->load(**store);
@@ -272,6 +273,7 @@ void run_serve(const ServeOptions& options) {
   net_config.limits.max_connections = open_files.connections;
   net_config.limits.max_files = open_files.bodies;
   net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);
+  net_config.limits.drain_time = std::chrono::seconds(options.drain_seconds);
   net::Server server(net_config, api);
   running = &server;
   const auto ports = server.listen();
@@ -281,12 +283,16 @@ void run_serve(const ServeOptions& options) {
   if (listening.tls) {
     api.redirect_to_https(ports->front());
     certificate.emplace(net::TlsFiles{listen_options.certificate, listen_options.key},
-                        [&server](auto context) { server.set_tls(std::move(context)); });
+                        [&server, names = api_config.access.certificate](auto context) {
+                          names->set(context->names());
+                          server.set_tls(std::move(context));
+                        });
     server.reload_on_signal([&certificate] { certificate->reload(); });
   }
   // Tokens that a command line has made or revoked.
   constexpr std::chrono::seconds look_for_tokens{1};
-  const Periodic token_watch("looking for changed tokens", look_for_tokens, [&] { tokens->refresh(**store); });
+  const log::Periodic token_watch("looking for changed tokens", look_for_tokens,
+                                  [&](const auto&) { tokens->refresh(**store); });
 
   SampleInstaller sample(**store, **store, *blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
@@ -302,13 +308,16 @@ void run_serve(const ServeOptions& options) {
   }
   notify_service_manager("READY=1");
   server.run([&] {
+    log::info("stopping: finishes what has begun, within " + std::to_string(options.drain_seconds) + " s");
     notify_service_manager("STOPPING=1");
-    (*recorder)->stop_all(recordings::ended::server_stopped);
-    hub.close_all(EndReason::shutdown);
+    api.begin_stopping();
+    // What is recorded ends with its stream, after the last frame that was accepted.
+    (*recorder)->begin_closing();
+    hub.shut_down();
   });
-  log::info("stopping");
   (*recorder)->close();
   queue.stop();
+  log::info("stopped");
 }
 
 }  // namespace semblante

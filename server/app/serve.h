@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/access/client_limits.h"
+#include "server/access/token_limits.h"
 #include "server/api/api.h"
 #include "server/app/listening.h"
 #include "server/jobs/worker_protocol.h"
@@ -36,17 +37,21 @@ struct ServeOptions {
   std::uint64_t trash_grace = std::uint64_t{7} * 24 * 60 * 60;  ///< seconds
   std::uint64_t max_connections = 0;  ///< 0: three quarters of the files that the process may open, less a reserve
   std::uint64_t max_stream_connections = streams::StreamLimits{}.max_connections;
+  std::uint64_t drain_seconds = net::ServerLimits{}.drain_time.count();
   std::uint64_t worker_memory = jobs::WorkerLimits{}.memory_bytes;
   std::uint64_t worker_cpu_seconds = jobs::WorkerLimits{}.cpu_seconds;
   std::vector<std::string> allowed_hosts;
   std::vector<std::string> allowed_origins;
   std::vector<std::string> frame_origins;
   access::ClientLimits client_limits;
+  access::TokenLimits token_limits;
   std::uint64_t max_connections_per_address = net::ServerLimits{}.max_connections_per_address;
   std::string log_level = "info";
+  std::string log_format = "text";
 };
 
-/// Serves until SIGINT or SIGTERM. Prints one line to standard output when it is ready. Throws CommandFailure.
+/// Serves until SIGINT or SIGTERM, and finishes what has begun; a second signal ends the process at once. Prints one
+/// line to standard output when it is ready. Throws CommandFailure.
 void run_serve(const ServeOptions& options);
 
 }  // namespace semblante

@@ -98,6 +98,11 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--max-stream-connections", options->max_stream_connections, "Connections of one stream",
       "MAX_STREAM_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
+  add("--drain-seconds", options->drain_seconds,
+      "Seconds after SIGTERM for pending answers, and for streams to reach their subscribers; it ends earlier when all "
+      "is done, and at once at a second SIGTERM",
+      "DRAIN_SECONDS")
+      ->check(CLI::Range(0, 3600));
   add("--worker-memory", options->worker_memory, "Address space of one job's process, bytes (or 4GB); 0: no limit",
       "WORKER_MEMORY")
       ->transform(CLI::AsSizeValue(false))
@@ -125,11 +130,27 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--client-failures", options->client_limits.failures_per_minute,
       "Tokens of one address per minute that are not accepted, before it has to wait", "CLIENT_FAILURES")
       ->check(CLI::Range(1.0, 1e6));
+  auto& of_token = options->token_limits;
+  add_size("--token-bytes", of_token.bytes,
+           "Bytes that one token may have stored: of models, recordings and expressions; 0: no limit. Tokens with the "
+           "scope admin have none of the limits of a token",
+           "TOKEN_BYTES");
+  const auto add_count = [&](const std::string& name, std::uint64_t& value, const std::string& what,
+                             const std::string& variable) {
+    add(name, value, what + "; 0: no limit", variable)->check(CLI::Range(0, 1'000'000));
+  };
+  add_count("--token-models", of_token.models, "Models of one token", "TOKEN_MODELS");
+  add_count("--token-expressions", of_token.expressions, "Displacement sets of one token", "TOKEN_EXPRESSIONS");
+  add_count("--token-streams", of_token.streams, "Streams of one token", "TOKEN_STREAMS");
+  add_count("--token-recordings", of_token.recordings, "Stored recordings of one token", "TOKEN_RECORDINGS");
+  add_count("--token-jobs", of_token.jobs, "Jobs of one token that wait or run", "TOKEN_JOBS");
+  add_count("--token-uploads", of_token.uploads, "Files that one token sends at the same time", "TOKEN_UPLOADS");
   add("--max-address-connections", options->max_connections_per_address,
       "Connections of one address (of IPv6: its first 64 bits); this machine and trusted proxies have no such limit",
       "MAX_ADDRESS_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
   add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
+  add("--log-format", options->log_format, "text, or json: one object per line", "LOG_FORMAT");
 }
 
 void add_serve_command(CLI::App& app) {

@@ -38,7 +38,7 @@ std::unique_ptr<store::Store> open(const TokenOptions& options) {
 
 void create(const TokenOptions& options) {
   const auto scope = access::parse_scope(options.scope);
-  if (!scope) refuse_options("--scope: " + options.scope + " is not one of read, publish, edit, admin");
+  if (!scope) refuse_options("--scope: " + options.scope + " is not one of " + access::token_scopes_in_words());
   if (!options.stream.empty() && !options.model.empty())
     refuse_options("--stream and --model cannot be given together");
   if (*scope == access::Scope::admin && !(options.stream.empty() && options.model.empty()))
@@ -90,7 +90,7 @@ void add_token_command(CLI::App& app) {
 
   auto* creating = command->add_subcommand("create", "Make a token, and print its text to standard output, once");
   add_data(creating);
-  creating->add_option("--scope", options->scope, "read, publish, edit or admin; each includes those before it")
+  creating->add_option("--scope", options->scope, access::token_scopes_in_words() + "; each includes those before it")
       ->required();
   creating->add_option("--name", options->name, "A name for people");
   creating->add_option("--stream", options->stream, "Only this stream, and reading the model that it shows");

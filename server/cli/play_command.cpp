@@ -33,7 +33,8 @@ constexpr std::size_t most_warnings = 1000;
 constexpr double end_slack = 3000.0;
 
 struct PlayCommand {
-  std::string file, server = "http://127.0.0.1:8080", stream, format, token;
+  client::ServerOptions server;
+  std::string file, stream, format;
   bool create = false, loop = false, take_over = false, quiet = false;
   double rate = 0.0, from = 0.0;
 };
@@ -56,12 +57,12 @@ std::string reason_of(const client::HttpResponse& reply) {
   return text;
 }
 
-client::Url address_of(const PlayCommand& options) {
-  auto url = client::parse_url(options.server);
-  if (!url) fail("play: --server", url.error());
-  if (!options.server.starts_with("http://") || !url->path.empty())
-    refuse_to_play("--server: " + options.server + " must be http://HOST:PORT");
-  return *std::move(url);
+client::ServerAddress address_of(const PlayCommand& options) {
+  auto server = options.server.parse();
+  if (!server) fail("play: --server", server.error());
+  if (options.server.address.find("://") == std::string::npos || !server->url.path.empty())
+    refuse_to_play("--server: " + options.server.address + " must be http://HOST:PORT or https://HOST");
+  return *std::move(server);
 }
 
 class Playing {
@@ -131,9 +132,7 @@ class Playing {
  private:
   client::HttpResponse ask(const std::string& method, const std::string& target, const std::string& type = {},
                            std::string body = {}) const {
-    client::HttpRequest request{method, target, std::move(body), type, {}};
-    if (!options_.token.empty()) request.headers.emplace_back("Authorization", "Bearer " + options_.token);
-    auto reply = server_.send(request);
+    auto reply = server_.send({method, target, std::move(body), type, {}});
     if (!reply) fail("play: --server", reply.error());
     return *std::move(reply);
   }
@@ -179,10 +178,10 @@ void add_play_command(CLI::App& app) {
       "Play a file into a stream of a running server, in real time: a performance, a .fap file, frames, a take of Live "
       "Link Face. Ends with it; Ctrl-C stops it, and the face returns to rest.");
   command->add_option("FILE", options->file, "File to play")->required()->envname("SEMBLANTE_IN");
-  command->add_option("--server", options->server, "Address of the server, http://HOST:PORT")
+  command->add_option("--server", options->server.address, "Address of the server, http://HOST:PORT or https://HOST")
       ->capture_default_str()
       ->envname("SEMBLANTE_SERVER");
-  command->add_option("--token", options->token, "For a server that asks for tokens")->envname("SEMBLANTE_TOKEN");
+  client::declare_access_options(*command, options->server);
   command->add_option("--stream", options->stream, "Id of the stream")->required()->envname("SEMBLANTE_STREAM");
   command->add_option("--in-format", options->format, "Of FILE, if its name does not tell: " + readable_face_formats())
       ->envname("SEMBLANTE_IN_FORMAT");

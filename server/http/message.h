@@ -45,6 +45,7 @@ constexpr std::size_t no_route = SIZE_MAX;
 
 /// One request as plain values, independent of sockets.
 struct Request {
+  std::string id;                             ///< of this request, in its answer and in the log
   std::string method;                         ///< "GET", as sent
   std::string path;                           ///< percent-decoded, without the query
   std::string target;                         ///< path and query as sent

@@ -12,6 +12,9 @@
 namespace semblante::http {
 namespace {
 
+constexpr std::string_view problem_media_type = "application/problem+json";
+constexpr std::string_view end_of_document = "\n";
+
 constexpr auto kinds = std::to_array<ProblemKind>({
     {"malformed-request", 400, "The request cannot be read"},
     {"invalid-argument", 400, "A value of the request is invalid"},
@@ -50,9 +53,11 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"damaged-data", 500, "Stored bytes are missing or damaged"},
     {"internal", 500, "A fault of the server"},
     {"overloaded", 503, "The server has reached its limit of connections"},
+    {"stopping", 503, "The server is stopping"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
     {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported"},
     {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
+    {"quota-exceeded", 507, "The token has used up a limit"},
     {"insufficient-storage", 507, "The disk is full"},
 });
 
@@ -100,6 +105,8 @@ nlohmann::ordered_json document(const Problem& problem) {
     auto& errors = json["errors"] = nlohmann::ordered_json::array();
     for (const auto& fault : problem.faults) errors.push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
   }
+  if (problem.limit)
+    json["limit"] = {{"name", problem.limit->name}, {"value", problem.limit->value}, {"used", problem.limit->used}};
   return json;
 }
 
@@ -145,10 +152,20 @@ Problem problem_from_json(std::string_view text) {
 Response to_response(const Problem& problem) {
   Response response;
   response.status = problem.status;
-  response.headers["Content-Type"] = "application/problem+json";
+  response.headers["Content-Type"] = problem_media_type;
   response.headers["Cache-Control"] = "no-store";
-  response.body = to_json(problem) + "\n";
+  response.body = to_json(problem) + std::string(end_of_document);
   return response;
+}
+
+void add_request_id(Response& response, std::string_view id) {
+  const auto type = response.headers.find("Content-Type");
+  auto* document = std::get_if<std::string>(&response.body);
+  if (type == response.headers.end() || type->second != problem_media_type || document == nullptr) return;
+  const auto end = std::string("}").append(end_of_document);
+  if (!document->ends_with(end)) return;
+  document->resize(document->size() - end.size());
+  document->append(",\"request\":").append(nlohmann::json(id).dump()).append(end);
 }
 
 }  // namespace semblante::http

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,14 @@ struct Fault {
   std::string detail;
 };
 
+/// A limit that a request would exceed.
+struct ReachedLimit {
+  std::string name;
+  std::uint64_t value = 0, used = 0;
+
+  bool operator==(const ReachedLimit&) const = default;
+};
+
 /// An RFC 9457 problem document as plain values. `slug` is the stable end of its `type`: "/problems/<slug>".
 struct Problem {
   int status = 500;
@@ -23,6 +33,7 @@ struct Problem {
   std::string detail;
   std::string pointer;        ///< the invalid field; may be empty
   std::vector<Fault> faults;  ///< all errors, when there is more than one
+  std::optional<ReachedLimit> limit = std::nullopt;
 
   bool operator==(const Problem&) const = default;
 };
@@ -42,6 +53,8 @@ Problem problem_from_json(std::string_view text);
 
 /// The whole answer, with its media type.
 Response to_response(const Problem& problem);
+/// Adds the member `request` to an answer that to_response() has made; other answers stay as they are.
+void add_request_id(Response& response, std::string_view id);
 
 /// Every slug with its status and title; iterated by the documentation and the tests.
 struct ProblemKind {

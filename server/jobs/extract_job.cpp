@@ -167,6 +167,7 @@ std::vector<std::string> ExtractJob::finish(store::JobRecord& job, const Outcome
   set.created = set.updated = store::timestamp_now();
   set.displacements = displacements_to_json(outcome.extraction.displacements).dump();
   set.source = dump(source);
+  set.owner = job.origin.owner;
   Json result = {{"expression", set.id}, {"href", "/v1/expressions/" + set.id}};
   result.update(taken);
   job.result = dump(result);

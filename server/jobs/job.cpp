@@ -37,13 +37,14 @@ std::optional<std::size_t> find_job_kind(std::string_view name) {
   return static_cast<std::size_t>(found - job_kinds.begin());
 }
 
-store::JobRecord new_record(const Job& job, std::string model) {
+store::JobRecord new_record(const Job& job, std::string model, store::Origin origin) {
   store::JobRecord record;
   record.id = store::random_id();
   record.model = std::move(model);
   record.kind = std::string(job_kinds[job.index()].name);
   record.created = record.updated = store::timestamp_now();
   record.request = value_of(job).dump(-1, ' ', false, json::error_handler_t::replace);
+  record.origin = std::move(origin);
   return record;
 }
 

@@ -70,7 +70,7 @@ inline constexpr auto& job_kinds = JobList<Job>::kinds;
 std::optional<std::size_t> find_job_kind(std::string_view name);
 
 /// A new record for this job, not stored yet; `model` is empty for a job without a model.
-store::JobRecord new_record(const Job& job, std::string model);
+store::JobRecord new_record(const Job& job, std::string model, store::Origin origin = {});
 /// Reads the job of a record. Error `internal`: a kind or a form that this program does not write.
 Result<Job> read_job(const store::JobRecord& record);
 /// The same if it has this type.

@@ -142,8 +142,11 @@ std::optional<JobRecord> JobQueue::find(std::string_view id) const {
 }
 
 void JobQueue::conclude(const JobRecord& job) {
+  const log::Scope scope({job.origin.request, job.id});
   if (const auto kind = find_job_kind(job.kind)) ++ended_[*kind][static_cast<std::size_t>(job.state)];
-  if (job.state != JobState::done)
+  if (job.state == JobState::done)
+    log::debug("job " + job.id + " (" + job.kind + " of " + job.model + ") done");
+  else
     log::info("job " + job.id + " (" + job.kind + " of " + job.model + ") " + std::string(store::to_string(job.state)) +
               ": " + http::problem_from_json(job.problem).detail);
   {
@@ -194,10 +197,16 @@ void JobQueue::work() {
 }
 
 std::optional<NextState> JobQueue::attempt(Running& running) {
+  const log::Scope scope({running.job.origin.request, running.job.id});
   JobRun attempt(stores_, blobs_, config_);
   try {
     auto ended = run_once(running, attempt);
-    if (!ended) return std::nullopt;
+    if (!ended) {
+      // The end of the server is no fault of the job: this attempt does not count.
+      --running.job.attempts;
+      stores_.jobs.update_job(running.job);
+      return std::nullopt;
+    }
     auto shown = running.job;
     shown.stage = "saving";
     return NextState{shown, std::move(*ended)};

@@ -5,6 +5,8 @@
 #include <string>
 #include <unistd.h>
 
+#include "server/log/log.h"
+
 namespace semblante::net {
 
 BodySink::BodySink(const http::BodyPlan& plan, SharedState& state, http::Request& request)
@@ -24,13 +26,18 @@ std::optional<http::Problem> BodySink::append(std::string_view piece) {
   }
   if (file_->is_over_limit()) return http::make_problem("overloaded", "too many files are being sent; try again later");
   while (!piece.empty()) {
-    if (file_->descriptor() < 0) return application_.unwritten_body(file_->error());
+    if (file_->descriptor() < 0) return unwritten(file_->error());
     const auto written = ::write(file_->descriptor(), piece.data(), piece.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return application_.unwritten_body(errno);
+    if (written <= 0) return unwritten(errno);
     piece.remove_prefix(static_cast<std::size_t>(written));
   }
   return std::nullopt;
+}
+
+http::Problem BodySink::unwritten(int error_number) {
+  const log::Scope scope({.request = request_.id});
+  return application_.unwritten_body(error_number);
 }
 
 http::Problem BodySink::too_large(const http::BodyPlan& plan) {

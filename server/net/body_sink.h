@@ -27,6 +27,8 @@ class BodySink {
   static http::Problem too_large(const http::BodyPlan& plan);
 
  private:
+  http::Problem unwritten(int error_number);
+
   const http::BodyPlan& plan_;
   http::Request& request_;
   http::Application& application_;

@@ -12,6 +12,7 @@
 
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/log/log.h"
 #include "server/net/body_sink.h"
@@ -47,6 +48,7 @@ std::string address_of(const asio::ip::tcp::socket& socket) {
 /// The result of `ask`, or a 500 when it throws: an internal error ends only its own request.
 template <class Ask>
 auto answered(const http::Request& request, Ask ask) -> decltype(ask()) {
+  const log::Scope scope({.request = request.id});
   try {
     return ask();
   } catch (...) {
@@ -101,9 +103,14 @@ class Session {
   };
 
   asio::awaitable<Next> answer(const http::Request& request, http::Response response, unsigned version, bool keep) {
-    state_->application.decorate(request, response);
-    if (log::enabled(log::Level::debug))
-      log::debug(request.method + " " + request.path + " " + std::to_string(response.status));
+    {
+      const log::Scope scope({.request = request.id});
+      state_->application.decorate(request, response);
+      response.headers[std::string(http::request_id_header)] = request.id;
+      http::add_request_id(response, request.id);
+      if (log::enabled(log::Level::debug))
+        log::debug(request.method + " " + request.path + " " + std::to_string(response.status));
+    }
     const bool keep_alive = keep && !state_->stopping;
     const bool usable =
         co_await write_response(transport_, response, version, request.method == "HEAD", keep_alive, *state_);
@@ -125,6 +132,7 @@ class Session {
     const Busy busy(*state_);
 
     auto& request = parser.request();
+    request.id = http::new_request_id();
     request.peer = peer_address_;
     request.secure = transport_.secure();
     state_->application.find_route(request);
@@ -182,6 +190,7 @@ class Session {
     const auto problem = problem_of(parser, error);
     if (!problem) co_return Next::gone;
     http::Request unknown;
+    unknown.id = http::new_request_id();
     unknown.method = "GET";
     co_return co_await answer(unknown, http::to_response(*problem), 11, false);
   }
@@ -213,8 +222,7 @@ class Session {
     while (!parser.is_done()) {
       // Each piece has its deadline, and all together a least rate: a body of many small pieces would hold its
       // connection and its file for days.
-      const auto earned = std::chrono::seconds(request.body_size / limits.least_body_rate);
-      const auto left = begin + limits.body_grace + earned - std::chrono::steady_clock::now();
+      const auto left = limits.body_time_left(begin, request.body_size);
       transport_.expires_after(std::min<std::chrono::steady_clock::duration>(limits.read_timeout, left));
       if (const auto error = co_await step(parser)) co_return Unread{problem_of(parser, error)};
     }
@@ -246,7 +254,7 @@ class Session {
     if (auto* refusal = std::get_if<http::Response>(&opened))
       co_return co_await answer(request, std::move(*refusal), 11, false);
     auto tls = transport_.tls();
-    serve_websocket(transport_.release_socket(), std::move(tls), *request.header("Sec-WebSocket-Key"),
+    serve_websocket(transport_.release_socket(), std::move(tls), *request.header("Sec-WebSocket-Key"), request.id,
                     std::move(std::get<std::shared_ptr<http::WebSocketPeer>>(opened)), state_, std::move(count_));
     co_return Next::gone;
   }

@@ -1,5 +1,6 @@
 #include "server/net/response_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <ctime>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/log/log.h"
 #include "server/net/body_file.h"
 #include "server/net/waker.h"
@@ -111,17 +113,23 @@ http::Response unreadable(const http::Response& response, const BodyFile& file) 
                                 name == "Last-Modified" || name == "Content-Location";
     if (!is_of_the_file) instead.headers.insert(field);
   }
+  if (const auto id = response.headers.find(http::request_id_header); id != response.headers.end())
+    http::add_request_id(instead, id->second);
   return instead;
 }
 
 asio::awaitable<bool> write_file(Transport& transport, const http::FileBody& body, int file, const SharedState& state) {
   std::vector<char> piece(std::min<std::uint64_t>(sent_piece_bytes, body.length));
   std::uint64_t sent = 0;
+  const auto& limits = state.config.limits;
+  const auto begin = std::chrono::steady_clock::now();
   while (sent < body.length) {
     const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), body.length - sent));
     const auto got = ::pread(file, piece.data(), want, static_cast<off_t>(body.offset + sent));
     if (got <= 0) co_return false;
-    transport.expires_after(state.config.limits.write_timeout);
+    // As of bodies that arrive: one that reads a little at a time would hold its file for days.
+    const auto left = limits.body_time_left(begin, sent);
+    transport.expires_after(std::min<std::chrono::steady_clock::duration>(limits.write_timeout, left));
     if (co_await transport.write({piece.data(), static_cast<std::size_t>(got)})) co_return false;
     sent += static_cast<std::uint64_t>(got);
   }

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <boost/asio/co_spawn.hpp>
@@ -17,6 +18,7 @@
 #include <boost/asio/write.hpp>
 
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/log/log.h"
 #include "server/net/error_value.h"
@@ -35,12 +37,12 @@ struct Door {
 };
 
 struct Server::State : SharedState {
-  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), signals(io), hangup(io), grace(io) {}
+  State(ServerConfig c, http::Application& a) : SharedState(std::move(c), a), signals(io), hangup(io), drain_step(io) {}
   std::deque<Door> doors;
   mutable std::mutex tls_mutex;
   std::shared_ptr<const TlsContext> tls;  ///< guarded by tls_mutex
   asio::signal_set signals, hangup;
-  asio::steady_timer grace;
+  asio::steady_timer drain_step;
   std::function<void()> on_stopping;
 };
 
@@ -49,11 +51,15 @@ namespace {
 /// Answers a connection over the limit with 503 and closes it. One that would begin with TLS is only closed: a
 /// handshake costs more than the answer.
 asio::awaitable<void> turn_away(tcp::socket socket) {
-  const auto body = std::get<std::string>(http::to_response(http::make_problem("overloaded", "try again later")).body);
+  auto refusal = http::to_response(http::make_problem("overloaded", "try again later"));
+  const auto id = http::new_request_id();
+  http::add_request_id(refusal, id);
+  const auto& body = std::get<std::string>(refusal.body);
   const std::string text =
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/problem+json\r\nRetry-After: 1\r\nConnection: "
-      "close\r\nContent-Length: " +
-      std::to_string(body.size()) + "\r\n\r\n" + body;
+      "close\r\n" +
+      std::string(http::request_id_header) + ": " + id + "\r\nContent-Length: " + std::to_string(body.size()) +
+      "\r\n\r\n" + body;
   boost::system::error_code ignored;
   co_await asio::async_write(socket, asio::buffer(text), error_into(ignored));
 }
@@ -121,6 +127,28 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, Context contex
   }
 }
 
+/// Not the default effect of the signal, which the first process of a container does not have.
+extern "C" void end_at_once(int signal) {
+  constexpr int ended_by_signal = 128;  // as shells say it
+  ::_exit(ended_by_signal + signal);
+}
+
+/// Ends the I/O loop when no answer and no WebSocket is pending, or at `end`; idle connections are closed then. Polled
+/// in short steps, so that an idle server stops soon. `quiet`: steps in a row without anything pending; more than one,
+/// because a request may be on its way through the kernel.
+template <class State>
+void drain(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end, int quiet) {
+  constexpr int enough = 3;
+  constexpr std::chrono::milliseconds step{20};
+  quiet = state->busy == 0 ? quiet + 1 : 0;
+  if (quiet >= enough || std::chrono::steady_clock::now() >= end) {
+    state->io.stop();
+    return;
+  }
+  state->drain_step.expires_after(step);
+  state->drain_step.async_wait([state, end, quiet](const boost::system::error_code&) { drain(state, end, quiet); });
+}
+
 }  // namespace
 
 Server::Server(ServerConfig config, http::Application& application)
@@ -168,7 +196,11 @@ void Server::stop_on_signals() {
   state_->signals.add(SIGINT);
   state_->signals.add(SIGTERM);
   state_->signals.async_wait([this](const boost::system::error_code& error, int) {
-    if (!error) stop();
+    if (error) return;
+    boost::system::error_code ignored;
+    state_->signals.clear(ignored);
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, end_at_once);
+    stop();
   });
 }
 
@@ -194,19 +226,7 @@ void Server::stop() {
     state->signals.cancel(ignored);
     state->hangup.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
-    // Pending answers get the grace period, idle connections are closed. Polled in short steps, so that an idle server
-    // stops immediately.
-    struct Step {
-      static void take(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_point end) {
-        if (state->busy == 0 || std::chrono::steady_clock::now() >= end) {
-          state->io.stop();
-          return;
-        }
-        state->grace.expires_after(std::chrono::milliseconds(20));
-        state->grace.async_wait([state, end](const boost::system::error_code&) { take(state, end); });
-      }
-    };
-    Step::take(state, std::chrono::steady_clock::now() + state->config.limits.shutdown_grace);
+    drain(state, std::chrono::steady_clock::now() + state->config.limits.drain_time, 0);
   });
 }
 

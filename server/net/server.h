@@ -29,9 +29,15 @@ struct ServerLimits {
                                                ///< the handshake of TLS
   std::chrono::seconds read_timeout{30};       ///< between two pieces of a body
   std::chrono::seconds body_grace{30};         ///< for a whole body, in addition to the time of the least rate
-  std::uint32_t least_body_rate = 1024;        ///< bytes per second
-  std::chrono::seconds write_timeout{30};      ///< between two pieces of an answer
-  std::chrono::seconds shutdown_grace{3};      ///< for pending answers at a shutdown
+  std::uint32_t least_body_rate = 1024;        ///< bytes per second, of a body that arrives and of a file that is sent
+
+  /// What is left for a body that has begun then and of which so many bytes have passed.
+  [[nodiscard]] std::chrono::steady_clock::duration body_time_left(std::chrono::steady_clock::time_point begin,
+                                                                   std::uint64_t bytes) const {
+    return begin + body_grace + std::chrono::seconds(bytes / least_body_rate) - std::chrono::steady_clock::now();
+  }
+  std::chrono::seconds write_timeout{30};  ///< between two pieces of an answer
+  std::chrono::seconds drain_time{10};     ///< for pending answers and waiting messages at a shutdown
 };
 
 /// An address to listen on.
@@ -71,12 +77,13 @@ class Server {
   /// Any thread. Connections accepted from now on use this context; earlier ones keep theirs. Required before run() if
   /// a listener has TLS.
   void set_tls(std::shared_ptr<const TlsContext> context);
-  /// Serves until stop(); then completes pending answers within the grace period, and returns. `on_stopping` is called
-  /// once before the grace period begins, so that feeds can be ended.
+  /// Serves until stop(); then accepts no more connections, completes pending answers, sends WebSockets what waits for
+  /// them, and returns: when all is done, at the latest after the drain time. `on_stopping` is called once before that,
+  /// so that feeds and streams can be ended.
   void run(const std::function<void()>& on_stopping);
   /// Any thread.
   void stop();
-  /// SIGINT and SIGTERM call stop() while run() runs.
+  /// SIGINT and SIGTERM call stop() while run() runs; the second one ends the process at once.
   void stop_on_signals();
   /// SIGHUP calls `reload` on a worker thread while run() runs.
   void reload_on_signal(std::function<void()> reload);

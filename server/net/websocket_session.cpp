@@ -9,6 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/net/outbox.h"
 #include "server/net/outbox_stream.h"
@@ -39,10 +40,10 @@ constexpr std::size_t largest_piece_bytes = std::size_t{64} * 1024;
 class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_this<WebSocketConnection> {
  public:
   static void start(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
-                    std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                    ConnectionCount count) {
+                    std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
+                    std::shared_ptr<SharedState> state, ConnectionCount count) {
     const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
-    self->accept(std::move(socket), std::move(tls), key);
+    self->accept(std::move(socket), std::move(tls), key, request_id);
   }
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
@@ -84,7 +85,8 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     return request;
   }
 
-  void accept(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key) {
+  void accept(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
+              std::string_view request_id) {
     error_code ignored;
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     executor_ = socket.get_executor();
@@ -97,7 +99,8 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     ws_->set_option(clocks);
     ws_->read_message_max(peer_->max_message_bytes());
     ws_->set_option(websocket::stream_base::decorator(
-        [name = std::string(peer_->subprotocol())](websocket::response_type& response) {
+        [name = std::string(peer_->subprotocol()), id = std::string(request_id)](websocket::response_type& response) {
+          response.set(std::string(http::request_id_header), id);
           if (!name.empty()) response.set(beast::http::field::sec_websocket_protocol, name);
         }));
     auto request = std::make_unique<beast::http::request<beast::http::empty_body>>(upgrade_with(key));
@@ -205,9 +208,9 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 }  // namespace
 
 void serve_websocket(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
-                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                     ConnectionCount connection) {
-  WebSocketConnection::start(std::move(socket), std::move(tls), key, std::move(peer), std::move(state),
+                     std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
+                     std::shared_ptr<SharedState> state, ConnectionCount connection) {
+  WebSocketConnection::start(std::move(socket), std::move(tls), key, request_id, std::move(peer), std::move(state),
                              std::move(connection));
 }
 

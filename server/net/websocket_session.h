@@ -10,12 +10,11 @@
 
 namespace semblante::net {
 
-/// Answers the upgrade that came with this Sec-WebSocket-Key (24 characters) and runs the WebSocket to its end, by
-/// callbacks on the strand of the socket. Returns immediately: the HTTP session ends, so that its buffers are not kept
-/// for a connection that is idle for hours.
-/// `tls` may be null.
+/// Answers the upgrade that came with this Sec-WebSocket-Key (24 characters), with the id of its request, and runs the
+/// WebSocket to its end, by callbacks on the strand of the socket. Returns immediately: the HTTP session ends, so that
+/// its buffers are not kept for a connection that is idle for hours. `tls` may be null.
 void serve_websocket(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
-                     std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
-                     ConnectionCount connection);
+                     std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
+                     std::shared_ptr<SharedState> state, ConnectionCount connection);
 
 }  // namespace semblante::net

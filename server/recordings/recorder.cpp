@@ -122,6 +122,9 @@ Result<store::RecordingRecord> Recorder::start(RecordingStart start, std::option
   if (!writer) return writer.error();
   running->writer = std::move(*writer);
   take_over(record, running->writer->durable());
+  record.owner = std::move(start.owner);
+  running->has_room = std::move(start.has_room);
+  running->stored_bytes = record.bytes;
   if (key) key->resource = record.id;
   // The file is made first, so that a record never refers to a missing file. The next start moves a file without a
   // record into the trash.
@@ -164,20 +167,17 @@ std::optional<store::RecordingRecord> Recorder::stop(std::string_view id) {
   return std::move(recording->record);
 }
 
-void Recorder::stop_all(std::string_view reason) {
+void Recorder::begin_closing() {
   const std::lock_guard lock(mutex_);
   closing_ = true;
-  for (const auto& [id, running] : running_)
-    if (running->stop_reason.empty()) running->stop_reason = reason;
-  has_work_ = true;
-  work_.notify_one();
 }
 
 void Recorder::close() {
-  stop_all(ended::server_stopped);
   {
     const std::lock_guard lock(mutex_);
-    stopping_ = true;
+    closing_ = stopping_ = has_work_ = true;
+    for (const auto& [id, running] : running_)
+      if (running->stop_reason.empty()) running->stop_reason = ended::server_stopped;
   }
   work_.notify_one();
   if (thread_.joinable()) thread_.join();
@@ -220,6 +220,14 @@ RecorderCounts Recorder::counts() const {
   return {running_count_.load(), frames_.load(), dropped_.load(), total_bytes_.load(), failed_.load()};
 }
 
+std::uint64_t Recorder::unstored_bytes(std::string_view owner) const {
+  const std::lock_guard lock(mutex_);
+  std::uint64_t bytes = 0;
+  for (const auto& [id, running] : running_)
+    if (running->record.owner == owner) bytes += running->record.bytes - running->stored_bytes;
+  return bytes;
+}
+
 // ---- the streams' side ------------------------------------------------------------------------------------------
 
 void Recorder::taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) {
@@ -246,7 +254,8 @@ void Recorder::ended(std::string_view stream) {
   if (running_count_ == 0) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [id, running] : running_)
-    if (running->record.stream == stream && running->stop_reason.empty()) running->stop_reason = ended::stream_ended;
+    if (running->record.stream == stream && running->stop_reason.empty())
+      running->stop_reason = closing_ ? ended::server_stopped : ended::stream_ended;
   has_work_ = true;
   work_.notify_one();
 }
@@ -315,6 +324,7 @@ std::string_view Recorder::write(Running& running, const std::deque<std::shared_
   }
   if (flush || !reason.empty()) {
     running.waiting_since.reset();
+    if (reason.empty() && running.has_room && !running.has_room()) reason = ended::max_token_bytes;
     if (const auto flushed = writer.flush(); !flushed) {
       log::error("recording " + running.record.id + ": " + flushed.error().message);
       reason = ended::disk_full;

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,7 +39,8 @@ inline constexpr std::string_view stream_ended = "stream-ended";
 inline constexpr std::string_view max_duration = "max-duration";  ///< the requested duration, or one day
 inline constexpr std::string_view max_bytes = "max-bytes";
 inline constexpr std::string_view max_total_bytes = "max-total-bytes";
-inline constexpr std::string_view disk_full = "disk-full";  ///< the disk is full, nearly full, or failed
+inline constexpr std::string_view max_token_bytes = "max-token-bytes";  ///< of what the owner may store
+inline constexpr std::string_view disk_full = "disk-full";              ///< the disk is full, nearly full, or failed
 inline constexpr std::string_view server_stopped = "server-stopped";
 inline constexpr std::string_view server_killed = "server-killed";  ///< the durable part is kept
 inline constexpr std::string_view damaged = "damaged";              ///< found damaged at a start
@@ -55,6 +57,9 @@ struct RecordingStart {
   Header header;  ///< the stream's current header
   std::string name;
   std::optional<std::uint64_t> max_duration;  ///< ms
+  std::string owner = {};                     ///< see store::Origin
+  /// Asked before frames are made durable, on the recorder's thread; false ends the recording. Empty: always true.
+  std::function<bool()> has_room = {};
 };
 
 struct RecorderCounts {
@@ -81,9 +86,9 @@ class Recorder : public streams::BatchListener {
   /// Ends a recording, and returns when all of it is durable. Does nothing when it has ended; nullopt when it does not
   /// exist. The state is still `recording` when its end cannot be stored yet and is a pending write.
   std::optional<store::RecordingRecord> stop(std::string_view id);
-  /// Ends all recordings and refuses new ones; does not wait.
-  void stop_all(std::string_view reason);
-  /// Ends all recordings like stop_all() and waits; streams may still call the listener.
+  /// Refuses new recordings from now on; a recording whose stream ends has ended because the server stops.
+  void begin_closing();
+  /// begin_closing(), ends all recordings and returns when they are durable; streams may still call the listener.
   void close();
 
   [[nodiscard]] std::optional<RecordingStatus> find(std::string_view id) const;
@@ -93,6 +98,8 @@ class Recorder : public streams::BatchListener {
   bool remove(std::string_view id);
   [[nodiscard]] std::filesystem::path path_of(std::string_view id) const;
   [[nodiscard]] RecorderCounts counts() const;
+  /// Bytes of running recordings of an owner that the store does not know yet.
+  [[nodiscard]] std::uint64_t unstored_bytes(std::string_view owner) const;
   [[nodiscard]] const RecorderLimits& limits() const { return limits_; }
 
   void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) override;
@@ -105,6 +112,8 @@ class Recorder : public streams::BatchListener {
     std::unique_ptr<RecordingWriter> writer;         ///< used only by the recorder's thread
     std::optional<Clock::time_point> waiting_since;  ///< thread only: since when frames are not durable
     std::optional<Clock::time_point> ends;
+    std::function<bool()> has_room;  ///< thread only
+    std::uint64_t stored_bytes = 0;  ///< in the store's record; never changes
     // Guarded by the mutex:
     std::deque<std::shared_ptr<const Frames>> queue;
     std::size_t queued_frames = 0;

@@ -23,6 +23,9 @@ inline constexpr std::string_view database_file_name = "semblante.sqlite";
 inline constexpr std::string_view database_log_name = "semblante.sqlite-wal";
 inline constexpr std::string_view recordings_folder_name = "recordings";
 
+/// Made by `serve --lan`, the same for all its runs: phones have accepted it. Certificate and key, below a data folder.
+inline constexpr std::array<std::string_view, 2> home_certificate_files = {"lan/certificate.pem", "lan/key.pem"};
+
 std::string recording_file_name(std::string_view id);
 /// Whether `name` has the form that the server gives to files of this kind.
 bool is_data_file_name(DataFileKind kind, std::string_view name);

@@ -103,6 +103,7 @@ struct SetRecord {
   std::string created, updated;
   std::string displacements;  ///< JSON, written by displacements_to_json
   std::string source;         ///< JSON of the source of an extraction; empty: made by hand
+  std::string owner = {};     ///< see Origin; never changes
 
   bool operator==(const SetRecord&) const = default;
 };
@@ -120,6 +121,14 @@ struct WornSet {
 
 /// Lengths of units given by hand, by name: model units, not divided by 1024.
 using FapuByUser = std::map<std::string, double>;
+
+/// Whose request made a record, and which request.
+struct Origin {
+  std::string owner = {};    ///< id of the token; empty: a request without one, or the server itself
+  std::string request = {};  ///< id of the request; empty: the server itself
+
+  bool operator==(const Origin&) const = default;
+};
 
 struct ModelRecord {
   std::string id, name;
@@ -144,6 +153,7 @@ struct ModelRecord {
   FapuByUser fapu = {};                       ///< set together with the feature points
   std::optional<PackageRecord> package;
   std::vector<WornSet> worn;  ///< by slot name, without displacements
+  std::string owner = {};     ///< see Origin; never changes
 
   bool operator==(const ModelRecord&) const = default;
 };
@@ -194,6 +204,7 @@ struct JobRecord {
   std::uint32_t attempts = 0;  ///< number of times a worker started it
   std::string request = "{}";  ///< JSON object; never changes
   std::string result;          ///< JSON of results other than stored changes, or empty
+  Origin origin = {};          ///< never changes
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -201,6 +212,7 @@ struct JobRecord {
 struct StreamRecord {
   std::string id, created;
   settings::StreamSettings settings;
+  std::string owner = {};  ///< see Origin; never changes
 
   bool operator==(const StreamRecord&) const = default;
 };
@@ -222,6 +234,7 @@ struct RecordingRecord {
   std::uint64_t epoch = 0;
   std::uint64_t media_time = 0;               ///< of the first frame
   std::optional<std::uint64_t> max_duration;  ///< ms; the recording ends by itself after it
+  std::string owner = {};                     ///< see Origin; never changes
 
   bool operator==(const RecordingRecord&) const = default;
 };

@@ -8,7 +8,8 @@ namespace semblante::store {
 namespace {
 
 constexpr const char* job_columns =
-    "SELECT id, model, kind, state, progress, stage, created, updated, problem, attempts, request, result FROM jobs ";
+    "SELECT id, model, kind, state, progress, stage, created, updated, problem, attempts, request, result, owner, "
+    "request_id FROM jobs ";
 
 JobRecord read_job(const Statement& row) {
   JobRecord job;
@@ -24,6 +25,7 @@ JobRecord read_job(const Statement& row) {
   job.attempts = static_cast<std::uint32_t>(row.integer(9));
   job.request = row.text(10);
   job.result = row.text(11);
+  job.origin = {row.text(12), row.text(13)};
   return job;
 }
 
@@ -33,9 +35,9 @@ void insert_job(Database& db, const JobRecord& job) {
   const auto model = job.model.empty() ? std::nullopt : std::optional(job.model);
   Statement(db,
             "INSERT INTO jobs(id, model, kind, state, progress, stage, created, updated, problem, attempts, request, "
-            "result) VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
+            "result, owner, request_id) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(job.id, model, job.kind, static_cast<int>(job.state), job.progress, job.stage, job.created, job.updated,
-            job.problem, job.attempts, job.request, job.result)
+            job.problem, job.attempts, job.request, job.result, job.origin.owner, job.origin.request)
       .run();
 }
 

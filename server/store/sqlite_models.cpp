@@ -12,7 +12,7 @@ constexpr const char* model_columns =
     "SELECT m.id, m.name, m.state, m.problem, m.created, m.updated, m.revision, m.file_name, m.format, "
     "m.source_bytes, m.source_sha256, m.vertices, m.triangles, m.facts, m.points_revision, "
     "(SELECT count(*) FROM feature_points f WHERE f.model = m.id), "
-    "p.parametrization, p.created, p.metric, p.weights, p.weight_bits, p.levels "
+    "p.parametrization, p.created, p.metric, p.weights, p.weight_bits, p.levels, m.owner "
     "FROM models m LEFT JOIN packages p ON p.model = m.id ";
 
 ModelRecord read_model(const Statement& row) {
@@ -33,6 +33,7 @@ ModelRecord read_model(const Statement& row) {
   read_facts(row.text(13), model);
   model.feature_points_revision = static_cast<std::uint64_t>(row.integer(14));
   model.feature_point_count = static_cast<std::uint32_t>(row.integer(15));
+  model.owner = row.text(22);
   if (!row.is_null(16))
     model.package = PackageRecord{row.text(16),
                                   row.text(17),
@@ -46,10 +47,10 @@ ModelRecord read_model(const Statement& row) {
 }  // namespace
 
 bool insert_model(Database& db, const ModelRecord& model) {
-  Statement(db, "INSERT OR IGNORE INTO models VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+  Statement(db, "INSERT OR IGNORE INTO models VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(model.id, model.name, static_cast<int>(model.state), model.problem, model.created, model.updated,
             model.revision, model.file_name, model.format, model.source_bytes, model.source_sha256, model.vertices,
-            model.triangles, write_facts(model), model.feature_points_revision)
+            model.triangles, write_facts(model), model.feature_points_revision, model.owner)
       .run();
   return db.changes() != 0;
 }

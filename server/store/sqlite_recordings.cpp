@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* columns =
     "SELECT id, stream, name, model, created, state, ended, duration, frames, lost, bytes, epoch, media_time, "
-    "max_duration FROM recordings ";
+    "max_duration, owner FROM recordings ";
 
 RecordingRecord read_recording(const Statement& row) {
   const auto number = [&row](int column) { return static_cast<std::uint64_t>(row.integer(column)); };
@@ -26,15 +26,16 @@ RecordingRecord read_recording(const Statement& row) {
   recording.epoch = number(11);
   recording.media_time = number(12);
   if (!row.is_null(13)) recording.max_duration = number(13);
+  recording.owner = row.text(14);
   return recording;
 }
 
 }  // namespace
 
 void insert_recording(Database& db, const RecordingRecord& r) {
-  Statement(db, "INSERT INTO recordings VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+  Statement(db, "INSERT INTO recordings VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(r.id, r.stream, r.name, r.model, r.created, static_cast<int>(r.state), r.ended, r.duration, r.frames,
-            r.lost, r.bytes, r.epoch, r.media_time, r.max_duration)
+            r.lost, r.bytes, r.epoch, r.media_time, r.max_duration, r.owner)
       .run();
 }
 

@@ -115,6 +115,21 @@ CREATE TABLE tokens(
 ALTER TABLE streams ADD COLUMN is_public INTEGER NOT NULL DEFAULT 0;
 )sql";
 
+/// Whose request made a record: the id of a token. Records of earlier versions have no owner.
+constexpr const char* with_owners = R"sql(
+ALTER TABLE models ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE displacement_sets ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE streams ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE recordings ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN request_id TEXT NOT NULL DEFAULT '';
+CREATE INDEX models_by_owner ON models(owner);
+CREATE INDEX displacement_sets_by_owner ON displacement_sets(owner);
+CREATE INDEX streams_by_owner ON streams(owner);
+CREATE INDEX recordings_by_owner ON recordings(owner);
+CREATE INDEX unfinished_jobs_by_owner ON jobs(owner) WHERE state IN (0, 1);
+)sql";
+
 /// Step n migrates a file from version n to n + 1; an empty file has version 0. Released steps never change.
 constexpr std::array migrations = {
     first_schema,
@@ -129,6 +144,7 @@ constexpr std::array migrations = {
     with_identity,
     with_job_requests,
     with_tokens,
+    with_owners,
 };
 constexpr int schema_version = migrations.size();
 

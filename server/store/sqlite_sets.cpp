@@ -6,18 +6,19 @@ namespace semblante::store {
 namespace {
 
 constexpr const char* set_columns =
-    "SELECT id, name, kind, revision, created, updated, displacements, source FROM displacement_sets ";
+    "SELECT id, name, kind, revision, created, updated, displacements, source, owner FROM displacement_sets ";
 
 SetRecord read_set(const Statement& row) {
-  return {row.text(0), row.text(1), row.text(2), static_cast<std::uint64_t>(row.integer(3)),
-          row.text(4), row.text(5), row.text(6), row.text(7)};
+  return {row.text(0), row.text(1), row.text(2), static_cast<std::uint64_t>(row.integer(3)), row.text(4), row.text(5),
+          row.text(6), row.text(7), row.text(8)};
 }
 
 }  // namespace
 
 void insert_set(Database& db, const SetRecord& set) {
-  Statement(db, "INSERT INTO displacement_sets VALUES(NULL,?,?,?,?,?,?,?,?)")
-      .bind(set.id, set.name, set.kind, set.revision, set.created, set.updated, set.displacements, set.source)
+  Statement(db, "INSERT INTO displacement_sets VALUES(NULL,?,?,?,?,?,?,?,?,?)")
+      .bind(set.id, set.name, set.kind, set.revision, set.created, set.updated, set.displacements, set.source,
+            set.owner)
       .run();
 }
 

@@ -7,6 +7,7 @@
 #include "server/store/sqlite_job_store.h"
 #include "server/store/sqlite_key_store.h"
 #include "server/store/sqlite_model_store.h"
+#include "server/store/sqlite_owner_store.h"
 #include "server/store/sqlite_recording_store.h"
 #include "server/store/sqlite_schema.h"
 #include "server/store/sqlite_set_store.h"
@@ -30,6 +31,7 @@ class SqliteStore final : private SqliteConnection,
                           public SqliteRecordingStore,
                           public SqliteKeyStore,
                           public SqliteTokenStore,
+                          public SqliteOwnerStore,
                           public SqliteDatabaseFacts,
                           public Store {
  public:
@@ -43,6 +45,7 @@ class SqliteStore final : private SqliteConnection,
         SqliteRecordingStore(connection()),
         SqliteKeyStore(connection()),
         SqliteTokenStore(connection()),
+        SqliteOwnerStore(connection()),
         SqliteDatabaseFacts(connection()) {
     if (locking == Locking::exclusive) db.execute("PRAGMA locking_mode=EXCLUSIVE");
     db.execute("PRAGMA journal_mode=WAL");

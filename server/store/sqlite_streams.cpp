@@ -28,8 +28,9 @@ void load(const Statement& row, int column, std::optional<double>& value) {
 bool insert_stream(Database& db, const StreamRecord& stream) {
   std::string marks;
   settings::for_each_setting(stream.settings, [&](std::string_view, const auto&) { marks += ",?"; });
-  Statement insert(db, "INSERT OR IGNORE INTO streams(id, created" + setting_columns() + ") VALUES(?,?" + marks + ")");
-  insert.bind(stream.id, stream.created);
+  Statement insert(
+      db, "INSERT OR IGNORE INTO streams(id, created, owner" + setting_columns() + ") VALUES(?,?,?" + marks + ")");
+  insert.bind(stream.id, stream.created, stream.owner);
   settings::for_each_setting(stream.settings, [&](std::string_view, const auto& value) { insert.bind(value); });
   insert.run();
   return db.changes() != 0;
@@ -37,10 +38,10 @@ bool insert_stream(Database& db, const StreamRecord& stream) {
 
 std::vector<StreamRecord> list_streams(Database& db) {
   std::vector<StreamRecord> list;
-  Statement row(db, "SELECT id, created" + setting_columns() + " FROM streams ORDER BY number");
+  Statement row(db, "SELECT id, created, owner" + setting_columns() + " FROM streams ORDER BY number");
   while (row.step()) {
-    StreamRecord stream{row.text(0), row.text(1), {}};
-    int column = 2;
+    StreamRecord stream{row.text(0), row.text(1), {}, row.text(2)};
+    int column = 3;
     settings::for_each_setting(stream.settings, [&](std::string_view, auto& value) { load(row, column++, value); });
     list.push_back(std::move(stream));
   }

@@ -5,6 +5,7 @@
 #include "server/store/job_store.h"
 #include "server/store/key_store.h"
 #include "server/store/model_store.h"
+#include "server/store/owner_store.h"
 #include "server/store/recording_store.h"
 #include "server/store/set_store.h"
 #include "server/store/store_error.h"
@@ -26,6 +27,7 @@ class Store : public virtual ModelStore,
               public virtual RecordingStore,
               public virtual KeyStore,
               public virtual TokenStore,
+              public virtual OwnerStore,
               public virtual DatabaseFacts {};
 
 }  // namespace semblante::store

@@ -1,7 +1,5 @@
 #include "server/streams/flood_guard.h"
 
-#include <algorithm>
-
 namespace semblante::streams {
 namespace {
 
@@ -11,13 +9,7 @@ constexpr std::chrono::milliseconds pause{1000};
 }  // namespace
 
 FloodGuard::Verdict FloodGuard::offer(std::size_t frames, Clock::time_point now) {
-  const double seconds = std::chrono::duration<double>(now - counted_).count();
-  counted_ = now;
-  tokens_ = std::min<double>(limits_.frames_burst, tokens_ + seconds * limits_.frames_per_second);
-  if (tokens_ >= static_cast<double>(frames)) {
-    tokens_ -= static_cast<double>(frames);
-    return Verdict::take;
-  }
+  if (bucket_.take(static_cast<double>(frames), now)) return Verdict::take;
   if (!dropped_ || now - last_drop_ > pause) began_ = now;
   dropped_ = true;
   last_drop_ = now;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/types/token_bucket.h"
+
 namespace semblante::streams {
 
 struct FloodLimits {
@@ -27,7 +29,7 @@ class FloodGuard {
   };
 
   FloodGuard(FloodLimits limits, Clock::time_point now)
-      : limits_(limits), tokens_(limits.frames_burst), counted_(now) {}
+      : limits_(limits), bucket_(limits.frames_per_second, limits.frames_burst, now) {}
 
   Verdict offer(std::size_t frames, Clock::time_point now);
   /// A message with the limit and the number of frames dropped since the last call.
@@ -35,8 +37,7 @@ class FloodGuard {
 
  private:
   FloodLimits limits_;
-  double tokens_;
-  Clock::time_point counted_;            ///< when tokens_ was updated
+  TokenBucket bucket_;
   Clock::time_point began_, last_drop_;  ///< of the current or last flood
   Clock::time_point last_said_;
   bool dropped_ = false, said_ = false;  ///< ever

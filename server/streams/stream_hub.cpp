@@ -46,7 +46,7 @@ void InProcessHub::set_listener(std::shared_ptr<BatchListener> listener) {
 
 bool InProcessHub::open(const StreamInfo& info) {
   const std::lock_guard lock(mutex_);
-  if (stopping_ || streams_.contains(info.id)) return false;
+  if (stopping_ || shut_down_ || streams_.contains(info.id)) return false;
   // Epochs never repeat, even across restarts, so that a resume point of an earlier instance is never accepted.
   last_epoch_ = std::max(last_epoch_ + 1, static_cast<std::uint64_t>(server_time_now()));
   StreamInfo full = info;
@@ -83,13 +83,14 @@ bool InProcessHub::close(std::string_view id, EndReason reason) {
   return true;
 }
 
-void InProcessHub::close_all(EndReason reason) {
+void InProcessHub::shut_down() {
   std::vector<std::string> ids;
   {
     const std::lock_guard lock(mutex_);
+    shut_down_ = true;
     ids = order_;
   }
-  for (const auto& id : ids) close(id, reason);
+  for (const auto& id : ids) close(id, EndReason::shutdown);
 }
 
 std::shared_ptr<InProcessHub::Playing> InProcessHub::find_playing(std::string_view id) const {

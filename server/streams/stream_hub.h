@@ -32,7 +32,8 @@ class StreamHub {
   virtual bool open(const StreamInfo& info) = 0;
   /// Ends a stream and sends its connections the reason; false when there is no such stream.
   virtual bool close(std::string_view id, EndReason reason) = 0;
-  virtual void close_all(EndReason reason) = 0;
+  /// Ends all streams because the server stops; later ones are not made.
+  virtual void shut_down() = 0;
   [[nodiscard]] virtual std::vector<StreamInfo> list() const = 0;
   [[nodiscard]] virtual std::optional<StreamInfo> info(std::string_view id) const = 0;
   /// The header for a recording that begins now.
@@ -68,7 +69,7 @@ class InProcessHub : public StreamHub {
 
   bool open(const StreamInfo& info) override;
   bool close(std::string_view id, EndReason reason) override;
-  void close_all(EndReason reason) override;
+  void shut_down() override;
   [[nodiscard]] std::vector<StreamInfo> list() const override;
   [[nodiscard]] std::optional<StreamInfo> info(std::string_view id) const override;
   [[nodiscard]] std::optional<Header> header(std::string_view id) const override;
@@ -102,6 +103,7 @@ class InProcessHub : public StreamHub {
   std::condition_variable changed_;
   std::shared_ptr<BatchListener> listener_;
   bool stopping_ = false;
+  bool shut_down_ = false;     ///< no more streams
   bool more_to_play_ = false;  ///< tells the thread that a player was added
   std::uint64_t last_epoch_ = 0;
   std::vector<std::string> order_;  ///< ids by creation

@@ -119,11 +119,25 @@ Result<bool> copy_one_moment(const fs::path& data, const fs::path& to, Copies& b
   return is_complete || is_last;
 }
 
+/// Copies the certificate of `serve --lan`, if there is one: phones have accepted it, and accept no other.
+Result<bool> copy_home_certificate(const fs::path& from, const fs::path& to) {
+  for (const auto& name : store::home_certificate_files)
+    if (!store::is_real_file(from / name)) return false;
+  for (const auto& name : store::home_certificate_files) {
+    std::error_code error;
+    fs::create_directories((to / name).parent_path(), error);
+    if (error) store::throw_store_error((to / name).parent_path(), error.value());
+    if (const auto copy = copy_bytes(from / name, to / name); !copy) return copy.error();
+  }
+  return true;
+}
+
 std::string completed_text(const BackupReport& report) {
   nlohmann::ordered_json json;
   json["created"] = store::timestamp_now();
   json["blobs"] = {{"files", report.blobs}, {"bytes", report.blob_bytes}};
   json["recordings"] = {{"files", report.recordings}, {"bytes", report.recording_bytes}};
+  json["home_certificate"] = report.home_certificate;
   json["faults"] = report.faults;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -153,7 +167,10 @@ Result<BackupReport> back_up(const fs::path& data, const fs::path& to) {
     if (!done) return done.error();
     if (*done) break;
   }
-  const auto report = report_of(blobs, recordings);
+  const auto certificate = copy_home_certificate(data, to);
+  if (!certificate) return certificate.error();
+  auto report = report_of(blobs, recordings);
+  report.home_certificate = *certificate;
   sync_file_system(to);
   write_durably(to / completed_name, completed_text(report));
   return report;
@@ -172,18 +189,23 @@ Result<BackupReport> restore(const fs::path& backup, const fs::path& data) {
     if (!blobs.add(hash, std::nullopt)) blobs.fail(hash, "it is missing");
   for (const auto& [id, record] : known->recordings)
     if (!recordings.add(id, std::nullopt)) recordings.fail(id, "it is missing");
+  const auto certificate = copy_home_certificate(backup, data);
+  if (!certificate) return certificate.error();
   sync_file_system(data);
   // Last: until then the folder has no database, and nothing takes it for a data folder.
   if (auto copied = store::copy_database(backup / store::database_file_name, data / store::database_file_name); !copied)
     return copied.error();
-  return report_of(blobs, recordings);
+  auto report = report_of(blobs, recordings);
+  report.home_certificate = *certificate;
+  return report;
 }
 
 std::string to_text(const BackupReport& report) {
   std::string text;
   for (const auto& fault : report.faults) text.append("not copied: ").append(fault).append("\n");
   return text + std::to_string(report.blobs) + " blobs (" + std::to_string(report.blob_bytes) + " bytes) and " +
-         std::to_string(report.recordings) + " recordings (" + std::to_string(report.recording_bytes) + " bytes)\n";
+         std::to_string(report.recordings) + " recordings (" + std::to_string(report.recording_bytes) + " bytes)" +
+         (report.home_certificate ? ", and the certificate of serve --lan with its key" : "") + "\n";
 }
 
 }  // namespace semblante::upkeep

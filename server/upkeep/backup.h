@@ -11,6 +11,7 @@ namespace semblante::upkeep {
 
 struct BackupReport {
   std::uint64_t blobs = 0, blob_bytes = 0, recordings = 0, recording_bytes = 0;  ///< copied, or put in place
+  bool home_certificate = false;  ///< that of `serve --lan` was copied, with its key
   /// Files that the database knows and that could not be copied whole: "blob <SHA-256>: <reason>".
   std::vector<std::string> faults;
 };

@@ -43,6 +43,23 @@ class Configuration(unittest.TestCase):
         self.assertEqual(values["max-models"], ("6", f"{self.file}:4"))
         self.assertEqual(values["max-streams"], ("256", "default"))
 
+    def test_limits_of_the_readme_are_options_with_their_defaults(self):
+        values = self.print_config("")
+        text = (support.TOP / "server/README.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (.+?) \| (.+?) \| `--([a-z-]+)` \|", text[text.index("## Limits"):text.index("## What one token may have")], re.MULTILINE)
+        units = {"": 1, " KiB": 1 << 10, " MiB": 1 << 20, " GiB": 1 << 30, " s": 1, " days": 86400}
+        seen = set()
+        for what, value, option in rows:
+            with self.subTest(what):
+                self.assertIn(option, values)
+                seen.add(option)
+                plain = re.fullmatch(r"(\d+)( [KMG]iB| s| days|)", value)
+                if plain:
+                    self.assertEqual(values[option][0], str(int(plain.group(1)) * units[plain.group(2)]))
+        limits = {name for name in values if name.startswith(("max-", "token-", "client-"))}
+        self.assertEqual(limits - seen, set(), "limits without a row")
+        self.assertGreater(len(seen), 20)
+
     def test_environment_alike_the_option_and_with_a_unit(self):
         values = self.print_config("", "--port", "5", SEMBLANTE_PORT=5, SEMBLANTE_WORKER_MEMORY="2GB", SEMBLANTE_DEMO=1, SEMBLANTE_DATA="")
         self.assertEqual(values["port"], ("5", "option"))

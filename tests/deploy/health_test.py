@@ -37,9 +37,10 @@ class Health(unittest.TestCase):
             self.assertEqual(health(server.port).returncode, 1)
 
     def test_other_answers(self):
-        self.assertEqual(self.answered(b"HTTP/1.1 200 OK\r\n")[0], 0)
-        self.assertEqual(self.answered(b"HTTP/1.1 503 Service Unavailable\r\n\r\n"),
-                         (1, "semblante: health: the server answers HTTP/1.1 503 Service Unavailable\n"))
+        self.assertEqual(self.answered(b"HTTP/1.1 200 OK\r\nContent-Length: 0\r\n\r\n")[0], 0)
+        self.assertEqual(self.answered(b"HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\n\r\n"),
+                         (1, "semblante: health: the server answers 503 Service Unavailable\n"))
+        self.assertEqual(self.answered(b"HTTP/1.1 200 OK\r\n")[0], 1)
         self.assertEqual(self.answered(b"HTTP/1.1 200")[0], 1)
         self.assertEqual(self.answered(b"\x16\x03\x01\r\n")[0], 1)
         self.assertEqual(self.answered(b"")[0], 1)

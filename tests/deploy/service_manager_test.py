@@ -36,6 +36,12 @@ class ServiceManager(unittest.TestCase):
             with support.temporary_folder() as folder, support.Server(folder / "data", environment=clean_environment(NOTIFY_SOCKET=name)) as server:
                 self.assertEqual(support.get(server.url + "/healthz")[0], 200)
 
+    def test_systemd_waits_longer_than_the_server_drains(self):
+        patience = int(re.search(r"^TimeoutStopSec=(\d+)$", UNIT, re.MULTILINE).group(1))
+        printed = support.run(support.PROGRAM, "serve", "--print-config", environment=clean_environment())
+        drain = int(re.search(r"^drain-seconds = (\d+)", printed.stdout, re.MULTILINE).group(1))
+        self.assertGreater(patience, 2 * drain)
+
     def test_a_stop_beside_an_unfinished_request_ends_before_systemd_kills(self):
         patience = int(re.search(r"^TimeoutStopSec=(\d+)$", UNIT, re.MULTILINE).group(1))
         with support.temporary_folder() as folder, support.Server(folder / "data", "--demo") as server:

@@ -61,7 +61,7 @@ class Server:
                                         [str(o) for o in options], env=environment or clean_environment(),
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
-        match = re.fullmatch(r"semblante listening on (http://\S+)\n", line)
+        match = re.fullmatch(r"semblante listening on (https?://\S+)\n", line)
         if not match:
             self.process.kill()
             raise AssertionError(f"the server did not start: {line}{self.process.stderr.read()}")

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
+
+#include "core/types/token_bucket.h"
 
 namespace semblante::gateways {
 
@@ -8,20 +11,17 @@ namespace semblante::gateways {
 /// clock.
 class RateLimit {
  public:
-  explicit RateLimit(double per_second)
-      : per_second_(per_second), most_(std::max(1.0, per_second / 4.0)), there_(most_) {}
+  explicit RateLimit(double per_second) : bucket_(per_second, std::max(1.0, per_second / 4.0), at(0.0)) {}
 
-  bool admits(double now) {
-    there_ = std::min(most_, there_ + std::max(0.0, now - last_) * per_second_);
-    last_ = now;
-    if (there_ < 1.0) return false;
-    there_ -= 1.0;
-    return true;
-  }
+  bool admits(double now) { return bucket_.take(1.0, at(now)); }
 
  private:
-  double per_second_, most_, there_;
-  double last_ = 0.0;
+  using Clock = TokenBucket::Clock;
+  static Clock::time_point at(double seconds) {
+    return Clock::time_point(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
+  }
+
+  TokenBucket bucket_;
 };
 
 }  // namespace semblante::gateways

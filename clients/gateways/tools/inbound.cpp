@@ -31,10 +31,10 @@ struct Counts {
 
 class Inbound {
  public:
-  Inbound(const InboundOptions& options, client::Url url, const Decode& decode)
+  Inbound(const InboundOptions& options, client::ServerAddress server, const Decode& decode)
       : options_(options),
         decode_(decode),
-        publisher_(std::move(url), options.stream, options.publisher),
+        publisher_(std::move(server), options.stream, options.publisher),
         packets_(options.max_packets),
         faces_(options.max_fps) {}
 
@@ -115,7 +115,9 @@ class Inbound {
 }  // namespace
 
 void add_inbound_options(CLI::App& app, InboundOptions& options) {
-  app.add_option("--server", options.server, "http://HOST:PORT of the server")->capture_default_str();
+  app.add_option("--server", options.server.address, "http://HOST:PORT or https://HOST of the server")
+      ->capture_default_str();
+  client::declare_access_options(app, options.server);
   app.add_option("--stream", options.stream, "id of the stream to publish to")->required();
   app.add_flag("--create", options.publisher.create, "create the stream if it does not exist");
   app.add_option("--model", options.publisher.model, "with --create: the model that the stream suggests");
@@ -135,8 +137,8 @@ void add_inbound_options(CLI::App& app, InboundOptions& options) {
 }
 
 Status run_inbound(const InboundOptions& options, const Decode& decode) {
-  auto url = client::parse_url(options.server);
-  if (!url) return std::move(url).error();
+  auto server = options.server.parse();
+  if (!server) return std::move(server).error();
   const auto at = parse_endpoint(options.listen, options.usual_port);
   if (!at) return at.error();
   auto socket = UdpSocket::listen(*at);
@@ -144,7 +146,7 @@ Status run_inbound(const InboundOptions& options, const Decode& decode) {
   catch_stop_signals();
   std::cout << "listening at " << at->host << " port " << socket->port() << " for stream " << options.stream
             << std::endl;
-  Inbound inbound(options, *std::move(url), decode);
+  Inbound inbound(options, *std::move(server), decode);
   auto ran = inbound.run(*socket);
   inbound.print_counts();
   return ran;

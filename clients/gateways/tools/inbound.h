@@ -28,7 +28,7 @@ using Decode = std::function<Result<std::optional<InboundFace>>(std::span<const 
 
 struct InboundOptions {
   std::string program;
-  std::string server = "http://127.0.0.1:8080";
+  client::ServerOptions server;
   std::string stream;
   std::string listen = "127.0.0.1";
   std::string usual_port;

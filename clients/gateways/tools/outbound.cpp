@@ -29,8 +29,8 @@ constexpr milliseconds last_retry{5000};
 
 class Outbound {
  public:
-  Outbound(const OutboundOptions& options, client::Url url, UdpSocket& socket)
-      : options_(options), url_(std::move(url)), socket_(socket) {}
+  Outbound(const OutboundOptions& options, client::ServerAddress server, UdpSocket& socket)
+      : options_(options), server_(std::move(server)), socket_(socket) {}
 
   Status run() {
     while (!stop_requested()) {
@@ -63,7 +63,7 @@ class Outbound {
 
   /// Until the stream ends for good, which may be there again later. Errors: there is no such stream.
   Status follow() {
-    client::LiveStream stream(url_, options_.stream, wanted());
+    client::LiveStream stream(server_, options_.stream, wanted());
     bool was_waiting = false;
     while (!stop_requested()) {
       const double left = waiting_.empty() ? static_cast<double>(longest_wait.count()) : waiting_.front().first - now();
@@ -127,7 +127,7 @@ class Outbound {
   }
 
   const OutboundOptions& options_;
-  client::Url url_;
+  client::ServerAddress server_;
   UdpSocket& socket_;
   QuantizerSteps steps_ = standard_quantizers();
   std::optional<ResumePoint> resume_;
@@ -142,15 +142,15 @@ class Outbound {
 }  // namespace
 
 Status run_outbound(const OutboundOptions& options) {
-  auto url = client::parse_url(options.server);
-  if (!url) return std::move(url).error();
+  auto server = options.server.parse();
+  if (!server) return std::move(server).error();
   const auto to = parse_endpoint(options.to, options.usual_port);
   if (!to) return to.error();
   auto socket = UdpSocket::send_to(*to, options.anywhere);
   if (!socket) return std::move(socket).error();
   catch_stop_signals();
   std::cout << "sending stream " << options.stream << " to " << to->host << " port " << to->port << std::endl;
-  Outbound outbound(options, *std::move(url), *socket);
+  Outbound outbound(options, *std::move(server), *socket);
   auto ran = outbound.run();
   outbound.print_counts();
   return ran;

@@ -4,12 +4,13 @@
 
 #include "clients/gateways/vmc/sender.h"
 #include "core/types/result.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::gateways {
 
 struct OutboundOptions {
   std::string program;
-  std::string server = "http://127.0.0.1:8080";
+  client::ServerOptions server;
   std::string stream;
   std::string to = "127.0.0.1";
   std::string usual_port;

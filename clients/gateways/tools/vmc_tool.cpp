@@ -42,7 +42,9 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   auto* in_command = app.add_subcommand("in", "VMC -> stream: receives from a performer and publishes");
   gateways::add_inbound_options(*in_command, in);
   auto* out_command = app.add_subcommand("out", "stream -> VMC: follows a stream and sends to a marionette");
-  out_command->add_option("--server", out.server, "http://HOST:PORT of the server")->capture_default_str();
+  out_command->add_option("--server", out.server.address, "http://HOST:PORT or https://HOST of the server")
+      ->capture_default_str();
+  semblante::client::declare_access_options(*out_command, out.server);
   out_command->add_option("--stream", out.stream, "id of the stream to follow")->required();
   out_command->add_option("--to", out.to, "HOST[:PORT] to send to; default port 39539")->capture_default_str();
   out_command->add_flag("--anywhere", out.anywhere, "allow another machine in --to");

@@ -5,8 +5,9 @@
 
 namespace semblante::client {
 
-LivePlayer::LivePlayer(Url url, std::string stream, LiveStreamOptions options, const runtime::PlayoutOptions& playout)
-    : stream_(std::move(url), std::move(stream), options), player_({.playout = playout}) {
+LivePlayer::LivePlayer(ServerAddress server, std::string stream, LiveStreamOptions options,
+                       const runtime::PlayoutOptions& playout)
+    : stream_(std::move(server), std::move(stream), options), player_({.playout = playout}) {
   player_.follow(&stream_.machine());
 }
 

@@ -13,7 +13,8 @@ namespace semblante::client {
 /// Plays a live stream: a `runtime::Player` that follows a `LiveStream`. For one thread.
 class LivePlayer {
  public:
-  LivePlayer(Url url, std::string stream, LiveStreamOptions options = {}, const runtime::PlayoutOptions& playout = {});
+  LivePlayer(ServerAddress server, std::string stream, LiveStreamOptions options = {},
+             const runtime::PlayoutOptions& playout = {});
 
   /// Receives messages for `time`; call it with the time until the next display frame. Errors like LiveStream::next.
   Status receive(std::chrono::milliseconds time);

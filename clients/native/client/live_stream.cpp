@@ -43,8 +43,11 @@ runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
 
 }  // namespace
 
-LiveStream::LiveStream(Url url, std::string stream, LiveStreamOptions options)
-    : url_(std::move(url)), stream_(std::move(stream)), options_(options.stream), machine_(machine_options(options)) {
+LiveStream::LiveStream(ServerAddress server, std::string stream, LiveStreamOptions options)
+    : server_(std::move(server)),
+      stream_(std::move(stream)),
+      options_(options.stream),
+      machine_(machine_options(options)) {
   machine_.start(now());
 }
 
@@ -59,11 +62,13 @@ void LiveStream::close() {
 Status LiveStream::connect() {
   ++connections_;
   decoder_.reset();
-  auto client = StreamClient::open(url_, stream_, options_);
+  auto client = StreamClient::open(server_, stream_, options_);
   if (!client) {
     machine_.closed(now());
     const ErrorCode code = client.error().code;
-    return code == ErrorCode::missing || code == ErrorCode::mismatch ? Status(std::move(client).error()) : Unit{};
+    const bool is_final =
+        code == ErrorCode::missing || code == ErrorCode::mismatch || code == ErrorCode::invalid_argument;
+    return is_final ? Status(std::move(client).error()) : Unit{};
   }
   client_.emplace(*std::move(client));
   machine_.opened(now());

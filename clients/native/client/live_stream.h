@@ -11,7 +11,7 @@
 #include "core/types/result.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/http/url.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::client {
 
@@ -30,10 +30,11 @@ class LiveStream {
  public:
   using Clock = std::chrono::steady_clock;
 
-  LiveStream(Url url, std::string stream, LiveStreamOptions options = {});
+  LiveStream(ServerAddress server, std::string stream, LiveStreamOptions options = {});
 
   /// The next message; nullopt at the timeout, and without a connection. Errors: missing (no such stream), mismatch
-  /// (another subprotocol), for which reconnecting does not help. No messages follow the stream's final `end`.
+  /// (another subprotocol), invalid_argument (the token), for which reconnecting does not help. No messages follow the
+  /// stream's final `end`.
   Result<std::optional<Message>> next(std::chrono::milliseconds timeout);
   /// Closes the connection; next() opens no other.
   void close();
@@ -57,7 +58,7 @@ class LiveStream {
   /// Reads a message until `until`.
   std::optional<Message> receive(Clock::time_point until);
 
-  Url url_;
+  ServerAddress server_;
   std::string stream_;
   StreamOptions options_;
   runtime::Stream machine_;

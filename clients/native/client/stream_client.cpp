@@ -8,12 +8,12 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket.hpp>
 
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
+#include "protocol/http/connection.h"
 
 namespace semblante::client {
 namespace {
@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 /// Everything runs inside run_until, on the caller's thread; a read stays pending between calls.
 struct StreamClient::Impl {
   asio::io_context io{1};
-  websocket::stream<beast::tcp_stream, false> socket{io};  ///< no compression: it is not offered
+  websocket::stream<Connection, false> socket{io.get_executor()};  ///< no compression: it is not offered
   beast::flat_buffer buffer;
   std::string where;
   StreamOptions options;
@@ -76,7 +76,8 @@ struct StreamClient::Impl {
     return Unit{};
   }
 
-  Status open(const Url& url, const std::string& target) {
+  Status open(const ServerAddress& server, const std::string& target) {
+    const Url& url = server.url;
     asio::ip::tcp::resolver resolver(io);
     asio::ip::tcp::resolver::results_type endpoints;
     std::optional<error_code> resolved;
@@ -95,10 +96,19 @@ struct StreamClient::Impl {
     }
     error_code ignored;
     beast::get_lowest_layer(socket).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+    auto& connection = socket.next_layer();
+    if (auto ready = connection.secure(server); !ready) {
+      return ready;
+    }
+    auto agreed_on = wait("cannot agree on TLS", [&](auto done) { connection.async_handshake(std::move(done)); });
+    if (!agreed_on) {
+      return connection.certificate_fault().empty() ? agreed_on : handshake_failed(connection, url, {});
+    }
     const std::string_view protocol = options.json ? json_subprotocol : binary_subprotocol;
-    socket.set_option(websocket::stream_base::decorator([protocol](websocket::request_type& request) {
+    socket.set_option(websocket::stream_base::decorator([protocol, &server](websocket::request_type& request) {
       request.set(http::field::sec_websocket_protocol, std::string(protocol));
       request.set(http::field::user_agent, "semblante-client");
+      if (!server.token.empty()) request.set(http::field::authorization, "Bearer " + server.token);
     }));
     socket.read_message_max(options.json ? max_json_message_bytes : max_binary_message_bytes);
     websocket::response_type response;
@@ -107,6 +117,9 @@ struct StreamClient::Impl {
     if (!shaken) {
       if (response.result() == http::status::not_found) {
         return Error{ErrorCode::missing, where, "there is no such stream"};
+      }
+      if (response.result() == http::status::unauthorized || response.result() == http::status::forbidden) {
+        return Error{ErrorCode::invalid_argument, where, "the server does not accept the token, or asks for one"};
       }
       return shaken;
     }
@@ -141,19 +154,22 @@ StreamClient::~StreamClient() = default;
 StreamClient::StreamClient(StreamClient&&) noexcept = default;
 StreamClient& StreamClient::operator=(StreamClient&&) noexcept = default;
 
-Result<StreamClient> StreamClient::open(const Url& url, std::string_view stream, const StreamOptions& options) {
+Result<StreamClient> StreamClient::open(const ServerAddress& server, std::string_view stream,
+                                        const StreamOptions& options) {
   auto impl = std::make_unique<Impl>();
+  const Url& url = server.url;
   const std::string target = url.path + "/v1/streams/" + escape_segment(stream);
   impl->where = url.authority() + target;
   impl->options = options;
-  if (auto opened = impl->open(url, target); !opened) {
+  if (auto opened = impl->open(server, target); !opened) {
     return std::move(opened).error();
   }
   return StreamClient(std::move(impl));
 }
 
-Result<StreamClient> StreamClient::connect(const Url& url, std::string_view stream, const StreamOptions& options) {
-  auto client = open(url, stream, options);
+Result<StreamClient> StreamClient::connect(const ServerAddress& server, std::string_view stream,
+                                           const StreamOptions& options) {
+  auto client = open(server, stream, options);
   if (!client) {
     return client;
   }

@@ -10,7 +10,7 @@
 
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/http/url.h"
+#include "protocol/http/server_address.h"
 
 namespace semblante::client {
 
@@ -28,9 +28,12 @@ struct StreamOptions {
 class StreamClient {
  public:
   /// Connects without a word: for `read` and `send_raw`. Errors like `connect`.
-  static Result<StreamClient> open(const Url& url, std::string_view stream, const StreamOptions& options = {});
-  /// Connects and sends a hello. Errors: io, missing (no such stream), mismatch (the server uses another subprotocol).
-  static Result<StreamClient> connect(const Url& url, std::string_view stream, const StreamOptions& options = {});
+  static Result<StreamClient> open(const ServerAddress& server, std::string_view stream,
+                                   const StreamOptions& options = {});
+  /// Connects and sends a hello. Errors: io, missing (no such stream),
+  /// invalid_argument (the token is not accepted), mismatch (the server uses another subprotocol).
+  static Result<StreamClient> connect(const ServerAddress& server, std::string_view stream,
+                                      const StreamOptions& options = {});
   ~StreamClient();
   StreamClient(StreamClient&&) noexcept;
   StreamClient& operator=(StreamClient&&) noexcept;

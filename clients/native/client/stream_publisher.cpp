@@ -24,8 +24,8 @@ runtime::StreamOptions machine_options(const PublisherOptions& from) {
 
 }  // namespace
 
-StreamPublisher::StreamPublisher(Url url, std::string stream, PublisherOptions options)
-    : url_(std::move(url)),
+StreamPublisher::StreamPublisher(ServerAddress server, std::string stream, PublisherOptions options)
+    : server_(std::move(server)),
       stream_(std::move(stream)),
       options_(std::move(options)),
       machine_(machine_options(options_)),
@@ -80,13 +80,14 @@ Status StreamPublisher::obey() {
 Status StreamPublisher::connect() {
   StreamOptions wanted;
   wanted.timeout = options_.timeout;
-  auto client = StreamClient::open(url_, stream_, wanted);
+  auto client = StreamClient::open(server_, stream_, wanted);
   if (!client && client.error().code == ErrorCode::missing) {
     if (!options_.create) return std::move(client).error();
     if (auto made = make_stream(); !made) return made;
-    client = StreamClient::open(url_, stream_, wanted);
+    client = StreamClient::open(server_, stream_, wanted);
   }
   if (!client) {
+    if (client.error().code == ErrorCode::invalid_argument) return std::move(client).error();
     lose(client.error().message);
     return Unit{};
   }
@@ -110,7 +111,7 @@ Status StreamPublisher::make_stream() {
   if (!options_.model.empty()) body["model"] = options_.model;
   HttpLimits limits;
   limits.timeout = options_.timeout;
-  const auto answer = HttpClient(url_, limits).post("/v1/streams", body.dump(), "application/json");
+  const auto answer = HttpClient(server_, limits).post("/v1/streams", body.dump(), "application/json");
   if (!answer) {
     trouble("no connection to " + stream_ + ": ", answer.error().message);
     return Unit{};

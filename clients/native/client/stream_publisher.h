@@ -25,11 +25,11 @@ struct PublisherOptions {
 /// and continues with a keyframe. For one thread; all work is done within its calls.
 class StreamPublisher {
  public:
-  StreamPublisher(Url url, std::string stream, PublisherOptions options = {});
+  StreamPublisher(ServerAddress server, std::string stream, PublisherOptions options = {});
 
   /// Connects when there is no connection and a retry is due; else reads messages of the server for about a
-  /// millisecond. Call it at least a few times per second. Errors: missing (no such stream, and `create` is not set)
-  /// and the server's error on creating one; other errors are retried.
+  /// millisecond. Call it at least a few times per second. Errors: missing (no such stream, and `create` is not set),
+  /// invalid_argument (the token is not accepted) and the server's error on creating one; other errors are retried.
   Status look_after();
 
   [[nodiscard]] bool connected() const { return client_ && machine_.state() == SEMBLANTE_STREAM_OPEN; }
@@ -54,7 +54,7 @@ class StreamPublisher {
   /// News, unless they are those of before.
   void trouble(const std::string& what, const std::string& why);
 
-  Url url_;
+  ServerAddress server_;
   std::string stream_;
   PublisherOptions options_;
   std::optional<StreamClient> client_;

@@ -20,7 +20,7 @@ namespace semblante::tools {
 namespace {
 
 struct Arguments {
-  std::string url;
+  client::ServerOptions server;
   std::string stream = "demo";
   std::string model;
   std::optional<std::uint32_t> max_vertices;
@@ -42,12 +42,12 @@ client::StreamOptions stream_options(const Arguments& arguments, StreamRole role
   return options;
 }
 
-Status publish(const client::Url& url, const Arguments& arguments) {
+Status publish(const client::ServerAddress& server, const Arguments& arguments) {
   const auto bytes = read_file(arguments.frames_file);
   if (!bytes) {
     return bytes.error();
   }
-  auto stream = client::StreamClient::connect(url, arguments.stream, stream_options(arguments, StreamRole::publish));
+  auto stream = client::StreamClient::connect(server, arguments.stream, stream_options(arguments, StreamRole::publish));
   if (!stream) {
     return std::move(stream).error();
   }
@@ -135,11 +135,12 @@ Status record(client::StreamClient& stream, client::FramePlayer& player, const A
   return Unit{};
 }
 
-Status subscribe(const client::Url& url, const Arguments& arguments) {
+Status subscribe(const client::ServerAddress& server, const Arguments& arguments) {
   client::HttpLimits limits;
   limits.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
-  const client::HttpClient http(url, limits);
-  auto stream = client::StreamClient::connect(url, arguments.stream, stream_options(arguments, StreamRole::subscribe));
+  const client::HttpClient http(server, limits);
+  auto stream =
+      client::StreamClient::connect(server, arguments.stream, stream_options(arguments, StreamRole::subscribe));
   if (!stream) {
     return std::move(stream).error();
   }
@@ -183,11 +184,11 @@ Status subscribe(const client::Url& url, const Arguments& arguments) {
 }
 
 Status run(const Arguments& arguments) {
-  auto url = client::parse_url(arguments.url);
-  if (!url) {
-    return std::move(url).error();
+  auto server = arguments.server.parse();
+  if (!server) {
+    return std::move(server).error();
   }
-  return arguments.role == "publish" ? publish(*url, arguments) : subscribe(*url, arguments);
+  return arguments.role == "publish" ? publish(*server, arguments) : subscribe(*server, arguments);
 }
 
 }  // namespace
@@ -199,7 +200,8 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   CLI::App app{
       "Follows a stream of a Semblante server and writes the frames of a face, or publishes frames to a stream.",
       "semblante-client"};
-  app.add_option("url", arguments.url, "http://HOST:PORT of the server")->required();
+  app.add_option("url", arguments.server.address, "http://HOST:PORT or https://HOST of the server")->required();
+  semblante::client::declare_access_options(app, arguments.server);
   app.add_option("-s,--stream", arguments.stream, "id of the stream")->capture_default_str();
   app.add_option("-m,--model", arguments.model, "id of the model; default: the one the stream suggests");
   app.add_option("--max-vertices", arguments.max_vertices, "use the level of detail with at most this many vertices")

@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "server/access/scope.h"
 #include "server/api/codegen/render.h"
 
 namespace semblante::codegen {
@@ -35,7 +36,7 @@ std::string body_of(const Operation& operation) {
   return "{BodyKind::" + kind + ", " + operation.function + "_types, " + (announced ? "true" : "false") + "}";
 }
 
-constexpr std::array<std::string_view, 5> scopes = {"none", "read", "publish", "edit", "admin"};
+constexpr auto& scopes = access::scope_names;
 
 std::string scope_of(const Operation& operation) {
   const auto scope = operation.json->value("x-scope", std::string());

@@ -225,7 +225,7 @@ TEST(NativeClient, PublishingAPerformance_ReachesASubscriber) {
   server.create_stream("stage");
   const std::filesystem::path performance = server.folder() / "performance.json";
   ASSERT_TRUE(tools::write_file(performance, R"({"frames":[{"time":0,"faps":{"3":40}},{"time":60,"faps":{"3":80}}]})"));
-  auto stream = client::StreamClient::connect(server.http().url(), "stage");
+  auto stream = client::StreamClient::connect(server.http().server(), "stage");
   ASSERT_TRUE(stream) << stream.error().message;
   client::FramePlayer player(*stream, patience);
   ASSERT_TRUE(player.wait_for_header());
@@ -280,7 +280,7 @@ TEST(NativeClient, WrongIdsAndMixedPackages_AreRefusedWithTheReason) {
   const auto no_model = client::load_face(server.http(), "nobody");
   ASSERT_FALSE(no_model);
   EXPECT_EQ(no_model.error().code, ErrorCode::missing) << no_model.error().message;
-  const auto no_stream = client::StreamClient::connect(server.http().url(), "nothing");
+  const auto no_stream = client::StreamClient::connect(server.http().server(), "nothing");
   ASSERT_FALSE(no_stream);
   EXPECT_EQ(no_stream.error().code, ErrorCode::missing) << no_stream.error().message;
 

@@ -591,7 +591,7 @@ TEST_F(Streams, ZStop_TellsSubscribersGoodbye) {
   EXPECT_EQ(last["type"], "end");
   EXPECT_EQ(last["reason"], "shutdown");
   EXPECT_EQ(socket.close_code(), 1001);
-  EXPECT_EQ(server_->end(SIGTERM), 0);
+  EXPECT_EQ(server_->end(0), 0) << "without another signal, which would end it at once";
 }
 
 }  // namespace

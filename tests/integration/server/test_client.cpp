@@ -18,6 +18,7 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 
+#include "tests/integration/server/open_request.h"
 #include "tests/support/api_exchange.h"
 
 extern char** environ;
@@ -165,9 +166,24 @@ Reply parse_reply(const std::string& text) {
 
 namespace {
 
+/// Every answer has an id, and a problem document the same.
+void expect_request_id(std::string_view request_text, const Reply& reply) {
+  const auto id = reply.headers.find("x-request-id");
+  const auto type = reply.headers.find("content-type");
+  if (id == reply.headers.end() || id->second.empty()) {
+    ADD_FAILURE() << request_text.substr(0, 200) << " is answered " << reply.status << " without X-Request-Id";
+  } else if (!request_text.starts_with("HEAD ") && type != reply.headers.end() &&
+             type->second == "application/problem+json" &&
+             reply.body.find("\"request\":\"" + id->second + "\"") == std::string::npos) {
+    ADD_FAILURE() << "the problem document is without the id " << id->second << ": " << reply.body;
+  }
+}
+
 /// Fails the test when the answer is not one that openapi.json describes. Every exchange with a server comes here.
 void expect_documented(std::string_view request_text, const Reply& reply) {
-  if (reply.status == 0 || reply.status == 101) return;
+  if (reply.status == 0) return;
+  expect_request_id(request_text, reply);
+  if (reply.status == 101) return;
   const auto length = reply.headers.find("content-length");
   const bool head = request_text.starts_with("HEAD ");
   if (!head && length != reply.headers.end() && std::to_string(reply.body.size()) != length->second) return;  // cut off
@@ -221,6 +237,30 @@ Reply request(int port, const std::string& method, const std::string& target, co
   if (!body.empty() || method == "PUT" || method == "PATCH")
     text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
   return parse_reply(raw_exchange(port, text + "\r\n" + body));
+}
+
+OpenRequest::OpenRequest(int port, std::string_view begin) : socket_(connect_to(port)) { send(begin); }
+
+OpenRequest::~OpenRequest() { ::close(socket_); }
+
+void OpenRequest::send(std::string_view bytes) { send_all(socket_, bytes); }
+
+Reply OpenRequest::answer() {
+  const auto end = Clock::now() + testing::patience;
+  while (true) {
+    const auto head = buffer_.find("\r\n\r\n");
+    const auto reply = parse_reply(buffer_);
+    const auto length = reply.headers.find("content-length");
+    if (head != std::string::npos && length != reply.headers.end()) {
+      const auto whole = head + 4 + std::strtoul(length->second.c_str(), nullptr, 10);
+      if (buffer_.size() >= whole) {
+        auto answered = parse_reply(buffer_.substr(0, whole));
+        buffer_.erase(0, whole);
+        return answered;
+      }
+    }
+    if (!read_some(socket_, buffer_, end)) return {};
+  }
 }
 
 WebSocket::WebSocket(int port, const std::string& target, const std::string& subprotocols, const Fields& fields,

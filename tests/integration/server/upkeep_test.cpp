@@ -4,6 +4,8 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <sqlite3.h>
 #include <thread>
 
@@ -354,6 +356,23 @@ TEST_F(Upkeep, BackupOfADamagedFolder_HasTheRest_AndSaysSo) {
   const ServerProcess server(restored());
   EXPECT_EQ(request(server.port(), "GET", "/v1/models/" + model_ + "/mesh.drc").status, 200);
   EXPECT_EQ(request(server.port(), "GET", "/v1/models/" + model_ + "/weights").status, 500);
+}
+
+TEST_F(Upkeep, BackupAndRestore_KeepTheCertificateThatPhonesHaveAccepted) {
+  fill();
+  fs::create_directories(data() / "lan");
+  const std::map<std::string, std::string> files = {{"lan/certificate.pem", "a certificate"}, {"lan/key.pem", "a key"}};
+  for (const auto& [name, text] : files) std::ofstream(data() / name) << text;
+  const auto backup = run_semblante({"backup", "--data", data().string(), "--to", copy().string()});
+  ASSERT_EQ(backup.exit_code, 0) << backup.err;
+  EXPECT_THAT(backup.out, HasSubstr("the certificate of serve --lan"));
+  ASSERT_EQ(run_semblante({"restore", "--from", copy().string(), "--data", restored().string()}).exit_code, 0);
+  for (const auto& [name, text] : files)
+    for (const auto& place : {copy(), restored()}) {
+      std::ifstream stream(place / name);
+      EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), text) << place / name;
+      EXPECT_EQ(fs::status(place / name).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    }
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ export async function walkSystem(client: Client): Promise<void> {
   assert.deepEqual(tokens.map(({ id }) => id), [made.token.id]);
   assert.equal(good(await client.POST('/v1/session', { body: { token: made.secret } })).scope, 'admin');
   assert.equal((await client.DELETE('/v1/session')).response.status, 204);
+  const usage = good(await client.GET('/v1/usage'));
+  assert.ok(usage.limits.some((limit) => limit.name === 'bytes' && limit.limit === null));
   assert.ok(good(await client.POST('/v1/tickets', { body: { path: '/v1/models' } })).ticket.length > 40);
   const params = { path: { token: made.token.id } };
   assert.equal((await client.DELETE('/v1/tokens/{token}', { params })).response.status, 204);

@@ -48,7 +48,9 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   limits.disk_reserve = 0;
   const auto recorder = *recordings::Recorder::open(*store, *store, pending, folder_ / "recordings", limits);
   const auto slots = std::make_shared<ExportSlots>(1);
-  Api api(Context{*store, blobs, pending, jobs, hub, {}, {}, recorder, nullptr, nullptr, nullptr, slots});
+  Context context{*store, blobs, pending, jobs, hub, {}, {}, recorder};
+  context.exports = slots;
+  Api api(context);
   const auto handle = [&](const std::string& method, const std::string& path, const std::string& format) {
     http::Request request;
     request.method = method;
@@ -62,7 +64,7 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   const auto made = handle("POST", "/v1/streams/talk/recordings", "");
   ASSERT_EQ(made.status, 201);
   const auto content = made.headers.at("Location") + "/content";
-  recorder->stop_all("stopped");
+  recorder->close();  // ends it
 
   auto other = slots->take();
   for (const char* const format : {"performance", "fap", "arkit-csv", "frames-json", "glb"}) {
@@ -75,7 +77,6 @@ TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   other.reset();
   for (int round = 0; round < 2; ++round)
     EXPECT_EQ(handle("GET", content, "fap").status, 409) << "it has no frame; a refusal gives its slot back";
-  recorder->close();
 }
 
 TEST_F(ExportsTest, File_IsWhole_AndGoneWithItsBody) {

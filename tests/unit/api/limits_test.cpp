@@ -11,6 +11,9 @@
 
 #include "core/performance/cue.h"
 #include "protocol/cpp/performance_document.h"
+#include "server/access/client_limits.h"
+#include "server/access/tickets.h"
+#include "server/access/token_limits.h"
 #include "server/api/api.h"
 #include "server/api/documents.h"
 #include "server/api/play_options.h"
@@ -72,15 +75,39 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
   const streams::FloodLimits flood;
   const http::OutboxLimits outbox;
   const jobs::JobConfig job;
+  const access::TokenLimits token;
+  const access::ClientLimits client;
   const std::string rate = count(flood.frames_per_second) + " per second, " + count(flood.frames_burst) + " in a burst";
   const std::vector<std::pair<std::string, std::string>> kept = {
       {"model file", size(api.max_upload_bytes)},
+      {"bytes stored by one token: models with what is made from them (each content once), recordings, expressions",
+       size(token.bytes)},
+      {"models of one token", count(token.models)},
+      {"displacement sets of one token", count(token.expressions)},
+      {"streams of one token", count(token.streams)},
+      {"recordings of one token", count(token.recordings)},
+      {"jobs of one token that wait or run", count(token.jobs)},
+      {"files that one token sends at the same time", count(token.uploads)},
       {"JSON body", size(api.max_json_bytes)},
       {"request header", size(net.max_header_bytes) + ", " + count(net.max_header_fields) + " fields, " +
                              count(net.max_header_fields) + " query parameters"},
       {"trailers of a chunked body, with the last chunk's extensions", size(net.max_header_bytes)},
       {"line before a chunk; chunk extensions of a body, together", size(net.max_header_bytes) + " each"},
       {"unparsed bytes of a connection", size(net.max_header_bytes)},
+      {"connections of one address (IPv6: of 64 bits), except this machine and proxies",
+       count(net.max_connections_per_address)},
+      {"requests of one token, or of one address without one, on a server that asks for tokens",
+       count(client.requests_per_second) + " per second, " + count(client.request_burst) + " in a burst"},
+      {"tokens of one address that are not accepted", count(client.failures_per_minute) + " per minute"},
+      {"tickets that wait for their use; life of a ticket",
+       count(access::Tickets::most) + "; " + seconds(access::Tickets::lifetime)},
+      {"handshake of TLS", seconds(net.header_timeout)},
+      {"a whole body, and a file that is sent",
+       seconds(net.body_grace) + ", and 1 s for each " + count(net.least_body_rate) + " bytes of it"},
+      {"parts of a model that are listed and can be given a role",
+       "the " + count(store::max_part_records) + " with the most vertices; 32 in a list of models"},
+      {"subscriber that reads nothing", seconds(stream.stalled)},
+      {"hello of a stream connection", seconds(stream.hello_time)},
       {"idle connection", seconds(net.idle_timeout)},
       {"header of a request", seconds(net.header_timeout)},
       {"between two pieces of a body or an answer", seconds(net.read_timeout)},
@@ -107,6 +134,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"time of a job", seconds(job.wall_limit)},
       {"file a job writes", size(job.limits.file_bytes)},
       {"attempts of a job over restarts", count(job.max_attempts)},
+      {"pending answers and messages for subscribers after SIGTERM", seconds(net.drain_time)},
       {"connections of a stream", count(stream.max_connections)},
       {"WebSocket message", size(max_binary_message_bytes) + " binary, " + size(max_json_message_bytes) + " JSON"},
       {"frames of one publisher", rate},

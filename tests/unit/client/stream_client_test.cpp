@@ -90,7 +90,7 @@ Header named_header() {
 
 TEST(StreamClient, HostileServer_IsAnError) {
   {  // Nobody there.
-    const auto stream = StreamClient::connect({"127.0.0.1", "1", ""}, "s");
+    const auto stream = StreamClient::connect(client::Url{"127.0.0.1", "1", ""}, "s");
     ASSERT_FALSE(stream);
     EXPECT_EQ(stream.error().code, ErrorCode::io);
   }

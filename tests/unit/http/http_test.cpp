@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "server/http/conditional.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
 #include "server/http/problem.h"
+#include "server/http/request_id.h"
 #include "server/http/url.h"
 
 namespace semblante::http {
@@ -105,6 +107,27 @@ TEST(Multipart, Parts_AreFound) {
   EXPECT_EQ((*parts)[1].file_name, "h.glb");
   EXPECT_EQ((*parts)[1].content, "\r\n--\r\nraw");
   EXPECT_EQ((*parts)[2].content, "");
+}
+
+TEST(RequestId, IsRandom_AndForeignOnesMustFitALine) {
+  EXPECT_NE(new_request_id(), new_request_id());
+  EXPECT_TRUE(is_request_id(new_request_id()));
+  EXPECT_TRUE(is_request_id("4bf92f35-77b3.4da6_A"));
+  for (const std::string_view bad : {"", "a b", "a\"b", "a\nb", "\xc3\xa9"}) EXPECT_FALSE(is_request_id(bad));
+  EXPECT_FALSE(is_request_id(std::string(65, 'a')));
+}
+
+TEST(RequestId, IsAMemberOfProblemDocuments_AndOfNothingElse) {
+  auto refusal = to_response(make_problem("not-found", "no \"such\" thing"));
+  add_request_id(refusal, "r1");
+  const auto json = nlohmann::json::parse(std::get<std::string>(refusal.body));
+  EXPECT_EQ(json["request"], "r1");
+  EXPECT_EQ(json["detail"], "no \"such\" thing");
+  Response other;
+  other.headers["Content-Type"] = "application/json";
+  other.body = std::string("{}\n");
+  add_request_id(other, "r1");
+  EXPECT_EQ(std::get<std::string>(other.body), "{}\n");
 }
 
 TEST(Problem, Json_ComesBackAsItWas) {

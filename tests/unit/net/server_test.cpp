@@ -58,6 +58,16 @@ class Client {
     }
     return all;
   }
+  /// False when the connection has ended.
+  [[nodiscard]] bool try_send(std::string_view bytes) const {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  }
+  /// Reads what is there, at most 64 KiB; 0 at the end.
+  [[nodiscard]] std::size_t read_some() const {
+    std::array<char, 65536> piece{};
+    const auto got = ::recv(socket_, piece.data(), piece.size(), 0);
+    return got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
   [[nodiscard]] std::string read_head() const {
     std::string head;
     while (!head.ends_with("\r\n\r\n")) {
@@ -96,7 +106,7 @@ class ServerTest : public ::testing::Test {
     config.limits.max_files = max_files;
     config.upload_directory = std::filesystem::temp_directory_path();
     // So long that whoever waits for one of these does not pass.
-    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace = 10 * testing::patience;
+    config.limits.header_timeout = config.limits.idle_timeout = config.limits.drain_time = 10 * testing::patience;
     server_ = std::make_unique<Server>(config, application_);
     port_ = server_->listen().value().front();
     thread_ = std::thread([this] { server_->run([] {}); });
@@ -297,6 +307,78 @@ TEST_F(ServerTest, FilesInTransfer_HaveALimit) {
     return again.read_head().starts_with("HTTP/1.1 200 ");
   })) << "readers that are gone give their places back";
   std::filesystem::remove(name);
+}
+
+/// A least rate of a megabyte in a second, after a second: whoever is slower loses its connection, however often it
+/// shows that it is there.
+class LeastRate : public ::testing::Test {
+ protected:
+  LeastRate() {
+    std::string name = (std::filesystem::temp_directory_path() / "semblante-net-XXXXXX").string();
+    const int file = ::mkstemp(name.data());
+    application_.file = name;
+    application_.file_bytes = std::uint64_t{64} << 20U;  // more than sockets hold
+    EXPECT_EQ(::ftruncate(file, static_cast<off_t>(application_.file_bytes)), 0);
+    ::close(file);
+    ServerConfig config;
+    config.listeners.front().port = 0;
+    config.upload_directory = std::filesystem::temp_directory_path();
+    config.limits.body_grace = 1s;
+    config.limits.least_body_rate = 1'000'000;
+    server_ = std::make_unique<Server>(config, application_);
+    port_ = server_->listen().value().front();
+    thread_ = std::thread([this] { server_->run([] {}); });
+  }
+  ~LeastRate() override {
+    server_->stop();
+    thread_.join();
+    std::filesystem::remove(application_.file);
+  }
+  [[nodiscard]] bool is_alone() const { return server_->counts().connections_open == 0; }
+
+  EchoApplication application_;
+  std::unique_ptr<Server> server_;
+  std::uint16_t port_ = 0;
+  std::thread thread_;
+};
+
+TEST_F(LeastRate, SlowBody_IsCutOff) {
+  const Client client(port_);
+  client.send("POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\n");
+  int pieces = 0;
+  ASSERT_TRUE(testing::eventually(
+      [&] {
+        if (is_alone()) return true;
+        ++pieces;
+        return !client.try_send("x");
+      },
+      100ms));
+  EXPECT_TRUE(testing::eventually([&] { return is_alone(); }));
+  EXPECT_GT(pieces, 3) << "not at once";
+}
+
+TEST_F(LeastRate, SlowReaderOfAFile_IsCutOff_AndAQuickOneIsNot) {
+  const Client quick(port_);
+  quick.send(get("/file"));
+  EXPECT_TRUE(quick.read_head().starts_with("HTTP/1.1 200 "));
+  std::uint64_t got = 0;
+  while (got < application_.file_bytes) {
+    const auto more = quick.read_some();
+    if (more == 0) break;
+    got += more;
+  }
+  EXPECT_EQ(got, application_.file_bytes);
+
+  const Client slow(port_);
+  slow.send(get("/file"));
+  EXPECT_TRUE(slow.read_head().starts_with("HTTP/1.1 200 "));
+  // Its reads make room for pieces, so that no single one waits for long.
+  EXPECT_TRUE(testing::eventually(
+      [&] {
+        got = slow.read_some();
+        return server_->counts().connections_open == 1;  // the quick one
+      },
+      50ms));
 }
 
 TEST(WorkerPool, SurvivesWhatThrows) {

@@ -60,7 +60,7 @@ class TlsTest : public ::testing::Test {
     files_ = certificate_in(folder_, "first");
     ServerConfig config;
     config.listeners = {{"127.0.0.1", 0, true}, {"127.0.0.1", 0, false}};
-    config.limits.header_timeout = config.limits.idle_timeout = config.limits.shutdown_grace =
+    config.limits.header_timeout = config.limits.idle_timeout = config.limits.drain_time =
         10 * semblante::testing::patience;
     server_ = std::make_unique<Server>(config, application_);
     const auto ports = server_->listen().value();

@@ -139,6 +139,21 @@ void expect_all_there(Store& store, int version) {
   if (version >= 7) {
     EXPECT_EQ(store.recording("aaaaaaaaaaaa")->frames, 25U);
   }
+  if (version >= 11) {
+    EXPECT_EQ(store.tokens().size(), 1U);
+    EXPECT_TRUE(streams[0].settings.is_public);
+  }
+  const std::string owner = version >= 12 ? "abcdefgh2345" : "";
+  EXPECT_EQ(face->owner, owner);
+  EXPECT_EQ(streams[0].owner, owner);
+  EXPECT_EQ(store.job("job-p")->origin, (Origin{owner, version >= 12 ? "r1" : ""}));
+  const auto usage = store.usage_of(owner);
+  EXPECT_EQ(usage.models, 2U);
+  EXPECT_EQ(usage.recordings, version >= 7 ? 1U : 0U);
+  EXPECT_EQ(usage.bytes, version >= 7   ? 376U
+                         : version >= 4 ? 76U
+                                        : 61U)
+      << "six artefacts, a set of 15 bytes, a recording of 300";
 }
 
 TEST_F(MigrationTest, EveryEarlierVersion_OpensWithAllItHad_AndIsAsANewOne) {

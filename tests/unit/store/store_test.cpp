@@ -427,6 +427,10 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
   EXPECT_EQ(
       sqlite3_exec(database,
+                   "DROP INDEX models_by_owner; ALTER TABLE models DROP COLUMN owner; "
+                   "DROP INDEX streams_by_owner; ALTER TABLE streams DROP COLUMN owner; "
+                   "DROP INDEX unfinished_jobs_by_owner; ALTER TABLE jobs DROP COLUMN owner; "
+                   "ALTER TABLE jobs DROP COLUMN request_id; "
                    "DROP TABLE tokens; ALTER TABLE streams DROP COLUMN is_public; "
                    "DROP TABLE job_files; DROP TABLE worn_sets; DROP TABLE displacement_sets; "
                    "ALTER TABLE packages DROP COLUMN levels; "
@@ -565,6 +569,60 @@ TEST_F(StoreTest, UsersOfAHash_AreModelsAndJobs) {
   store_->create_job(job, {std::string(64, 'a')}, std::nullopt);
   EXPECT_EQ(store_->users_of(std::string(64, 'a')), (std::vector<std::string>{"job x", "model m", "model n"}));
   EXPECT_TRUE(store_->users_of(std::string(64, 'b')).empty());
+}
+
+TEST_F(StoreTest, UsageOfAnOwner_CountsWhatItsRequestsMade_AndStillIsThere) {
+  const auto add_model = [&](const std::string& id, const std::string& owner, const std::string& hash) {
+    ModelRecord model;
+    model.id = id;
+    model.owner = owner;
+    JobRecord job;
+    job.id = "import-" + id;
+    job.model = id;
+    job.kind = "import";
+    job.origin = {owner, "request"};
+    ASSERT_TRUE(store_->create_model(model, {"source", hash, 100, "application/octet-stream"}, job, std::nullopt));
+  };
+  const std::string hash(64, 'a'), other(64, 'b');
+  add_model("m1", "ana", hash);
+  add_model("m2", "ana", hash);
+  add_model("m3", "ana", other);
+  add_model("m4", "bob", hash);
+  EXPECT_EQ(store_->usage_of("ana"), (Usage{.bytes = 200, .models = 3, .jobs = 3})) << "each content once";
+  EXPECT_EQ(store_->usage_of("bob"), (Usage{.bytes = 100, .models = 1, .jobs = 1}));
+  EXPECT_EQ(store_->usage_of("eve"), Usage{});
+
+  SetRecord set;
+  set.id = "set";
+  set.displacements = "{\"é\":1}";
+  set.owner = "eve";
+  store_->create_set(set, std::nullopt);
+  JobRecord extraction;
+  extraction.id = "extraction";
+  extraction.kind = "extract";
+  extraction.origin.owner = "eve";
+  store_->create_job(extraction, {}, std::nullopt);
+  EXPECT_TRUE(store_->create_stream({"talk", timestamp_now(), {}, "eve"}, std::nullopt));
+  RecordingRecord recording;
+  recording.id = "take";
+  recording.bytes = 1000;
+  recording.owner = "eve";
+  store_->create_recording(recording, std::nullopt);
+  EXPECT_EQ(store_->usage_of("eve"), (Usage{.bytes = 1008, .sets = 2, .streams = 1, .recordings = 1, .jobs = 1}))
+      << "the set that the extraction will make, and the bytes of the UTF-8";
+  EXPECT_EQ(store_->set("set")->owner, "eve");
+  EXPECT_EQ(store_->recording("take")->owner, "eve");
+  EXPECT_EQ(store_->streams().back().owner, "eve");
+
+  extraction.state = JobState::failed;
+  store_->finish_job(extraction);
+  store_->remove_set("set");
+  store_->remove_stream("talk");
+  store_->remove_recording("take");
+  EXPECT_EQ(store_->usage_of("eve"), Usage{});
+  ASSERT_TRUE(store_->remove_model("m1"));
+  ASSERT_TRUE(store_->remove_model("m3"));
+  EXPECT_EQ(store_->usage_of("ana"), (Usage{.bytes = 100, .models = 1, .jobs = 1}));
 }
 
 }  // namespace

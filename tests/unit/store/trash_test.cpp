@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 
 #include "protocol/hash/sha256.h"
+#include "server/log/periodic.h"
 #include "server/store/last_database.h"
 #include "server/store/reconcile.h"
-#include "server/store/trash_purger.h"
 
 namespace semblante::store {
 namespace {
@@ -185,12 +185,15 @@ TEST_F(TrashTest, FileInPlace_IsNotReplacedFromTheTrash) {
   EXPECT_EQ(counts().files, 1U);
 }
 
-TEST_F(TrashTest, Purger_GoesOnByItself) {
+TEST_F(TrashTest, PurgedPeriodically_LosesWhatAppearsLaterToo) {
   blob("text");
   start(DataFileKind::blob, {}, noon);
   Trash trash(data_, seconds(1), noon);
   std::atomic<std::uint64_t> removed{0};
-  const TrashPurger purger(trash, std::chrono::milliseconds(5), [&](const auto& counts) { removed += counts.files; });
+  const log::Periodic purger(
+      "purging", std::chrono::milliseconds(5),
+      [&](const std::stop_token& stop) { removed += trash.purge(std::chrono::system_clock::now(), stop).files; },
+      log::Periodic::First::at_once);
   for (int i = 0; i < 2000 && removed < 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(removed, 1U);
   // The same thread, not another start: what appears later goes with a later round.

@@ -65,6 +65,8 @@ export function adviceFor(problem: Problem): string | null {
   if (slug === 'forbidden') return 'Ask whoever runs the server for a token that allows it.';
   if (problem.status === 413 || slug === 'limit-exceeded')
     return 'Reduce the mesh or its textures and upload it again.';
+  if (slug === 'quota-exceeded')
+    return 'Delete what is no longer needed, or ask whoever runs the server for a higher limit.';
   if (slug === 'insufficient-storage') return "The server's disk is full: free some space on it, then try again.";
   if (problem.status === 412 || problem.status === 428)
     return 'Someone else changed it meanwhile: reload, then make the change again.';

@@ -469,6 +469,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/usage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What the request's token has, and its limits
+         * @description What a token may have is limited: a request beyond that gets 507, `quota-exceeded`, or 429 for jobs and uploads at the same time, with the limit in its member `limit`. From four fifths of a limit on, answers of requests that create something have the header X-Quota-Warning, such as bytes;used=7000000000;limit=8589934592. Tokens with the scope admin have no limits, and neither has a server without tokens.
+         */
+        get: operations["getUsage"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/tokens": {
         parameters: {
             query?: never;
@@ -890,6 +910,25 @@ export interface components {
             /** @constant */
             status: "ok";
         };
+        Usage: {
+            /** @description Whose use this is; null: of requests without a token */
+            token: string | null;
+            limits: {
+                /**
+                 * @description bytes: stored, of models with all that is made from them, recordings and expressions. jobs: that have not ended. uploads: that arrive at the moment
+                 * @enum {unknown}
+                 */
+                name: "bytes" | "models" | "expressions" | "streams" | "recordings" | "jobs" | "uploads";
+                used: number;
+                /** @description null: none */
+                limit: number | null;
+                /**
+                 * @description warning: four fifths are used
+                 * @enum {unknown}
+                 */
+                level: "ok" | "warning" | "full";
+            }[];
+        };
         Problem: {
             /** @description /problems/<slug>, stable */
             type: string;
@@ -902,6 +941,14 @@ export interface components {
                 pointer: string;
                 detail: string;
             }[];
+            /** @description The limit of a token that this request would exceed (GET /v1/usage) */
+            limit?: {
+                name: string;
+                value: number;
+                used: number;
+            };
+            /** @description The id of the request, as in X-Request-Id and in the server's log */
+            request?: string;
         };
         PackedTables: {
             about: string;
@@ -1680,7 +1727,7 @@ export interface components {
              * @description Why; server-killed: it holds what was on the disk then
              * @enum {unknown}
              */
-            ended: "stopped" | "stream-ended" | "max-duration" | "max-bytes" | "max-total-bytes" | "disk-full" | "server-stopped" | "server-killed" | "damaged" | null;
+            ended: "stopped" | "stream-ended" | "max-duration" | "max-bytes" | "max-total-bytes" | "max-token-bytes" | "disk-full" | "server-stopped" | "server-killed" | "damaged" | null;
             /** @description ms from the first frame to the last */
             duration: number;
             /** @description ms after the first frame: frames up to there are on the disk. null: none is yet */
@@ -3523,6 +3570,33 @@ export interface operations {
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
             429: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getUsage: {
+        parameters: {
+            query?: {
+                /** @description Id of another token: only with the scope admin */
+                token?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The limits */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Usage"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            403: components["responses"]["Problem"];
+            404: components["responses"]["Problem"];
             default: components["responses"]["Problem"];
         };
     };

@@ -17,6 +17,7 @@ const endingWords: Record<string, string> = {
   'max-duration': 'ended at the maximum duration',
   'max-bytes': 'ended at the maximum size of a recording',
   'max-total-bytes': 'ended at the maximum size of all recordings',
+  'max-token-bytes': 'ended at the maximum of what its token may store',
   'disk-full': 'ended: the disk is full',
   'server-stopped': 'ended with the server',
   'server-killed': 'cut off when the server was killed',

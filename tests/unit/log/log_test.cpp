@@ -1,0 +1,115 @@
+#include "server/log/log.h"
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/log/periodic.h"
+
+namespace semblante::log {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+
+class LogTest : public ::testing::Test {
+ protected:
+  ~LogTest() override {
+    set_format(Format::text);
+    set_level(Level::info);
+  }
+  template <class Work>
+  static std::string lines_of(Work work) {
+    ::testing::internal::CaptureStderr();
+    work();
+    return ::testing::internal::GetCapturedStderr();
+  }
+};
+
+TEST_F(LogTest, Text_HasTimeLevelAndMessage_AndWhatItIsAbout) {
+  EXPECT_THAT(lines_of([] { info("hello"); }), MatchesRegex("20..-..-..T..:..:..Z info hello\n"));
+  EXPECT_EQ(lines_of([] { debug("hello"); }), "");
+  EXPECT_THAT(lines_of([] {
+                const Scope request({.request = "r1"});
+                const Scope job({.job = "j1"});
+                error("hello");
+              }),
+              EndsWith(" error hello [request r1] [job j1]\n"));
+}
+
+TEST_F(LogTest, Scope_EndsWithItsObject_AndIsOfItsThread) {
+  const auto lines = lines_of([] {
+    {
+      const Scope outer({.request = "outer"});
+      {
+        const Scope inner({.request = "inner"});
+        info("one");
+        std::thread([] { info("elsewhere"); }).join();
+      }
+      info("two");
+    }
+    info("three");
+  });
+  EXPECT_THAT(lines, HasSubstr("one [request inner]\n"));
+  EXPECT_THAT(lines, HasSubstr("elsewhere\n"));
+  EXPECT_THAT(lines, HasSubstr("two [request outer]\n"));
+  EXPECT_THAT(lines, EndsWith("three\n"));
+}
+
+TEST_F(LogTest, Json_IsOneObjectPerLine_WhateverTheMessage) {
+  set_format(Format::json);
+  const std::string hostile = "a \"quote\", a \\, a\nline, \x1b[31m, \xff\xfe and é";
+  const auto line = lines_of([&] {
+    const Scope scope({.request = "r1", .job = "j1"});
+    warning(hostile);
+  });
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_THAT(std::string(json["time"]), MatchesRegex("20..-..-..T..:..:..Z"));
+  EXPECT_EQ(json["level"], "warning");
+  EXPECT_THAT(std::string(json["message"]), HasSubstr("a \"quote\", a \\, a?line, ?[31m"));
+  EXPECT_THAT(std::string(json["message"]), HasSubstr("é"));
+  EXPECT_EQ(json["request"], "r1");
+  EXPECT_EQ(json["job"], "j1");
+  EXPECT_THAT(lines_of([] { info("plain"); }), Not(HasSubstr("request")));
+}
+
+TEST_F(LogTest, Names_AreThoseOfTheOptions) {
+  EXPECT_EQ(parse_level("warning"), Level::warning);
+  EXPECT_EQ(parse_level("loud"), std::nullopt);
+  EXPECT_EQ(parse_format("json"), Format::json);
+  EXPECT_EQ(parse_format("xml"), std::nullopt);
+}
+
+TEST(Periodic, WorksOncePerInterval_AFaultEndsOneTurn_AndItsEndIsPrompt) {
+  std::atomic<int> turns = 0;
+  const auto lines = [&] {
+    ::testing::internal::CaptureStderr();
+    const Periodic often("counting", std::chrono::milliseconds(1), [&](const std::stop_token&) {
+      if (++turns == 2) throw std::runtime_error("a fault");
+    });
+    while (turns < 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return ::testing::internal::GetCapturedStderr();
+  }();
+  EXPECT_THAT(lines, HasSubstr("counting: a fault"));
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    std::atomic<int> first = 0;
+    const Periodic rare(
+        "once", std::chrono::hours(1), [&](const std::stop_token&) { ++first; }, Periodic::First::at_once);
+    const Periodic later("never", std::chrono::hours(1), [&](const std::stop_token&) { turns = -1; });
+    while (first == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GT(turns, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
+}
+
+}  // namespace
+}  // namespace semblante::log
