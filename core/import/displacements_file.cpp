@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
 #include "core/json/json_cursor.h"

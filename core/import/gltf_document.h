@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-
-
 #include "core/import/gltf_container.h"
 #include "core/import/limits.h"
 #include "core/json/json_cursor.h"
