@@ -67,14 +67,28 @@ class BigNatural {
     if (part > 0) multiply(1U << part);
   }
 
-  void subtract(const BigNatural& other) {  // at most this
+  /// this - other * factor, which is not negative
+  void subtract(const BigNatural& other, std::uint32_t factor = 1) {
+    std::uint64_t product = 0;
     std::int64_t borrow = 0;
     for (int i = 0; i < count_; ++i) {
-      borrow += std::int64_t{words_[i]} - (i < other.count_ ? std::int64_t{other.words_[i]} : 0);
+      if (i < other.count_) product += std::uint64_t{other.words_[i]} * factor;
+      borrow += std::int64_t{words_[i]} - static_cast<std::int64_t>(product & 0xFFFF'FFFFU);
+      product >>= 32U;
       words_[i] = static_cast<std::uint32_t>(borrow);
       borrow >>= 32;
     }
     trim();
+  }
+
+  /// this / 2^bit as a whole number, below 2^64
+  [[nodiscard]] std::uint64_t from_bit(int bit) const {
+    std::uint64_t value = 0;
+    for (int i = count_ - 1; i >= bit / 32; --i) {
+      const int at = 32 * i - bit;
+      value += at < 0 ? words_[i] >> static_cast<unsigned>(-at) : std::uint64_t{words_[i]} << static_cast<unsigned>(at);
+    }
+    return value;
   }
 
   /// -1, 0 or 1
@@ -108,11 +122,23 @@ double quotient(BigNatural above, BigNatural below, int mantissa_bits, int least
   const int bits = std::min(mantissa_bits, exponent - least_exponent + 1);  // fewer for subnormal numbers
   if (bits < 0) return 0.0;
   std::uint64_t mantissa = 0;
-  for (int i = 0; i < bits; ++i) {
-    mantissa <<= 1U;
-    if (above.compare(below) >= 0) {
-      above.subtract(below);
-      mantissa |= 1U;
+  if (bits > 0) {
+    above.subtract(below);
+    mantissa = 1;
+    if (below.bits() < 32) {
+      above.shift_left(32);
+      below.shift_left(32);
+    }
+    const int at = below.bits() - 32;
+    const std::uint64_t divisor = below.from_bit(at) + 1;  // too large, so that no digit is
+    for (int left = bits - 1; left > 0;) {
+      const int step = std::min(left, 16);
+      above.shift_left(step);
+      auto digit = static_cast<std::uint32_t>(above.from_bit(at) / divisor);
+      above.subtract(below, digit);
+      for (; above.compare(below) >= 0; ++digit) above.subtract(below);
+      mantissa = (mantissa << static_cast<unsigned>(step)) + digit;
+      left -= step;
     }
     above.shift_left(1);
   }
@@ -124,8 +150,8 @@ double quotient(BigNatural above, BigNatural below, int mantissa_bits, int least
 struct Decimal {
   bool negative = false;
   std::uint64_t leading = 0;  ///< the value of the significant digits if they are at most 19
-  int digits = 0;             ///< number of significant digits
-  int power = 0;              ///< of ten, of the last significant digit
+  std::int64_t digits = 0;    ///< number of significant digits
+  std::int64_t power = 0;     ///< of ten, of the last significant digit
   std::string_view text;      ///< from the first significant digit on
 };
 
@@ -156,8 +182,9 @@ std::optional<Decimal> split(std::string_view text) {
     const bool down = next() == '-';
     if (down || next() == '+') ++at;
     if (!is_decimal_digit(next())) return std::nullopt;
-    int exponent = 0;
-    for (; is_decimal_digit(next()); ++at) exponent = std::min(exponent * 10 + (next() - '0'), 100'000'000);
+    std::int64_t exponent = 0;
+    constexpr std::int64_t most = 100'000'000'000'000'000;  // beyond what the digits of any text make up for
+    for (; is_decimal_digit(next()); ++at) exponent = std::min(exponent * 10 + (next() - '0'), most);
     number.power += down ? -exponent : exponent;
   }
   if (at != text.size()) return std::nullopt;
@@ -166,7 +193,7 @@ std::optional<Decimal> split(std::string_view text) {
 
 BigNatural digits_of(Decimal& number) {
   BigNatural value(0);
-  int taken = 0;
+  std::int64_t taken = 0;
   bool any_beyond = false;
   for (const char c : number.text) {
     if (!is_decimal_digit(c) && c != '.') break;
@@ -178,7 +205,7 @@ BigNatural digits_of(Decimal& number) {
     }
     ++taken;
   }
-  number.power += std::max(0, taken - max_digits);
+  number.power += std::max<std::int64_t>(0, taken - max_digits);
   if (any_beyond) {  // more than what was taken: one further digit decides a tie
     value.multiply(10U, 1U);
     --number.power;
@@ -202,9 +229,21 @@ double rounded(Decimal number, int mantissa_bits, int least_exponent) {
   }
   BigNatural above = digits_of(number);
   BigNatural below(1);
-  if (number.power > 0) above.multiply_by_power_of_ten(std::min(number.power, max_power));
-  if (number.power < 0) below.multiply_by_power_of_ten(std::min(-number.power, max_power));
+  const int power = static_cast<int>(std::clamp<std::int64_t>(number.power, -max_power, max_power));
+  if (power > 0) above.multiply_by_power_of_ten(power);
+  if (power < 0) below.multiply_by_power_of_ten(-power);
   return quotient(above, below, mantissa_bits, least_exponent);
+}
+
+/// Adds 1 to a whole number.
+void count_up(std::string& digits) {
+  std::size_t i = digits.size();
+  while (i > 0 && digits[i - 1] == '9') digits[--i] = '0';
+  if (i > 0) {
+    ++digits[i - 1];
+  } else {
+    digits.insert(0, 1, '1');
+  }
 }
 
 /// value * 10^power, rounded to a whole number (ties to even), as digits. `value` is finite and not negative.
@@ -238,15 +277,7 @@ std::string scaled_digits(double value, int power) {
   above.shift_left(1);
   const int half = above.compare(below);
   const bool odd = !digits.empty() && (digits.back() - '0') % 2 == 1;
-  if (half > 0 || (half == 0 && odd)) {
-    std::size_t i = digits.size();
-    while (i > 0 && digits[i - 1] == '9') digits[--i] = '0';
-    if (i > 0) {
-      ++digits[i - 1];
-    } else {
-      digits.insert(0, 1, '1');
-    }
-  }
+  if (half > 0 || (half == 0 && odd)) count_up(digits);
   return digits.empty() ? "0" : digits;
 }
 
@@ -257,10 +288,20 @@ struct Shortest {
 
 Shortest shortest_of(double value) {
   if (value == 0.0) return {"0", 0};
+  const auto is_value = [&](const Shortest& text) {
+    return rounded(*split(text.digits + "e" + std::to_string(text.power)), 53, -1074) == value;
+  };
+  int exponent = 0;
+  const bool is_power_of_two = std::frexp(value, &exponent) == 0.5;
   const int magnitude = static_cast<int>(std::floor(std::log10(value)));
   for (int count = 1;; ++count) {
     Shortest result{scaled_digits(value, count - 1 - magnitude), magnitude - count + 1};
-    if (count < 17 && rounded(*split(result.digits + "e" + std::to_string(result.power)), 53, -1074) != value) continue;
+    if (count < 17 && !is_value(result)) {
+      if (!is_power_of_two) continue;
+      // Its neighbour above is farther than that below: digits that are not the nearest may still be read as it.
+      count_up(result.digits);
+      if (!is_value(result)) continue;
+    }
     while (result.digits.size() > 1 && result.digits.back() == '0') result.digits.pop_back(), ++result.power;
     return result;
   }

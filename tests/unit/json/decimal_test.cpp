@@ -111,6 +111,8 @@ TEST(Decimal, Writing_IsThatOfTheStandardLibrary) {
       EXPECT_EQ(fixed_text(value, digits), std::string(text, end));
     }
   }
+  // to_chars writes all digits of these.
+  EXPECT_EQ(shortest_fixed_text(1e23), "1" + std::string(23, '0'));
   for (const double value : {0.0, -0.0, 1.0, -1.0, 0.5, 1e15, 1e14, 123456.0, 1e-4, 1e-5, 5e-324,
                              1.7976931348623157e308, 0.1, 0.3, 2.0 / 3.0})
     EXPECT_EQ(shortest_text(value), nlohmann::json(value).dump());
@@ -119,6 +121,24 @@ TEST(Decimal, Writing_IsThatOfTheStandardLibrary) {
   EXPECT_EQ(fixed_text(9.99, 1), "10.0");
   EXPECT_EQ(shortest_fixed_text(0.001), "0.001");
   EXPECT_EQ(shortest_fixed_text(1e21), "1000000000000000000000");
+}
+
+/// The neighbour above a power of two is farther than that below: the fewest digits need not be the nearest ones.
+TEST(Decimal, PowersOfTwo_HaveTheFewestDigits) {
+  EXPECT_EQ(shortest_text(0x1p-1017), "7.120236347223045e-307");
+  const auto digits_of = [](std::string text) {
+    text = text.substr(0, text.find('e'));
+    std::erase(text, '.');
+    text.erase(0, text.find_first_not_of('0'));
+    return text.substr(0, text.find_last_not_of('0') + 1);
+  };
+  for (int exponent = -1074; exponent < 1024; ++exponent) {
+    const double value = std::ldexp(1.0, exponent);
+    char text[64];
+    const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::scientific).ptr;
+    EXPECT_EQ(digits_of(shortest_text(value)), digits_of(std::string(text, end))) << exponent;
+    EXPECT_EQ(read_double(shortest_text(value)), value) << exponent;
+  }
 }
 
 }  // namespace
