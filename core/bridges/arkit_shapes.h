@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string_view>
 
 #include "core/bridges/generated/arkit_tables.h"
@@ -14,7 +15,7 @@ consteval std::size_t shape(std::string_view name) {
   for (std::size_t i = 0; i < generated::arkit_shapes.size(); ++i) {
     if (generated::arkit_shapes[i].name == name) return i;
   }
-  throw "no such shape";  // NOLINT(hicpp-exception-baseclass): never compiled
+  std::abort();  // no constant expression: another name does not compile
 }
 
 inline constexpr std::size_t jaw_open = shape("jawOpen");

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/bridges/generated/arkit_tables.h"
 #include "core/bridges/live_link_csv.h"
+#include "core/types/decimal.h"
 #include "core/types/warning_groups.h"
 
 namespace semblante {
@@ -48,12 +49,13 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number value{};
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+/// A number, or a word for none that writers of floats use.
+std::optional<float> read_real(std::string_view text) {
+  const std::string_view magnitude = text.substr(text.starts_with('-') ? 1 : 0);
+  for (const std::string_view word : {"nan", "inf", "NaN", "Inf", "NAN", "INF"}) {
+    if (magnitude.starts_with(word)) return std::numeric_limits<float>::quiet_NaN();
+  }
+  return read_float(text);
 }
 
 /// HH:MM:SS:FF.sub -> seconds since midnight.
@@ -68,7 +70,7 @@ std::optional<double> seconds_of(std::string_view timecode, double rate) {
         text.find_first_not_of(i + 1 < part.size() ? "0123456789" : "0123456789.") != std::string_view::npos) {
       return std::nullopt;
     }
-    const auto value = number_of<double>(text);
+    const auto value = read_double(text);
     if (!value) return std::nullopt;
     part[i] = *value;
     timecode.remove_prefix(std::min(end + 1, timecode.size()));
@@ -190,7 +192,7 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
   row.seconds = *seconds;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (!columns.field[c]) continue;
-    const auto value = number_of<float>(cells[c]);
+    const auto value = read_real(cells[c]);
     if (!value) {
       return at_line(number, ErrorCode::malformed,
                      "column " + std::to_string(c + 1) + ": " + shown(cells[c]) + " is not a number");

@@ -1,15 +1,15 @@
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "core/bridges/arkit_shapes.h"
 #include "core/bridges/live_link_csv.h"
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
 
-constexpr std::size_t digits = 10;
+constexpr int digits = 10;
 
 /// The order of the file's columns: the stream's order except for two pairs.
 std::array<std::size_t, arkit_count> columns_of_file() {
@@ -42,12 +42,7 @@ void append_timecode(std::string& to, double seconds, double rate) {
   append_padded(to += '.', thousandths % 1000, 3);
 }
 
-void append_value(std::string& to, float value) {
-  std::array<char, 64> text{};
-  const auto [end, problem] =
-      std::to_chars(text.data(), text.data() + text.size(), value + 0.0F, std::chars_format::fixed, digits);
-  to.append(",").append(text.data(), problem == std::errc() ? end : text.data());
-}
+void append_value(std::string& to, float value) { to.append(",").append(fixed_text(value + 0.0F, digits)); }
 
 }  // namespace
 

@@ -49,7 +49,7 @@ double as_short_as_may_be(float value) {
 }  // namespace
 
 Result<NamedSet> parse_displacement_set(std::string_view json) {
-  const auto tree = read_json_object(json, set_limits);
+  const auto tree = read_json_object_tree(json, set_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
 #include "core/json/json_cursor.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
 
 namespace semblante {
 namespace {
@@ -17,7 +15,7 @@ constexpr JsonLimits displacement_limits = {.max_bytes = std::size_t{1} << 20U, 
 }  // namespace
 
 Result<std::vector<std::pair<FeaturePointId, glm::dvec3>>> parse_displacements(std::string_view json) {
-  const auto tree = read_json_object(json, displacement_limits);
+  const auto tree = read_json_object_tree(json, displacement_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);

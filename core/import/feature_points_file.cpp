@@ -5,12 +5,11 @@
 #include <limits>
 
 #include <glm/matrix.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/import/json_vector.h"
 #include "core/import/text.h"
 #include "core/json/json_cursor.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
 
 namespace semblante {
 namespace {
@@ -52,7 +51,7 @@ glm::dmat3 read_axes(const JsonCursor& rows) {
 }  // namespace
 
 Result<FeaturePointsFile> parse_feature_points(std::string_view json) {
-  const auto tree = read_json_object(json, point_limits);
+  const auto tree = read_json_object_tree(json, point_limits);
   if (!tree) return tree.error();
   std::optional<Error> fault;
   const JsonCursor root(*tree, fault);

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "core/import/gltf_container.h"
 #include "core/import/limits.h"
 #include "core/json/json_cursor.h"
@@ -20,7 +18,7 @@ namespace semblante::import {
 /// (see JsonCursor), and later calls return empty values.
 class GltfDocument {
  public:
-  GltfDocument(nlohmann::json tree, std::span<const std::uint8_t> binary, ResourceReader resources,
+  GltfDocument(JsonTree tree, std::span<const std::uint8_t> binary, ResourceReader resources,
                const ImportLimits& limits)
       : tree_(std::move(tree)), binary_(binary), resources_(std::move(resources)), limits_(limits) {}
   GltfDocument(const GltfDocument&) = delete;
@@ -85,7 +83,7 @@ class GltfDocument {
   template <class Put>
   void for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put);
 
-  nlohmann::json tree_;
+  JsonTree tree_;
   std::span<const std::uint8_t> binary_;
   ResourceReader resources_;
   ImportLimits limits_;

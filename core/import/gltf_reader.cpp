@@ -12,7 +12,7 @@
 #include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
 #include "core/types/printable.h"
 
 namespace semblante::import {
@@ -293,7 +293,7 @@ class GltfReader {
 
 Result<Model> read_document(std::string_view text, std::span<const std::uint8_t> binary,
                             const ResourceReader& resources, const ImportLimits& limits, const char* format) {
-  auto tree = read_json(text);
+  auto tree = read_json_tree(text);
   if (!tree) return tree.error();
   GltfDocument document(std::move(*tree), binary, resources, limits);
   return GltfReader(document, limits).read(format);

@@ -1,39 +1,40 @@
 #include "core/json/json_cursor.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "core/json/json_pointer.h"
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
 
-using nlohmann::json;
-
-const json& null_value() {
-  static const json value;
-  return value;
-}
-
-std::string kind_of(const json& value) {
-  switch (value.type()) {
-    case json::value_t::object:
+const char* with_article(JsonKind kind) {
+  switch (kind) {
+    case JsonKind::object:
       return "an object";
-    case json::value_t::array:
+    case JsonKind::array:
       return "an array";
-    case json::value_t::string:
+    case JsonKind::text:
       return "a string";
-    case json::value_t::boolean:
+    case JsonKind::boolean:
       return "true or false";
-    case json::value_t::null:
+    case JsonKind::null:
       return "null";
     default:
       return "a number";
   }
 }
 
-std::string text_of(double value) { return json(value).dump(); }
+std::string text_of(const JsonView& number) {
+  if (number.kind() == JsonKind::natural) return std::to_string(number.natural());
+  if (number.kind() == JsonKind::negative) return std::to_string(number.negative());
+  return shortest_text(number.number());
+}
+
+std::string not_between(const std::string& least, const std::string& most) {
+  return "must be between " + least + " and " + most;
+}
 
 }  // namespace
 
@@ -41,61 +42,57 @@ void JsonCursor::fail(ErrorCode code, std::string message) const {
   if (!failed()) *report_ = Error{code, pointer_, std::move(message)};
 }
 
-bool JsonCursor::is_null() const { return node_->is_null(); }
-bool JsonCursor::is_text() const { return node_->is_string(); }
-bool JsonCursor::is_array() const { return node_->is_array(); }
-bool JsonCursor::is_empty_array() const { return node_->is_array() && node_->empty(); }
+bool JsonCursor::is_null() const { return node_.kind() == JsonKind::null; }
+bool JsonCursor::is_text() const { return node_.kind() == JsonKind::text; }
+bool JsonCursor::is_array() const { return node_.kind() == JsonKind::array; }
+bool JsonCursor::is_empty_array() const { return is_array() && node_.size() == 0; }
 
-void JsonCursor::must_be_object() const {
-  if (!node_->is_object()) fail(ErrorCode::malformed, "must be an object, not " + kind_of(*node_));
+bool JsonCursor::must_be(bool is, const char* what) const {
+  if (!is) fail(ErrorCode::malformed, std::string("must be ") + what + ", not " + with_article(node_.kind()));
+  return is;
 }
 
-JsonCursor JsonCursor::child(const json* node, std::string_view name) const {
+void JsonCursor::must_be_object() const { (void)must_be(node_.kind() == JsonKind::object, "an object"); }
+
+JsonCursor JsonCursor::child(const JsonView& node, std::string_view name) const {
   std::string pointer = pointer_;
   append_to_pointer(pointer, name);
-  return {node == nullptr ? null_value() : *node, std::move(pointer), *report_};
+  return {node.has_value() ? node : JsonView(), std::move(pointer), *report_};
 }
 
-const json* JsonCursor::find(std::string_view name) const {
-  if (!node_->is_object()) return nullptr;
-  const auto found = node_->find(name);
-  return found == node_->end() ? nullptr : &*found;
+JsonView JsonCursor::find(std::string_view name) const {
+  return node_.kind() == JsonKind::object ? node_.member(name) : JsonView();
 }
 
 JsonCursor JsonCursor::member(std::string_view name) const {
   must_be_object();
-  const json* const found = find(name);
+  const JsonView found = find(name);
   JsonCursor member = child(found, name);
-  if (found == nullptr) member.fail(ErrorCode::missing, "is missing");
+  if (!found.has_value()) member.fail(ErrorCode::missing, "is missing");
   return member;
 }
 
 std::optional<JsonCursor> JsonCursor::optional_member(std::string_view name) const {
   must_be_object();
-  const json* const found = find(name);
-  return found == nullptr ? std::nullopt : std::optional(child(found, name));
+  const JsonView found = find(name);
+  return found.has_value() ? std::optional(child(found, name)) : std::nullopt;
 }
 
 std::vector<std::pair<std::string_view, JsonCursor>> JsonCursor::members() const {
   std::vector<std::pair<std::string_view, JsonCursor>> members;
   must_be_object();
-  if (!node_->is_object()) return members;
-  for (const auto& [name, value] : node_->get_ref<const json::object_t&>())
-    members.emplace_back(name, child(&value, name));
+  if (node_.kind() != JsonKind::object) return members;
+  node_.members([&](std::string_view name, const JsonView& value) { members.emplace_back(name, child(value, name)); });
   return members;
 }
 
-std::size_t JsonCursor::size() const {
-  if (node_->is_array()) return node_->size();
-  fail(ErrorCode::malformed, "must be an array, not " + kind_of(*node_));
-  return 0;
-}
+std::size_t JsonCursor::size() const { return must_be(is_array(), "an array") ? node_.size() : 0; }
 
 JsonCursor JsonCursor::element(std::size_t index) const {
   std::string pointer = pointer_;
   append_to_pointer(pointer, index);
   const bool is_there = index < size();
-  JsonCursor element(is_there ? (*node_)[index] : null_value(), std::move(pointer), *report_);
+  JsonCursor element(is_there ? node_.element(index) : JsonView(), std::move(pointer), *report_);
   if (!is_there) element.fail(ErrorCode::missing, "is missing");
   return element;
 }
@@ -103,7 +100,7 @@ JsonCursor JsonCursor::element(std::size_t index) const {
 std::vector<JsonCursor> JsonCursor::elements(std::size_t least, std::size_t most) const {
   std::vector<JsonCursor> elements;
   const std::size_t count = size();
-  if (!node_->is_array()) return elements;
+  if (!is_array()) return elements;
   if (count < least || count > most) {
     const std::string bounds =
         least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
@@ -117,8 +114,8 @@ std::vector<JsonCursor> JsonCursor::elements(std::size_t least, std::size_t most
 }
 
 double JsonCursor::number() const {
-  if (!node_->is_number()) return fail(ErrorCode::malformed, "must be a number, not " + kind_of(*node_)), 0.0;
-  const auto value = node_->get<double>();
+  if (!must_be(node_.is_number(), "a number")) return 0.0;
+  const double value = node_.number();
   if (!std::isfinite(value)) return fail(ErrorCode::not_finite, "must be finite"), 0.0;
   return value;
 }
@@ -126,45 +123,43 @@ double JsonCursor::number() const {
 double JsonCursor::number(double least, double most) const {
   const double value = number();
   if (value >= least && value <= most) return value;
-  fail(ErrorCode::out_of_range, "must be between " + text_of(least) + " and " + text_of(most));
+  fail(ErrorCode::out_of_range, not_between(shortest_text(least), shortest_text(most)));
   return least;
 }
 
 std::uint64_t JsonCursor::integer(std::uint64_t least, std::uint64_t most) const {
-  const auto refuse = [&](ErrorCode code, const std::string& message) { return fail(code, message), least; };
-  if (!node_->is_number()) return refuse(ErrorCode::malformed, "must be a whole number, not " + kind_of(*node_));
+  if (!must_be(node_.is_number(), "a whole number")) return least;
   std::uint64_t value = 0;
   bool fits = true;
-  if (node_->is_number_unsigned()) {
-    value = node_->get<std::uint64_t>();
+  if (node_.kind() == JsonKind::natural) {
+    value = node_.natural();
   } else {
     // Whole doubles up to 2^53 are exact.
-    const auto real = node_->get<double>();
-    if (real != std::floor(real)) return refuse(ErrorCode::malformed, "must be a whole number");
+    const double real = node_.number();
+    if (real != std::floor(real)) return fail(ErrorCode::malformed, "must be a whole number"), least;
     fits = real >= 0.0 && real <= 9007199254740992.0;
     if (fits) value = static_cast<std::uint64_t>(real);
   }
   if (fits && value >= least && value <= most) return value;
-  return refuse(ErrorCode::out_of_range,
-                "must be between " + std::to_string(least) + " and " + std::to_string(most) + ", not " + node_->dump());
+  fail(ErrorCode::out_of_range, not_between(std::to_string(least), std::to_string(most)) + ", not " + text_of(node_));
+  return least;
 }
 
 bool JsonCursor::boolean() const {
-  if (!node_->is_boolean()) return fail(ErrorCode::malformed, "must be true or false, not " + kind_of(*node_)), false;
-  return node_->get<bool>();
+  return must_be(node_.kind() == JsonKind::boolean, "true or false") && node_.natural() != 0;
 }
 
 std::string JsonCursor::text(std::size_t most_bytes) const {
-  if (!node_->is_string()) return fail(ErrorCode::malformed, "must be a string, not " + kind_of(*node_)), std::string();
-  const auto& value = node_->get_ref<const std::string&>();
-  if (value.size() <= most_bytes) return value;
+  if (!must_be(is_text(), "a string")) return {};
+  const std::string_view value = node_.text();
+  if (value.size() <= most_bytes) return std::string(value);
   fail(ErrorCode::too_large, "must not exceed " + std::to_string(most_bytes) + " bytes");
   return {};
 }
 
 bool JsonCursor::has(std::string_view name) const {
-  const json* const found = find(name);
-  return found != nullptr && !found->is_null();
+  const JsonView found = find(name);
+  return found.has_value() && found.kind() != JsonKind::null;
 }
 
 std::uint64_t JsonCursor::integer_or(std::string_view name, std::uint64_t otherwise) const {
@@ -200,11 +195,11 @@ std::size_t JsonCursor::required_index(std::string_view name, std::size_t count)
 
 std::vector<std::string> JsonCursor::texts(std::string_view name, std::size_t most) const {
   std::vector<std::string> texts;
-  const json* const found = find(name);
-  if (found == nullptr || !found->is_array()) return texts;
-  for (const json& item : *found) {
-    if (texts.size() == most) break;
-    texts.push_back(item.is_string() ? item.get<std::string>() : std::string());
+  const JsonView found = find(name);
+  if (!found.has_value() || found.kind() != JsonKind::array) return texts;
+  for (std::size_t i = 0; i < std::min(found.size(), most); ++i) {
+    const JsonView item = found.element(i);
+    texts.emplace_back(item.kind() == JsonKind::text ? item.text() : std::string_view());
   }
   return texts;
 }

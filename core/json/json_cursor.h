@@ -10,9 +10,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/json/json_tree.h"
 #include "core/types/result.h"
 
 namespace semblante {
+
+/// A view of nlohmann's document (in read_json.cpp).
+JsonView json_view(const nlohmann::json& value);
 
 /// A position in a JSON document with its pointer. Each read checks type and range; the FIRST error is reported, and
 /// later reads return default values, so that the caller's code follows the format and checks for an error once at the
@@ -23,9 +27,10 @@ class JsonCursor {
   /// Larger than any size or index of a real file, and small enough to add several without overflow.
   static constexpr std::uint64_t max_size = std::uint64_t{1} << 40U;
 
-  JsonCursor(const nlohmann::json& root, Report& report) : JsonCursor(root, {}, report) {}
-  JsonCursor(const nlohmann::json& node, std::string pointer, Report& report)
-      : node_(&node), pointer_(std::move(pointer)), report_(&report) {}
+  JsonCursor(const JsonView& node, std::string pointer, Report& report)
+      : node_(node), pointer_(std::move(pointer)), report_(&report) {}
+  JsonCursor(const JsonTree& tree, Report& report) : JsonCursor(tree.root(), {}, report) {}
+  JsonCursor(const nlohmann::json& root, Report& report) : JsonCursor(json_view(root), {}, report) {}
 
   /// Reports an error at this position, unless an earlier one is reported.
   void fail(ErrorCode code, std::string message) const;
@@ -76,10 +81,12 @@ class JsonCursor {
   [[nodiscard]] std::vector<std::string> texts(std::string_view name, std::size_t most) const;
 
  private:
-  [[nodiscard]] const nlohmann::json* find(std::string_view name) const;
-  [[nodiscard]] JsonCursor child(const nlohmann::json* node, std::string_view name) const;
+  [[nodiscard]] JsonView find(std::string_view name) const;
+  [[nodiscard]] JsonCursor child(const JsonView& node, std::string_view name) const;
+  /// Whether the value is of this kind; reports an error that asks for `what` if it is not.
+  [[nodiscard]] bool must_be(bool is, const char* what) const;
 
-  const nlohmann::json* node_;
+  JsonView node_;
   std::string pointer_;
   Report* report_;
 };

@@ -8,6 +8,7 @@
 #include "core/performance/performance.h"
 #include "core/performance/usual_times.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
@@ -19,7 +20,7 @@ constexpr double nearest_look = 1.0;  ///< eye distances
 static_assert(std::variant_size_v<CueTarget> == usual_ramps.size());
 
 std::string text_of(double value) {
-  std::string text = std::to_string(value);
+  std::string text = fixed_text(value, 6);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;

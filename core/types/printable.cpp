@@ -1,11 +1,7 @@
 #include "core/types/printable.h"
 
-#include <cstddef>
-
 namespace semblante {
-namespace {
 
-/// Number of bytes of the first character of `text`; 0 if it is not valid UTF-8 (overlong forms, surrogates).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : '\0'); };
   const auto follows = [&byte](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
@@ -24,8 +20,6 @@ std::size_t utf8_length(std::string_view text) {
   }
   return 0;
 }
-
-}  // namespace
 
 std::string printable(std::string_view name) {
   constexpr std::size_t max_bytes = 200;

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace semblante {
+
+/// Number of bytes of the first character of `text`; 0 if it is not valid UTF-8 (overlong forms, surrogates).
+std::size_t utf8_length(std::string_view text);
 
 /// Makes an untrusted name safe for output: valid UTF-8 (other bytes become '?'), no control characters, at most 200
 /// bytes.

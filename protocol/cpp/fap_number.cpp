@@ -1,11 +1,11 @@
 #include "protocol/cpp/fap_number.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
@@ -51,22 +51,14 @@ std::optional<double> read_fap_number(std::string_view word) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   if (!is_decimal(word)) return std::nullopt;
-  double value = 0;
-  if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc::result_out_of_range) {
-    // Underflow or overflow: with at most 64 characters, the sign of the exponent distinguishes them.
-    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-    value = tiny ? 0.0 : std::numeric_limits<double>::max();
-  }
+  const double value = std::min(*read_double(word), std::numeric_limits<double>::max());
   if (value < least_fap_value) return 0.0;
   return negative ? -value : value;
 }
 
 std::string write_fap_number(double value) {
   assert(std::abs(value) <= max_fap_value && (value == 0.0 || std::abs(value) >= least_fap_value));
-  std::array<char, 64> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value, std::chars_format::fixed);
-  return {text.data(), end.ptr};
+  return shortest_fixed_text(value == 0.0 ? 0.0 : value);
 }
 
 }  // namespace semblante

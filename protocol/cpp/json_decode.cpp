@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
@@ -191,7 +190,7 @@ Message read_by_name(const JsonCursor& root, const QuantizerSteps& steps, const 
 }  // namespace
 
 Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) {
-  const auto tree = read_json_object(text, message_limits);
+  const auto tree = read_json_object_tree(text, message_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   Message message = read_by_name(JsonCursor(*tree, report), steps, static_cast<const Message*>(nullptr));
@@ -201,7 +200,7 @@ Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) 
 
 Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const QuantizerSteps& steps,
                                                    std::size_t* clamped) {
-  const auto tree = read_json_object(text, message_limits);
+  const auto tree = read_json_object_tree(text, message_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   std::size_t bridged = 0;
@@ -214,7 +213,7 @@ Result<std::vector<TimedFrame>> decode_json_frames(std::string_view text, const 
 Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const JsonValuesLimits& limits) {
   // Frame by frame, because the JSON document of a long file would take ten times its bytes of memory.
   std::vector<TimedValues> frames;
-  const auto take = [&](std::size_t index, const nlohmann::json& frame) -> Status {
+  const auto take = [&](std::size_t index, const JsonView& frame) -> Status {
     if (index == limits.frames)
       return Error{ErrorCode::too_large, "/frames", "has more than " + std::to_string(limits.frames) + " elements"};
     JsonCursor::Report report;
@@ -224,8 +223,9 @@ Result<std::vector<TimedValues>> decode_json_values(std::string_view text, const
     if (report) return *report;
     return Unit{};
   };
-  const auto tree = read_json_object(
-      text, {.max_bytes = limits.bytes, .max_depth = 64, .max_values = max_message_values}, {"frames", take});
+  const JsonElements elements{"frames", take};
+  const auto tree = read_json_object_tree(
+      text, {.max_bytes = limits.bytes, .max_depth = 64, .max_values = max_message_values}, &elements);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   const JsonCursor list = JsonCursor(*tree, report).member("frames");

@@ -3,10 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "core/json/json_cursor.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
 #include "core/tables/mpeg4.h"
 #include "protocol/cpp/performance_document.h"
 
@@ -227,7 +225,7 @@ constexpr JsonLimits limits = {
 Result<PerformanceScript> read_performance(std::string_view text) {
   PerformanceScript script;
   std::size_t keys = 0;
-  const auto take = [&](std::size_t index, const nlohmann::json& element) -> Status {
+  const auto take = [&](std::size_t index, const JsonView& element) -> Status {
     if (index == max_performance_cues)
       return Error{ErrorCode::too_large, "/cues",
                    "a performance has at most " + std::to_string(max_performance_cues) + " cues"};
@@ -242,7 +240,8 @@ Result<PerformanceScript> read_performance(std::string_view text) {
     script.cues.push_back(std::move(cue));
     return Unit{};
   };
-  const auto tree = read_json_object(text, limits, {"cues", take});
+  const JsonElements elements{"cues", take};
+  const auto tree = read_json_object_tree(text, limits, &elements);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   read_members(JsonCursor(*tree, report), script);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/decimal.h"
 
 namespace semblante {
 
@@ -63,7 +64,7 @@ Result<std::int16_t> quantize(double fap_units, double step) {
   if (!std::isfinite(fap_units)) return Error{ErrorCode::not_finite, "", "must be finite"};
   const double level = std::round(fap_units / step);
   if (std::abs(level) > static_cast<double>(max_level)) {
-    return Error{ErrorCode::out_of_range, "", "beyond 32767 levels of " + std::to_string(step) + " FAP units"};
+    return Error{ErrorCode::out_of_range, "", "beyond 32767 levels of " + shortest_fixed_text(step) + " FAP units"};
   }
   return static_cast<std::int16_t>(level);
 }

@@ -3,10 +3,10 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.h"
-#include "core/json/read_json.h"
+#include "core/json/json_tree.h"
+#include "core/types/decimal.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/cpp/weights_layout.h"
@@ -127,7 +127,7 @@ glm::vec3 direction(const JsonCursor& at) {
 
 float above(const JsonCursor& at, float least) {
   const float value = real(at);
-  if (!(value > least)) at.fail(ErrorCode::out_of_range, "must be more than " + std::to_string(least));
+  if (!(value > least)) at.fail(ErrorCode::out_of_range, "must be more than " + shortest_fixed_text(least));
   return value;
 }
 
@@ -216,7 +216,7 @@ RigDocument::ImageInfo image(const JsonCursor& at) {
 }  // namespace
 
 Result<RigDocument> read_rig(std::string_view text) {
-  const auto tree = read_json_object(text, rig_limits);
+  const auto tree = read_json_object_tree(text, rig_limits);
   if (!tree) return tree.error();
   JsonCursor::Report report;
   const JsonCursor root(*tree, report);

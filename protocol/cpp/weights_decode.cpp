@@ -2,10 +2,10 @@
 #include <array>
 #include <cstring>
 #include <string>
-#include <zlib.h>
 
 #include "core/types/moving_parts.h"
 #include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/inflate.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/cpp/weights_layout.h"
 
@@ -33,10 +33,7 @@ Error fail(ErrorCode code, std::string where, std::string message) {
 
 std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
   static constexpr std::array<std::uint8_t, 4> zero{};
-  uLong crc = crc32_z(0, bytes.data(), at_crc);
-  crc = crc32_z(crc, zero.data(), zero.size());
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, bytes.data() + at_crc + zero.size(), bytes.size() - at_crc - zero.size()));
+  return crc32(crc32(crc32(0, bytes.first(at_crc)), zero), bytes.subspan(at_crc + zero.size()));
 }
 
 Result<Header> read_header(std::span<const std::uint8_t> bytes) {
@@ -79,10 +76,7 @@ Result<Header> read_header(std::span<const std::uint8_t> bytes) {
 
 Result<std::vector<std::uint8_t>> inflate_payload(std::span<const std::uint8_t> packed, std::uint32_t raw_bytes) {
   std::vector<std::uint8_t> raw(raw_bytes);
-  uLongf size = raw.size();
-  uLong consumed = packed.size();
-  if (uncompress2(raw.data(), &size, packed.data(), &consumed) != Z_OK || size != raw.size() ||
-      consumed != packed.size()) {
+  if (!inflate_zlib(packed, raw)) {
     return fail(ErrorCode::malformed, "payload", "not a zlib stream of the declared size");
   }
   return raw;

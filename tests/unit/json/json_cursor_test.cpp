@@ -8,20 +8,23 @@ namespace {
 
 using nlohmann::json;
 
-/// The `where` and the message of the error that `read` returns.
+std::string words_of(const JsonCursor::Report& report) { return report ? report->where + ": " + report->message : ""; }
+
+/// The `where` and the message of the error that `read` returns, the same for a tree and for nlohmann's document.
 template <class Read>
 std::string fault(const char* text, Read read) {
   const json document = json::parse(text);
   JsonCursor::Report report;
   read(JsonCursor(document, report));
-  return report ? report->where + ": " + report->message : "";
+  const auto tree = read_json_tree(text);
+  EXPECT_TRUE(tree) << text;
+  JsonCursor::Report report_of_tree;
+  read(JsonCursor(*tree, report_of_tree));
+  EXPECT_EQ(words_of(report_of_tree), words_of(report)) << text;
+  return words_of(report);
 }
 
-TEST(JsonCursor, Reads_WhatIsThere) {
-  const json document =
-      json::parse(R"({"n": 1.5, "i": 7, "r": 4.0, "b": true, "t": "x", "a": [1, 2, 3], "o": {"k/~": 1, "l": 2}})");
-  JsonCursor::Report report;
-  const JsonCursor root(document, report);
+void expect_what_is_there(const JsonCursor& root) {
   EXPECT_EQ(root.member("n").number(), 1.5);
   EXPECT_EQ(root.member("i").integer(0, 7), 7U);
   EXPECT_EQ(root.member("r").integer(), 4U);
@@ -36,7 +39,18 @@ TEST(JsonCursor, Reads_WhatIsThere) {
   EXPECT_EQ(root.index("i", 8), 7U);
   EXPECT_EQ(root.index("z", 8), std::nullopt);
   EXPECT_EQ(root.number_or("z", 2.0), 2.0);
-  EXPECT_FALSE(report);
+  EXPECT_FALSE(root.failed());
+}
+
+TEST(JsonCursor, Reads_WhatIsThere) {
+  const char* const text =
+      R"({"n": 1.5, "i": 7, "r": 4.0, "b": true, "t": "x", "a": [1, 2, 3], "o": {"l": 2, "k/~": 1}})";
+  JsonCursor::Report report;
+  const json document = json::parse(text);
+  expect_what_is_there(JsonCursor(document, report));
+  const auto tree = read_json_tree(text);
+  ASSERT_TRUE(tree);
+  expect_what_is_there(JsonCursor(*tree, report));
 }
 
 TEST(JsonCursor, FirstFault_IsKept_WithItsPointer) {

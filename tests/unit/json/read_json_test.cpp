@@ -25,6 +25,25 @@ std::string repeated(std::string_view text, std::size_t times) {
   return all;
 }
 
+/// A view as JSON text; strings without escapes.
+std::string written(const JsonView& view) {
+  std::string text;
+  switch (view.kind()) {
+    case JsonKind::array:
+      for (std::size_t i = 0; i < view.size(); ++i) text += (i == 0 ? "" : ",") + written(view.element(i));
+      return "[" + text + "]";
+    case JsonKind::object:
+      view.members([&](std::string_view name, const JsonView& value) {
+        text += (text.empty() ? "\"" : ",\"") + std::string(name) + "\":" + written(value);
+      });
+      return "{" + text + "}";
+    case JsonKind::text:
+      return "\"" + std::string(view.text()) + "\"";
+    default:
+      return std::to_string(view.natural());
+  }
+}
+
 TEST(ReadJson, WhatIsRefused_IsNamedWithItsPlace) {
   const std::vector<Refused> all = {
       {"nothing", "", ErrorCode::malformed, ""},
@@ -137,34 +156,34 @@ TEST(ReadJson, ObjectIsWanted_NothingElseIsTaken) {
 }
 
 TEST(ReadJson, Elements_AreHandedOverOneByOne) {
-  std::vector<json> taken;
-  const auto take = [&](std::size_t index, const json& element) -> Status {
-    EXPECT_EQ(index, taken.size());
-    taken.push_back(element);
-    return Unit{};
-  };
-  const auto document =
-      read_json_object(R"({"x": {"list": [1]}, "list": [1, [2, {}], {"list": [3]}, "4"], "y": 5})", {}, {"list", take});
-  ASSERT_TRUE(document) << document.error().message;
-  EXPECT_EQ(*document, json::parse(R"({"x": {"list": [1]}, "list": [], "y": 5})"));
-  EXPECT_EQ(taken, json::parse(R"([1, [2, {}], {"list": [3]}, "4"])").get<std::vector<json>>());
+  std::vector<std::string> taken;
+  const JsonElements elements{"list", [&](std::size_t index, const JsonView& element) -> Status {
+                                EXPECT_EQ(index, taken.size());
+                                taken.push_back(written(element));
+                                return Unit{};
+                              }};
+  const auto tree =
+      read_json_object_tree(R"({"x": {"list": [1]}, "list": [1, [2, {}], {"list": [3]}, "4"], "y": 5})", {}, &elements);
+  ASSERT_TRUE(tree) << tree.error().message;
+  EXPECT_EQ(written(tree->root()), R"({"list":[],"x":{"list":[1]},"y":5})");
+  EXPECT_EQ(taken, (std::vector<std::string>{"1", "[2,{}]", R"({"list":[3]})", "\"4\""}));
 }
 
 TEST(ReadJson, ElementsHandedOver_AreCountedOneByOne) {
-  const auto take = [](std::size_t, const json&) -> Status { return Unit{}; };
+  const JsonElements elements{"list", [](std::size_t, const JsonView&) -> Status { return Unit{}; }};
   const std::string text = R"({"list": [)" + repeated("[0,0],", 10'000) + "[0,0]]}";
-  EXPECT_TRUE(read_json_object(text, {.max_values = 5}, {"list", take}));
-  EXPECT_FALSE(read_json_object(text, {.max_values = 4}, {"list", take}));
-  const auto twice = read_json_object(R"({"list": [0, 1, {"a": 1, "a": 2}]})", {}, {"list", take});
+  EXPECT_TRUE(read_json_object_tree(text, {.max_values = 5}, &elements));
+  EXPECT_FALSE(read_json_object_tree(text, {.max_values = 4}, &elements));
+  const auto twice = read_json_object_tree(R"({"list": [0, 1, {"a": 1, "a": 2}]})", {}, &elements);
   EXPECT_EQ(twice.error().where, "/list/2/a");
-  const auto again = read_json_object(R"({"list": [0], "list": [1]})", {}, {"list", take});
+  const auto again = read_json_object_tree(R"({"list": [0], "list": [1]})", {}, &elements);
   EXPECT_EQ(again.error().where, "/list");
-  EXPECT_EQ(read_json_object(R"({"list": [0, 1e999]})", {}, {"list", take}).error().where, "/list/1");
-  const auto refuse = [](std::size_t index, const json&) -> Status {
-    if (index == 1) return Error{ErrorCode::too_large, "/here", "no more"};
-    return Unit{};
-  };
-  const auto refused = read_json_object(R"({"list": [0, 1, 2], not JSON)", {}, {"list", refuse});
+  EXPECT_EQ(read_json_object_tree(R"({"list": [0, 1e999]})", {}, &elements).error().where, "/list/1");
+  const JsonElements refused_elements{"list", [](std::size_t index, const JsonView&) -> Status {
+                                        if (index == 1) return Error{ErrorCode::too_large, "/here", "no more"};
+                                        return Unit{};
+                                      }};
+  const auto refused = read_json_object_tree(R"({"list": [0, 1, 2], not JSON)", {}, &refused_elements);
   EXPECT_EQ(refused.error().where, "/here");
 }
 
