@@ -25,7 +25,7 @@ class Version(unittest.TestCase):
     def test_the_same_elsewhere(self):
         self.assertEqual(json.loads((TOP / "web/package.json").read_text())["version"], PROJECT)
         major, minor, patch = (int(part) for part in PROJECT.split("."))
-        sdk = re.search(r"SEMBLANTE_SDK_VERSION (0x\w+)u", (TOP / "clients/capi/semblante.h").read_text()).group(1)
+        sdk = re.search(r"SEMBLANTE_SDK_VERSION (0x\w+)u", (TOP / "clients/runtime/semblante.h").read_text()).group(1)
         self.assertEqual(int(sdk, 16), major << 16 | minor << 8 | patch)
 
     def test_changelog(self):
