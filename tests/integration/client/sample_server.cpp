@@ -34,7 +34,10 @@ SampleServer::~SampleServer() {
   std::filesystem::remove_all(folder_);
 }
 
-std::string SampleServer::url() const { return "http://" + http_->url().host + ":" + http_->url().port; }
+std::string SampleServer::url() const {
+  const auto& address = http_->server().url;
+  return "http://" + address.host + ":" + address.port;
+}
 
 void SampleServer::create_stream(const std::string& name, std::optional<double> viseme_share) const {
   nlohmann::json body = {{"name", name}, {"model", "sample"}, {"batch_interval", 0}};
