@@ -31,8 +31,8 @@ std::optional<Skew> measure_skew(const SkewOptions& options) {
   ProxyOptions network = options.network;
   network.target_port = static_cast<std::uint16_t>(std::stoi(options.server.port));
   TcpProxy proxy(network);
-  LivePlayer player({options.server.host, std::to_string(proxy.port()), options.server.path}, options.stream, {},
-                    {options.delay, false});
+  LivePlayer player(client::Url{options.server.host, std::to_string(proxy.port()), options.server.path}, options.stream,
+                    {}, {options.delay, false});
   double before = -std::numeric_limits<double>::infinity();
   double newest = before, plain_offset = 0, interval = 0;
   bool cut = !options.cut_half_way;

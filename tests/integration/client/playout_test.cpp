@@ -165,7 +165,7 @@ TEST(Playout, RealServerBehindABadNetwork_ShowsTheStreamsClockLessItsDelay) {
   network.stalls = 0.01;
   network.seed = 7;
   TcpProxy proxy(network);
-  LivePlayer player({url.host, std::to_string(proxy.port()), ""}, "demo");
+  LivePlayer player(client::Url{url.host, std::to_string(proxy.port()), ""}, "demo");
   Display display(player, *clock);
 
   // Two seconds of it without a fault. Late messages of the network or of the machine make the player wait, and its
