@@ -125,7 +125,7 @@ TEST(AcceptedProposals, OfAllHeadsAtSeveralLevelsOfDetail) {
       for (const FeaturePoint& p : known) marked.push_back({p.id, std::nullopt, glm::dvec3(p.position)});
       const auto placed = place_feature_points(coarse, surface, marked, nullptr);
       ASSERT_TRUE(placed) << study.name << ": " << placed.error().message;
-      expect_accepted(study.name + ", cells of " + std::to_string(cell) + " ES0", coarse, *placed, cell > 0.15);
+      expect_accepted(study.name + ", cells of " + std::to_string(cell) + " ES0", coarse, *placed, cell > 0.05);
     }
   }
 }
