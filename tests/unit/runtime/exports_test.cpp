@@ -12,8 +12,8 @@
 namespace semblante::testing {
 namespace {
 
-/// The shared library as it stands on 64-bit Linux; growth past this is to be noticed, not to happen.
-constexpr std::uintmax_t max_library_bytes = 512U << 10U;
+/// The shared library as it stands on 64-bit Linux, with its symbols; growth past this is to be noticed, not to happen.
+constexpr std::uintmax_t max_library_bytes = 896U << 10U;
 
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
   std::set<std::string> found;
@@ -28,6 +28,15 @@ std::string read(const std::string& path) {
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+/// By hand: std::regex needs a stack as deep as a comment is long.
+std::string without_comments(std::string text) {
+  for (std::size_t begin = 0; (begin = text.find("/*", begin)) != std::string::npos;) {
+    const std::size_t end = text.find("*/", begin);
+    text.erase(begin, end == std::string::npos ? end : end + 2 - begin);
+  }
+  return text;
 }
 
 std::string output_of(const std::string& command) {
@@ -58,9 +67,9 @@ TEST(SdkExports, Header_DeclaresExactlyTheList) {
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_prepared_face.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_normals.h");
   headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_ease.h");
-  const std::string kernel = read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_kernel.h");
-  headers += std::regex_replace(kernel, std::regex(R"(#ifdef __wasm__[^#]*#endif)"), "");
-  const std::string code = std::regex_replace(headers, std::regex(R"(/\*(.|\n)*?\*/)"), "");
+  headers += read(SEMBLANTE_SOURCE_DIR "/core/kernel/semblante_kernel.h");
+  headers = without_comments(headers);
+  const std::string code = std::regex_replace(headers, std::regex(R"(#ifdef __wasm__[^#]*#endif)"), "");
   EXPECT_EQ(matches(code, std::regex(R"(\b(semblante_\w+)\()")), listed);
 }
 
