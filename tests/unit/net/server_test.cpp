@@ -345,6 +345,7 @@ class LeastRate : public ::testing::Test {
 TEST_F(LeastRate, SlowBody_IsCutOff) {
   const Client client(port_);
   client.send("POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\n");
+  ASSERT_TRUE(testing::eventually([&] { return !is_alone(); })) << "the server has not accepted the connection yet";
   int pieces = 0;
   ASSERT_TRUE(testing::eventually(
       [&] {
