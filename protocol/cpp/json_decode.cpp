@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 #include "core/json/json_cursor.h"
 #include "core/json/json_tree.h"
 #include "protocol/cpp/fap_number.h"

@@ -49,7 +49,8 @@ Coded packed(const Trace& trace, std::size_t per_message, const PackedTable& tab
   for (const Frames& batch : batches(trace, per_message)) {
     const Bytes bytes = encoder.encode(batch);
     Frames read;
-    if (!read_packed_frames(bytes, reader, read, table) || !(read == batch)) throw std::runtime_error("not lossless: " + trace.name);
+    if (!read_packed_frames(bytes, reader, read, table) || !(read == batch))
+      throw std::runtime_error("not lossless: " + trace.name);
     coded.payload += bytes.size();
     ++coded.messages;
   }

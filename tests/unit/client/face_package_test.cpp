@@ -16,9 +16,9 @@
 namespace semblante::testing {
 namespace {
 
-using runtime::decode_mesh;
 using client::Face;
 using client::PackageBytes;
+using runtime::decode_mesh;
 
 Sha256 hash_of(const std::string& bytes) {
   Sha256 hash{};
