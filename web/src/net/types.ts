@@ -50,6 +50,8 @@ export type JobState = Job['state'];
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
 
 export type Session = Schemas['Session'];
+export type NewToken = Schemas['NewToken'];
+export type NewTokenWish = JsonBody<operations['createToken']>;
 export type StreamInfo = Schemas['Stream'];
 export type StreamPage = JsonAnswer<'listStreams', 200>;
 /** The options of a new stream; each has a default on the server. */

@@ -6,6 +6,7 @@ import { formatBytes } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { LiveModel } from './live_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
+import { PhoneDialog } from './phone_dialog.ts';
 import { askForStream } from './stream_dialog.ts';
 import { StreamFacts } from './stream_facts.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -223,6 +224,17 @@ export class LivePanel {
         { class: 'grow' },
         h('strong', {}, stream.title || stream.id),
         h('span', { class: 'muted small' }, `${viewers} · ${senders}`),
+      ),
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'quiet square small',
+          'aria-label': `Show ${stream.title || stream.id} on a phone`,
+          title: 'On a phone',
+          on: { click: () => void new PhoneDialog(this.studio, stream).open() },
+        },
+        icon('phone', 16),
       ),
       stream.source === 'demo'
         ? null

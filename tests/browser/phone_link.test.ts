@@ -1,0 +1,65 @@
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { patience } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer('admin'), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+async function createStream(title: string): Promise<void> {
+  const response = await fetch(`${server.url}/v1/streams`, {
+    method: 'POST',
+    headers: { Authorization: `Bearer ${server.token}`, 'Content-Type': 'application/json' },
+    body: JSON.stringify({ title, model: 'sample' }),
+  });
+  expect(response.status).toBe(201);
+}
+
+describe('a stream on a phone', () => {
+  test('PrivateStream_IsOpenedByAnInvitation_AndByNothingElse', async () => {
+    await createStream('Backstage');
+    const studio = await StudioPage.open(browser, `${server.url}/#token=${server.token}`, { allowed: /status of 401/ });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.locator('#tab-live').click();
+    await page.getByRole('button', { name: 'Show Backstage on a phone' }).click();
+    const dialog = page.getByRole('dialog', { name: 'Backstage on a phone' });
+    await dialog.getByText('exists on this machine only').waitFor();
+    const address = dialog.getByLabel('Address');
+    const plain = await address.inputValue();
+    expect(plain).toMatch(new RegExp(`^${server.url}/view/[^/#]+$`));
+    await dialog.getByRole('button', { name: 'Make an invitation' }).click();
+    await dialog.getByText('Whoever has this address').waitFor();
+    const invitation = await address.inputValue();
+    expect(invitation.startsWith(`${plain}#token=smb_`)).toBe(true);
+    await dialog.getByRole('button', { name: 'Close' }).click();
+    await dialog.waitFor({ state: 'detached' });
+
+    const stateOf = async (url: string): Promise<string> => {
+      const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
+      context.setDefaultTimeout(patience);
+      const phone = await context.newPage();
+      await phone.goto(url, { waitUntil: 'domcontentloaded' });
+      await phone.waitForFunction(() =>
+        ['playing', 'error'].includes((window as unknown as { semblanteFace?: { state: string } }).semblanteFace?.state ?? ''),
+      );
+      const state = await phone.evaluate(() => (window as unknown as { semblanteFace: { state: string } }).semblanteFace.state);
+      await context.close();
+      return state;
+    };
+    expect(await stateOf(plain)).toBe('error');
+    expect(await stateOf(invitation)).toBe('playing');
+    expect(studio.errors).toEqual([]);
+    await studio.context.close();
+  });
+});

@@ -1,0 +1,124 @@
+import { encode } from 'uqr';
+import { isLoopback, phoneLink } from '../../net/phone_link.ts';
+import { problemOf } from '../../net/problem.ts';
+import { getSession } from '../../net/session.ts';
+import type { Session, StreamInfo } from '../../net/types.ts';
+import { h, replace, setText, svg } from '../shared/dom.ts';
+import type { Studio } from '../shared/studio.ts';
+
+/** How long an invitation is accepted, s. */
+const invitationLife = 12 * 3600;
+/** The light margin that readers of QR codes need, modules. */
+const quietZone = 4;
+
+/** A QR code, dark on light whatever the page's theme, since not every reader takes the inverse. */
+function qrPicture(text: string): SVGElement {
+  const { data, size } = encode(text, { ecc: 'M', border: quietZone });
+  const dark = data.flatMap((row, y) => row.map((on, x) => (on ? `M${x} ${y}h1v1h-1z` : ''))).join('');
+  return svg(
+    'svg',
+    { viewBox: `0 0 ${size} ${size}`, class: 'qr', role: 'img', 'aria-label': 'QR code of the address', 'shape-rendering': 'crispEdges' },
+    svg('rect', { width: size, height: size, fill: '#fff' }),
+    svg('path', { d: dark, fill: '#000' }),
+  );
+}
+
+/** What a phone without a token needs to show the stream; empty when it needs nothing. */
+function privacyWords(session: Session, stream: StreamInfo): string {
+  if (!session.asks_for_tokens || stream.is_public) return '';
+  return session.scope === 'admin'
+    ? 'The stream is private. An invitation opens this stream, and nothing else, for 12 hours.'
+    : 'The stream is private: the phone needs a token. Somebody with the scope admin can make an invitation here.';
+}
+
+/** Shows how a phone opens a stream: a QR code, the address, and an invitation where the server asks for tokens. */
+export class PhoneDialog {
+  private readonly place = h('div', { class: 'phone-code' });
+  private readonly address = h('input', { type: 'text', readonly: true, id: 'phone-address' });
+  private readonly note = h('p', { class: 'small', role: 'status' });
+  private readonly privacy = h('p', { class: 'small', role: 'status' });
+  private readonly invite = h(
+    'button',
+    { type: 'button', hidden: true, on: { click: () => void this.makeInvitation() } },
+    'Make an invitation',
+  );
+  private readonly base: string;
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly stream: StreamInfo,
+  ) {
+    this.base = new URL(studio.api.base || '.', location.href).href.replace(/\/(index\.html)?$/, '');
+  }
+
+  async open(): Promise<void> {
+    const dialog = h(
+      'dialog',
+      { class: 'dialog', 'aria-labelledby': 'phone-title' },
+      h(
+        'form',
+        { method: 'dialog' },
+        h('h2', { id: 'phone-title' }, `${this.stream.title || this.stream.id} on a phone`),
+        this.place,
+        this.note,
+        this.privacy,
+        h('label', { for: 'phone-address' }, 'Address'),
+        this.address,
+        h(
+          'div',
+          { class: 'row end' },
+          this.invite,
+          h('button', { type: 'button', on: { click: () => void this.copy() } }, 'Copy'),
+          h('button', { type: 'submit', class: 'primary' }, 'Close'),
+        ),
+      ),
+    );
+    dialog.addEventListener('close', () => dialog.remove());
+    this.draw(phoneLink(this.base, this.stream.id));
+    document.body.append(dialog);
+    dialog.showModal();
+    try {
+      const session = await getSession(this.studio.api.base);
+      const words = privacyWords(session, this.stream);
+      setText(this.privacy, words);
+      this.invite.hidden = words === '' || session.scope !== 'admin';
+    } catch (error) {
+      setText(this.privacy, problemOf(error).title);
+    }
+  }
+
+  private draw(link: string): void {
+    this.address.value = link;
+    const reachable = !isLoopback(new URL(link).hostname);
+    replace(this.place, reachable ? qrPicture(link) : null);
+    setText(
+      this.note,
+      reachable
+        ? 'Point the phone’s camera at the code.'
+        : 'This address exists on this machine only. Start the server with “semblante serve --lan” and open the studio by the address that it prints.',
+    );
+  }
+
+  private async makeInvitation(): Promise<void> {
+    this.invite.disabled = true;
+    try {
+      const secret = await this.studio.api.inviteTo(this.stream.id, invitationLife);
+      this.draw(phoneLink(this.base, this.stream.id, secret));
+      this.invite.hidden = true;
+      setText(this.privacy, 'Whoever has this address sees the stream, for 12 hours.');
+    } catch (error) {
+      setText(this.privacy, problemOf(error).title);
+    }
+    this.invite.disabled = false;
+  }
+
+  private async copy(): Promise<void> {
+    this.address.select();
+    try {
+      await navigator.clipboard.writeText(this.address.value);
+      setText(this.note, 'Copied.');
+    } catch {
+      setText(this.note, 'The browser does not let this page copy; the address is selected.');
+    }
+  }
+}
