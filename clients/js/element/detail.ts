@@ -49,6 +49,23 @@ export function thisDevice(renderer: string): Device {
 /** What to do so that a device keeps its pace. */
 export type Step = 'fewer-pixels' | 'plainer' | 'smaller' | 'larger';
 
+/** Drawn pixels for each pixel of the page where even one is too many. */
+const coarse = 0.6;
+
+/** The pixel ratio after `fewer-pixels`. */
+export function fewerPixels(ratio: number): number {
+  return ratio > 1 ? 1 : coarse;
+}
+
+/** What a device can be spared without changing the face, in this order. */
+export function cheaperSteps(render: RenderQuality, devicePixelRatio: number): Step[] {
+  const steps: Step[] = [];
+  if (Math.min(render.maxPixelRatio, devicePixelRatio) > 1) steps.push('fewer-pixels');
+  if (render.shadows || render.richSkin) steps.push('plainer');
+  steps.push('fewer-pixels');
+  return steps;
+}
+
 /** Goal: this many pictures a second. */
 const goal = 30;
 const shortest = 1 / goal;
@@ -57,7 +74,7 @@ const window = 1.5;
 const settling = 2;
 /** Seconds of good pace before a larger face is tried; each failure doubles it. */
 const firstProof = 6;
-/** A long gap comes from a hidden page, not from a slow device. */
+/** Seconds: one gap of this length comes from a hidden page, several in a row from a slow device. */
 const gap = 0.25;
 
 /**
@@ -72,11 +89,18 @@ export class Pace {
   private good = 0;
   private proof = firstProof;
   private risky = false;
-  private cheaper: Step[] = ['fewer-pixels', 'plainer'];
+  private afterGap = false;
+  private readonly cheaper: Step[];
+
+  constructor(cheaper: readonly Step[]) {
+    this.cheaper = [...cheaper];
+  }
 
   /** To call for each drawn picture of a moving face; `busySeconds`: the time that this page took for it. */
   tick(deltaSeconds: number, busySeconds: number, hasSmaller: boolean, hasLarger: boolean): Step | null {
-    if (deltaSeconds > gap) {
+    const isFirstGap = deltaSeconds > gap && !this.afterGap;
+    this.afterGap = deltaSeconds > gap;
+    if (isFirstGap) {
       this.time = this.frames = 0;
       return null;
     }

@@ -8,7 +8,7 @@ import { OrbitCamera } from '../view/camera.ts';
 import { FaceRenderer, type RenderQuality } from '../view/face_renderer.ts';
 import { frameOf, type Fit } from '../view/framing.ts';
 import { loadKernelModule } from '../wasm.ts';
-import { budgetOf, firstVertices, Pace, thisDevice, type Budget, type QualityName, type Step } from './detail.ts';
+import { budgetOf, cheaperSteps, fewerPixels, firstVertices, Pace, thisDevice, type Budget, type QualityName, type Step } from './detail.ts';
 import { Link } from './link.ts';
 import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
 import { FaceTrouble, isPassing } from './words.ts';
@@ -55,7 +55,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   private readonly renderer: FaceRenderer;
   private render: RenderQuality;
   private readonly budget: Budget;
-  private readonly pace = new Pace();
+  private readonly pace: Pace;
   private readonly images: Images;
   private readonly work = new AbortController();
   private kernel: Kernel | null = null;
@@ -82,6 +82,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.paused = options.paused;
     this.budget = budgetOf(thisDevice(rendererName()), options.quality);
     this.render = this.budget.render;
+    this.pace = new Pace(cheaperSteps(this.render, window.devicePixelRatio || 1));
     try {
       this.renderer = new FaceRenderer(canvas, this.render, options.fades);
     } catch {
@@ -279,7 +280,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   private take(step: Step, lod: number): void {
-    if (step === 'fewer-pixels') this.render = { ...this.render, maxPixelRatio: 1 };
+    if (step === 'fewer-pixels') this.render = { ...this.render, maxPixelRatio: fewerPixels(this.pixelRatio) };
     if (step === 'plainer') this.render = { ...this.render, shadows: false, richSkin: false };
     if (step === 'fewer-pixels' || step === 'plainer') {
       this.renderer.setQuality(this.render);
@@ -302,9 +303,14 @@ export class FaceShow extends Emitter<ShowEvents> {
     }
   }
 
+  /** Drawn pixels for each pixel of the page, along a side. */
+  private get pixelRatio(): number {
+    return Math.min(window.devicePixelRatio || 1, this.render.maxPixelRatio);
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
-    const ratio = Math.min(window.devicePixelRatio || 1, this.render.maxPixelRatio);
+    const ratio = this.pixelRatio;
     const width = Math.max(1, Math.round(clientWidth * ratio));
     const height = Math.max(1, Math.round(clientHeight * ratio));
     if (this.canvas.width !== width) this.canvas.width = width;

@@ -9,6 +9,8 @@ import { eventually } from './patience.ts';
 export interface RunningServer {
   url: string;
   token: string;
+  /** Kills it without a word, and starts it again with the same data on the same port. */
+  restart(): Promise<void>;
   stop(): Promise<void>;
 }
 
@@ -44,35 +46,47 @@ export async function startServer(tokenScope?: string, pages = webRoot): Promise
   const token = tokenScope === undefined ? '' : makeToken(data, tokenScope);
   const headers: Record<string, string> = token === '' ? {} : { Authorization: `Bearer ${token}` };
   const url = `http://127.0.0.1:${port}`;
-  const child = spawn(
-    join(buildDir, 'bin/semblante'),
-    ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--demo', ...(token === '' ? [] : ['--require-tokens'])],
-    { stdio: ['ignore', 'pipe', 'pipe'] },
-  );
-  let output = '';
-  child.stdout.on('data', (chunk: Buffer) => (output += chunk.toString()));
-  child.stderr.on('data', (chunk: Buffer) => (output += chunk.toString()));
-  const ended = new Promise<void>((resolve) => child.once('exit', () => resolve()));
-  await eventually('the server is ready', async () => {
-    if (child.exitCode !== null) throw new Error(`the server stopped while starting:\n${output}`);
-    const ready = await fetch(`${url}/readyz`).then(
-      (r) => r.ok,
-      () => false,
+  const start = async (): Promise<{ kill(signal: NodeJS.Signals): Promise<void> }> => {
+    const child = spawn(
+      join(buildDir, 'bin/semblante'),
+      ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--demo', ...(token === '' ? [] : ['--require-tokens'])],
+      { stdio: ['ignore', 'pipe', 'pipe'] },
     );
-    return (
-      ready &&
-      (await fetch(`${url}/v1/models/sample`, { headers }).then(
-        async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized',
+    let output = '';
+    child.stdout.on('data', (chunk: Buffer) => (output += chunk.toString()));
+    child.stderr.on('data', (chunk: Buffer) => (output += chunk.toString()));
+    const ended = new Promise<void>((resolve) => child.once('exit', () => resolve()));
+    await eventually('the server is ready', async () => {
+      if (child.exitCode !== null) throw new Error(`the server stopped while starting:\n${output}`);
+      const ready = await fetch(`${url}/readyz`).then(
+        (r) => r.ok,
         () => false,
-      ))
-    );
-  });
+      );
+      return (
+        ready &&
+        (await fetch(`${url}/v1/models/sample`, { headers }).then(
+          async (r) => r.ok && ((await r.json()) as { state: string }).state === 'parametrized',
+          () => false,
+        ))
+      );
+    });
+    return {
+      kill: (signal) => {
+        child.kill(signal);
+        return ended;
+      },
+    };
+  };
+  let process = await start();
   return {
     url,
     token,
+    restart: async () => {
+      await process.kill('SIGKILL');
+      process = await start();
+    },
     stop: async () => {
-      child.kill('SIGTERM');
-      await ended;
+      await process.kill('SIGTERM');
       rmSync(data, { recursive: true, force: true });
     },
   };

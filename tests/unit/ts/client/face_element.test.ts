@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
-import { budgetOf, firstVertices, Pace, type Device } from '../../../../clients/js/element/detail.ts';
+import { budgetOf, cheaperSteps, fewerPixels, firstVertices, Pace, type Device } from '../../../../clients/js/element/detail.ts';
 import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
 import { frameOf } from '../../../../clients/js/view/framing.ts';
 
@@ -29,14 +29,26 @@ function steps(pace: Pace, picture: number, seconds: number, smaller: boolean, l
   return taken;
 }
 
+const usual = cheaperSteps(budgetOf(phone, 'auto').render, 3);
+
 test('Pace_Below30PerSecond_DrawsPlainerThenSmaller', () => {
-  expect(steps(new Pace(), 1 / 20, 30, true, false).slice(0, 3)).toEqual(['fewer-pixels', 'plainer', 'smaller']);
-  expect(steps(new Pace(), 1 / 20, 30, false, false)).toEqual(['fewer-pixels', 'plainer']);
-  expect(steps(new Pace(), 1 / 31, 30, true, false)).toEqual([]);
+  // 2 a second: a software renderer, for which every picture is a gap.
+  for (const slow of [1 / 20, 1 / 2]) {
+    expect(steps(new Pace(usual), slow, 30, true, false).slice(0, 4)).toEqual(['fewer-pixels', 'plainer', 'fewer-pixels', 'smaller']);
+    expect(steps(new Pace(usual), slow, 30, false, false)).toEqual(['fewer-pixels', 'plainer', 'fewer-pixels']);
+  }
+  expect(steps(new Pace(usual), 1 / 31, 30, true, false)).toEqual([]);
+});
+
+test('cheaperSteps_WeakDevice_TakesNoStepThatChangesNothing', () => {
+  const { render } = budgetOf({ ...phone, cores: 1 }, 'auto');
+  expect(cheaperSteps(render, 3)).toEqual(['fewer-pixels']);
+  expect(cheaperSteps(render, 1)).toEqual(['fewer-pixels']);
+  expect([fewerPixels(2), fewerPixels(1)]).toEqual([1, 0.6]);
 });
 
 test('Pace_AtFullRate_TriesALargerLevel_AndLaterAndLaterAfterItWasTooSlow', () => {
-  const pace = new Pace();
+  const pace = new Pace(usual);
   expect(steps(pace, 1 / 60, 12, true, true)[0]).toBe('larger');
   expect(steps(pace, 1 / 20, 5, true, true)[0]).toBe('smaller');
   expect(steps(pace, 1 / 60, 10, true, true)).toEqual([]);
@@ -44,7 +56,7 @@ test('Pace_AtFullRate_TriesALargerLevel_AndLaterAndLaterAfterItWasTooSlow', () =
 });
 
 test('Pace_HiddenPage_IsNoSlowDevice', () => {
-  const pace = new Pace();
+  const pace = new Pace(usual);
   for (let i = 0; i < 200; i += 1) expect(pace.tick(i % 3 === 0 ? 0.5 : 1 / 60, 0.001, true, false)).toBeNull();
 });
 

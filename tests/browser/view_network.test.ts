@@ -1,0 +1,121 @@
+import { spawn, type ChildProcess } from 'node:child_process';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { buildDir } from './support/paths.ts';
+import { eventually, patience } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+let network: ChildProcess;
+let address: string;
+
+interface Shown {
+  state: string;
+  message: string;
+  stats: { vertices: number };
+}
+const shown = (page: Page): Promise<Shown> =>
+  page.evaluate(() => {
+    const { state, message, stats } = (window as unknown as { semblanteFace: Shown }).semblanteFace;
+    return { state, message, stats };
+  });
+const until = (page: Page, state: string): Promise<unknown> =>
+  page.waitForFunction((wanted) => (window as unknown as { semblanteFace?: Shown }).semblanteFace?.state === wanted, state);
+
+/** The page of the demo, by a network that can be cut. `mark` tells afterwards whether the page was loaded anew. */
+async function open(): Promise<Page> {
+  const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
+  context.setDefaultTimeout(patience);
+  const page = await context.newPage();
+  await page.goto(`${address}/view/demo`, { waitUntil: 'domcontentloaded', timeout: patience });
+  await until(page, 'playing');
+  await page.evaluate(() => Object.assign(window, { mark: true }));
+  return page;
+}
+const sameAsBefore = (page: Page): Promise<boolean> => page.evaluate(() => 'mark' in window);
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+  network = spawn(join(buildDir, 'bin/semblante-test-proxy'), [new URL(server.url).port, 'delay=20'], {
+    stdio: ['pipe', 'pipe', 'inherit'],
+  });
+  const port = await new Promise((resolve) => createInterface({ input: network.stdout! }).once('line', resolve));
+  address = `http://127.0.0.1:${String(port)}`;
+});
+afterAll(async () => {
+  await browser?.close();
+  network?.kill();
+  await server?.stop();
+});
+
+describe('the page of a stream on a bad network', () => {
+  test('NetworkGone_IsSaid_AndTheFaceComesBackByItself', async () => {
+    const page = await open();
+    network.stdin!.write('refuse\ncut\n');
+    await until(page, 'stalled');
+    expect((await shown(page)).message).toContain('Trying again');
+    network.stdin!.write('accept\n');
+    await until(page, 'playing');
+    expect(await sameAsBefore(page)).toBe(true);
+    await page.context().close();
+  });
+
+  test('ServerKilledAndStartedAgain_TheFaceComesBackByItself', async () => {
+    const page = await open();
+    await server.restart();
+    // The new server counts its subscribers from none.
+    await eventually('the page subscribes again', async () => {
+      const stream = (await (await fetch(`${server.url}/v1/streams/demo`)).json()) as { subscribers: number };
+      return stream.subscribers === 1;
+    });
+    await until(page, 'playing');
+    expect(await sameAsBefore(page)).toBe(true);
+    await page.context().close();
+  });
+
+  test('WithoutANetwork_ThePageOpensWithItsFace', async () => {
+    const page = await open();
+    // The service worker has kept the package, and its page too.
+    await eventually('the page and its face are kept', () =>
+      page.evaluate(async () => {
+        const names = await caches.keys();
+        const kept = (await Promise.all(names.map(async (name) => (await caches.open(name)).keys()))).flat();
+        const paths = kept.map(({ url }) => new URL(url).pathname);
+        const needed = ['/view/', '.wasm', '.js', '/v1/streams/demo', '/rig.json', '/weights', '/mesh.drc'];
+        return navigator.serviceWorker.controller !== null && needed.every((end) => paths.some((path) => path.endsWith(end)));
+      }),
+    );
+    network.stdin!.write('refuse\ncut\n');
+    await page.reload({ waitUntil: 'domcontentloaded', timeout: patience });
+    await page.waitForFunction(() => ((window as unknown as { semblanteFace?: Shown }).semblanteFace?.stats.vertices ?? 0) > 0);
+    expect((await shown(page)).state).not.toBe('error');
+    network.stdin!.write('accept\n');
+    await until(page, 'playing');
+    await page.context().close();
+  });
+});
+
+test('OneFinger_TurnsTheHead_InPortraitAndLandscape', async () => {
+  const page = await open();
+  await page.getByRole('button', { name: 'Pause' }).click();
+  for (const size of [
+    { width: 390, height: 844 },
+    { width: 844, height: 390 },
+  ]) {
+    await page.setViewportSize(size);
+    await page.waitForTimeout(500);
+    const before = await page.screenshot();
+    expect((await page.screenshot()).equals(before), 'a paused face does not move by itself').toBe(true);
+    await page.mouse.move(size.width / 2, size.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(size.width / 2 + 80, size.height / 2, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForTimeout(500);
+    expect((await page.screenshot()).equals(before), `a drag at ${size.width} x ${size.height} turns the head`).toBe(false);
+  }
+  await page.context().close();
+});
