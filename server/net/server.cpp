@@ -129,7 +129,7 @@ asio::awaitable<void> accept_connections(tcp::acceptor& acceptor, Context contex
 
 /// Not the default effect of the signal, which the first process of a container does not have.
 extern "C" void end_at_once(int signal) {
-  constexpr int ended_by_signal = 128;  // as shells say it
+  constexpr int ended_by_signal = 128;  // the convention of shells: 128 and the number of the signal
   ::_exit(ended_by_signal + signal);
 }
 

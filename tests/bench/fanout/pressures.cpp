@@ -97,7 +97,7 @@ Outcome slow_writers(const Endpoint& endpoint, const std::string& path, Coding c
     for (std::size_t i = 0; i < writers.size() && !enough; ++i) {
       Writer& writer = writers[i];
       const auto piece = std::string_view(writer.text).substr(writer.at, writer.piece);
-      // The last byte is kept: what is complete is no slow writing any more.
+      // The last byte is never sent: a complete request is answered and its writer is slow no longer.
       if (writer.at + piece.size() < writer.text.size() && writer.socket.send(piece) > 0) writer.at += piece.size();
       if (drain(writer.socket)) continue;
       writer.socket.reset();
