@@ -12,6 +12,7 @@ import {
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
+import { findHead, type Box } from './head_box.ts';
 
 /** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
 export interface Pick {
@@ -20,6 +21,9 @@ export interface Pick {
   part: number | null;
   position: [number, number, number];
 }
+
+/** Room below the chin, in heights of the head. */
+const belowChin = 0.08;
 
 /** The imported model: still, with its materials, and with the file's vertex number of every vertex. */
 export class PreviewView {
@@ -72,6 +76,20 @@ export class PreviewView {
   set wireframe(on: boolean) {
     for (const mesh of this.meshes)
       if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
+  }
+
+  /** The box of the head, with room below the chin, where it is a part of a body or a bust; otherwise null. */
+  head(): Box | null {
+    const found = findHead(
+      this.meshes.map((mesh) => {
+        const placed = mesh.geometry.getAttribute('position').clone().applyMatrix4(mesh.matrixWorld);
+        const positions = Float32Array.from({ length: placed.count * 3 }, (_, i) => placed.getComponent(Math.floor(i / 3), i % 3));
+        const triangles = mesh.geometry.index?.array ?? Uint32Array.from({ length: placed.count }, (_, i) => i);
+        return { positions, triangles };
+      }),
+    );
+    if (found) found.min[1] -= belowChin * (found.max[1] - found.min[1]);
+    return found;
   }
 
   /** `x`, `y`: normalized device coordinates, -1..1 from the lower left. */

@@ -17,6 +17,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { fieldOfView, studioLight } from '@client/gpu/studio_look.ts';
 import { Flight } from './flight.ts';
+import type { Box } from './head_box.ts';
 import { PaceWatch, type Quality } from './quality.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
@@ -30,6 +31,12 @@ const directions: Record<ViewName, [number, number, number]> = {
 
 /** Height of the tools and messages at the top and the bottom of the stage, pixels. */
 const toolRoom = 124;
+
+/** Half the size that a box needs in the picture; the depth counts less, since the head is seen from in front. */
+function radiusOf(box: Box3): number {
+  const size = box.getSize(new Vector3());
+  return Math.max(size.x, size.y, size.z * 0.8) / 2;
+}
 
 /** A callback of the frame loop: called once per frame before drawing; returns whether the picture changed. */
 export type FrameHook = (deltaSeconds: number) => boolean;
@@ -93,6 +100,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
+    this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.invalidate());
     this.controls.addEventListener('start', () => this.flight.stop());
 
@@ -110,19 +118,31 @@ export class Stage {
     this.hooks.push(hook);
   }
 
-  /** Fits camera and lights to an object and shows its front. */
-  frameObject(object: Object3D): void {
-    const box = new Box3().setFromObject(object);
-    if (box.isEmpty()) return;
-    const size = box.getSize(new Vector3());
+  /** Fits camera and lights to an object, or to the head that is a part of it, and shows the front. */
+  frameObject(object: Object3D, head: Box | null): void {
+    const whole = new Box3().setFromObject(object);
+    if (whole.isEmpty()) return;
+    const box = head ? new Box3(new Vector3(...head.min), new Vector3(...head.max)) : whole;
     box.getCenter(this.center);
-    this.radius = Math.max(size.x, size.y, size.z * 0.8) / 2;
+    this.radius = radiusOf(box);
+    const reach = radiusOf(whole);
     this.camera.near = this.radius / 50;
-    this.camera.far = this.radius * 60;
+    this.camera.far = reach * 60;
     this.controls.minDistance = this.radius * 0.3;
-    this.controls.maxDistance = this.radius * 14;
+    this.controls.maxDistance = reach * 14;
     this.placeLights();
     this.look('front', true);
+  }
+
+  /** Shows the whole face again, from where the camera is. */
+  frameFace(): void {
+    this.before = null;
+    this.fly(this.center, this.radius * 1.06, this.camera.position.clone().sub(this.controls.target), false);
+  }
+
+  /** Brings a place to the middle of the picture, and nearer, from where the camera is. */
+  focus(place: readonly [number, number, number]): void {
+    this.fly(new Vector3(...place), this.radius * 0.45, this.camera.position.clone().sub(this.controls.target), false);
   }
 
   look(view: ViewName, atOnce = false): void {

@@ -38,7 +38,7 @@ export class StagePanel {
     canvas.setAttribute('role', 'application');
     canvas.setAttribute(
       'aria-label',
-      'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view. ' +
+      'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view, F shows the whole face. ' +
         'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next.',
     );
     this.element = h(
@@ -59,6 +59,7 @@ export class StagePanel {
     canvas.addEventListener('pointerup', (event) => this.click(event));
     canvas.addEventListener('pointermove', (event) => this.hover(event));
     canvas.addEventListener('pointerleave', () => (this.label.hidden = true));
+    canvas.addEventListener('dblclick', (event) => this.focus(event));
     canvas.addEventListener('keydown', (event) => this.key(event));
     scene.state.watch(() => this.drawOverlay());
     studio.activities.watch(() => this.drawOverlay());
@@ -139,6 +140,15 @@ export class StagePanel {
     this.placeAt((x / width) * 2 - 1, 1 - (y / height) * 2);
   }
 
+  /** Zooms to what is under the pointer; while a point is being placed, two clicks are two corrections of its place. */
+  private focus(event: MouseEvent): void {
+    if (this.studio.tab.value === 'points' && this.points.chosen.value !== null) return;
+    const { x, y, width, height } = this.place(event);
+    const { stage, preview } = this.scene;
+    const pick = preview?.pick((x / width) * 2 - 1, 1 - (y / height) * 2, stage.camera);
+    if (pick) stage.focus(pick.position);
+  }
+
   /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   private placeAt(x: number, y: number): void {
     const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera);
@@ -160,7 +170,7 @@ export class StagePanel {
     this.label.style.translate = `${Math.min(Math.max(at.x, 90), width - 90)}px ${at.y}px`;
   }
 
-  private place(event: PointerEvent): { x: number; y: number; width: number; height: number } {
+  private place(event: MouseEvent): { x: number; y: number; width: number; height: number } {
     const box = this.canvas.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
   }
@@ -178,6 +188,8 @@ export class StagePanel {
       '+': () => stage.zoom(0.9),
       '=': () => stage.zoom(0.9),
       '-': () => stage.zoom(1.1),
+      f: () => stage.frameFace(),
+      F: () => stage.frameFace(),
       Escape: () => this.points.chosen.set(null),
     };
     if (this.studio.tab.value === 'points') {

@@ -216,7 +216,7 @@ export class SceneView {
       this.performer.set(null);
     }
     this.wireframe = this.wire;
-    if (another) this.stage.frameObject(preview.object);
+    if (another) this.stage.frameObject(preview.object, preview.head());
     this.show(this.wanted);
   }
 

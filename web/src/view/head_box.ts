@@ -1,0 +1,108 @@
+/** A box in model units, y up. */
+export interface Box {
+  min: [number, number, number];
+  max: [number, number, number];
+}
+
+/** A mesh: x, y, z per vertex, and three vertices per triangle. */
+export interface Piece {
+  positions: ArrayLike<number>;
+  triangles: ArrayLike<number>;
+}
+
+/** Slices of the height that the outline is measured in. */
+const slices = 200;
+/** The neck: this much narrower than the head above it. */
+const neckOfHead = 0.82;
+/** The shoulders: this much wider than the head above them; hair down to the shoulders hides a neck. */
+const shouldersOfHead = 1.45;
+/** Height of a head with its neck, in widths of the head: outside of this range what was found is no head. */
+const leastHeight = 0.7;
+const mostHeight = 2.6;
+/** The least share of a figure's height that is a head. */
+const leastShare = 0.07;
+
+/**
+ * The head of a body, a bust or a scan, found by the outline from in front: from the top down to where it becomes as wide as
+ * shoulders. Null when there are no shoulders: all of it is the head, or it does not
+ * stand upright.
+ */
+export function findHead(pieces: readonly Piece[]): Box | null {
+  const all = boxOf(pieces, -Infinity);
+  const [bottom, top] = [all.min[1], all.max[1]];
+  const height = top - bottom;
+  if (!(height > 0)) return null;
+
+  const widths = outline(pieces, top, height);
+  let head = 0; // the greatest width so far
+  let neck = -1; // the narrowest slice below it
+  let neckWidth = Infinity;
+  for (let slice = 0; slice < slices; slice += 1) {
+    const width = widths[slice]!;
+    if (width === 0) continue;
+    const fromTop = ((slice + 1) / slices) * height;
+    const isLikeAHead = head > 0 && fromTop >= leastHeight * head;
+    // Every top of a head widens fast: without a neck above them, shoulders lie as low as a head is tall.
+    const areShoulders =
+      neck >= 0
+        ? width > (shouldersOfHead * neckWidth) / neckOfHead
+        : width > shouldersOfHead * head && fromTop >= (leastHeight * width) / shouldersOfHead;
+    if (isLikeAHead && areShoulders) {
+      if (fromTop > mostHeight * head) return null;
+      const end = top - ((neck >= 0 ? neck + 1 : slice) / slices) * height;
+      if (top - end >= leastShare * height) {
+        const box = boxOf(pieces, end);
+        box.min[1] = end; // a coarse mesh has its lowest vertex far above
+        return box;
+      }
+      // A bun, a horn or a hat's tip: the head is below.
+      neck = -1;
+      neckWidth = Infinity;
+    }
+    if (isLikeAHead && width < neckOfHead * head && width <= neckWidth) {
+      neck = slice;
+      neckWidth = width;
+    }
+    if (neck < 0) head = Math.max(head, width);
+  }
+  return null;
+}
+
+/** The width from in front in every slice, from the top down; 0 where there is nothing. */
+function outline(pieces: readonly Piece[], top: number, height: number): Float64Array {
+  const left = new Float64Array(slices).fill(Infinity);
+  const right = new Float64Array(slices).fill(-Infinity);
+  const extend = (slice: number, x: number): void => {
+    left[slice] = Math.min(left[slice]!, x);
+    right[slice] = Math.max(right[slice]!, x);
+  };
+  // Along the edges: a triangle may be taller than many slices.
+  for (const { positions, triangles } of pieces) {
+    for (let i = 0; i < triangles.length; i += 1) {
+      const from = triangles[i]! * 3;
+      const to = triangles[i % 3 === 2 ? i - 2 : i + 1]! * 3;
+      const [start, end] = [from, to].map((at) => ((top - positions[at + 1]!) / height) * slices) as [number, number];
+      const last = Math.min(slices - 1, Math.floor(Math.max(start, end)));
+      for (let slice = Math.max(0, Math.floor(Math.min(start, end))); slice <= last; slice += 1) {
+        const along = start === end ? 0 : Math.min(1, Math.max(0, (slice + 0.5 - start) / (end - start)));
+        extend(slice, positions[from]! + (positions[to]! - positions[from]!) * along);
+      }
+    }
+  }
+  return left.map((x, slice) => Math.max(0, right[slice]! - x));
+}
+
+/** The box of the vertices at or above a height. */
+function boxOf(pieces: readonly Piece[], least: number): Box {
+  const box: Box = { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] };
+  for (const { positions } of pieces) {
+    for (let i = 0; i + 2 < positions.length; i += 3) {
+      if (positions[i + 1]! < least) continue;
+      for (let axis = 0; axis < 3; axis += 1) {
+        box.min[axis] = Math.min(box.min[axis]!, positions[i + axis]!);
+        box.max[axis] = Math.max(box.max[axis]!, positions[i + axis]!);
+      }
+    }
+  }
+  return box;
+}

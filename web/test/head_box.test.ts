@@ -1,0 +1,49 @@
+import { CapsuleGeometry, BoxGeometry, CylinderGeometry, PlaneGeometry, SphereGeometry, type BufferGeometry } from 'three';
+import { expect, test } from 'vitest';
+import { findHead, type Piece } from '../src/view/head_box.ts';
+
+/** In metres, like a person: the head is 0.16 wide and reaches from 1.52 to 1.75. */
+function piece(geometry: BufferGeometry, y: number, x = 0): Piece {
+  geometry.translate(x, y, 0);
+  return { positions: geometry.getAttribute('position').array, triangles: geometry.index!.array };
+}
+const skull = (segments: number): Piece => {
+  const sphere = new SphereGeometry(0.115, segments, segments);
+  sphere.scale(0.7, 1, 0.9);
+  return piece(sphere, 1.635);
+};
+const neck = (): Piece => piece(new CylinderGeometry(0.05, 0.055, 0.12, 12), 1.49);
+const torso = (): Piece => piece(new BoxGeometry(0.4, 0.6, 0.2), 1.14);
+const legs = (): Piece => piece(new BoxGeometry(0.34, 0.85, 0.2), 0.42);
+const arms = (): Piece => piece(new CylinderGeometry(0.04, 0.04, 1.6, 8).rotateZ(Math.PI / 2), 1.38);
+
+test.each([
+  ['a body', [skull(32), neck(), torso(), legs()]],
+  ['a body with its arms spread', [skull(32), neck(), torso(), legs(), arms()]],
+  ['a coarse body', [skull(6), neck(), torso(), legs()]],
+  ['a body with a bun of hair', [piece(new SphereGeometry(0.03, 16, 16), 1.76), skull(32), neck(), torso(), legs()]],
+  ['a bust', [skull(32), neck(), torso()]],
+  ['long hair', [skull(32), neck(), torso(), legs(), piece(new CylinderGeometry(0.085, 0.09, 0.34, 16), 1.58)]],
+])('findHead_OfAStandingFigure_EndsAtTheNeck: %s', (_, pieces) => {
+  const head = findHead(pieces)!;
+  expect(head.max[1]).toBeCloseTo(1.75, 1);
+  expect(head.min[1]).toBeGreaterThan(1.4);
+  expect(head.min[1]).toBeLessThan(1.56);
+  expect(head.max[0] - head.min[0]).toBeLessThan(0.3);
+});
+
+test('findHead_WhereAllIsTheHead_FindsNone', () => {
+  expect(findHead([skull(32)])).toBeNull();
+  expect(findHead([skull(32), neck()])).toBeNull();
+  expect(findHead([piece(new CapsuleGeometry(0.08, 0.1, 8, 12), 0)])).toBeNull();
+});
+
+test('findHead_OfWhatDoesNotStand_FindsNone', () => {
+  const lying = [skull(16), neck(), torso(), legs()].map(({ positions, triangles }) => ({
+    positions: Float32Array.from(positions, (_, i) => positions[i % 3 === 0 ? i + 1 : i % 3 === 1 ? i - 1 : i]!),
+    triangles,
+  }));
+  expect(findHead(lying)).toBeNull();
+  expect(findHead([piece(new PlaneGeometry(1, 1).rotateX(Math.PI / 2), 0)])).toBeNull();
+  expect(findHead([])).toBeNull();
+});
