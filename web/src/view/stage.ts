@@ -161,7 +161,7 @@ export class Stage {
       .add(new Vector3(0, 0, 0.6));
     direction.y *= 0.5;
     if (direction.lengthSq() < 0.05) direction.set(0.3, 0, 1);
-    this.fly(place, Math.max(radius, this.radius * 0.22), direction, false);
+    this.fly(place, Math.max(radius, this.radius * 0.4), direction, false);
   }
 
   /** Restores the view before `lookAt`. */
