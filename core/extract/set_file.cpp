@@ -76,7 +76,7 @@ Result<std::vector<Displacement>> parse_set_displacements(std::string_view json)
 Result<std::vector<Displacement>> displacements_from_json(const nlohmann::json& json) {
   std::optional<Error> fault;
   std::vector<Displacement> displacements;
-  read_displacements(JsonCursor(json, fault), displacements);
+  read_displacements(JsonCursor(json_view(json), fault), displacements);
   if (fault) return *fault;
   return displacements;
 }

@@ -8,15 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/json/json_tree.h"
 #include "core/types/result.h"
 
 namespace semblante {
-
-/// A view of nlohmann's document (in read_json.cpp).
-JsonView json_view(const nlohmann::json& value);
 
 /// A position in a JSON document with its pointer. Each read checks type and range; the FIRST error is reported, and
 /// later reads return default values, so that the caller's code follows the format and checks for an error once at the
@@ -29,8 +24,8 @@ class JsonCursor {
 
   JsonCursor(const JsonView& node, std::string pointer, Report& report)
       : node_(node), pointer_(std::move(pointer)), report_(&report) {}
-  JsonCursor(const JsonTree& tree, Report& report) : JsonCursor(tree.root(), {}, report) {}
-  JsonCursor(const nlohmann::json& root, Report& report) : JsonCursor(json_view(root), {}, report) {}
+  JsonCursor(const JsonView& root, Report& report) : JsonCursor(root, {}, report) {}
+  JsonCursor(const JsonTree& tree, Report& report) : JsonCursor(tree.root(), report) {}
 
   /// Reports an error at this position, unless an earlier one is reported.
   void fail(ErrorCode code, std::string message) const;

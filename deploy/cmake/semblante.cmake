@@ -1,11 +1,22 @@
 # Helpers shared by every folder's CMakeLists.txt.
+include(CheckCXXCompilerFlag)
 
 # Warnings and sanitizers for our own targets only: other people's headers come in as SYSTEM.
 add_library(semblante_flags INTERFACE)
 target_compile_options(semblante_flags INTERFACE -Wall -Wextra -Werror)
-# For core and protocol, which the shared library of the SDK is made of: the linker can leave out each function by itself,
-# though several files were compiled together.
+# For core and protocol, which libsemblante is made of: the linker can leave out each function by itself, though several
+# files were compiled together.
 set(SEMBLANTE_SDK_FLAGS -ffunction-sections -fdata-sections)
+# Of the objects that become libsemblante: small, no sum fused (the same bits on every machine), and calls between functions of
+# the library go directly. Exceptions stay: they are how an allocation fails, and none leaves the library.
+set(SEMBLANTE_SDK_OBJECT_FLAGS -ffp-contract=off -fvisibility-inlines-hidden $<$<COMPILE_LANGUAGE:CXX>:-fno-rtti>)
+foreach(flag -fno-semantic-interposition -fno-gnu-unique)
+  string(MAKE_C_IDENTIFIER SEMBLANTE_HAS${flag} known)
+  check_cxx_compiler_flag(${flag} ${known})
+  if(${known})
+    list(APPEND SEMBLANTE_SDK_OBJECT_FLAGS $<$<COMPILE_LANGUAGE:CXX>:${flag}>)
+  endif()
+endforeach()
 if(SEMBLANTE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # A type of a .cpp file may have members of its anonymous namespace; compiled together, GCC takes the file for a header.
   target_compile_options(semblante_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
@@ -35,11 +46,12 @@ if(SEMBLANTE_FUZZ)
   target_link_options(semblante_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# semblante_library(NAME SOURCES ... DEPENDS ... [HOT] [COLD]): a static library `semblante_NAME`, alias `semblante::NAME`,
+# semblante_library(NAME SOURCES ... DEPENDS ... [HOT] [COLD] [SDK]): a static library `semblante_NAME`, alias `semblante::NAME`,
 # whose headers are included from the top of the tree: #include "core/types/mesh.h". HOT: tests/bench measures its loops,
-# so it gets -O3. COLD: runs once for a request or a file, so it gets -O1, which compiles in half the time.
+# so it gets -O3. COLD: runs once for a request or a file, so it gets -O1, which compiles in half the time. SDK: a part of
+# libsemblante, for which `semblante_NAME_sdk` has its objects.
 function(semblante_library name)
-  cmake_parse_arguments(ARG "HOT;COLD" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "HOT;COLD;SDK" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target semblante_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -52,6 +64,12 @@ function(semblante_library name)
     target_link_libraries(${target} INTERFACE ${ARG_DEPENDS})
   endif()
   add_library(semblante::${name} ALIAS ${target})
+  if(ARG_SDK)
+    add_library(${target}_sdk OBJECT ${ARG_SOURCES})
+    target_include_directories(${target}_sdk PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${target}_sdk PRIVATE ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS} semblante_flags)
+    target_compile_options(${target}_sdk PRIVATE $<$<CONFIG:Release>:-Os> ${SEMBLANTE_SDK_OBJECT_FLAGS})
+  endif()
 endfunction()
 
 # Targets for the narrower test configurations of tests/run, which build no more than they run.

@@ -129,7 +129,7 @@ std::string words_of(const HttpResponse& response) {
   if (!document) return words;
   for (const char* member : {"title", "detail", "pointer"}) {
     JsonCursor::Report report;
-    const std::string text = JsonCursor(*document, report).text_or(member, "");
+    const std::string text = JsonCursor(json_view(*document), report).text_or(member, "");
     if (!text.empty()) words += ": " + text.substr(0, 500);
   }
   return words;

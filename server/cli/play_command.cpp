@@ -51,7 +51,7 @@ std::string reason_of(const client::HttpResponse& reply) {
   std::string text = std::to_string(reply.status);
   if (!problem) return text;
   JsonCursor::Report report;
-  const JsonCursor root(*problem, report);
+  const JsonCursor root(json_view(*problem), report);
   text = root.text_or("detail", text.c_str());
   if (const auto pointer = root.text_or("pointer", ""); !pointer.empty()) text = pointer + ": " + text;
   return text;
@@ -141,7 +141,7 @@ class Playing {
     const auto status = read_json_object(reply.body, answer_limits);
     if (!status) refuse_to_play("the server's answer cannot be read: " + status.error().message);
     JsonCursor::Report report;
-    const JsonCursor root(*status, report);
+    const JsonCursor root(json_view(*status), report);
     position_ = root.number_or("position", 0.0);
     duration_ = root.number_or("duration", 0.0);
     if (report) refuse_to_play("the server's answer cannot be read: " + report->where + ": " + report->message);

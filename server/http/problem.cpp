@@ -133,7 +133,7 @@ Problem problem_from_json(std::string_view text) {
   const auto json = read_json_object(text, {.max_bytes = 1U << 20U, .max_depth = 8, .max_values = 10'000});
   if (!json) return make_problem("internal", "the reason was not recorded");
   JsonCursor::Report report;
-  const JsonCursor root(*json, report);
+  const JsonCursor root(json_view(*json), report);
   Problem problem;
   const auto type = root.text_or("type", "/problems/internal");
   problem.slug = type.substr(type.rfind('/') + 1);

@@ -15,7 +15,7 @@ template <class Read>
 std::string fault(const char* text, Read read) {
   const json document = json::parse(text);
   JsonCursor::Report report;
-  read(JsonCursor(document, report));
+  read(JsonCursor(json_view(document), report));
   const auto tree = read_json_tree(text);
   EXPECT_TRUE(tree) << text;
   JsonCursor::Report report_of_tree;
@@ -47,7 +47,7 @@ TEST(JsonCursor, Reads_WhatIsThere) {
       R"({"n": 1.5, "i": 7, "r": 4.0, "b": true, "t": "x", "a": [1, 2, 3], "o": {"l": 2, "k/~": 1}})";
   JsonCursor::Report report;
   const json document = json::parse(text);
-  expect_what_is_there(JsonCursor(document, report));
+  expect_what_is_there(JsonCursor(json_view(document), report));
   const auto tree = read_json_tree(text);
   ASSERT_TRUE(tree);
   expect_what_is_there(JsonCursor(*tree, report));

@@ -1,0 +1,212 @@
+"""libsemblante as others get it: configured alone, installed, moved, and used from projects outside the tree."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build")).resolve()
+HERE = TOP / "tests/integration/sdk"
+EXAMPLES = TOP / "clients/runtime/examples"
+FACE = TOP / "protocol/vectors/face"
+STRICT = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
+# What the whole tree wants; the library alone may ask for none of it.
+FOREIGN = ("Boost", "CLI11", "GTest", "OpenMesh", "OpenSSL", "PkgConfig", "ZLIB", "meshoptimizer", "nlohmann_json")
+# Stripped, on 64-bit x86: about 494,000 with Draco's library beside it.
+MAX_SHARED_BYTES = 500_000
+
+sys.path.insert(0, str(TOP / "tests/deploy"))
+from support import Server, eventually, get  # noqa: E402
+
+
+def run(*arguments, **options):
+    done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True, timeout=900, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, arguments))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def stripped_size(library):
+    with tempfile.TemporaryDirectory() as folder:
+        run("strip", "-o", f"{folder}/stripped", library)
+        return os.path.getsize(f"{folder}/stripped")
+
+
+class Installed(unittest.TestCase):
+    """The component `runtime` of the normal build, moved after the installation."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="semblante-sdk-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        run("cmake", "--install", BUILD, "--component", "runtime", "--prefix", cls.folder / "first")
+        cls.prefix = cls.folder / "moved"
+        (cls.folder / "first").rename(cls.prefix)
+        cls.library_folder = next(cls.prefix.glob("**/libsemblante.so")).parent
+        cls.packages = {**os.environ, "PKG_CONFIG_PATH": str(cls.library_folder / "pkgconfig")}
+        # The sources, where no header of the tree can be found by chance.
+        shutil.copytree(HERE / "consumer", cls.folder / "consumer")
+        for source in [*EXAMPLES.iterdir(), HERE / "clash.cpp"]:
+            shutil.copy(source, cls.folder / "consumer")
+        for name in ("hello_face", "follow"):
+            shutil.copy(EXAMPLES / f"{name}.c", cls.folder / f"consumer/{name}_plus.cpp")
+
+    def expect_a_face(self, program, environment=None):
+        out = self.folder / "face.obj"
+        out.unlink(missing_ok=True)
+        self.assertEqual(run(program, FACE, out, env=environment), "196 vertices\n")
+        lines = out.read_text().splitlines()
+        self.assertEqual(sum(line.startswith("v ") for line in lines), 196)
+        corners = [int(n) for line in lines if line.startswith("f ") for n in line.split()[1:]]
+        self.assertGreater(len(corners), 0)
+        self.assertTrue(all(1 <= n <= 196 for n in corners))
+        return out.read_bytes()
+
+    def test_the_files_are_where_they_are_looked_for(self):
+        files = {str(path.relative_to(self.prefix)) for path in self.prefix.rglob("*") if path.is_file()}
+        library = str(self.library_folder.relative_to(self.prefix))
+        for expected in ("include/semblante/semblante.h", f"{library}/libsemblante.so.0", f"{library}/libsemblante.a",
+                         f"{library}/pkgconfig/semblante.pc", f"{library}/cmake/semblante/semblanteConfig.cmake",
+                         f"{library}/cmake/semblante/semblanteConfigVersion.cmake"):
+            self.assertIn(expected, files)
+        for path in self.prefix.rglob("*"):
+            if path.suffix in (".cmake", ".pc", ".h"):
+                text = path.read_text()
+                for place in (TOP, BUILD, self.folder):
+                    self.assertNotIn(str(place), text, path)
+
+    def test_the_header_stands_alone(self):
+        header = self.prefix / "include/semblante/semblante.h"
+        self.assertEqual([line for line in header.read_text().splitlines() if line.startswith("#include \"")], [])
+        for compiler, language, standard in (("cc", "c", "c99"), ("cc", "c", "c11"), ("c++", "c++", "c++11"), ("clang", "c", "c99"),
+                                             ("clang++", "c++", "c++20")):
+            if shutil.which(compiler):
+                run(compiler, "-x", language, f"-std={standard}", *STRICT, "-fsyntax-only", header)
+
+    def test_cmake_finds_it_for_c_and_for_cpp_shared_and_static(self):
+        faces = set()
+        for languages, programs in (("C", "hello_face.c;follow.c"), ("CXX", "hello_face_plus.cpp;follow_plus.cpp;clash.cpp")):
+            build = self.folder / f"build-{languages}"
+            run("cmake", "-S", self.folder / "consumer", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
+                f"-DLANGUAGES={languages}", f"-DPROGRAMS={programs}")
+            run("cmake", "--build", build)
+            for kind in ("semblante", "semblante_static"):
+                name = "hello_face" if languages == "C" else "hello_face_plus"
+                faces.add(self.expect_a_face(build / f"{name}_{kind}"))
+                if languages == "CXX":
+                    self.assertEqual(run(build / f"clash_{kind}"), "4 256 7\n")
+        self.assertEqual(len(faces), 1)
+
+    def test_another_minor_version_is_refused(self):
+        done = subprocess.run(["cmake", "-S", self.folder / "consumer", "-B", self.folder / "version", "-DLANGUAGES=C",
+                               "-DPROGRAMS=hello_face.c", "-DVERSION=0.0", f"-DCMAKE_PREFIX_PATH={self.prefix}"],
+                              capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("version: 0.1.0", done.stderr)
+
+    def test_pkg_config_finds_it_for_c_and_for_cpp_shared_and_static(self):
+        faces, loaded = set(), {**os.environ, "LD_LIBRARY_PATH": str(self.library_folder)}
+        flags = run("pkg-config", "--cflags", "--libs", "semblante", env=self.packages).split()
+        static = ["-static", *run("pkg-config", "--static", "--cflags", "--libs", "semblante", env=self.packages).split()]
+        for source, compiler in (("hello_face.c", ["cc", "-std=c99"]), ("hello_face_plus.cpp", ["c++", "-std=c++11"])):
+            for name, libraries in (("shared", flags), ("static", static)):
+                program = self.folder / f"pkg-{name}"
+                run(*compiler, *STRICT, self.folder / "consumer" / source, *libraries, "-o", program)
+                faces.add(self.expect_a_face(program, loaded))
+        self.assertEqual(len(faces), 1)
+        self.assertIn("not a dynamic executable",
+                      subprocess.run(["ldd", self.folder / "pkg-static"], capture_output=True, text=True, check=False).stderr)
+
+    def test_nothing_but_the_header_s_names_is_global(self):
+        listed = set(re.findall(r"(semblante_\w+);", (TOP / "clients/runtime/exports.map").read_text()))
+        for kind, options in (("libsemblante.so", "-D"), ("libsemblante.a", "-g")):
+            lines = run("nm", options, "--defined-only", self.library_folder / kind).splitlines()
+            self.assertEqual({line.split()[-1] for line in lines if len(line.split()) == 3}, listed, kind)
+        dynamic = run("readelf", "-d", self.library_folder / "libsemblante.so")
+        self.assertIn("soname: [libsemblante.so.0]", dynamic)
+        needed = set(re.findall(r"NEEDED.*\[(\w+)", dynamic))
+        self.assertLessEqual(needed, {"libc", "libm", "libgcc_s", "libstdc", "libdraco", "ld"})
+
+    @unittest.skipUnless(os.uname().machine == "x86_64", "the bound is that of 64-bit x86")
+    def test_the_shared_library_is_small(self):
+        self.assertLess(stripped_size(self.library_folder / "libsemblante.so"), MAX_SHARED_BYTES)
+
+    def test_follow_shows_the_jaw_of_a_real_server(self):
+        program = self.folder / "follow"
+        run("cc", "-std=c99", *STRICT, EXAMPLES / "follow.c", *run("pkg-config", "--cflags", "--libs", "semblante",
+            env=self.packages).split(), f"-Wl,-rpath,{self.library_folder}", "-o", program)
+        with Server(self.folder / "data") as server:
+            status, _, body = get(f"{server.url}/v1/streams", data=b'{"name":"jaw"}', headers={"content-type": "application/json"})
+            self.assertEqual(status, 201, body)
+            process = subprocess.Popen([program, "127.0.0.1", str(server.port), "jaw", FACE, "3"], stdout=subprocess.PIPE, text=True)
+            try:
+                fap = [0]
+
+                def is_over():
+                    fap[0] += 10  # each frame another face, since a face that does not change is not shown again
+                    frames = b'{"frames":[{"faps":{"3":%d}}]}' % fap[0]
+                    self.assertLess(get(f"{server.url}/v1/streams/jaw/frames", data=frames,
+                                        headers={"content-type": "application/json"})[0], 300)
+                    return process.poll() is not None
+
+                eventually(is_over, "three faces")
+                lines = process.stdout.read().splitlines()
+            finally:
+                process.kill()
+                process.wait()
+                process.stdout.close()
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(len(lines), 3)
+        for line in lines:
+            self.assertRegex(line, r"^ *-?[\d.]+ ms  jaw +[\d.]+$")
+        jaws = [float(line.split()[-1]) for line in lines]
+        self.assertGreater(max(jaws), 0)
+
+    def test_files_that_are_no_package_end_in_words(self):
+        for text, name in (("", "empty"), ("x" * 100, "rubbish")):
+            folder = self.folder / name
+            folder.mkdir()
+            for part in ("mesh.drc", "weights", "rig.json"):
+                (folder / part).write_text(text)
+            program = self.folder / f"hello-{name}"
+            run("cc", EXAMPLES / "hello_face.c", *run("pkg-config", "--cflags", "--libs", "semblante", env=self.packages).split(),
+                f"-Wl,-rpath,{self.library_folder}", "-o", program)
+            done = subprocess.run([program, folder, self.folder / "out.obj"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertNotEqual(done.stderr, "")
+
+
+class Alone(unittest.TestCase):
+    """A configuration of the library alone. Its folder stays, so that only the first run compiles everything."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.build = BUILD / "sdk-alone"
+        without = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in FOREIGN]
+        cls.words = run("cmake", "-S", TOP, "-B", cls.build, "-G", "Ninja", "-DSEMBLANTE_RUNTIME_ONLY=ON", "-DSEMBLANTE_DRACO=OFF",
+                        "-DCMAKE_INSTALL_LIBDIR=lib/here", *without)
+        run("cmake", "--build", cls.build)
+        cls.prefix = cls.build / "prefix"
+        shutil.rmtree(cls.prefix, ignore_errors=True)
+        run("cmake", "--install", cls.build, "--prefix", cls.prefix)
+
+    def test_without_draco_it_asks_for_the_decoded_mesh(self):
+        library = self.prefix / "lib/here"
+        flags = run("pkg-config", "--cflags", "--libs", "semblante", env={**os.environ, "PKG_CONFIG_PATH": str(library / "pkgconfig")})
+        run("cc", EXAMPLES / "hello_face.c", *flags.split(), f"-Wl,-rpath,{library}", "-o", self.build / "hello_face")
+        done = subprocess.run([self.build / "hello_face", FACE, self.build / "out.obj"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no Draco decoder", done.stderr)
+        self.assertNotIn("draco", run("readelf", "-d", library / "libsemblante.so") + flags)
+
+    def test_programs_of_the_tree_are_not_built(self):
+        self.assertFalse((self.build / "bin").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
