@@ -20,7 +20,12 @@ FOREIGN = ("Boost", "CLI11", "GTest", "OpenMesh", "OpenSSL", "PkgConfig", "ZLIB"
 # Stripped, on 64-bit x86: about 494,000 with Draco's library beside it.
 MAX_SHARED_BYTES = 500_000
 
+# What libsemblante.a wants of a C library, as clients/runtime/README.md states it: no file, socket, thread, clock or locale.
+STATED_FUNCTIONS = set(re.search(r"Of the C library it uses ([^:]*):", (TOP / "clients/runtime/README.md").read_text())[1]
+                       .replace("`", "").replace(" and", ",").replace("\n", " ").replace(",", " ").split())
+
 sys.path.insert(0, str(TOP / "tests/deploy"))
+import golden_streams  # noqa: E402
 from support import Server, eventually, get  # noqa: E402
 
 
@@ -135,6 +140,18 @@ class Installed(unittest.TestCase):
     @unittest.skipUnless(os.uname().machine == "x86_64", "the bound is that of 64-bit x86")
     def test_the_shared_library_is_small(self):
         self.assertLess(stripped_size(self.library_folder / "libsemblante.so"), MAX_SHARED_BYTES)
+
+    def test_golden_streams_through_the_header_alone(self):
+        program = self.folder / "probe"
+        run("cc", "-std=c99", *STRICT, f"-I{EXAMPLES}", HERE / "probe.c", *run("pkg-config", "--cflags", "--libs", "semblante",
+            env=self.packages).split(), f"-Wl,-rpath,{self.library_folder}", "-o", program)
+        self.assertEqual(golden_streams.faults(run(program, FACE, input=golden_streams.lines())), [])
+
+    def test_only_stated_functions_of_the_system_are_used(self):
+        undefined = run("nm", "-uC", self.library_folder / "libsemblante.a")
+        names = {line.split()[1] for line in undefined.splitlines() if len(line.split()) == 2 and line.split()[0] in "Uw"}
+        foreign = {n.split("@")[0] for n in names if not re.match(r"std::|operator|draco::|vtable|__|_Unwind|_GLOBAL_OFFSET", n)}
+        self.assertLessEqual(foreign, STATED_FUNCTIONS)
 
     def test_follow_shows_the_jaw_of_a_real_server(self):
         program = self.folder / "follow"
