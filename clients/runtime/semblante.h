@@ -19,8 +19,9 @@
  *   of the caller, has no mutable global state, and no exception leaves it. Bytes and times go in; vertices, poses,
  *   bytes to send and events come out.
  * - Times are milliseconds. `now` is the caller's steady clock with any origin; it must not decrease from call to call
- * of one object and all objects that follow each other must use the same clock. Media time is the clock of a stream. A
- * `now` that is not finite is ignored: the call does nothing.
+ * of one object and all objects that follow each other must use the same clock. Media time is the clock of a stream.
+ * No time is a number that is not finite or beyond +-9e15 (285,000 years): such a `now` makes the call do nothing, any
+ * other is INVALID_ARGUMENT.
  * - Memory is allocated by the functions named _create and _read, and when a documented limit grows (the longest
  * message, the frames that a player holds). From then on a frame allocates nothing. Where memory ends the function
  * gives OUT_OF_MEMORY, or does nothing if it has no result.
@@ -457,7 +458,7 @@ const char* semblante_performance_name(const semblante_performance* performance)
 /* ms; 0: endless. */
 double semblante_performance_duration(const semblante_performance* performance);
 /* The face at `ms` after the start. `idle_ms`: time of idle life, which a loop of the cues does not restart; usually
- * the same. Both finite and not negative. */
+ * the same. Both 0 to 9e15. */
 semblante_result semblante_performance_frame_at(const semblante_performance* performance, double ms, double idle_ms,
                                                 semblante_frame* frame);
 

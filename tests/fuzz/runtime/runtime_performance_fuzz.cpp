@@ -17,14 +17,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   must(duration >= 0 && std::isfinite(duration));
   semblante_frame frame{};
   for (const double share : {0.0, 0.2, 0.49, 0.8, 1.0, 1.5}) {
-    for (const double at : {share * duration, share * 1e4, share * 1e12, share * 1e300}) {
+    for (const double at : {share * duration, share * 1e4, share * 1e12, share * 6e15}) {
       must(semblante_performance_frame_at(performance, at, at, &frame) == SEMBLANTE_OK);
       must(frame.viseme1 <= 14 && frame.viseme2 <= 14 && frame.viseme_blend <= 63);
       must(frame.expression1 <= 6 && frame.expression2 <= 6 && frame.intensity1 <= 63 && frame.intensity2 <= 63);
       must_be_finite(frame.fap);
     }
   }
-  for (const double wrong : {-1.0, std::nan(""), HUGE_VAL}) {
+  for (const double wrong : {-1.0, std::nan(""), HUGE_VAL, 1e16}) {
     must(semblante_performance_frame_at(performance, wrong, 0, &frame) == SEMBLANTE_INVALID_ARGUMENT);
     must(semblante_performance_frame_at(performance, 0, wrong, &frame) == SEMBLANTE_INVALID_ARGUMENT);
   }
