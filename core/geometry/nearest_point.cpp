@@ -60,6 +60,28 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
   return {index, std::sqrt(squared)};
 }
 
+void NearestPoint::collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
+                           std::vector<std::uint32_t>& indices) const {
+  if (first >= last) return;
+  const std::size_t middle = first + (last - first) / 2;
+  const Node& node = nodes_[middle];
+  const glm::dvec3 away = node.position - to;
+  if (glm::dot(away, away) <= squared) indices.push_back(node.index);
+  const double beyond = to[axis] - node.position[axis];
+  const int next = (axis + 1) % 3;
+  if (beyond <= 0.0 || beyond * beyond <= squared) collect(first, middle, next, to, squared, indices);
+  if (beyond >= 0.0 || beyond * beyond <= squared) collect(middle + 1, last, next, to, squared, indices);
+}
+
+std::vector<std::uint32_t> NearestPoint::nearest_with_ties(const glm::dvec3& to) const {
+  constexpr double tie = 1e-6;
+  const double reach = nearest(to).distance * (1.0 + tie);
+  std::vector<std::uint32_t> indices;
+  collect(0, nodes_.size(), 0, to, reach * reach, indices);
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
 bool NearestPoint::has_within(const glm::dvec3& to, double distance) const {
   // Equal to the bound is not nearer: index 0 has no lower one.
   std::uint32_t index = 0;

@@ -22,6 +22,8 @@ class NearestPoint {
   [[nodiscard]] Hit nearest(const glm::dvec3& to) const;
   /// Whether a point is nearer than `distance`: much faster than `nearest` where most are farther.
   [[nodiscard]] bool has_within(const glm::dvec3& to, double distance) const;
+  /// Indices of the nearest point and of all that are as near but for rounding; rising.
+  [[nodiscard]] std::vector<std::uint32_t> nearest_with_ties(const glm::dvec3& to) const;
 
  private:
   struct Node {
@@ -31,6 +33,8 @@ class NearestPoint {
   void build(std::size_t first, std::size_t last, int axis);
   void search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
               double& squared) const;
+  void collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
+               std::vector<std::uint32_t>& indices) const;
 
   std::vector<Node> nodes_;  ///< the middle of each range splits it, along x, y, z in turn
 };

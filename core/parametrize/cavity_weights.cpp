@@ -4,9 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
+
 #include "core/anatomy/smooth_step.h"
+#include "core/geometry/nearest_point.h"
 
 namespace semblante {
 namespace {
@@ -21,9 +28,18 @@ constexpr Fade mouth_fade = {0.20, 0.22};
 /// The back of a lip is continuous with its front up to this depth.
 constexpr double lip = 0.10;
 constexpr Fade socket_fade = {0.05, 0.055};
-/// Sweeps end when no weight changes by more; the start is close to the solution.
-constexpr double least_change = 2e-3;
-constexpr int most_sweeps = 100;
+/// The flesh between the inside of the mouth and the skin in front of it, in ES0: up to `thin` the inside follows that
+/// skin by `lower` below the mouth's middle line and by `upper` above it, where it lies on the skull; beyond `thick`
+/// not.
+constexpr struct {
+  double thin = 0.2, thick = 0.5;
+  double lower = 0.7, upper = 0.1;
+  double below = -0.15, above = 0.1;  ///< where the one becomes the other, from the corners of the mouth
+} flesh;
+/// Sweeps end when no weight changes by more; the start is close to the solution. What they leave depends on the order
+/// of the vertices, so that it is the asymmetry of a symmetric head.
+constexpr double least_change = 3e-4;
+constexpr int most_sweeps = 200;
 /// Steps go beyond each equation's own solution (successive over-relaxation), from the rim inwards: that converges in
 /// about a fifth of the sweeps.
 constexpr double over_relaxation = 1.6;
@@ -35,6 +51,7 @@ class Diffusion {
             const std::function<WeightRow(SurfaceVertexId)>& row_of)
       : surface_(surface), cavity_(cavity), unit_(unit) {
     find_links();
+    find_own_rows(row_of);
     find_columns(row_of);
     start(row_of);
   }
@@ -51,11 +68,15 @@ class Diffusion {
   [[nodiscard]] double depth(std::size_t member) const { return distance_[member]; }
   [[nodiscard]] WeightRow row(std::size_t member) const {
     WeightRow row{};
-    for (std::size_t c = 0; c < ids_.size(); ++c) row[ids_[c]] = rows_[member * ids_.size() + c];
+    for (std::size_t c = 0; c < ids_.size(); ++c) row[ids_[c]] = rows_[member * blocks_ + c / columns][c % columns];
     return row;
   }
 
  private:
+  /// Neighbouring columns of a row, which registers hold together.
+  using Block = glm::dvec4;
+  static constexpr std::size_t columns = 4;
+
   struct Link {
     std::uint32_t row;  ///< of rows_
     double length;
@@ -81,34 +102,85 @@ class Diffusion {
     }
   }
 
-  /// The points that any row can have: those of the rim, and the jaw's.
+  /// What each member of the mouth would follow far from the rim: the skin in front of it, if that is near, and the
+  /// jaw.
+  void find_own_rows(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
+    own_rows_.assign(cavity_.members.size(), WeightRow{});
+    if (!cavity_.is_mouth) return;
+    const std::size_t jaw = parse_feature_point("2.1")->value();
+    const auto [skin, vertices] = skin_around();
+    std::optional<NearestPoint> nearest;
+    if (!skin.empty()) nearest.emplace(skin);
+    for (std::size_t m = 0; m < own_rows_.size(); ++m) {
+      const glm::dvec3& p = surface_.positions[cavity_.members[m].value()];
+      const glm::dvec3 from_corners = (p - cavity_.middle) / unit_;
+      WeightRow& row = own_rows_[m];
+      double share = 0.0;
+      if (nearest && nearest->has_within(p, flesh.thick * unit_)) {
+        // On the middle of a symmetric head the skin on both sides is as near.
+        const std::vector<std::uint32_t> ties = nearest->nearest_with_ties(p);
+        const double distance = glm::distance(p, skin[ties.front()]);
+        const double up = smooth_step(flesh.below, flesh.above, from_corners.y);
+        share = (1.0 - smooth_step(flesh.thin, flesh.thick, distance / unit_)) *
+                (up * flesh.upper + (1.0 - up) * flesh.lower);
+        for (const std::uint32_t tie : ties) {
+          const WeightRow in_front = row_of(vertices[tie]);
+          for (std::size_t id = 0; id < row.size(); ++id) {
+            row[id] += share * in_front[id] / static_cast<double>(ties.size());
+          }
+        }
+      }
+      row[jaw] += (1.0 - share) * jaw_share_in_mouth(from_corners);
+    }
+  }
+
+  /// The vertices in front of the cavity and around it.
+  [[nodiscard]] std::pair<std::vector<glm::dvec3>, std::vector<SurfaceVertexId>> skin_around() const {
+    glm::dvec3 least(std::numeric_limits<double>::infinity());
+    glm::dvec3 greatest = -least;
+    for (const SurfaceVertexId v : cavity_.members) {
+      least = glm::min(least, surface_.positions[v.value()]);
+      greatest = glm::max(greatest, surface_.positions[v.value()]);
+    }
+    const glm::dvec3 reach(flesh.thick * unit_);
+    std::pair<std::vector<glm::dvec3>, std::vector<SurfaceVertexId>> skin;
+    const auto add = [&](SurfaceVertexId v) {
+      const glm::dvec3& p = surface_.positions[v.value()];
+      if (glm::any(glm::lessThan(p, least - reach)) || glm::any(glm::greaterThan(p, greatest + reach))) return;
+      if (std::binary_search(cavity_.members.begin(), cavity_.members.end(), v)) return;
+      skin.first.push_back(p);
+      skin.second.push_back(v);
+    };
+    for (const SurfaceVertexId v : surface_.members_of(surface_.part_of[cavity_.members.front().value()])) add(v);
+    return skin;
+  }
+
+  /// The points that any row can have: those of the rim and of the skin in front, and the jaw's.
   void find_columns(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
     std::array<bool, feature_point_count> used{};
-    for (const SurfaceVertexId v : rim_) {
-      const WeightRow row = row_of(v);
+    const auto use = [&](const WeightRow& row) {
       for (std::size_t id = 0; id < row.size(); ++id) used[id] = used[id] || row[id] > 0.0;
-    }
-    const std::size_t jaw = parse_feature_point("2.1")->value();
-    if (cavity_.is_mouth) used[jaw] = true;
+    };
+    for (const SurfaceVertexId v : rim_) use(row_of(v));
+    for (const WeightRow& row : own_rows_) use(row);
     for (std::size_t id = 0; id < used.size(); ++id) {
-      if (!used[id]) continue;
-      if (id == jaw) jaw_column_ = ids_.size();
-      ids_.push_back(id);
+      if (used[id]) ids_.push_back(id);
     }
+    blocks_ = (ids_.size() + columns - 1) / columns;
+  }
+
+  void read_row(const WeightRow& row, std::size_t at, std::vector<Block>& rows) const {
+    for (std::size_t c = 0; c < ids_.size(); ++c) rows[at * blocks_ + c / columns][c % columns] = row[ids_[c]];
   }
 
   /// The rim's rows, and in each member that of the rim's vertex it is nearest to, faded by the distance.
   void start(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
     const std::size_t members = cavity_.members.size();
-    rows_.assign((members + rim_.size()) * ids_.size(), 0.0);
-    for (std::size_t r = 0; r < rim_.size(); ++r) {
-      const WeightRow row = row_of(rim_[r]);
-      for (std::size_t c = 0; c < ids_.size(); ++c) rows_[(members + r) * ids_.size() + c] = row[ids_[c]];
-    }
-    for (const SurfaceVertexId v : cavity_.members) {
-      jaw_share_.push_back(
-          cavity_.is_mouth ? jaw_share_in_mouth((surface_.positions[v.value()] - cavity_.middle) / unit_) : 0.0);
-    }
+    rows_.assign((members + rim_.size()) * blocks_, Block(0.0));
+    own_.assign(members * blocks_, Block(0.0));
+    sums_.resize(blocks_);
+    for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), members + r, rows_);
+    for (std::size_t m = 0; m < members; ++m) read_row(own_rows_[m], m, own_);
     distance_.assign(members, std::numeric_limits<double>::infinity());
     std::vector<std::uint32_t> from(members);
     using Entry = std::pair<double, std::uint32_t>;
@@ -138,9 +210,8 @@ class Diffusion {
     for (const std::uint32_t m : order_) {
       pull_[m] = smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length);
       const double rim_share = std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length);
-      for (std::size_t c = 0; c < ids_.size(); ++c) {
-        rows_[m * ids_.size() + c] =
-            rim_share * rows_[from[m] * ids_.size() + c] + (1.0 - rim_share) * own_weight(m, c);
+      for (std::size_t b = 0; b < blocks_; ++b) {
+        rows_[m * blocks_ + b] = rim_share * rows_[from[m] * blocks_ + b] + (1.0 - rim_share) * own_[m * blocks_ + b];
       }
     }
   }
@@ -150,31 +221,26 @@ class Diffusion {
     const auto links = links_of(m);
     const double pull = static_cast<double>(links.size()) * pull_[m];
     double all = pull;
-    sums_.assign(ids_.size(), 0.0);
-    if (jaw_column_ < ids_.size()) sums_[jaw_column_] = pull * jaw_share_[m];
+    for (std::size_t b = 0; b < blocks_; ++b) sums_[b] = pull * own_[m * blocks_ + b];
     for (const Link& link : links) {
       all += link.weight;
-      const double* const other = &rows_[link.row * ids_.size()];
-      for (std::size_t c = 0; c < ids_.size(); ++c) sums_[c] += link.weight * other[c];
+      const Block* const other = &rows_[link.row * blocks_];
+      for (std::size_t b = 0; b < blocks_; ++b) sums_[b] += link.weight * other[b];
     }
-    double* const own = &rows_[m * ids_.size()];
-    double change = 0.0;
+    Block* const row = &rows_[m * blocks_];
+    Block change(0.0);
     const double share = 1.0 / all;
-    for (std::size_t c = 0; c < ids_.size(); ++c) {
-      const double step = over_relaxation * (sums_[c] * share - own[c]);
-      change = std::max(change, std::abs(step));
-      own[c] += step;
+    for (std::size_t b = 0; b < blocks_; ++b) {
+      const Block step = over_relaxation * (sums_[b] * share - row[b]);
+      change = glm::max(change, glm::abs(step));
+      row[b] += step;
     }
-    return change;
+    return std::max({change.x, change.y, change.z, change.w});
   }
 
   [[nodiscard]] std::span<const Link> links_of(std::uint32_t m) const {
     return std::span(links_).subspan(link_offsets_[m], link_offsets_[m + 1] - link_offsets_[m]);
   }
-  [[nodiscard]] double own_weight(std::uint32_t m, std::size_t column) const {
-    return column == jaw_column_ ? jaw_share_[m] : 0.0;
-  }
-
   /// Edges of length zero occur; in ES0.
   static constexpr double shortest_link = 1e-3;
 
@@ -184,14 +250,15 @@ class Diffusion {
   std::vector<SurfaceVertexId> rim_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> link_offsets_;
-  std::vector<std::size_t> ids_;  ///< of the columns
-  std::size_t jaw_column_ = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> ids_;      ///< of the columns
+  std::size_t blocks_ = 0;            ///< of a row
+  std::vector<WeightRow> own_rows_;   ///< of the members
   std::vector<double> distance_;      ///< of the members from the rim
-  std::vector<double> jaw_share_;     ///< of the members
   std::vector<double> pull_;          ///< of the members, towards their own rows
-  std::vector<double> rows_;          ///< members and rim, by columns
+  std::vector<Block> rows_;           ///< members and rim
+  std::vector<Block> own_;            ///< own_rows_, by columns
   std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
-  std::vector<double> sums_;
+  std::vector<Block> sums_;
 };
 
 }  // namespace

@@ -10,15 +10,15 @@
 
 namespace semblante {
 
-/// The shares of the points in the members of a cavity, in their order. The distance through the air says nothing
-/// there: what lies behind a lip is near to the skin in front of it, and does not follow it.
+/// The shares of the points in the members of a cavity, in their order.
 ///
 /// The rows continue those of the rim smoothly and give way, within a length that is short in an eye's socket and
-/// longer in the mouth, to a row of their own: none in the socket, that of the skull; the jaw's (2.1) in the mouth, as
-/// jaw_share_in_mouth says. They are the solution of (Laplacian of w) = (w - own row) / length^2 on the graph of edges,
-/// so they are not negative and their sums are at most those of the rim.
+/// longer in the mouth, to a row of their own: none in the socket, that of the skull. In the mouth the inside of lips
+/// and chin follows the skin in front of it, as far as the flesh between them is thin; the rest follows the jaw (2.1),
+/// as jaw_share_in_mouth says. They are the solution of (Laplacian of w) = (w - own row) / length^2 on the graph of
+/// edges, so they are not negative and their sums are at most one.
 ///
-/// `row_of`: the row of a vertex of the rim. `unit`: ES0 in model units.
+/// `row_of`: the row of a vertex outside the cavity. `unit`: ES0 in model units.
 std::vector<WeightRow> cavity_rows(const Surface& surface, const Cavity& cavity, double unit,
                                    const std::function<WeightRow(SurfaceVertexId)>& row_of);
 

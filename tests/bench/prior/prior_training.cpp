@@ -12,11 +12,11 @@
 namespace semblante::bench {
 namespace {
 
-constexpr double table_ridge = 3e-5;
-constexpr double roughness_ridge = 3.0;
+constexpr double table_ridge = 1e-5;
+constexpr double roughness_ridge = 1.0;
 /// Against sums over one, which WeightPrior scales down.
 constexpr double sum_penalty = 1e-3;
-constexpr int iterations = 80;
+constexpr int iterations = 120;
 /// Pairs of points that share less than this of the mean vertex say nothing; points that share less with either are no
 /// targets.
 constexpr double least_pair = 1e-4;

@@ -30,6 +30,11 @@ TEST(NearestPoint, RandomPoints_EqualTheScan) {
       ASSERT_DOUBLE_EQ(hit.distance, glm::distance(points[expected], to));
       ASSERT_FALSE(tree.has_within(to, 0.999 * hit.distance));
       ASSERT_TRUE(tree.has_within(to, 1.001 * hit.distance));
+      std::vector<std::uint32_t> ties;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (glm::distance(points[i], to) <= hit.distance * (1.0 + 1e-9)) ties.push_back(i);
+      }
+      ASSERT_EQ(tree.nearest_with_ties(to), ties);
     }
   }
 }
