@@ -23,6 +23,12 @@ std::vector<SurfacePoint> surface_points(const Surface& surface, const FeaturePo
   return found;
 }
 
+const SurfacePoint* point_named(std::span<const SurfacePoint> points, std::string_view name) {
+  const auto id = parse_feature_point(name);
+  const auto found = std::find_if(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.id == *id; });
+  return found == points.end() ? nullptr : &*found;
+}
+
 bool is_pupil(FeaturePointId id) {
   const std::string name = to_string(id);
   return name == "3.5" || name == "3.6";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct SurfacePoint {
   SurfaceVertexId vertex;
   glm::dvec3 position{0.0};  ///< of the vertex
 };
+
+/// The point with this name ("2.1"), or null. `name` must be one of the 84.
+const SurfacePoint* point_named(std::span<const SurfacePoint> points, std::string_view name);
 
 /// The points of the set that have a vertex, in rising order of id.
 std::vector<SurfacePoint> surface_points(const Surface& surface, const FeaturePointSet& points);

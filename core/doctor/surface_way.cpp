@@ -1,15 +1,8 @@
 #include "core/doctor/surface_way.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace semblante {
-
-const SurfacePoint* point_named(std::span<const SurfacePoint> points, std::string_view name) {
-  const auto id = parse_feature_point(name);
-  const auto found = std::find_if(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.id == *id; });
-  return found == points.end() ? nullptr : &*found;
-}
 
 std::vector<SurfaceVertexId> way_back(const Surface& surface, std::span<const double> distances, SurfaceVertexId to) {
   std::vector<SurfaceVertexId> way{to};

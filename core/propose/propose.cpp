@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/rim_points.h"
 #include "core/geometry/similarity.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mirror_plane.h"
@@ -88,7 +89,12 @@ class Proposer {
  public:
   Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const FeaturePointSet& known,
            std::span<const ReferenceHead> references)
-      : surface_(surface), parts_(parts), frame_(frame), face_(surface, parts, frame), references_(references) {
+      : surface_(surface),
+        parts_(parts),
+        frame_(frame),
+        known_(known),
+        face_(surface, parts, frame),
+        references_(references) {
     for (const FeaturePoint& point : known) {
       settled_[point.id.value()] = frame(glm::dvec3(point.position));
       if (!point.vertex) continue;
@@ -106,6 +112,7 @@ class Proposer {
         if (!settled_[id] && turn_of(id_of(id)) == turn) propose(id);
       }
     }
+    correct_sides();
     std::sort(proposals_.points.begin(), proposals_.points.end(),
               [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
     std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),
@@ -167,6 +174,25 @@ class Proposer {
     if (off > 0.15 + error) return refuse(id, "the model has no surface at the expected position");
     settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
            std::max(error, 0.5 * off), doubt);
+  }
+
+  /// The sides of lips and lids again, by all points beside them, of which some were not yet there at the choice: on a
+  /// mesh as coarse as a lip the two may differ. Known points stay.
+  void correct_sides() {
+    FeaturePointSet all = known_;
+    for (const Proposal& p : proposals_.points) all.push_back(p.point);
+    for (const MisplacedRimPoint& misplaced : find_misplaced_rim_points(surface_, surface_points(surface_, all))) {
+      const auto at = std::find_if(proposals_.points.begin(), proposals_.points.end(),
+                                   [&](const Proposal& p) { return p.point.id == misplaced.point.id; });
+      if (at == proposals_.points.end()) continue;
+      const std::size_t id = misplaced.point.id.value();
+      const ProposalMethod method = at->method;
+      proposals_.points.erase(at);
+      const std::uint32_t vertex = misplaced.nearest_own.value();
+      const double off = glm::distance(face_.at(vertex), *settled_[id]);
+      settle(id, {face_.at(vertex), vertex}, method, std::max(guesses_[id]->error, 0.5 * off),
+             "the surface is too coarse here to distinguish " + sides_in_words(*misplaced.opening));
+    }
   }
 
   /// Considers only vertices without a point: the parametrization needs a vertex of its own for each point. Empty if
@@ -232,6 +258,7 @@ class Proposer {
   const Surface& surface_;
   std::span<const Part> parts_;
   Similarity frame_;
+  const FeaturePointSet& known_;
   FaceSurface face_;
   std::span<const ReferenceHead> references_;
   MirrorPlane plane_;

@@ -4,6 +4,10 @@
 
 namespace semblante {
 
+std::string sides_in_words(const mpeg4::Opening& opening) {
+  return "the " + std::string(opening.upper_name) + " from the " + std::string(opening.lower_name);
+}
+
 std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
                                             const MirrorPlane* on, const FaceSurface::Filter& is_free) {
   const RimSides& sides = sides_of(*rim.opening);
@@ -13,8 +17,7 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
                          [&](std::uint32_t v) { return (!is_free || is_free(v)) && has_side(side(v)); });
   };
   const auto off = [&](std::uint32_t v) { return glm::distance(face_.at(v), place); };
-  const std::string both =
-      "the " + std::string(rim.opening->upper_name) + " from the " + std::string(rim.opening->lower_name);
+  const std::string both = sides_in_words(*rim.opening);
 
   const auto own = nearest_with([](double s) { return s > 0.0; });
   const auto other = nearest_with([](double s) { return s < 0.0; });

@@ -18,6 +18,9 @@ struct RimVertex {
   std::string doubt;  ///< why its side may be wrong, as text; empty: its side is certain
 };
 
+/// What is to be distinguished: "the upper lip from the lower lip".
+std::string sides_in_words(const mpeg4::Opening& opening);
+
 /// Chooses vertices for points of lips and lids: the nearest vertex on the point's own side along the surface
 /// (RimSides).
 class RimChoice {

@@ -1,6 +1,6 @@
 // Points of one lip or lid that are marked on the other.
 
-#include "core/doctor/rim_points.h"
+#include "core/anatomy/rim_points.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/doctor/rim_points.h"
+#include "core/anatomy/rim_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/rim_sides.h"
-#include "core/doctor/surface_way.h"
 #include "core/geometry/edge_path_search.h"
 
 namespace semblante {
