@@ -118,13 +118,17 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
 }
 
 void FanOut::send_rest(BatchLog& log) {
-  for (const auto& batch : passes_) {
-    for (auto& subscriber : subscribers_.all()) {
-      if (subscriber.behind || subscriber.next_batch > batch->number) continue;
+  for (auto& subscriber : subscribers_.all()) {
+    for (const auto& batch : passes_) {
+      if (subscriber.behind) break;
+      if (subscriber.next_batch > batch->number) continue;
       const auto& wire = log.wire(*batch, subscriber.coding);
-      subscriber.sink->send(wire, http::Purpose::state);
-      count_sent(*wire);
+      const auto sent = subscriber.sink->send(wire, http::Purpose::state);
+      subscriber.behind = sent == http::Sent::refused;
+      if (subscriber.behind) counts_.messages_replaced += subscriber.sink->drop_state() + 1;
+      if (sent == http::Sent::handed || sent == http::Sent::waits) count_sent(*wire);
     }
+    if (subscriber.behind) send_newest(subscriber, log);
   }
   passes_.clear();
 }

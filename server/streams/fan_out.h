@@ -66,7 +66,7 @@ class FanOut {
   bool next_slice(Slice& slice, BatchLog& log);
   /// Processes the results of a slice that has been sent.
   void finish_slice(Slice& slice, BatchLog& log);
-  /// Sends all queued batches immediately, at the end of the stream.
+  /// Sends all queued batches immediately, at the end of the stream; the newest state to those that are behind.
   void send_rest(BatchLog& log);
 
   /// A subscriber's outbox is empty again: if it fell behind, it gets the newest state.

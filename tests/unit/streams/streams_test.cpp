@@ -54,6 +54,21 @@ TEST_F(StreamTest, Behind_NewestStateReplacesWhatWaits) {
   EXPECT_EQ(stream_->counts().messages_replaced, 10U);
 }
 
+TEST_F(StreamTest, Behind_AtTheEnd_GetsTheNewestStateBeforeIt) {
+  const auto client = connect(StreamRole::subscribe);
+  client->take_all();
+  client->socket->stop_reading();
+  for (std::int16_t level = 1; level <= 10; ++level) publish(level);
+  ASSERT_EQ(stream_->counts().messages_replaced, 10U);
+  stream_->end(EndReason::shutdown);
+  client->socket->read_again(*client->connection);
+  const auto messages = client->take_all();
+  ASSERT_EQ(messages.size(), 2U);
+  ASSERT_TRUE(std::holds_alternative<Keyframe>(messages[0])) << "the face stays as it was long before";
+  EXPECT_EQ(std::get<Keyframe>(messages[0]).state.level[3], 10);
+  EXPECT_EQ(std::get<End>(messages[1]).reason, EndReason::shutdown);
+}
+
 /// What a recorder would see.
 struct Heard : BatchListener {
   void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) override {
