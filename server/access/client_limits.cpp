@@ -35,9 +35,17 @@ void ClientRates::count_failure(const std::string& address, Clock::time_point no
       .first->second.take(1.0, now);
 }
 
+bool ClientRates::take_creation(const std::string& address, Clock::time_point now) {
+  const double most = limits_.creations_per_minute;
+  if (most <= 0) return true;
+  const std::lock_guard lock(mutex_);
+  forget_idle(creations_, now);
+  return creations_.try_emplace(address, most / seconds_per_minute, most, now).first->second.take(1.0, now);
+}
+
 std::size_t ClientRates::size() const {
   const std::lock_guard lock(mutex_);
-  return requests_.size() + failures_.size();
+  return requests_.size() + failures_.size() + creations_.size();
 }
 
 }  // namespace semblante::access

@@ -17,6 +17,7 @@ namespace semblante::access {
 struct ClientLimits {
   double requests_per_second = 50, request_burst = 500;  ///< 0: no limit
   double failures_per_minute = 30;                       ///< requests with a token that is not accepted, of one address
+  double creations_per_minute = 120;                     ///< of one address, whatever is created; 0: no limit
 };
 
 /// Counts requests by client. Any thread. Clients that are idle are forgotten, so memory is bounded by the requests of
@@ -31,6 +32,9 @@ class ClientRates {
   /// False when this address has sent too many tokens that were not accepted.
   bool may_try(const std::string& address, Clock::time_point now = Clock::now());
   void count_failure(const std::string& address, Clock::time_point now = Clock::now());
+  /// False when this address has created as much as it may for now.
+  bool take_creation(const std::string& address, Clock::time_point now = Clock::now());
+  [[nodiscard]] double creations_per_minute() const { return limits_.creations_per_minute; }
   /// Number of clients in memory.
   [[nodiscard]] std::size_t size() const;
 
@@ -42,6 +46,7 @@ class ClientRates {
   mutable std::mutex mutex_;
   Rates requests_;
   Rates failures_;
+  Rates creations_;
 };
 
 }  // namespace semblante::access

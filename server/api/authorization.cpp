@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "server/api/access.h"
 #include "server/api/common.h"
@@ -19,6 +20,7 @@ using access::Verdict;
 using http::make_problem;
 
 constexpr unsigned retry_after_rate = 1, retry_after_failures = 30;
+constexpr double seconds_per_minute = 60.0;
 
 /// "a=1; semblante_session=x" -> "x".
 std::string_view cookie_of(const http::Request& head) {
@@ -204,6 +206,15 @@ std::optional<http::Response> refuse_bypass(const Security& security, const http
 std::optional<http::Response> refuse_rate(const Security& security, const http::Request& head) {
   if (!security.asks_for_tokens || security.rates->take_request(client_of(asking_of(head)))) return std::nullopt;
   return too_many("this client sends more requests than the server accepts", retry_after_rate);
+}
+
+std::optional<unsigned> wait_for_creation(const Security& security, const http::Request& request) {
+  const auto& asking = asking_of(request);
+  const bool is_admin = !asking.rights.token.empty() && asking.rights.scope >= Scope::admin;
+  const auto address = http::parse_address(asking.from.address);
+  if (is_admin || !address || http::is_loopback(*address)) return std::nullopt;
+  if (security.rates->take_creation(network_of(asking.from.address))) return std::nullopt;
+  return static_cast<unsigned>(std::ceil(seconds_per_minute / security.rates->creations_per_minute()));
 }
 
 std::optional<http::Response> refuse_access(const Security& security, streams::StreamHub& hub,

@@ -83,6 +83,8 @@ std::string limited_token(const http::Request& request) {
 }
 
 QuotaTurn take_quota(Context& context, http::Request& request, const Usage& more) {
+  if (const auto wait = wait_for_creation(context.config.security, request))
+    refuse_for_now("this address creates more than the server accepts in a minute", *wait);
   const auto token = limited_token(request);
   if (token.empty()) return std::nullopt;
   auto turn = context.quota_turns->acquire(token, longest_turn);

@@ -34,7 +34,8 @@ std::string limited_token(const http::Request& request);
 using QuotaTurn = std::optional<KeyLocks::Held>;
 
 /// Refuses with `quota-exceeded` (507), or for jobs with 429, what would exceed a limit of the requester's token. What
-/// comes near to one is told in the answer's header X-Quota-Warning. A job whose results are kept needs one byte: how
+/// comes near to one is told in the answer's header X-Quota-Warning. Counts as one creation of the requester's address,
+/// with a token or without, and refuses (429) what exceeds their rate. A job whose results are kept needs one byte: how
 /// many it makes is not known before, so a job that was accepted may exceed the limit by its results.
 [[nodiscard]] QuotaTurn take_quota(Context& context, http::Request& request, const store::Usage& more);
 

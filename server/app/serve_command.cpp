@@ -130,6 +130,11 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--client-failures", options->client_limits.failures_per_minute,
       "Tokens of one address per minute that are not accepted, before it has to wait", "CLIENT_FAILURES")
       ->check(CLI::Range(1.0, 1e6));
+  add("--client-creations", options->client_limits.creations_per_minute,
+      "Models, jobs, streams, recordings and expressions together that one address may create per minute; this machine "
+      "and the scope admin have no such limit; 0: no limit",
+      "CLIENT_CREATIONS")
+      ->check(CLI::Range(0.0, 1e6));
   auto& of_token = options->token_limits;
   add_size("--token-bytes", of_token.bytes,
            "Bytes that one token may have stored: of models, recordings and expressions; 0: no limit. Tokens with the "

@@ -93,6 +93,24 @@ class QuotaTest : public ::testing::Test {
   std::unique_ptr<ServerProcess> server_;
 };
 
+TEST_F(QuotaTest, CreationsOfOneAddress_HaveARate_WhateverItsTokens) {
+  start({"--client-creations", "3", "--trusted-proxy", "127.0.0.1"});
+  const auto create = [&](const std::string& token, const std::string& address, const std::string& name) {
+    return as(token, "POST", "/v1/streams", json{{"name", name}}.dump(),
+              {{"Content-Type", "application/json"}, {"X-Forwarded-For", address}, {"X-Forwarded-Proto", "https"}});
+  };
+  EXPECT_EQ(create("edit", "203.0.113.5", "a").status, 201);
+  EXPECT_EQ(create("edit 2", "203.0.113.5", "b").status, 201);
+  EXPECT_EQ(create("edit", "203.0.113.5", "a").status, 409) << "what fails is counted as well";
+  const auto refused = create("edit 2", "203.0.113.5", "c");
+  EXPECT_EQ(refused.status, 429) << refused.body;
+  EXPECT_EQ(json_of(refused)["type"], "/problems/too-many-requests");
+  EXPECT_EQ(refused.headers.at("retry-after"), "20");
+  EXPECT_EQ(create("edit 2", "203.0.113.6", "c").status, 201) << "another address";
+  EXPECT_EQ(create("admin", "203.0.113.5", "d").status, 201);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(add_stream("edit", "here" + std::to_string(i)).status, 201) << "this machine";
+}
+
 TEST_F(QuotaTest, Streams_AreToldBeforeTheLimit_Refused_AndCountedAfterARestart) {
   start({"--token-streams", "5"});
   for (const auto* name : {"a", "b", "c"}) {

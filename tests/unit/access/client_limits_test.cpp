@@ -8,7 +8,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(ClientRates, Burst_ThenTheRate_ForEachClient) {
-  ClientRates rates({10.0, 5.0, 30.0});
+  ClientRates rates({10.0, 5.0, 30.0, 120.0});
   const auto now = ClientRates::Clock::now() + 1s;
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(rates.take_request("a", now));
   EXPECT_FALSE(rates.take_request("a", now));
@@ -18,13 +18,13 @@ TEST(ClientRates, Burst_ThenTheRate_ForEachClient) {
 }
 
 TEST(ClientRates, NoLimit_CountsNothing) {
-  ClientRates rates({0.0, 0.0, 30.0});
-  for (int i = 0; i < 10'000; ++i) EXPECT_TRUE(rates.take_request("a"));
+  ClientRates rates({0.0, 0.0, 30.0, 0.0});
+  for (int i = 0; i < 10'000; ++i) EXPECT_TRUE(rates.take_request("a") && rates.take_creation("a"));
   EXPECT_EQ(rates.size(), 0U);
 }
 
 TEST(ClientRates, FailedTokens_StopAnAddressForAWhile) {
-  ClientRates rates({10.0, 5.0, 30.0});
+  ClientRates rates({10.0, 5.0, 30.0, 120.0});
   const auto now = ClientRates::Clock::now() + 1s;
   for (int i = 0; i < 30; ++i) {
     EXPECT_TRUE(rates.may_try("a", now));
@@ -35,8 +35,18 @@ TEST(ClientRates, FailedTokens_StopAnAddressForAWhile) {
   EXPECT_TRUE(rates.may_try("a", now + 3s));
 }
 
+TEST(ClientRates, Creations_HaveARateOfTheirOwn) {
+  ClientRates rates({0.0, 0.0, 30.0, 60.0});
+  const auto now = ClientRates::Clock::now() + 1s;
+  for (int i = 0; i < 60; ++i) EXPECT_TRUE(rates.take_creation("a", now));
+  EXPECT_FALSE(rates.take_creation("a", now));
+  EXPECT_TRUE(rates.take_creation("b", now));
+  EXPECT_TRUE(rates.take_creation("a", now + 1001ms));
+  EXPECT_FALSE(rates.take_creation("a", now + 1002ms));
+}
+
 TEST(ClientRates, ManyClients_AreForgottenWhenIdle) {
-  ClientRates rates({10.0, 5.0, 30.0});
+  ClientRates rates({10.0, 5.0, 30.0, 120.0});
   auto now = ClientRates::Clock::now();
   for (int i = 0; i < 100'000; ++i) {
     now += 1ms;

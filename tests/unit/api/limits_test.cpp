@@ -99,6 +99,9 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"requests of one token, or of one address without one, on a server that asks for tokens",
        count(client.requests_per_second) + " per second, " + count(client.request_burst) + " in a burst"},
       {"tokens of one address that are not accepted", count(client.failures_per_minute) + " per minute"},
+      {"models, jobs, streams, recordings and expressions that one address creates, together; this machine and the "
+       "scope admin have no such limit",
+       count(client.creations_per_minute) + " per minute"},
       {"tickets that wait for their use; life of a ticket",
        count(access::Tickets::most) + "; " + seconds(access::Tickets::lifetime)},
       {"handshake of TLS", seconds(net.header_timeout)},
