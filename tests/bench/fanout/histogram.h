@@ -16,6 +16,12 @@ class Histogram {
     ++total_;
     if (value > most_) most_ = value;
   }
+  Histogram& operator+=(const Histogram& other) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+    total_ += other.total_;
+    if (other.most_ > most_) most_ = other.most_;
+    return *this;
+  }
   void clear() { *this = Histogram(); }
 
   [[nodiscard]] std::uint64_t total() const { return total_; }

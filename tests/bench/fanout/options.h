@@ -21,6 +21,7 @@ struct Options {
   pid_t pid = 0;        ///< of that
   std::string program;  ///< semblante; empty: the one beside the bench
   bool tls = false;     ///< a server of our own listens with TLS
+  bool apart = false;   ///< a server of our own has the first processor, this program the others
   bool smoke = false;   ///< correctness only: no judgement of any time
 };
 

@@ -1,12 +1,14 @@
-// What the subscribers of a stream notice of loads that have nothing to do with them: each is measured in turn with a
-// quiet phase before and after it.
+// What the subscribers of a stream notice of loads that have nothing to do with them: quiet phases and phases under
+// pressure in turn. All phases of a kind are counted together, so that a p99 is of hundreds of batches; how much two
+// halves of the quiet phases differ says what the machine does by itself.
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <ctime>
 #include <thread>
+#include <unistd.h>
 
-#include "tests/bench/fanout/median.h"
 #include "tests/bench/fanout/pressures.h"
 #include "tests/bench/fanout/target.h"
 #include "tests/bench/fanout/verdict.h"
@@ -14,30 +16,61 @@
 namespace semblante::bench {
 namespace {
 
-/// p99 of one phase, ms.
-double quiet_phase(SubscriberPool& pool, const Options& options) {
-  pool.run_for(std::chrono::duration<double>(options.smoke ? 0.2 : 0.7));  // what was before has ended
-  pool.begin_measuring();
-  pool.run_for(std::chrono::duration<double>(options.seconds));
-  pool.run_until_delivered();
-  return pool.lateness().percentile_ms(0.99);
+/// Processor time in seconds: the server, and the clients of the attack, which are apart from those that are measured.
+struct Used {
+  double server = 0.0, attack = 0.0, time = 0.0;
+};
+
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-double pressed_phase(SubscriberPool& pool, const Options& options, const Attack& attack, Outcome& outcome) {
-  std::atomic<bool> enough{false}, done{false};
-  pool.begin_measuring();
-  std::thread attacker([&] {
-    outcome = attack.run(enough);
-    done = true;
-  });
-  pool.run_for(std::chrono::duration<double>(options.seconds));
-  pool.run_until_delivered();
-  const double p99 = pool.lateness().percentile_ms(0.99);
-  enough = true;
-  while (!done) pool.run_for(std::chrono::milliseconds(20));
-  attacker.join();
-  return p99;
-}
+class Phases {
+ public:
+  Phases(SubscriberPool& pool, const SemblanteServer& server, const Options& options)
+      : pool_(pool), server_(server), options_(options) {}
+
+  void quiet(Histogram& into) {
+    pool_.run_for(std::chrono::duration<double>(options_.smoke ? 0.2 : 0.7));  // what was before has ended
+    measure(into);
+  }
+
+  Outcome pressed(const Attack& attack, Histogram& into, Used& used) {
+    std::atomic<bool> enough{false}, done{false};
+    Outcome outcome;
+    double attack_seconds = 0.0;
+    std::thread attacker([&] {
+      outcome = attack.run(enough);
+      attack_seconds = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+      done = true;
+    });
+    const double before = processor_time(server_.pid()).total, begin = seconds_of(CLOCK_MONOTONIC);
+    measure(into);
+    used.server += processor_time(server_.pid()).total - before;
+    used.time += seconds_of(CLOCK_MONOTONIC) - begin;
+    enough = true;
+    while (!done) pool_.run_for(std::chrono::milliseconds(20));
+    attacker.join();
+    used.attack += attack_seconds;
+    return outcome;
+  }
+
+ private:
+  void measure(Histogram& into) {
+    pool_.begin_phase();
+    pool_.run_for(std::chrono::duration<double>(options_.seconds));
+    pool_.run_until_delivered();
+    into += pool_.lateness();
+  }
+
+  SubscriberPool& pool_;
+  const SemblanteServer& server_;
+  const Options& options_;
+};
+
+double p99(const Histogram& histogram) { return histogram.percentile_ms(0.99); }
 
 }  // namespace
 
@@ -56,28 +89,38 @@ int pressure(const Options& given) {
   SubscriberPool pool(server.endpoint(), stream.path, stream.timeline);
   pool.open(options.subscribers);
   pool.run_for(std::chrono::duration<double>(options.smoke ? 0.3 : 2.0));
-  std::printf("%zu subscribers, %d ms batches%s; %d rounds of %.1f s quiet, %.1f s under pressure\n", pool.live(),
-              options.batch_ms, options.tls ? ", TLS" : "", options.repetitions, options.seconds, options.seconds);
-  std::printf("| pressure | p99 quiet, ms | under pressure | ratio (median) | least | most | the last came to |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
+  pool.begin_measuring();
+  pool.run_for(std::chrono::duration<double>(options.smoke ? 0.3 : 4.0));  // learns when batches are due
+  std::printf("%zu subscribers, %d ms batches%s%s; %d rounds of %.1f s quiet, %.1f s under pressure\n", pool.live(),
+              options.batch_ms, options.tls ? ", TLS" : "",
+              options.apart ? ", the server on a processor of its own" : "", options.repetitions, options.seconds,
+              options.seconds);
+  std::printf(
+      "| pressure | p99 quiet, ms | halves of it | p99 under pressure | ratio | p50 quiet, pressure | server, attack, "
+      "%% "
+      "of a processor | the last came to |\n|---|---|---|---|---|---|---|---|\n");
 
   Verdict verdict;
-  double before = quiet_phase(pool, options);
+  Phases phases(pool, server, options);
   for (const Attack& attack : pressures(server, stream.path, options)) {
-    std::vector<double> quiet, pressed, ratios;
+    Histogram halves[2], pressed;
+    Used used;
     Outcome outcome;
     for (int round = 0; round < options.repetitions; ++round) {
-      pressed.push_back(pressed_phase(pool, options, attack, outcome));
-      verdict.expect_whole(pool, stream.timeline, attack.name);
-      const double after = quiet_phase(pool, options);
-      quiet.push_back(0.5 * (before + after));
-      ratios.push_back(pressed.back() / quiet.back());
-      before = after;
+      // Each half has the same moments of the run on the average.
+      for (const int half : {round % 2, 1 - round % 2}) {
+        phases.quiet(halves[half]);
+        if (half == 1) outcome = phases.pressed(attack, pressed, used);
+        verdict.expect_whole(pool, stream.timeline, attack.name);
+      }
       for (const auto& broken : outcome.broken) verdict.expect(false, attack.name + ": " + broken);
     }
-    const double ratio = median(ratios);
-    std::printf("| %s | %.2f | %.2f | %.3f | %.3f | %.3f | %s |\n", attack.name.c_str(), median(quiet), median(pressed),
-                ratio, *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
+    Histogram quiet = halves[0];
+    quiet += halves[1];
+    const double ratio = p99(pressed) / p99(quiet);
+    std::printf("| %s | %.2f | %.2f, %.2f | %.2f | %.3f | %.2f, %.2f | %.0f, %.0f | %s |\n", attack.name.c_str(),
+                p99(quiet), p99(halves[0]), p99(halves[1]), p99(pressed), ratio, quiet.percentile_ms(0.5),
+                pressed.percentile_ms(0.5), used.server * 100.0 / used.time, used.attack * 100.0 / used.time,
                 outcome.words.c_str());
     std::fflush(stdout);
     if (!options.smoke) verdict.expect(ratio <= 1.1, attack.name + ": p99 of the subscribers is over a tenth worse");

@@ -288,10 +288,14 @@ void SubscriberPool::blame(const std::string& why) {
 }
 
 void SubscriberPool::begin_measuring() {
+  begin_phase();
+  timeline_.content().begin_measuring();
+}
+
+void SubscriberPool::begin_phase() {
   counts_.delivered = 0;
   lateness_.clear();
   spread_.clear();
-  timeline_.content().begin_measuring();
 }
 
 }  // namespace semblante::bench

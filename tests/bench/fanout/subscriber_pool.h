@@ -46,6 +46,8 @@ class SubscriberPool {
 
   /// From now on deliveries and lateness count anew.
   void begin_measuring();
+  /// The same, but the moments that lateness is measured from stay: phases are compared with each other.
+  void begin_phase();
   [[nodiscard]] const PoolCounts& counts() const { return counts_; }
   /// Against when a batch was due.
   [[nodiscard]] const Histogram& lateness() const { return lateness_; }

@@ -1,7 +1,10 @@
 #include "tests/bench/fanout/target.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <sched.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -28,6 +31,14 @@ net::TlsFiles make_certificate(const std::filesystem::path& folder) {
   return files;
 }
 
+/// This thread, and what it starts from now on, runs on the processors from `first` to `last` only.
+void run_on(int first, int last) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (int i = first; i <= last; ++i) CPU_SET(static_cast<unsigned>(i), &set);
+  if (sched_setaffinity(0, sizeof set, &set) != 0) give_up(std::string("--apart: ") + std::strerror(errno));
+}
+
 }  // namespace
 
 std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
@@ -47,7 +58,11 @@ SemblanteServer::SemblanteServer(const Options& options) {
     const auto files = make_certificate(data_);
     command.insert(command.end(), {"--tls-cert", files.certificate.string(), "--tls-key", files.key.string()});
   }
+  const int processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  if (options.apart && processors < 2) give_up("--apart needs two processors");
+  if (options.apart) run_on(0, 0);
   auto started = ServerProcess::start(command);
+  if (options.apart) run_on(1, processors - 1);
   if (!started) give_up("the server does not start: " + program);
   process_.emplace(std::move(*started));
   endpoint_ = process_->endpoint();
