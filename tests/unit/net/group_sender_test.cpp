@@ -1,15 +1,21 @@
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <deque>
+#include <fcntl.h>
+#include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include "server/net/ring_sender.h"
@@ -115,6 +121,65 @@ INSTANTIATE_TEST_SUITE_P(Senders, GroupSenderTest, ::testing::Values(Make(make_g
                                                                        return std::make_unique<http::GroupSender>();
                                                                      })),
                          [](const auto& instance) { return instance.index == 0 ? "OfTheSystem" : "OneByOne"; });
+
+/// The descriptors of this process that are rings.
+std::set<int> rings() {
+  std::set<int> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;  // the descriptor that lists them
+    if (std::filesystem::read_symlink(entry.path(), gone).string().find("io_uring") != std::string::npos)
+      found.insert(std::stoi(entry.path().filename()));
+  }
+  return found;
+}
+
+/// As in a process without a descriptor left; a system that forbids io_uring refuses in the same place.
+TEST(GroupSenderFallback, NoRingAtTheBeginning_SendsOneByOne) {
+  std::deque<Connection> connections(100);
+  const auto before = rings();
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const rlimit none{3, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  const auto sender = make_group_sender();
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  EXPECT_EQ(rings(), before) << "the test has not kept the ring from being made";
+  const auto message = wire("abc");
+  std::vector<http::Delivery> group;
+  for (const auto& connection : connections) group.push_back({connection.outbox.get(), &message, Sent::refused});
+  sender->send(group);
+  for (std::size_t i = 0; i < connections.size(); ++i) {
+    EXPECT_EQ(group[i].sent, Sent::handed);
+    EXPECT_EQ(connections[i].read(), "abc");
+  }
+}
+
+TEST(GroupSenderFallback, RingThatFailsLater_LosesAndRepeatsNothing) {
+  std::deque<Connection> connections(100);
+  const auto before = rings();
+  const auto sender = make_group_sender();
+  std::vector<int> made;
+  const auto after = rings();
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(made));
+  if (made.empty()) GTEST_SKIP() << "no io_uring here";
+  ASSERT_EQ(made.size(), 1U);
+  std::string sent;
+  for (const std::string bytes : {"first", "second", "third"}) {
+    if (bytes == "second") {
+      // Its descriptor is another file now: every further call of the ring fails.
+      const int other = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+      ASSERT_EQ(::dup2(other, made.front()), made.front());
+      ::close(other);
+    }
+    sent += bytes;
+    const auto message = wire(bytes);
+    std::vector<http::Delivery> group;
+    for (const auto& connection : connections) group.push_back({connection.outbox.get(), &message, Sent::refused});
+    sender->send(group);
+    for (const auto& delivery : group) EXPECT_EQ(delivery.sent, Sent::handed);
+  }
+  for (const auto& connection : connections) EXPECT_EQ(connection.read(), sent);
+}
 
 TEST(SubmissionRing, Sends_WithTheResultOfEachCall) {
   auto ring = SubmissionRing::make(4);
