@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 
 #include "server/jobs/isolation.h"
+#include "server/log/thread_rank.h"
 #include "server/store/store_error.h"
 
 namespace semblante::jobs {
@@ -38,6 +39,7 @@ int report(http::Problem problem) {
 void limit_this_process(const WorkerLimits& limits) {
   // The kernel kills the worker when its server is killed.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  log::set_thread_rank(log::ThreadRank::jobs);
   limit(RLIMIT_AS, limits.memory_bytes);
   // SIGXCPU tells the reason; at the hard limit the kernel sends SIGKILL, and would at once if both were equal.
   limit(RLIMIT_CPU, limits.cpu_seconds, 1);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <boost/asio/co_spawn.hpp>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
@@ -21,6 +22,7 @@
 #include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/log/log.h"
+#include "server/log/thread_rank.h"
 #include "server/net/error_value.h"
 #include "server/net/http_session.h"
 #include "server/net/state.h"
@@ -143,6 +145,7 @@ void drain(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_
   quiet = state->busy == 0 ? quiet + 1 : 0;
   if (quiet >= enough || std::chrono::steady_clock::now() >= end) {
     state->io.stop();
+    state->live.stop();
     return;
   }
   state->drain_step.expires_after(step);
@@ -240,10 +243,19 @@ void Server::run(const std::function<void()>& on_stopping) {
     };
     asio::co_spawn(state_->io, accept_connections(door.acceptor, context, state_), log_fault);
   }
+  // Threads of their own also for the first: ranks are only lowered, and the caller keeps its own.
+  const auto live_work = asio::make_work_guard(state_->live);
   std::vector<std::thread> threads;
-  for (unsigned i = 1; i < state_->config.io_threads; ++i)
-    threads.emplace_back([this] { run_guarded(state_->io, "I/O thread"); });
-  run_guarded(state_->io, "I/O thread");
+  const auto serve = [&threads](asio::io_context& io, log::ThreadRank rank, std::string_view who) {
+    threads.emplace_back([&io, rank, who] {
+      log::set_thread_rank(rank);
+      run_guarded(io, who);
+    });
+  };
+  for (unsigned i = 0; i < state_->config.io_threads; ++i) {
+    serve(state_->live, log::ThreadRank::live, "thread of WebSockets");
+    serve(state_->io, log::ThreadRank::requests, "thread of requests");
+  }
   for (auto& thread : threads) thread.join();
   state_->workers.join();
 }

@@ -50,7 +50,7 @@ struct Listener {
 struct ServerConfig {
   std::vector<Listener> listeners{Listener{}};
   std::vector<http::AddressRange> proxies;  ///< their connections are those of many clients
-  unsigned io_threads = 1;
+  unsigned io_threads = 1;                  ///< for requests, and as many for WebSockets
   unsigned worker_threads = 2;
   std::filesystem::path upload_directory;  ///< for bodies on disk; must exist
   ServerLimits limits;

@@ -43,11 +43,16 @@ class AddressCounts {
 
 struct SharedState {
   SharedState(ServerConfig c, http::Application& a)
-      : config(std::move(c)), application(a), io(static_cast<int>(config.io_threads)), workers(config.worker_threads) {}
+      : config(std::move(c)),
+        application(a),
+        io(static_cast<int>(config.io_threads)),
+        live(static_cast<int>(config.io_threads)),
+        workers(config.worker_threads) {}
 
   ServerConfig config;
   http::Application& application;
-  boost::asio::io_context io;
+  boost::asio::io_context io;    ///< connections until they become WebSockets
+  boost::asio::io_context live;  ///< WebSockets
   WorkerPool workers;
   AddressCounts addresses;
   std::atomic<bool> stopping{false};

@@ -7,6 +7,7 @@
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
 #include "server/http/request_id.h"
@@ -42,8 +43,14 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   static void start(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::string_view key,
                     std::string_view request_id, std::shared_ptr<http::WebSocketPeer> peer,
                     std::shared_ptr<SharedState> state, ConnectionCount count) {
+    auto& live = state->live;
     const auto self = std::make_shared<WebSocketConnection>(std::move(peer), std::move(state), std::move(count));
-    self->accept(std::move(socket), std::move(tls), key, request_id);
+    const auto protocol = socket.local_endpoint().protocol();
+    asio::ip::tcp::socket moved(asio::make_strand(live), protocol, socket.release());
+    const auto executor = moved.get_executor();
+    asio::post(executor,
+               [self, moved = std::move(moved), tls = std::move(tls), key = std::string(key),
+                id = std::string(request_id)]() mutable { self->accept(std::move(moved), std::move(tls), key, id); });
   }
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,

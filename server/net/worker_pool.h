@@ -10,6 +10,7 @@
 #include <boost/asio/io_context.hpp>
 
 #include "server/log/guard.h"
+#include "server/log/thread_rank.h"
 
 namespace semblante::net {
 
@@ -25,7 +26,11 @@ inline void run_guarded(boost::asio::io_context& io, std::string_view who) {
 class WorkerPool {
  public:
   explicit WorkerPool(unsigned threads) : io_(static_cast<int>(threads)), work_(io_.get_executor()) {
-    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { run_guarded(io_, "worker thread"); });
+    for (unsigned i = 0; i < threads; ++i)
+      threads_.emplace_back([this] {
+        log::set_thread_rank(log::ThreadRank::requests);
+        run_guarded(io_, "worker thread");
+      });
   }
   ~WorkerPool() {
     stop();

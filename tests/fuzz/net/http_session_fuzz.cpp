@@ -79,7 +79,7 @@ struct Application : http::Application {
 /// The client's end of the connection.
 class Client {
  public:
-  Client(int socket, asio::io_context& io) : socket_(socket), io_(io) {}
+  Client(int socket, net::SharedState& state) : socket_(socket), state_(state) {}
   ~Client() { ::close(socket_); }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -97,9 +97,16 @@ class Client {
   void finish() { ::shutdown(socket_, SHUT_WR); }
   /// What is ready is done, and what the server says is read.
   void settle() {
-    io_.restart();
-    while (io_.poll() > 0) drain();
+    while (poll() > 0) drain();
     drain();
+  }
+  std::size_t poll() {
+    std::size_t done = 0;
+    for (auto* io : {&state_.io, &state_.live}) {
+      io->restart();
+      done += io->poll();
+    }
+    return done;
   }
   void drain() {
     std::array<char, 16 * 1024> piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): written by recv
@@ -113,7 +120,7 @@ class Client {
 
  private:
   const int socket_;
-  asio::io_context& io_;
+  net::SharedState& state_;
   bool begun_ = false;
 };
 
@@ -159,7 +166,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) std::abort();
-  Client client(ends[0], state->io);
+  Client client(ends[0], *state);
   asio::ip::tcp::socket socket(asio::make_strand(state->io));
   socket.assign(asio::ip::tcp::v4(), ends[1]);
   const auto executor = socket.get_executor();
@@ -171,8 +178,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // The client has said its last: the connection ends by itself, long before any of the server's clocks runs out.
   for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(4); state->connections_open > 0;) {
     if (std::chrono::steady_clock::now() > end) std::abort();
-    state->io.restart();
-    state->io.run_one_for(std::chrono::milliseconds(10));
+    client.settle();
+    // What remains are its clocks.
+    auto& io = state->websockets_open > 0 ? state->live : state->io;
+    io.restart();
+    io.run_one_for(std::chrono::milliseconds(1));
     client.drain();
   }
   client.settle();

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <sched.h>
 #include <stdexcept>
 #include <thread>
+#include <unistd.h>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "server/log/periodic.h"
+#include "server/log/thread_rank.h"
 
 namespace semblante::log {
 namespace {
@@ -86,6 +91,19 @@ TEST_F(LogTest, Names_AreThoseOfTheOptions) {
   EXPECT_EQ(parse_level("loud"), std::nullopt);
   EXPECT_EQ(parse_format("json"), Format::json);
   EXPECT_EQ(parse_format("xml"), std::nullopt);
+}
+
+TEST(ThreadRank, IsOfTheThread_AndRelativeToTheProcess) {
+  const auto own = [] { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); };
+  const int before = own();
+  for (const auto& [rank, behind] :
+       {std::pair{ThreadRank::live, 0}, {ThreadRank::requests, 10}, {ThreadRank::jobs, 15}})
+    std::thread([rank = rank, behind = behind, before, own] {
+      set_thread_rank(rank);
+      EXPECT_EQ(own(), std::min(before + behind, 19));
+      EXPECT_EQ(::sched_getscheduler(0), SCHED_BATCH);
+    }).join();
+  EXPECT_EQ(own(), before);
 }
 
 TEST(Periodic, WorksOncePerInterval_AFaultEndsOneTurn_AndItsEndIsPrompt) {

@@ -6,10 +6,17 @@
 #include <latch>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+#include <sys/resource.h>
 
 #include "server/http/application.h"
 
 namespace semblante::net {
+
+/// Nice of the calling thread.
+inline int rank_of_this_thread() { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); }
 
 /// Says back what it is told, and ends like a fault of ours at "throw".
 class Echo : public http::WebSocketPeer {
@@ -20,6 +27,7 @@ class Echo : public http::WebSocketPeer {
   [[nodiscard]] http::OutboxLimits outbox_limits() const override { return {}; }
   void attach(std::shared_ptr<http::WebSocketSink> sink) override { sink_ = std::move(sink); }
   void receive(std::string_view bytes, bool binary) override {
+    if (bytes == "rank") return say(std::to_string(rank_of_this_thread()));
     if (bytes == "throw") throw std::runtime_error("a fault of ours");
     if (bytes == "bye") return sink_->close({1000, "bye"}, nullptr);
     sink_->send(http::make_wire(bytes, binary), http::Purpose::answer);
@@ -28,6 +36,7 @@ class Echo : public http::WebSocketPeer {
   void disconnected() override { --here_; }
 
  private:
+  void say(const std::string& text) { sink_->send(http::make_wire(text, false), http::Purpose::answer); }
   std::atomic<int>& here_;
   std::shared_ptr<http::WebSocketSink> sink_;
 };
@@ -37,7 +46,7 @@ struct EchoApplication : http::Application {
     if (head.path == "/bad-plan") throw std::runtime_error("a fault of ours");
     http::BodyPlan plan;
     plan.max_bytes = 100;
-    plan.immediate = head.path == "/immediate";
+    plan.immediate = head.path.starts_with("/immediate");
     if (head.path == "/upload") plan = {.max_bytes = 100, .to_file = true};
     return plan;
   }
@@ -48,6 +57,10 @@ struct EchoApplication : http::Application {
       released.wait();
     }
     http::Response response;
+    if (request.path == "/rank" || request.path == "/immediate/rank") {
+      response.body = std::to_string(rank_of_this_thread());
+      return response;
+    }
     if (request.path == "/file") {
       response.headers = {{"ETag", "\"file\""}, {"Content-Type", "text/plain"}, {"X-Frame-Options", "DENY"}};
       response.body = http::FileBody{file, 0, file_bytes};

@@ -2,6 +2,7 @@
 
 #include "server/net/server.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -138,6 +139,22 @@ TEST_F(ServerTest, WebSocket_SaysBack) {
   client.send(Client::frame('\x88', "\x03\xE8"));
   EXPECT_EQ(client.read(4), "\x88\x02\x03\xE8");
   EXPECT_EQ(client.read(1), "") << "and its side of the connection";
+}
+
+TEST_F(ServerTest, RequestsAndHandshakes_GiveWayToWebSockets) {
+  const int own = rank_of_this_thread();
+  const Client client(port_);
+  for (const char* path : {"/rank", "/immediate/rank"}) {
+    client.send(get(path));
+    const auto head = client.read_head();
+    const auto length = std::stoul(head.substr(head.find("Content-Length: ") + 16));
+    EXPECT_EQ(client.read(length), std::to_string(std::min(own + 10, 19))) << path;
+  }
+  const Client socket(port_);
+  socket.upgrade();
+  socket.say("rank");
+  const auto rank = std::to_string(own);
+  EXPECT_EQ(socket.read(2 + rank.size()).substr(2), rank);
 }
 
 TEST_F(ServerTest, BytesBehindTheUpgrade_LeaveNoPeerBehind) {

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace semblante::log {
+
+/// Who gets a processor first when there is more to do than the machine can: streams are heard late if they wait, a
+/// request or a handshake is only answered later. The thread that sends batches keeps the rank of the process.
+enum class ThreadRank {
+  live,      ///< connections of streams: the usual share, but they interrupt nobody
+  requests,  ///< connections until they are accepted and secured, requests and their answers
+  jobs,      ///< worker processes
+};
+
+/// For the calling thread, and for the threads and processes that it starts later; once per thread, as it is relative
+/// to the rank that the process was started with. A system that forbids it leaves the rank as it is.
+void set_thread_rank(ThreadRank rank) noexcept;
+
+}  // namespace semblante::log
