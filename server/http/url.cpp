@@ -1,5 +1,7 @@
 #include "server/http/url.h"
 
+#include <algorithm>
+
 namespace semblante::http {
 namespace {
 
@@ -38,8 +40,11 @@ std::optional<Target> parse_target(std::string_view target) {
   target = target.substr(0, target.find('#'));
   const auto mark = target.find('?');
   Target result;
-  auto path = percent_decode(target.substr(0, mark), false);
-  if (!path) return std::nullopt;
+  const auto written = target.substr(0, mark);
+  auto path = percent_decode(written, false);
+  // A slash within a name: a proxy that permits some paths only would see another path than the one that is served.
+  if (!path || std::count(path->begin(), path->end(), '/') != std::count(written.begin(), written.end(), '/'))
+    return std::nullopt;
   result.path = std::move(*path);
   if (mark == std::string_view::npos) return result;
 

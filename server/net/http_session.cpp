@@ -1,6 +1,7 @@
 #include "server/net/http_session.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,6 +64,14 @@ bool is_websocket_upgrade(const RequestParser& parser, const http::Request& requ
   const auto protocols = http::split_list(request.header("Upgrade").value_or(""));
   return std::any_of(protocols.begin(), protocols.end(),
                      [](const auto& name) { return http::equal_ignoring_case(name, "websocket"); });
+}
+
+/// 16 bytes in base64.
+bool is_websocket_key(std::string_view key) {
+  constexpr std::size_t digits = 22;
+  const auto is_digit = [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '/'; };
+  return key.size() == digits + 2 && key.substr(digits) == "==" &&
+         std::all_of(key.begin(), key.begin() + digits, is_digit);
 }
 
 /// The state of one connection; a local object of its coroutine.
@@ -231,14 +240,13 @@ class Session {
 
   /// Checks for faults that Beast would answer in plain text.
   static std::optional<http::Response> handshake_fault(const http::Request& request) {
-    constexpr std::size_t key_characters = 24;  // 16 bytes in base64
     if (request.header("Sec-WebSocket-Version").value_or("") != "13") {
       auto response = http::to_response(
           http::make_problem("upgrade-required", "Sec-WebSocket-Version must be 13, the only supported one"));
       response.headers["Sec-WebSocket-Version"] = "13";
       return response;
     }
-    if (request.header("Sec-WebSocket-Key").value_or("").size() != key_characters)
+    if (!is_websocket_key(request.header("Sec-WebSocket-Key").value_or("")))
       return http::to_response(http::make_problem("malformed-request", "Sec-WebSocket-Key must be 16 bytes in base64"));
     return std::nullopt;
   }

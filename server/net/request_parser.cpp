@@ -73,6 +73,10 @@ std::optional<http::Problem> RequestParser::ambiguity() const {
   const auto malformed = [](std::string detail) { return http::make_problem("malformed-request", std::move(detail)); };
   if (hosts_ > 1) return malformed("the request has more than one Host field");
   if (hosts_ == 0 && version_ >= 11) return malformed("the request has no Host field");
+  // "2, 2" too, which is also the form of two such fields.
+  if (const auto length = request_.header("Content-Length");
+      length && length->find_first_not_of("0123456789") != std::string_view::npos)
+    return malformed("Content-Length is not one number");
   const auto coding = request_.header("Transfer-Encoding");
   if (!coding) return std::nullopt;
   if (version_ < 11) return malformed("Transfer-Encoding needs HTTP/1.1");

@@ -108,6 +108,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     ws_->set_option(websocket::stream_base::decorator(
         [name = std::string(peer_->subprotocol()), id = std::string(request_id)](websocket::response_type& response) {
           response.set(std::string(http::request_id_header), id);
+          response.set(beast::http::field::server, "semblante");  // otherwise the library's name and version
           if (!name.empty()) response.set(beast::http::field::sec_websocket_protocol, name);
         }));
     auto request = std::make_unique<beast::http::request<beast::http::empty_body>>(upgrade_with(key));

@@ -12,7 +12,8 @@ namespace semblante::http {
 namespace {
 
 TEST(Url, BrokenTargets_AreRefused) {
-  for (const auto* target : {"", "x", "http://host/", "/%", "/%1", "/%zz", "/a%00b", "/?a=%g0"})
+  for (const auto* target :
+       {"", "x", "http://host/", "/%", "/%1", "/%zz", "/a%00b", "/?a=%g0", "/v1%2Fstreams", "/..%2f..%2fetc"})
     EXPECT_FALSE(parse_target(target)) << target;
 }
 

@@ -157,6 +157,40 @@ TEST_F(ServerTest, RequestsAndHandshakes_GiveWayToWebSockets) {
   EXPECT_EQ(socket.read(2 + rank.size()).substr(2), rank);
 }
 
+TEST_F(ServerTest, WebSocket_WantsAKeyOf16Bytes_AndDoesNotNameItsLibrary) {
+  const std::string request(Client::upgrade_request);
+  const std::string key = "dGhlIHNhbXBsZSBub25jZQ==";
+  for (const char* wrong : {"dGhlIHNhbXBsZSBub25jZQ=", "dGhlIHNhbXBsZSBub25jZQAA", "%%%%%%%%%%%%%%%%%%%%%%%%",
+                            "dGhlIHNhbXBsZSB\xC3\xA9"
+                            "b25jZ==",
+                            "=========================", ""}) {
+    SCOPED_TRACE(wrong);
+    const Client client(port_);
+    auto head = request;
+    client.send(head.replace(head.find(key), key.size(), wrong));
+    EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 "));
+  }
+  EXPECT_EQ(application_.opened, 0);
+  const Client client(port_);
+  client.send(request);
+  const auto head = client.read_head();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 101 "));
+  EXPECT_EQ(head.find("Beast"), std::string::npos) << head;
+}
+
+/// Fragments of no byte, and control frames between fragments, as RFC 6455 section 5.4 permits them.
+TEST_F(ServerTest, WebSocket_MessageInOddPieces_IsOneMessage) {
+  const Client client(port_);
+  client.upgrade();
+  std::string pieces = Client::frame('\x01', "");
+  for (int i = 0; i < 10'000; ++i) pieces += Client::frame('\0', "");
+  pieces += Client::frame('\0', "he") + Client::frame('\x89', "p") + Client::frame('\0', "llo");
+  client.send(pieces + Client::frame('\x80', ""));
+  EXPECT_EQ(client.read(10),
+            "\x8A\x01p"
+            "\x81\x05hello");
+}
+
 TEST_F(ServerTest, BytesBehindTheUpgrade_LeaveNoPeerBehind) {
   const Client client(port_);
   client.send(std::string(Client::upgrade_request) + Client::frame('\x81', "hello"));
@@ -262,7 +296,9 @@ TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
         begin + host + "Transfer-Encoding: identity\r\nContent-Length: 2\r\n",
         begin + host + "Transfer-Encoding: chunked, gzip\r\n", begin + host + "Transfer-Encoding: gzip, chunked\r\n",
         begin + host + chunked + chunked, begin + host + chunked + "Content-Length: 2\r\n",
-        begin + host + "Content-Length: 2\r\n" + chunked, "GET /immediate HTTP/1.0\r\n" + chunked}) {
+        begin + host + "Content-Length: 2\r\n" + chunked, begin + host + "Content-Length: 2\r\nContent-Length: 2\r\n",
+        begin + host + "Content-Length: 2, 2\r\n", begin + host + "Content-Length: +2\r\n",
+        "GET /immediate HTTP/1.0\r\n" + chunked}) {
     SCOPED_TRACE(head);
     const Client client(port_);
     client.send(head + "\r\n");
