@@ -3,17 +3,31 @@
 #include <string>
 #include <utility>
 
+#include "core/import/image_size.h"
 #include "core/import/image_type.h"
 #include "core/import/webp.h"
 
 namespace semblante::import {
+namespace {
+
+std::string in_words(const ImageSize& size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+}  // namespace
 
 Result<Image> ImageReader::read(std::vector<std::uint8_t> bytes) {
   if (bytes.size() > limits_.max_image_bytes) {
     return Error{ErrorCode::too_large, "", "has more than " + std::to_string(limits_.max_image_bytes) + " bytes"};
   }
   const std::string_view type = image_type(bytes);
-  if (type == "image/png" || type == "image/jpeg") return Image{std::string(type), std::move(bytes)};
+  if (type == "image/png" || type == "image/jpeg") {
+    const auto size = declared_size(bytes);
+    if (size && (size->width > limits_.max_image_side || size->height > limits_.max_image_side)) {
+      return Error{ErrorCode::too_large, "",
+                   "is an image of " + in_words(*size) + " pixels, more than " +
+                       std::to_string(limits_.max_image_side) + " along a side"};
+    }
+    return Image{std::string(type), std::move(bytes)};
+  }
   if (type == "image/ktx2") {
     return Error{ErrorCode::unsupported, "",
                  "is a KTX2 texture (Basis Universal), which cannot be read here; PNG, JPEG and WebP can"};
@@ -24,7 +38,7 @@ Result<Image> ImageReader::read(std::vector<std::uint8_t> bytes) {
   if (size->pixels() > limits_.max_image_pixels || size->pixels() > pixels_left_) {
     const bool of_file = size->pixels() <= limits_.max_image_pixels;
     return Error{ErrorCode::too_large, "",
-                 "is a WebP image of " + std::to_string(size->width) + " x " + std::to_string(size->height) +
+                 "is a WebP image of " + in_words(*size) +
                      (of_file ? ", with which all together have more than " : ", more than ") +
                      std::to_string(of_file ? limits_.max_decoded_pixels : limits_.max_image_pixels) + " pixels"};
   }

@@ -16,7 +16,9 @@ struct ImportLimits {
   /// Maximum number of examined rows of morph targets, moving or not: bounds the time of examples, and their memory to
   /// 16 bytes per row.
   std::size_t max_example_rows = 32'000'000;
-  std::size_t max_image_bytes = std::size_t{64} << 20;    ///< of one texture image; all together: max_file_bytes
+  std::size_t max_image_bytes = std::size_t{64} << 20;  ///< of one texture image; all together: max_file_bytes
+  /// Pixels along a side of a PNG or JPEG, which viewers decode: what graphics processors of phones take.
+  std::size_t max_image_side = 8192;
   std::size_t max_image_pixels = std::size_t{1} << 24;    ///< of an image that is decoded: 4096 x 4096
   std::size_t max_decoded_pixels = std::size_t{1} << 26;  ///< of all images of a file that are decoded
   /// False if only positions are needed: then a file without triangles is also read, as a model without

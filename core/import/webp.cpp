@@ -29,10 +29,10 @@ Result<WebPBitstreamFeatures> features_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Result<WebpSize> webp_size(std::span<const std::uint8_t> bytes) {
+Result<ImageSize> webp_size(std::span<const std::uint8_t> bytes) {
   const auto features = features_of(bytes);
   if (!features) return features.error();
-  return WebpSize{static_cast<std::size_t>(features->width), static_cast<std::size_t>(features->height)};
+  return ImageSize{static_cast<std::size_t>(features->width), static_cast<std::size_t>(features->height)};
 }
 
 Result<Image> converted_webp(std::span<const std::uint8_t> bytes) {

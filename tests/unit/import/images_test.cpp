@@ -129,6 +129,38 @@ TEST(Images, OfKtx2_ThatAFileRequires_AreAWarning) {
   EXPECT_TRUE(model->materials[0].is_color_lost);
 }
 
+/// The header of a PNG, and nothing of its pixels.
+Bytes png_of(std::uint32_t width, std::uint32_t height) {
+  Bytes png = to_bytes(std::string_view("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16));
+  for (const std::uint32_t side : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) png.push_back(static_cast<std::uint8_t>(side >> shift));
+  return png;
+}
+
+/// A JPEG up to the size of its frame, behind a comment and fill bytes.
+Bytes jpeg_of(std::uint16_t width, std::uint16_t height) {
+  Bytes jpeg = to_bytes(std::string_view("\xFF\xD8\xFF\xFE\0\x04hi\xFF\xFF\xFF\xC2\0\x11\x08", 15));
+  for (const int side : {height, width}) {
+    jpeg.push_back(static_cast<std::uint8_t>(side >> 8));
+    jpeg.push_back(static_cast<std::uint8_t>(side & 0xFF));
+  }
+  return jpeg;
+}
+
+TEST(Images, LargerThanViewersCanShow_AreLeftOut) {
+  const std::string bound = " pixels, more than 8192 along a side; it is omitted";
+  EXPECT_EQ(warning_of(png_of(60'000, 60'000)), "image 0 is an image of 60000 x 60000" + bound);
+  EXPECT_EQ(warning_of(png_of(8, 0xFFFFFFFF)), "image 0 is an image of 8 x 4294967295" + bound);
+  EXPECT_EQ(warning_of(jpeg_of(65'535, 8)), "image 0 is an image of 65535 x 8" + bound);
+  import::ImageReader reader{ImportLimits {}};
+  EXPECT_TRUE(reader.read(png_of(8192, 8192)));
+  EXPECT_TRUE(reader.read(jpeg_of(8192, 8192)));
+  for (const Bytes& whole : {png_of(60'000, 60'000), jpeg_of(60'000, 60'000)}) {
+    for (std::size_t size = 8; size < whole.size(); ++size)
+      EXPECT_TRUE(reader.read(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)))) << size;
+  }
+}
+
 TEST(Webp, ThatDeclaresMorePixelsThanAllowed_IsNotDecoded) {
   Bytes huge = lossless_webp;  // 16384 x 16384: a gigabyte
   for (std::size_t i = 0; i < 3; ++i) huge[lossless_webp_size_at + i] = 0xFF;
