@@ -10,7 +10,9 @@ fail() {
 product_packages=(build-essential cmake ninja-build pkg-config
   'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
   libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libcli11-dev libqrencode-dev libseccomp-dev
-  'clang|clang-14' 'lld|lld-14' curl ca-certificates)
+  'clang|clang-14' 'lld|lld-14' wasi-libc 'libc++-14-dev-wasm32|libc++-dev-wasm32|libc++-18-dev-wasm32'
+  'libc++abi-14-dev-wasm32|libc++abi-dev-wasm32|libc++abi-18-dev-wasm32'
+  'libclang-rt-14-dev-wasm32|libclang-rt-dev-wasm32|libclang-rt-18-dev-wasm32' binaryen curl ca-certificates)
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
   g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
