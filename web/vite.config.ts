@@ -4,12 +4,12 @@ import { defineConfig, type Plugin } from 'vite';
 import { aliases } from './aliases.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
-const kernel = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm/semblante_kernel.wasm');
+const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm/semblante_view.wasm');
 const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
-/** Files that are fetched at run time under a fixed name: the deformation kernel and the Draco decoder. */
+/** Files that are fetched at run time under a fixed name: the client library and the Draco decoder. */
 const assets: Record<string, string> = {
-  'kernel.wasm': kernel,
+  'semblante.wasm': library,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
 };
@@ -30,7 +30,7 @@ function runtimeAssets(): Plugin {
       for (const [fileName, file] of Object.entries(assets)) {
         if (!existsSync(file)) {
           const advice =
-            fileName === 'kernel.wasm' ? ': build the target semblante-kernel-wasm, or set SEMBLANTE_WASM' : '';
+            fileName === 'semblante.wasm' ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM' : '';
           this.error(`${fileName} is missing${advice}`);
         }
         this.emitFile({ type: 'asset', fileName, source: readFileSync(file) });

@@ -1,6 +1,6 @@
 // Makes the npm package `semblante` in build/npm/semblante, ready for `npm pack`: ES modules, declarations, WebAssembly.
 //   node clients/js/build.mjs [FOLDER]
-// Tools and three.js come from web/node_modules. SEMBLANTE_WASM names the kernel, SEMBLANTE_BUILD the build folder.
+// Tools and three.js come from web/node_modules. SEMBLANTE_WASM names the library, SEMBLANTE_BUILD the build folder.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -15,9 +15,9 @@ const { build, transform } = await import(pathToFileURL(tools.resolve('esbuild')
 const buildFolder = resolve(process.env.SEMBLANTE_BUILD ?? join(root, 'build'));
 const folder = resolve(process.argv[2] ?? join(root, 'build/npm/semblante'));
 const dist = join(folder, 'dist');
-const wasm = process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm/semblante_kernel.wasm');
+const wasm = process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm/semblante_view.wasm');
 if (!existsSync(wasm)) {
-  console.error(`${wasm} is missing: build the target semblante-kernel-wasm, or set SEMBLANTE_WASM`);
+  console.error(`${wasm} is missing: build the target semblante-runtime-wasm, or set SEMBLANTE_WASM`);
   process.exit(1);
 }
 rmSync(folder, { recursive: true, force: true });

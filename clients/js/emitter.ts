@@ -10,7 +10,13 @@ export class Emitter<Events extends object> {
     return () => set.delete(handler);
   }
 
+  /** Whether anybody listens. */
+  protected has(name: keyof Events): boolean {
+    return (this.handlers.get(name)?.size ?? 0) > 0;
+  }
+
   protected emit<Name extends keyof Events>(name: Name, event: Events[Name]): void {
+    if (!this.has(name)) return;
     for (const handler of [...(this.handlers.get(name) ?? [])]) (handler as (event: Events[Name]) => void)(event);
   }
 }

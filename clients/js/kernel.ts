@@ -1,5 +1,5 @@
 import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
-import { fapCount, featurePointCount } from '../../protocol/ts/generated/mpeg4.ts';
+import { featurePointCount } from '../../protocol/ts/generated/mpeg4.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import {
   ballPlaces,
@@ -11,9 +11,11 @@ import {
 } from '../../protocol/ts/rig_document.ts';
 import type { Face } from './face.ts';
 import { FaceError } from './face_error.ts';
+import { writeFrame } from './frames.ts';
+import { frameLayout } from './layouts.ts';
+import type { Runtime } from './runtime.ts';
 
 // Layout of the structures of core/kernel/semblante_kernel.h with 4-byte pointers.
-const frameBytes = 8 + (fapCount + 1) * 4;
 const rigFloatsAt = 8;
 const rigFloats = (160 - rigFloatsAt) / 4; // up to the pointer of companions
 const companionsAt = 160;
@@ -28,20 +30,6 @@ const trianglesBytes = 16;
 const irisFloats = 6;
 const tongueFloats = 11;
 const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats + 4 + 2 * lidFloats;
-
-interface KernelExports {
-  memory: WebAssembly.Memory;
-  semblante_alloc(bytes: number): number;
-  semblante_evaluate(rig: number, frame: number, pose: number): void;
-  semblante_interpolate(a: number, b: number, t: number, out: number): void;
-  semblante_ease(before: number, from: number, to: number, after: number, spans: number, t: number, out: number): void;
-  semblante_prepared_size(face: number): number;
-  semblante_prepare(face: number, memory: number): number;
-  semblante_join_scratch(vertices: number): number;
-  semblante_join_seams(vertices: number, positions: number, normals: number, scratch: number, joined: number): void;
-  semblante_normals(triangles: number, positions: number, normals: number): void;
-  semblante_deform_changed(face: number, before: number, now: number, positions: number): number;
-}
 
 export interface KernelOptions {
   /** Number of poses that the kernel holds. Default: 3. */
@@ -92,32 +80,17 @@ export const lidFields = {
   count: lidFloats,
 } as const;
 
-/** Compiles the kernel, for any number of faces. `source`: the bytes or the response of a fetch. */
-export async function compileKernel(source: BufferSource | Response | Promise<Response>): Promise<WebAssembly.Module> {
-  const given = await source;
-  return WebAssembly.compile(given instanceof Response ? await given.arrayBuffer() : given);
-}
-
 /**
- * One face in the WebAssembly build of core/kernel: evaluates frames to poses (Eq. 5, 6) and poses to vertices (Eq. 7).
- * Holds `poseCount` poses, identified by number. All memory is allocated at creation, so that the views stay valid.
+ * One face in the kernel: evaluates frames to poses (Eq. 5, 6) and poses to vertices (Eq. 7). Holds `poseCount` poses,
+ * identified by number. All its memory is allocated at creation and freed by `dispose`.
  */
 export class Kernel {
-  /** #V by 3: output of `deform`. Read only: `deform` updates only the vertices that changed since the last call. */
-  readonly positions: Float32Array;
-  /** #V by 3, unit length: the normals of `positions`. Empty without the option `withNormals`. */
-  readonly normals: Float32Array;
-  readonly poses: readonly Pose[];
-
-  private readonly exports: KernelExports;
-  private readonly frameNumbers: Uint8Array;
-  private readonly frameFaps: Float32Array;
-  private readonly spans: Float32Array;
-  /** the whole memory of the kernel */
-  private readonly bytes: Uint8Array;
-  private readonly share: Float32Array;
+  private readonly runtime: Runtime;
+  private readonly vertexCount: number;
   private readonly shareOfRig: number;
-  private readonly lipShare: Float32Array;
+  private readonly release: () => void;
+  /** views of the memory while its buffer is `buffer` */
+  private views: { buffer: ArrayBufferLike; positions: Float32Array; normals: Float32Array; poses: Pose[] } | null = null;
   private readonly at: {
     frame: number;
     spans: number;
@@ -138,17 +111,9 @@ export class Kernel {
    * `positions` is empty. `withNormals: true` makes `deform` also compute `normals` from the triangles, which takes
    * about as long as the vertices. Throws FaceError `memory` when the memory is exhausted.
    */
-  static async create(
-    module: WebAssembly.Module,
-    face: Face,
-    options: KernelOptions = {},
-  ): Promise<Kernel> {
-    const instance = await WebAssembly.instantiate(module, {});
-    return new Kernel(instance.exports as unknown as KernelExports, face, options);
-  }
-
-  private constructor(exports: KernelExports, face: Face, options: KernelOptions) {
-    this.exports = exports;
+  constructor(runtime: Runtime, face: Face, options: KernelOptions = {}) {
+    const exports = runtime.functions;
+    this.runtime = runtime;
     const { influence, mesh, rig } = face;
     const vertices = (options.withVertices ?? true) ? influence.vertexCount : 0;
     const entries = vertices === 0 ? 0 : influence.rowPoints.length;
@@ -160,7 +125,7 @@ export class Kernel {
       size = Math.ceil((size + bytes) / 16) * 16;
       return offset;
     };
-    const frame = place(frameBytes);
+    const frame = place(frameLayout.size);
     const spans = place(12);
     const rigAt = place(rigBytes);
     const faceAt = place(faceBytes);
@@ -182,9 +147,8 @@ export class Kernel {
     const joined = place(turned * 4);
     const normals = place(turned * 12);
 
-    const base = alloc(exports, size);
-    let memory = exports.memory.buffer;
-    new Uint8Array(memory, base, size).fill(0);
+    const base = runtime.alloc(size);
+    const memory = exports.memory.buffer;
     const floats = (offset: number, count: number): Float32Array => new Float32Array(memory, base + offset, count);
 
     floats(visemes, rig.visemes.length * featurePointCount * 3).set(flatten(rig.visemes));
@@ -226,36 +190,77 @@ export class Kernel {
       const numbers = [turned, corners / 3, base + cornersAt, base + joined];
       new Uint32Array(memory, base + trianglesAt, 4).set(numbers);
     }
-    const prepared = vertices > 0 ? prepare(exports, base + faceAt) : 0;
-    if (turned > 0) {
-      const scratch = alloc(exports, exports.semblante_join_scratch(turned) * 4);
-      exports.semblante_join_seams(turned, base + rest, base + normals, scratch, base + joined);
-      exports.semblante_normals(base + trianglesAt, base + positions, base + normals);
+    let prepared: Prepared | null = null;
+    try {
+      if (vertices > 0) prepared = prepare(runtime, base + faceAt);
+      if (turned > 0) {
+        const scratch = runtime.alloc(exports.semblante_join_scratch(turned) * 4);
+        exports.semblante_join_seams(turned, base + rest, base + normals, scratch, base + joined);
+        runtime.free(scratch);
+        exports.semblante_normals(base + trianglesAt, base + positions, base + normals);
+      }
+    } catch (error) {
+      runtime.free(base);
+      if (prepared) runtime.free(prepared.memory);
+      throw error;
     }
-    memory = exports.memory.buffer; // after the last growth: views from here on stay valid
+    const preparedMemory = prepared?.memory ?? 0;
+    this.release = runtime.owns(this, () => {
+      runtime.free(base);
+      runtime.free(preparedMemory);
+    });
 
     this.at = {
       frame: base + frame,
       spans: base + spans,
       rig: base + rigAt,
-      face: prepared,
+      face: prepared?.face ?? 0,
       positions: base + positions,
       triangles: turned > 0 ? base + trianglesAt : 0,
       normals: base + normals,
       poses: poses.map((offset) => base + offset),
       shown: base + shown,
     };
-    this.frameNumbers = new Uint8Array(memory, base + frame, 7);
-    this.frameFaps = floats(frame + 8, fapCount + 1);
-    this.spans = floats(spans, 3);
-    this.bytes = new Uint8Array(memory);
-    this.share = floats(rigAt + visemeShareAt, 1);
+    this.vertexCount = vertices;
     this.shareOfRig = rig.viseme_share;
-    this.lipShare = floats(rigAt + lipShareAt, 1);
-    this.positions = floats(positions, vertices * 3);
-    this.normals = floats(normals, turned * 3);
-    this.poses = poses.map((offset) => poseViews(floats(offset, poseFloats)));
     for (const pose of [...this.at.poses, this.at.shown]) exports.semblante_evaluate(this.at.rig, this.at.frame, pose);
+  }
+
+  /** Frees the memory; the kernel must not be used afterwards. */
+  dispose(): void {
+    this.release();
+  }
+
+  /**
+   * #V by 3: output of `deform`. Read only: `deform` updates only the vertices that changed since the last call. Ask for it
+   * again after anything was created: the array is empty when the memory has grown.
+   */
+  get positions(): Float32Array {
+    return this.current().positions;
+  }
+
+  /** #V by 3, unit length: the normals of `positions`. Empty without the option `withNormals`. */
+  get normals(): Float32Array {
+    return this.current().normals;
+  }
+
+  get poses(): readonly Pose[] {
+    return this.current().poses;
+  }
+
+  private current(): NonNullable<Kernel['views']> {
+    const { buffer } = this.runtime.functions.memory;
+    if (this.views?.buffer !== buffer) {
+      const { positions, normals, poses, triangles } = this.at;
+      const floats = (at: number, count: number): Float32Array => new Float32Array(buffer, at, count);
+      this.views = {
+        buffer,
+        positions: floats(positions, this.vertexCount * 3),
+        normals: floats(normals, triangles > 0 ? this.vertexCount * 3 : 0),
+        poses: poses.map((at) => poseViews(floats(at, poseFloats))),
+      };
+    }
+    return this.views;
   }
 
   /**
@@ -264,7 +269,7 @@ export class Kernel {
    */
   setVisemeShare(share: number | null): void {
     if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share must be between 0 and 1');
-    this.share[0] = share ?? this.shareOfRig;
+    this.runtime.view.setFloat32(this.at.rig + visemeShareAt, share ?? this.shareOfRig, true);
   }
 
   /**
@@ -272,29 +277,20 @@ export class Kernel {
    * the default): streams move the lip by FAPs of its own, and these always win.
    */
   setJawTakesLip(takes: boolean): void {
-    this.lipShare[0] = takes ? 1 : 0;
+    this.runtime.view.setFloat32(this.at.rig + lipShareAt, takes ? 1 : 0, true);
   }
 
   /**
    * Evaluates a frame to a pose (Eq. 5, 6). `steps`: the quantizer steps of the frame's stream, FAP units per level.
    */
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps = standardQuantizers): void {
-    const { viseme, expression, levels } = frame;
-    const numbers = this.frameNumbers;
-    numbers[0] = viseme.select1;
-    numbers[1] = viseme.select2;
-    numbers[2] = viseme.blend;
-    numbers[3] = expression.select1;
-    numbers[4] = expression.intensity1;
-    numbers[5] = expression.select2;
-    numbers[6] = expression.intensity2;
-    for (let fap = 3; fap <= fapCount; ++fap) this.frameFaps[fap] = levels[fap]! * steps[fap]!;
-    this.exports.semblante_evaluate(this.at.rig, this.at.frame, this.poseAt(pose));
+    writeFrame(this.runtime.view, this.at.frame, frame, steps);
+    this.runtime.functions.semblante_evaluate(this.at.rig, this.at.frame, this.poseAt(pose));
   }
 
   /** Interpolates linearly between poses a and b, `t` 0..1. `out` may be a or b. */
   interpolate(a: number, b: number, t: number, out: number): void {
-    this.exports.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
+    this.runtime.functions.semblante_interpolate(this.poseAt(a), this.poseAt(b), t, this.poseAt(out));
   }
 
   /**
@@ -302,8 +298,8 @@ export class Kernel {
    */
   ease(poses: readonly [number, number, number, number], spans: ArrayLike<number>, t: number, out: number): void {
     const [before, from, to, after] = poses;
-    this.spans.set(spans);
-    this.exports.semblante_ease(
+    for (let i = 0; i < 3; i += 1) this.runtime.view.setFloat32(this.at.spans + i * 4, spans[i]!, true);
+    this.runtime.functions.semblante_ease(
       this.poseAt(before),
       this.poseAt(from),
       this.poseAt(to),
@@ -316,11 +312,11 @@ export class Kernel {
 
   /** Deforms the mesh: Eq. 7, then eyes and tongue, then head. Writes `positions` and, if enabled, `normals`. */
   deform(pose: number): void {
-    if (this.positions.length === 0) throw new RangeError('this kernel was created without vertices');
+    if (this.vertexCount === 0) throw new RangeError('this kernel was created without vertices');
     const { face, positions, triangles, normals, shown } = this.at;
-    const moved = this.exports.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
-    if (moved > 0 && triangles > 0) this.exports.semblante_normals(triangles, positions, normals);
-    this.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
+    const moved = this.runtime.functions.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
+    if (moved > 0 && triangles > 0) this.runtime.functions.semblante_normals(triangles, positions, normals);
+    this.runtime.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
   }
 
   private poseAt(pose: number): number {
@@ -330,17 +326,18 @@ export class Kernel {
   }
 }
 
-/** Prepares the face at address `face` for fast deformation; returns the address of the prepared face. */
-function prepare(exports: KernelExports, face: number): number {
-  const bytes = exports.semblante_prepared_size(face);
-  if (bytes === 0) throw new FaceError('malformed', 'weights: feature points of a vertex are not increasing');
-  return exports.semblante_prepare(face, alloc(exports, bytes));
+interface Prepared {
+  memory: number;
+  /** address of semblante_prepared_face */
+  face: number;
 }
 
-function alloc(exports: KernelExports, bytes: number): number {
-  const at = exports.semblante_alloc(bytes) >>> 0;
-  if (at === 0) throw new FaceError('memory', `cannot allocate ${bytes} bytes for the kernel`);
-  return at;
+/** Prepares the face at address `face` for fast deformation. */
+function prepare(runtime: Runtime, face: number): Prepared {
+  const bytes = runtime.functions.semblante_prepared_size(face);
+  if (bytes === 0) throw new FaceError('malformed', 'weights: feature points of a vertex are not increasing');
+  const memory = runtime.alloc(bytes);
+  return { memory, face: runtime.functions.semblante_prepare(face, memory) };
 }
 
 /** #sets by 84 by 3 */

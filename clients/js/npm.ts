@@ -1,3 +1,3 @@
 /** What the npm package `semblante` exports: the SDK, with its own WebAssembly file. */
 export * from './index.ts';
-export { loadKernelModule } from './wasm.ts';
+export { loadRuntime } from './wasm.ts';

@@ -1,9 +1,9 @@
-import type { FaceFrame, TimedFrame } from '../../protocol/ts/face_frame.ts';
-import type { Frames, Header, Keyframe } from '../../protocol/ts/messages.ts';
-import { quantizersOf, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
-import { ClockEstimate } from './clock_estimate.ts';
-import { Playout, type PlayoutStats } from './playout.ts';
-import type { StreamClient } from './stream_client.ts';
+import { neutralFrame, type FaceFrame } from '../../protocol/ts/face_frame.ts';
+import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import { readFrame } from './frames.ts';
+import { errorLayout, frameLayout, momentLayout, playerOptionsLayout, statisticsLayout } from './layouts.ts';
+import { Runtime } from './runtime.ts';
+import type { StreamClient, StreamClock } from './stream_client.ts';
 
 /** The part of the kernel that the player uses: poses by number. */
 export interface PoseMaker {
@@ -36,6 +36,23 @@ export interface PlayerOptions {
   clock?: () => number;
 }
 
+/** Statistics of a playout. Times in ms. */
+export interface PlayoutStats {
+  /** Current delay behind the stream's clock, and the target that it approaches. */
+  delay: number;
+  wantedDelay: number;
+  /** Interarrival jitter (RFC 3550). */
+  jitter: number;
+  /** Playhead minus its target by the clock estimate; below 0 while the playhead is held. */
+  error: number;
+  /** How often frames arrived too late, and the total time without frames. */
+  starved: number;
+  starvedTime: number;
+  snaps: number;
+  /** The estimate of the stream's clock; null without a stream. */
+  clock: StreamClock | null;
+}
+
 /** The number of the pose that the player writes; it uses poses 1 and 2 (`eased`: 1 to 4) internally. */
 export const shownPose = 0;
 const fromPose = 1;
@@ -45,119 +62,112 @@ const afterPose = 4;
 const easedPoses = [beforePose, fromPose, toPose, afterPose] as const;
 export const easedPoseCount = 5;
 
-/** A display step that differs by more than this, ms, from the clock is ignored: the page was blocked or hidden. */
-const strangeStep = 50;
-/** After a pause without display frames longer than this, ms, the machine may have slept: measure the clock again. */
-const longPause = 5000;
-const maxHeldFrames = 2048;
+/** The library's side of a player. */
+interface PlayerMemory {
+  readonly runtime: Runtime;
+  readonly player: number;
+  readonly moment: number;
+  readonly statistics: number;
+}
 
 /**
- * Plays the frames of a stream at the display's rate, with the delay that `Playout` computes. Interpolates the feature
- * points linearly (and so every vertex, as in the paper) or eased. Adapts its speed by at most 5 %, jumps when it is
- * off by more than half a second, never goes back. With an external clock it shows exactly the clock's media time.
+ * Plays the frames of a stream at the display's rate. libsemblante decides which moment to show: with the delay that the
+ * network needs, at a speed that varies by at most 5 %, never back. With an external clock it is exactly that clock's
+ * media time. Evaluates the two frames of the moment, and interpolates the feature points between them linearly (and so
+ * every vertex, as in the paper) or eased.
  */
 export class Player {
-  private readonly poses: PoseMaker;
+  /** What evaluates the frames; null: nothing is shown yet. May be set later than the player follows a stream. */
+  private poses: PoseMaker | null = null;
+  private readonly options: PlayerOptions;
   private readonly now: () => number;
   private readonly eased: boolean;
-  private readonly clock: (() => number) | undefined;
-  private readonly playout: Playout;
   private client: StreamClient | null = null;
-  private steps: QuantizerSteps = standardQuantizers;
+  private memory: PlayerMemory | null = null;
+  private release: (() => void) | null = null;
   private visemeShare: number | null = null;
-  private lastUpdate = NaN;
 
-  // The frames in use; the first is the last one at or before the playhead.
-  private times: number[] = [];
-  private states: FaceFrame[] = [];
-  /** Media time at which the motion towards each frame begins. */
-  private begins: number[] = [];
-
-  // Media times of the frames in the poses `fromPose` and `toPose`.
+  // What is in the poses.
   private fromTime = NaN;
   private toTime = NaN;
   private shownT = NaN;
-
-  // Eased: the frame before the one in `fromPose`, and the curve chosen for the current pair.
-  private beforeTime = NaN;
-  private beforeState: FaceFrame | undefined;
+  private isCurve = false;
   private readonly spans = [0, 0, 0];
-  /** Time of the frame at which the last curve ended with zero velocity, because no frame followed yet. */
-  private restedAt = NaN;
+  private readonly frame = neutralFrame();
 
-  constructor(poses: PoseMaker, options: PlayerOptions = {}) {
-    this.poses = poses;
+  constructor(poses: PoseMaker | null, options: PlayerOptions = {}) {
+    this.options = options;
     this.now = options.now ?? (() => performance.now());
     this.eased = options.interpolation === 'eased';
-    this.clock = options.clock;
-    this.playout = new Playout({ ...(options.delay === undefined ? {} : { delay: options.delay }), eased: this.eased });
+    if (poses) this.show(poses);
+  }
+
+  /** From now on shows by these poses. */
+  show(poses: PoseMaker): void {
     if (this.eased && !poses.ease) throw new TypeError('eased interpolation needs PoseMaker.ease');
+    this.poses = poses;
+    this.forgetPoses();
+    if (this.visemeShare !== null) poses.setVisemeShare?.(this.visemeShare);
   }
 
   /** Displayed media time, ms; NaN before the first frame. */
   get playhead(): number {
-    return this.playout.playhead;
+    return this.memory ? this.memory.runtime.functions.semblante_player_time(this.memory.player) : NaN;
   }
 
   /** ms behind the stream's clock; NaN before the first frame */
   get delay(): number {
-    return this.playout.delay;
+    return this.stats.delay;
   }
 
-  /** Statistics of the playout; `clock` is the estimate of the stream's clock. */
-  get stats(): Readonly<PlayoutStats> & { readonly clock: ClockEstimate } {
-    return { ...this.playout.stats, clock: this.playout.clock };
+  get stats(): Readonly<PlayoutStats> {
+    const clock = this.client?.streamClock ?? null;
+    if (!this.memory) {
+      return { delay: NaN, wantedDelay: NaN, jitter: 0, error: 0, starved: 0, starvedTime: 0, snaps: 0, clock };
+    }
+    const { runtime, player, statistics } = this.memory;
+    runtime.functions.semblante_player_stats(player, statistics);
+    const { view } = runtime;
+    const of = statisticsLayout;
+    return {
+      delay: view.getFloat64(statistics + of.delay, true),
+      wantedDelay: view.getFloat64(statistics + of.wanted_delay, true),
+      jitter: view.getFloat64(statistics + of.jitter, true),
+      error: view.getFloat64(statistics + of.error, true),
+      starved: runtime.wide(statistics + of.starved),
+      starvedTime: view.getFloat64(statistics + of.starved_time, true),
+      snaps: runtime.wide(statistics + of.snaps),
+      clock,
+    };
   }
 
   /** Plays the frames of a client, with the client's clock estimate. Returns the function that stops this. */
   follow(client: StreamClient): () => void {
     this.client = client;
-    this.playout.clock = client.streamClock;
-    if (client.header) this.begin(client.header);
-    const stops = [
-      client.on('header', (header) => this.begin(header)),
-      client.on('keyframe', (keyframe) => this.pushKeyframe(keyframe)),
-      client.on('frames', (frames) => this.pushFrames(frames)),
-    ];
+    client.withStream(({ runtime, stream }) => {
+      if (this.client !== client) return;
+      if (this.memory?.runtime !== runtime) this.make(runtime);
+      runtime.functions.semblante_player_follow(this.memory!.player, stream);
+      this.forgetPoses();
+    });
     return () => {
-      stops.forEach((stop) => stop());
+      if (this.client !== client) return;
       this.client = null;
-      this.playout.clock = new ClockEstimate();
+      if (this.memory) this.memory.runtime.functions.semblante_player_follow(this.memory.player, 0);
       this.takeVisemeShare(null); // the share belongs to the stream, not to the face
     };
   }
 
-  /** Handles a header; another epoch is another time line. */
-  begin(header: Header): void {
-    this.steps = quantizersOf(header);
-    if (this.playout.begin(header)) this.clear();
-    this.takeVisemeShare(header.viseme_share);
-  }
-
-  private takeVisemeShare(share: number | null): void {
-    if (share === this.visemeShare) return;
-    this.visemeShare = share;
-    this.poses.setVisemeShare?.(share);
-    this.fromTime = this.toTime = this.shownT = NaN; // the evaluated poses used the old share
-  }
-
-  pushKeyframe(keyframe: Keyframe): void {
-    this.push([{ time: 0, state: keyframe.state }], keyframe.media_time);
-  }
-
-  pushFrames(frames: Frames): void {
-    this.push(frames.frames, frames.media_time);
-  }
-
   /** Drops all frames; keeps the displayed pose. */
   clear(): void {
-    this.times = [];
-    this.states = [];
-    this.begins = [];
-    this.playout.clear();
-    this.fromTime = this.toTime = this.shownT = NaN;
-    this.beforeTime = this.restedAt = NaN;
-    this.beforeState = undefined;
+    if (this.memory) this.memory.runtime.functions.semblante_player_clear(this.memory.player);
+    this.forgetPoses();
+  }
+
+  /** Frees the memory of the library; the player must not be used afterwards. */
+  dispose(): void {
+    this.release?.();
+    this.release = this.memory = this.client = null;
   }
 
   /**
@@ -165,17 +175,12 @@ export class Player {
    * if not, a page may skip drawing.
    */
   update(deltaSeconds: number): boolean {
-    const now = this.now();
-    const passed = now - this.lastUpdate;
-    this.lastUpdate = now;
-    if (passed > longPause) this.client?.measureClock();
-    const mediaTime = this.clock?.() ?? NaN;
+    if (this.memory === null) return false;
+    const mediaTime = this.options.clock?.() ?? NaN;
     if (Number.isFinite(mediaTime)) return this.updateTo(mediaTime);
-    if (this.times.length === 0) return false;
-    // The display's frame interval is more regular than the times of its callbacks.
-    const step = deltaSeconds * 1000;
-    this.playout.advance(now, Math.abs(step - passed) > strangeStep ? passed : step);
-    return this.showPlayhead();
+    const { runtime, player } = this.memory;
+    if (runtime.functions.semblante_player_advance(player, this.now(), deltaSeconds * 1000) === 0) return false;
+    return this.showMoment(this.memory);
   }
 
   /**
@@ -184,79 +189,77 @@ export class Player {
    * the playhead follows it, at most to the oldest frame held.
    */
   updateTo(mediaTime: number): boolean {
-    if (this.times.length === 0 || !Number.isFinite(mediaTime)) return false;
-    this.playout.moveTo(mediaTime);
-    return this.showPlayhead();
+    if (this.memory === null || !Number.isFinite(mediaTime)) return false;
+    const { runtime, player } = this.memory;
+    if (runtime.functions.semblante_player_move_to(player, mediaTime) === 0) return false;
+    return this.showMoment(this.memory);
   }
 
-  private showPlayhead(): boolean {
-    while (this.times.length > 1 && this.times[1]! <= this.playhead) {
-      this.beforeTime = this.times.shift()!;
-      this.beforeState = this.states.shift()!;
-      this.begins.shift();
-    }
-    return this.show();
+  private make(runtime: Runtime): void {
+    this.release?.();
+    const { functions } = runtime;
+    const given = runtime.struct(playerOptionsLayout.size);
+    const error = runtime.alloc(errorLayout.size);
+    const made = runtime.alloc(4);
+    runtime.view.setUint32(given + playerOptionsLayout.eased, this.eased ? 1 : 0, true);
+    runtime.view.setFloat64(given + playerOptionsLayout.delay, this.options.delay ?? 0, true);
+    const failed = functions.semblante_player_create(given, made, error) !== 0;
+    const words = failed ? runtime.text(error + errorLayout.message) : '';
+    const player = runtime.view.getUint32(made, true);
+    for (const at of [given, error, made]) runtime.free(at);
+    if (failed) throw new RangeError(`delay: ${words}`);
+    const moment = runtime.struct(momentLayout.size);
+    const statistics = runtime.struct(statisticsLayout.size);
+    this.memory = { runtime, player, moment, statistics };
+    this.release = runtime.owns(this, () => {
+      functions.semblante_player_destroy(player);
+      runtime.free(moment);
+      runtime.free(statistics);
+    });
   }
 
-  private push(frames: readonly TimedFrame[], mediaTime: number): void {
-    const known = this.times.at(-1) ?? -Infinity;
-    const before = this.times.length;
-    for (const { time, state } of frames) {
-      if (mediaTime + time <= (this.times.at(-1) ?? known)) continue; // repeated after a reconnection
-      this.begins.push(this.times.at(-1) ?? mediaTime + time);
-      this.times.push(mediaTime + time);
-      this.states.push(state);
-    }
-    const count = this.times.length;
-    if (count === before) return;
-    const first = this.times[before]!;
-    this.begins[before] = this.playout.arrived(first, this.times[Math.max(before, count - 2)]!, this.times[count - 1]!, this.now());
-    // A hidden page gets no display frames; only the newest frames matter when it is visible again.
-    if (count > maxHeldFrames) {
-      for (const list of [this.times, this.begins, this.states]) list.splice(0, maxHeldFrames / 2);
-    }
+  private forgetPoses(): void {
+    this.fromTime = this.toTime = this.shownT = NaN;
   }
 
-  private show(): boolean {
-    const from = this.times[0]!;
-    const to = this.times.length > 1 ? this.times[1]! : from;
-    const another = this.fromTime !== from || this.toTime !== to;
-    if (this.fromTime !== from) {
-      this.poses.evaluate(this.states[0]!, fromPose, this.steps);
+  private takeVisemeShare(share: number | null): void {
+    if (share === this.visemeShare) return;
+    this.visemeShare = share;
+    this.poses?.setVisemeShare?.(share);
+    this.forgetPoses(); // the evaluated poses used the old share
+  }
+
+  private showMoment({ runtime, player, moment }: PlayerMemory): boolean {
+    const { poses } = this;
+    if (poses === null || runtime.functions.semblante_player_moment(player, moment) !== 0) return false;
+    const { view } = runtime;
+    const of = momentLayout;
+    const share = view.getFloat64(moment + of.viseme_share, true);
+    this.takeVisemeShare(Number.isNaN(share) ? null : share);
+    const from = view.getFloat64(moment + of.from_time, true);
+    const to = view.getFloat64(moment + of.to_time, true);
+    const t = view.getFloat32(moment + of.t, true);
+    if (from !== this.fromTime || to !== this.toTime) {
+      if (from !== this.fromTime) this.evaluate(view, moment, 1, fromPose, poses);
+      this.evaluate(view, moment, 2, toPose, poses);
+      this.isCurve = view.getUint32(moment + of.is_curve, true) !== 0;
+      for (let i = 0; i < 3; i += 1) this.spans[i] = view.getFloat32(moment + of.spans + i * 4, true);
+      if (this.isCurve && this.spans[0]! > 0) this.evaluate(view, moment, 0, beforePose, poses);
+      if (this.isCurve && this.spans[2]! > 0) this.evaluate(view, moment, 3, afterPose, poses);
       this.fromTime = from;
-      this.shownT = NaN;
-    }
-    if (this.toTime !== to) {
-      this.poses.evaluate(this.states[to === from ? 0 : 1]!, toPose, this.steps);
       this.toTime = to;
-      this.shownT = NaN;
+    } else if (t === this.shownT) {
+      return false;
     }
-    // After a rest the motion takes as long as between two messages instead of the whole length of the rest.
-    const span = this.times.length > 1 ? to - this.begins[1]! : 0;
-    const t = span > 0 ? Math.max(0, Math.min(1, (this.playhead - (to - span)) / span)) : 0;
-    if (this.eased && another) this.chooseCurve(span);
-    if (t === this.shownT) return false;
-    if (this.eased && span > 0) this.poses.ease!(easedPoses, this.spans, t, shownPose);
-    else this.poses.interpolate(fromPose, toPose, t, shownPose);
+    if (this.isCurve) poses.ease!(easedPoses, this.spans, t, shownPose);
+    else poses.interpolate(fromPose, toPose, t, shownPose);
     this.shownT = t;
     return true;
   }
 
-  /**
-   * Chooses the curve of a pair once: a frame that arrives later must not change a curve that is being shown. If no
-   * frame follows yet, the curve ends with zero velocity, and the next one begins with zero velocity.
-   */
-  private chooseCurve(span: number): void {
-    const from = this.times[0]!;
-    const before = this.restedAt === from || !this.beforeState ? 0 : from - this.beforeTime;
-    const after = this.times.length > 2 ? this.times[2]! - this.times[1]! : 0;
-    // After a rest the span of the pair is shortened; its neighbours do not belong to the same motion.
-    const whole = this.times.length > 1 && span === this.times[1]! - from;
-    this.spans[0] = whole ? before : 0;
-    this.spans[1] = span;
-    this.spans[2] = after;
-    if (this.spans[0] > 0) this.poses.evaluate(this.beforeState!, beforePose, this.steps);
-    if (after > 0) this.poses.evaluate(this.states[2]!, afterPose, this.steps);
-    this.restedAt = after > 0 || this.times.length < 2 ? NaN : this.times[1]!;
+  private evaluate(view: DataView, moment: number, frame: number, pose: number, poses: PoseMaker): void {
+    const steps = this.client?.steps ?? standardQuantizers;
+    const at = moment + momentLayout.frames + frame * frameLayout.size;
+    poses.evaluate(readFrame(view, at, this.frame, steps), pose, steps);
   }
 }

@@ -1,24 +1,30 @@
-import type { TimedFrame } from '../../protocol/ts/face_frame.ts';
-import { FrameDecoder, FrameEncoder } from '../../protocol/ts/frame_codec.ts';
-import { decodeJson, encodeJson } from '../../protocol/ts/json_codec.ts';
+import { neutralFrame, type TimedFrame } from '../../protocol/ts/face_frame.ts';
 import {
   binarySubprotocol,
-  jsonSubprotocol,
+  limits,
   protocolVersion,
   type End,
+  type EndReason,
   type Frames,
   type Header,
   type Keyframe,
-  type Message,
-  type Pong,
-  type ResumePoint,
   type StreamError,
+  type StreamErrorCode,
   type StreamRole,
 } from '../../protocol/ts/messages.ts';
 import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
-import { quantizersOf, standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
-import { ClockEstimate, pingPause } from './clock_estimate.ts';
+import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { Emitter } from './emitter.ts';
+import { readFrame, writeFrame } from './frames.ts';
+import {
+  clockLayout,
+  errorLayout,
+  eventLayout,
+  headerLayout,
+  streamOptionsLayout,
+  timedFrameLayout,
+} from './layouts.ts';
+import { Runtime } from './runtime.ts';
 
 export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
 
@@ -31,9 +37,11 @@ export interface StreamEvents {
   end: End;
   /** The server refused a message of this client. */
   error: StreamError;
-  /** A message of the server could not be decoded. The client reconnects if necessary. */
+  /** A message of the server could not be read, or it does not answer. A new connection follows. */
   fault: ProtocolError;
   clock: ClockSample;
+  /** A message of any kind was received. */
+  message: void;
 }
 
 /** One measurement of the server's clock. Times in ms. */
@@ -47,7 +55,6 @@ export interface ClockSample {
 
 export interface StreamOptions {
   role?: StreamRole;
-  subprotocol?: 'binary' | 'json';
   /** For a publisher: replace the current publisher. Default false. */
   takeOver?: boolean;
   /**
@@ -73,14 +80,149 @@ const bearerSubprotocol = 'semblante.bearer.';
 /** When the socket has more buffered bytes than this, a publisher's frames are dropped instead of queued. */
 const maxBufferedBytes = 256 * 1024;
 
+// The enumerations of semblante.h, in order.
+const states: readonly ConnectionState[] = ['closed', 'connecting', 'open', 'waiting'];
+const endReasons: readonly EndReason[] = ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'];
+const refusals: readonly StreamErrorCode[] = [
+  'other',
+  'malformed',
+  'truncated',
+  'out_of_range',
+  'not_finite',
+  'too_large',
+  'unsupported',
+  'mismatch',
+  'missing',
+  'invalid_argument',
+  'not_found',
+  'conflict',
+  'throttled',
+  'unauthorized',
+  'internal',
+];
+/** semblante_result as the nearest code of the protocol */
+const faults: readonly StreamErrorCode[] = [
+  'other',
+  'invalid_argument',
+  'malformed',
+  'unsupported',
+  'mismatch',
+  'too_large',
+  'too_large',
+  'internal',
+  'internal',
+  'other',
+];
+const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10 } as const;
+const resumed = 1;
+const ok = 0;
+
 /** "http://host:8080", "demo" -> "ws://host:8080/v1/streams/demo" */
 export function streamUrl(baseUrl: string, streamId: string): string {
   return `${baseUrl.replace(/^http/, 'ws').replace(/\/$/, '')}/v1/streams/${encodeURIComponent(streamId)}`;
 }
 
+/** The library's side of a client: the handle of its stream, and memory for what is passed. */
+export class StreamMemory {
+  readonly stream: number;
+  readonly event: number;
+  readonly header: number;
+  readonly clock: number;
+  /** for results by pointer */
+  readonly result: number;
+  /** Received bytes and published frames: grows to the largest. */
+  private buffer = 0;
+  private capacity = 0;
+
+  constructor(
+    readonly runtime: Runtime,
+    options: (view: DataView, at: number) => void,
+  ) {
+    const { functions } = runtime;
+    const given = runtime.struct(streamOptionsLayout.size);
+    options(runtime.view, given);
+    this.result = runtime.alloc(8);
+    const error = runtime.alloc(errorLayout.size);
+    try {
+      if (functions.semblante_stream_create(given, this.result, error) !== ok) {
+        throw new RangeError(`${runtime.text(error + errorLayout.where)}: ${runtime.text(error + errorLayout.message)}`);
+      }
+    } finally {
+      runtime.free(error);
+      runtime.free(given);
+    }
+    this.stream = runtime.view.getUint32(this.result, true);
+    this.event = runtime.struct(eventLayout.size);
+    this.header = runtime.struct(headerLayout.size);
+    this.clock = runtime.struct(clockLayout.size);
+  }
+
+  room(bytes: number): number {
+    if (bytes > this.capacity) {
+      this.runtime.free(this.buffer);
+      this.capacity = 0;
+      this.buffer = this.runtime.alloc(Math.ceil(bytes / 4096) * 4096);
+      this.capacity = Math.ceil(bytes / 4096) * 4096;
+    }
+    return this.buffer;
+  }
+
+  release(): void {
+    this.runtime.functions.semblante_stream_destroy(this.stream);
+    for (const at of [this.event, this.header, this.clock, this.result, this.buffer]) this.runtime.free(at);
+  }
+}
+
+/** The estimate of a stream's clock. Times in ms; NaN until they are known. */
+export class StreamClock {
+  constructor(
+    private readonly memory: () => StreamMemory | null,
+    private readonly now: () => number,
+  ) {}
+
+  /** The stream's clock at the client's time `local`. */
+  at(local: number): number {
+    return this.read(clockLayout.media_time, local);
+  }
+
+  /** Bound of the estimate's error. */
+  get uncertainty(): number {
+    return this.read(clockLayout.uncertainty);
+  }
+
+  /** Of the newest answer. */
+  get roundTrip(): number {
+    return this.read(clockLayout.round_trip);
+  }
+
+  /** How much faster the stream's clock runs than the client's, ms per ms; 0 until it is known. */
+  get drift(): number {
+    return this.read(clockLayout.drift) || 0;
+  }
+
+  /** Number of detected clock steps: a clock was set, or a machine slept. */
+  get steps(): number {
+    const memory = this.ask(this.now());
+    return memory === null ? 0 : memory.runtime.view.getUint32(memory.clock + clockLayout.steps, true);
+  }
+
+  private read(member: number, local = this.now()): number {
+    const memory = this.ask(local);
+    return memory === null ? NaN : memory.runtime.view.getFloat64(memory.clock + member, true);
+  }
+
+  private ask(local: number): StreamMemory | null {
+    const memory = this.memory();
+    if (memory === null) return null;
+    const { functions } = memory.runtime;
+    return functions.semblante_stream_clock(memory.stream, local, memory.clock) === ok ? memory : null;
+  }
+}
+
 /**
- * A connection to one stream, as subscriber or publisher. Reconnects after a loss with exponential backoff and resumes
- * the stream. All results and errors are events; nothing is thrown after `connect`.
+ * A connection to one stream, as subscriber or publisher. Moves the bytes of a WebSocket; libsemblante reads and writes
+ * them, comes back after a loss with growing pauses, and resumes the stream. All results and errors are events; nothing is
+ * thrown after `connect`. Before the library is loaded `connect` waits for it.
  */
 export class StreamClient extends Emitter<StreamEvents> {
   readonly url: string;
@@ -89,27 +231,21 @@ export class StreamClient extends Emitter<StreamEvents> {
   /** FAP units per level in the frames of this stream. */
   steps: QuantizerSteps = standardQuantizers;
   /** Estimate of the stream's clock relative to `now()`. */
-  readonly streamClock = new ClockEstimate();
+  readonly streamClock: StreamClock;
 
   private readonly options: Required<Omit<StreamOptions, 'token'>> & Pick<StreamOptions, 'token'>;
+  private memory: StreamMemory | null = null;
+  private release: (() => void) | null = null;
+  private readonly whenMade: ((memory: StreamMemory) => void)[] = [];
+  private isWanted = false;
   private socket: WebSocket | null = null;
-  private decoder = new FrameDecoder();
-  private encoder: FrameEncoder | null = null;
-  private resume: ResumePoint | null = null;
-  private attempts = 0;
-  private retryTimer: ReturnType<typeof setTimeout> | undefined;
-  private pingTimer: ReturnType<typeof setTimeout> | undefined;
-  private pingId = 0;
-  /** Pings sent since the header, or since `measureClock`. */
-  private pings = 0;
-  private helloTime = NaN;
+  private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, options: StreamOptions = {}) {
     super();
     this.url = url;
     this.options = {
       role: 'subscribe',
-      subprotocol: 'binary',
       takeOver: false,
       WebSocket: globalThis.WebSocket,
       now: () => performance.now(),
@@ -117,89 +253,152 @@ export class StreamClient extends Emitter<StreamEvents> {
       pingInterval: 5000,
       ...options,
     };
+    this.streamClock = new StreamClock(() => this.memory, this.options.now);
   }
 
   connect(): void {
-    if (this.socket) return;
-    clearTimeout(this.retryTimer);
-    this.become('connecting');
-    const name = this.options.subprotocol === 'json' ? jsonSubprotocol : binarySubprotocol;
-    const { token } = this.options;
-    const names = token === undefined ? [name] : [name, `${bearerSubprotocol}${token}`];
-    const socket = new this.options.WebSocket(this.url, names);
-    this.socket = socket;
-    this.decoder = new FrameDecoder();
-    this.encoder = null;
-    socket.binaryType = 'arraybuffer';
-    socket.onopen = () => {
-      this.helloTime = this.options.now();
-      this.send({
-        type: 'hello',
-        version: protocolVersion,
-        role: this.options.role,
-        resume: this.resume,
-        coding: name === binarySubprotocol ? 'packed' : 'plain',
-        take_over: this.options.takeOver,
-      });
-    };
-    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
-      if (socket === this.socket) this.receive(event.data);
-    };
-    socket.onclose = () => {
-      if (socket === this.socket) this.lost();
-    };
-    socket.onerror = () => undefined; // a close event follows
+    this.isWanted = true;
+    if (this.memory === null) this.become('connecting');
+    Runtime.whenLoaded((runtime) => {
+      if (!this.isWanted) return;
+      const { stream } = this.made(runtime);
+      runtime.functions.semblante_stream_start(stream, this.options.now());
+      this.act();
+    });
   }
 
-  /** Closes without reconnecting; `connect` opens again. */
+  /** Closes without reconnecting; `connect` opens again and resumes. */
   close(): void {
-    const socket = this.socket;
-    this.socket = null;
-    clearTimeout(this.retryTimer);
-    clearTimeout(this.pingTimer);
-    socket?.close(1000);
-    this.become('closed');
+    this.isWanted = false;
+    if (this.memory === null) return this.become('closed');
+    this.memory.runtime.functions.semblante_stream_stop(this.memory.stream, this.options.now());
+    this.act();
+  }
+
+  /** Closes and frees the memory of the library. Players that follow this client follow nobody then. */
+  dispose(): void {
+    this.close();
+    clearTimeout(this.timer);
+    this.release?.();
+    this.release = this.memory = null;
   }
 
   /**
    * Sends frames as a publisher. `mediaTime` in ms, 0: now; the times of the frames are relative to it. Returns false
    * and sends nothing while the stream is not open or the connection is congested.
    */
-  publish(frames: TimedFrame[], mediaTime = 0): boolean {
-    if (this.state !== 'open' || !this.socket || frames.length === 0) return false;
-    if (this.socket.bufferedAmount > maxBufferedBytes) return false;
-    let rest = frames;
-    if (!this.encoder) {
-      // Later messages are differences, so the first frame of a connection must be a keyframe.
-      this.encoder = new FrameEncoder();
-      const { time, state } = frames[0]!;
-      this.send({ type: 'keyframe', sequence: 0, media_time: mediaTime === 0 ? 0 : mediaTime + time, state });
-      rest = frames.slice(1);
-    }
-    if (rest.length > 0) this.send({ type: 'frames', sequence: 0, media_time: mediaTime, frames: rest });
-    return true;
+  publish(frames: readonly TimedFrame[], mediaTime = 0): boolean {
+    if (this.memory === null || this.state !== 'open' || !this.socket || frames.length === 0) return false;
+    if (this.socket.bufferedAmount > maxBufferedBytes || frames.length > limits.max_frames_per_message) return false;
+    const { runtime, stream } = this.memory;
+    const at = this.memory.room(frames.length * timedFrameLayout.size);
+    const { view } = runtime;
+    frames.forEach(({ time, state }, i) => {
+      const frame = at + i * timedFrameLayout.size;
+      view.setFloat64(frame, time, true);
+      writeFrame(view, frame + timedFrameLayout.frame, state, this.steps);
+    });
+    const result = runtime.functions.semblante_stream_publish(stream, at, frames.length, mediaTime, this.options.now());
+    this.act();
+    return result === ok;
   }
 
-  /** Sends a ping; its pong becomes the event `clock`. */
-  ping(): void {
-    if (this.state !== 'open') return;
-    this.pingId = (this.pingId + 1) >>> 0;
-    this.send({ type: 'ping', id: this.pingId, client_time: this.options.now() });
-  }
-
-  /** Sends several pings quickly, after a pause in which the machine may have slept. */
+  /** Sends several pings quickly, after a pause in which the machine may have slept. Their pongs are `clock` events. */
   measureClock(): void {
-    if (this.state !== 'open' || this.options.pingInterval <= 0) return;
-    this.pings = 0;
-    this.pingOn();
+    if (this.memory === null) return;
+    this.memory.runtime.functions.semblante_stream_measure_clock(this.memory.stream, this.options.now());
+    this.act();
   }
 
-  private pingOn(): void {
-    clearTimeout(this.pingTimer);
-    this.ping();
-    this.pings += 1;
-    const pause = pingPause(this.pings, this.streamClock.uncertainty, this.options.pingInterval);
-    this.pingTimer = setTimeout(() => this.pingOn(), Math.min(pause, this.options.pingInterval));
+  /** For the player: calls `use` with the library's stream, now or when it is made. */
+  withStream(use: (memory: StreamMemory) => void): void {
+    if (this.memory) use(this.memory);
+    else this.whenMade.push(use);
+  }
+
+  private made(runtime: Runtime): StreamMemory {
+    if (this.memory) return this.memory;
+    const { role, takeOver, backoff, pingInterval } = this.options;
+    const memory = new StreamMemory(runtime, (view, at) => {
+      const of = streamOptionsLayout;
+      view.setUint32(at + of.role, role === 'publish' ? 1 : 0, true);
+      view.setUint32(at + of.take_over, takeOver ? 1 : 0, true);
+      view.setFloat64(at + of.retry_first, backoff.first || -1, true);
+      view.setFloat64(at + of.retry_longest, backoff.longest || -1, true);
+      view.setUint32(at + of.seed, Math.random() * 4294967296, true);
+      view.setUint32(at + of.seed + 4, Math.random() * 4294967296, true);
+      view.setFloat64(at + of.ping_interval, pingInterval || -1, true);
+    });
+    this.memory = memory;
+    this.release = runtime.owns(this, () => memory.release());
+    for (const use of this.whenMade.splice(0)) use(memory);
+    return memory;
+  }
+
+  /** Does what the library asks for: events, bytes to send, and the time to call it again. */
+  private act(): void {
+    const { memory } = this;
+    if (memory === null) return;
+    const { runtime, stream } = memory;
+    const { functions } = runtime;
+    while (this.memory === memory && functions.semblante_stream_next_event(stream, memory.event) !== 0) {
+      this.handle(memory);
+    }
+    if (this.memory !== memory) return;
+    for (;;) {
+      const bytes = functions.semblante_stream_take_bytes(stream, memory.result);
+      if (bytes === 0) break;
+      const size = runtime.view.getUint32(memory.result, true);
+      this.socket?.send(runtime.bytes.slice(bytes, bytes + size) as Uint8Array<ArrayBuffer>);
+    }
+    clearTimeout(this.timer);
+    const wake = functions.semblante_stream_wake_time(stream);
+    if (wake === Infinity) return;
+    this.timer = setTimeout(() => {
+      functions.semblante_stream_tick(stream, Math.max(wake, this.options.now()));
+      this.act();
+    }, Math.max(0, Math.ceil(wake - this.options.now())));
+  }
+
+  private handle(memory: StreamMemory): void {
+    const { runtime, event } = memory;
+    const { view } = runtime;
+    const uint = (member: number): number => view.getUint32(event + member, true);
+    const real = (member: number): number => view.getFloat64(event + member, true);
+    switch (uint(eventLayout.type)) {
+      case eventType.state:
+        return this.become(states[uint(eventLayout.state)]!);
+      case eventType.connect:
+        return this.open();
+      case eventType.close: {
+        const { socket } = this;
+        this.socket = null;
+        return socket?.close(uint(eventLayout.code));
+      }
+      case eventType.header:
+        return this.takeHeader(memory);
+      case eventType.keyframe:
+      case eventType.frames:
+        return this.takeFrames(memory, uint(eventLayout.type) === eventType.keyframe);
+      case eventType.clock:
+        return this.emit('clock', {
+          roundTrip: real(eventLayout.round_trip),
+          offset: real(eventLayout.server_offset),
+          mediaTime: real(eventLayout.media_time),
+        });
+      case eventType.refused:
+      case eventType.fault: {
+        const code = uint(eventLayout.code);
+        const where = runtime.text(event + eventLayout.error + errorLayout.where);
+        const message = runtime.text(event + eventLayout.error + errorLayout.message);
+        if (uint(eventLayout.type) === eventType.fault) {
+          return this.emit('fault', new ProtocolError(faults[code] ?? 'other', where, message));
+        }
+        return this.emit('error', { type: 'error', code: refusals[code] ?? 'other', where, message });
+      }
+      case eventType.end:
+        return this.emit('end', { type: 'end', reason: endReasons[uint(eventLayout.code)] ?? 'other' });
+    }
   }
 
   private become(state: ConnectionState): void {
@@ -208,79 +407,77 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.emit('state', state);
   }
 
-  private send(message: Message): void {
-    if (!this.socket) return;
-    if (this.options.subprotocol === 'json') {
-      this.socket.send(encodeJson(message, this.steps));
-    } else {
-      this.socket.send((this.encoder ?? new FrameEncoder()).encode(message) as Uint8Array<ArrayBuffer>);
-    }
+  private open(): void {
+    const { token } = this.options;
+    const names = token === undefined ? [binarySubprotocol] : [binarySubprotocol, `${bearerSubprotocol}${token}`];
+    const socket = new this.options.WebSocket(this.url, names);
+    this.socket = socket;
+    socket.binaryType = 'arraybuffer';
+    const current = (call: (memory: StreamMemory, now: number) => void) => (): void => {
+      if (socket !== this.socket || this.memory === null) return;
+      call(this.memory, this.options.now());
+      this.act();
+    };
+    socket.onopen = current(({ runtime, stream }, now) => runtime.functions.semblante_stream_opened(stream, now));
+    socket.onclose = current(({ runtime, stream }, now) => {
+      this.socket = null;
+      runtime.functions.semblante_stream_closed(stream, 0, now);
+    });
+    socket.onerror = () => undefined; // a close event follows
+    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
+      // A text is no message of this subprotocol: the library finds its bytes unreadable.
+      const bytes = typeof event.data === 'string' ? new Uint8Array(1) : new Uint8Array(event.data);
+      current((memory, now) => {
+        const at = memory.room(bytes.length);
+        memory.runtime.bytes.set(bytes, at);
+        memory.runtime.functions.semblante_stream_receive(memory.stream, at, bytes.length, now);
+        this.emit('message', undefined);
+      })();
+    };
   }
 
-  private receive(data: ArrayBuffer | string): void {
-    let message: Message;
-    try {
-      message = typeof data === 'string' ? decodeJson(data, this.steps) : this.decoder.decode(new Uint8Array(data));
-    } catch (error) {
-      if (!(error instanceof ProtocolError)) throw error;
-      if (error.code === 'unsupported' && error.where === '/type') return; // a message type of a later version: ignored
-      this.emit('fault', error);
-      // All later differences depend on the lost message, so only a new connection helps.
-      this.socket?.close(4000, 'unreadable message');
-      return;
-    }
-    this.handle(message);
+  private takeHeader({ runtime, stream, header }: StreamMemory): void {
+    if (runtime.functions.semblante_stream_header(stream, header) !== ok) return;
+    const { view } = runtime;
+    const real = (member: number): number => view.getFloat64(header + member, true);
+    const text = (member: number): string => runtime.text(view.getUint32(header + member, true));
+    const share = real(headerLayout.viseme_share);
+    const quantizer = view.getUint32(header + headerLayout.quantizer, true);
+    this.steps = standardQuantizers.map((_, fap) => (fap < 3 ? 1 : view.getFloat64(quantizer + fap * 8, true)));
+    this.header = {
+      type: 'header',
+      version: protocolVersion,
+      stream: text(headerLayout.stream),
+      title: text(headerLayout.title),
+      model: text(headerLayout.model),
+      epoch: runtime.wide(header + headerLayout.epoch),
+      sequence: runtime.wide(header + headerLayout.sequence),
+      media_time: real(headerLayout.media_time),
+      server_time: real(headerLayout.server_time),
+      fps_hint: real(headerLayout.frame_rate),
+      batch_interval: real(headerLayout.batch_interval),
+      quantizers: Array.from(this.steps.subarray(3)),
+      recovered: view.getUint32(header + headerLayout.resumed, true) === resumed,
+      viseme_share: Number.isNaN(share) ? null : share,
+      coding: 'packed',
+    };
+    this.emit('header', this.header);
   }
 
-  private handle(message: Message): void {
-    switch (message.type) {
-      case 'header':
-        if (this.header && this.header.epoch !== message.epoch) this.streamClock.clear();
-        this.streamClock.answered(this.helloTime, this.options.now(), message.media_time);
-        this.header = message;
-        this.steps = quantizersOf(message);
-        if (this.resume?.epoch !== message.epoch) this.resume = { epoch: message.epoch, sequence: message.sequence };
-        this.attempts = 0;
-        this.emit('header', message);
-        this.become('open');
-        this.measureClock();
-        return;
-      case 'keyframe':
-        if (this.resume) this.resume.sequence = message.sequence;
-        return this.emit('keyframe', message);
-      case 'frames':
-        if (this.resume) this.resume.sequence = message.sequence + message.frames.length - 1;
-        return this.emit('frames', message);
-      case 'end':
-        this.emit('end', message);
-        // Do not reconnect to a stream that has ended; do reconnect when the server restarts.
-        if (message.reason === 'finished' || message.reason === 'deleted' || message.reason === 'replaced') this.close();
-        return;
-      case 'error':
-        this.encoder = null; // the server may lack the base frame of the next difference
-        return this.emit('error', message);
-      case 'pong':
-        return this.emit('clock', this.clockOf(message));
-      default:
-        return; // hello and ping are sent by clients only
-    }
-  }
-
-  private clockOf(pong: Pong): ClockSample {
-    const now = this.options.now();
-    const roundTrip = Math.max(0, now - pong.client_time);
-    this.streamClock.answered(pong.client_time, now, pong.media_time);
-    return { roundTrip, offset: pong.server_time + roundTrip / 2 - now, mediaTime: pong.media_time + roundTrip / 2 };
-  }
-
-  private lost(): void {
-    this.socket = null;
-    clearTimeout(this.pingTimer);
-    const { first, longest } = this.options.backoff;
-    // Half of the pause is random, so that many clients do not reconnect at the same moment.
-    const pause = Math.min(longest, first * 2 ** this.attempts) * (0.5 + Math.random() / 2);
-    this.attempts += 1;
-    this.become('waiting');
-    this.retryTimer = setTimeout(() => this.connect(), pause);
+  private takeFrames({ runtime, stream, event, result }: StreamMemory, isKeyframe: boolean): void {
+    if (!this.has(isKeyframe ? 'keyframe' : 'frames')) return; // a player reads them in the library
+    const sequence = runtime.wide(event + eventLayout.sequence);
+    const at = runtime.functions.semblante_stream_frames(stream, result);
+    const { view } = runtime;
+    const count = view.getUint32(result, true);
+    if (count === 0) return;
+    const mediaTime = view.getFloat64(at, true);
+    const frames: TimedFrame[] = Array.from({ length: count }, (_, i) => {
+      const frame = at + i * timedFrameLayout.size;
+      const state = readFrame(view, frame + timedFrameLayout.frame, neutralFrame(), this.steps);
+      return { time: view.getFloat64(frame, true) - mediaTime, state };
+    });
+    if (isKeyframe) this.emit('keyframe', { type: 'keyframe', sequence, media_time: mediaTime, state: frames[0]!.state });
+    else this.emit('frames', { type: 'frames', sequence, media_time: mediaTime, frames });
   }
 }

@@ -1,16 +1,12 @@
 /**
- * The kernel's WebAssembly module. The file lies beside this one in the package; bundlers find it by the expression with
- * `import.meta.url` and take it along.
+ * The file of libsemblante lies beside this one in the package; bundlers find it by the expression with `import.meta.url` and
+ * take it along.
  */
-import { compileKernel } from './kernel.ts';
+import { Runtime } from './runtime.ts';
 
-let compiled: Promise<WebAssembly.Module> | null = null;
-
-/** The module of the package, fetched and compiled once for any number of faces; after a failure the next call retries. */
-export function loadKernelModule(): Promise<WebAssembly.Module> {
-  compiled ??= bytesOf(new URL('./semblante.wasm', import.meta.url)).then(compileKernel);
-  compiled.catch(() => (compiled = null));
-  return compiled;
+/** The library, fetched and made once for all faces, streams and players of a page; after a failure the next call retries. */
+export function loadRuntime(): Promise<Runtime> {
+  return Runtime.load(() => bytesOf(new URL('./semblante.wasm', import.meta.url)));
 }
 
 /** The bytes of a file of this package: by fetch, in Node from the disk, which its fetch does not read. */

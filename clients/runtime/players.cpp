@@ -123,6 +123,21 @@ semblante_result semblante_player_between(const semblante_player* player, sembla
   return SEMBLANTE_OK;
 }
 
+semblante_result semblante_player_moment(const semblante_player* player, semblante_moment* moment) {
+  if (player == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
+  if (!player->it.has_moment()) return SEMBLANTE_UNAVAILABLE;
+  const Moment& from = player->it.moment();
+  semblante_moment made{};
+  made.is_curve = from.is_curve ? 1 : 0;
+  made.from_time = from.from_time;
+  made.to_time = from.to_time;
+  made.viseme_share = from.viseme_share.value_or(unknown_time);
+  made.t = from.t;
+  std::copy(from.spans.begin(), from.spans.end(), made.spans);
+  std::copy(from.frames.begin(), from.frames.end(), made.frames);
+  return write_struct(made, moment) ? SEMBLANTE_OK : SEMBLANTE_INVALID_ARGUMENT;
+}
+
 double semblante_player_time(const semblante_player* player) {
   return player == nullptr ? unknown_time : player->it.playout().playhead();
 }

@@ -437,6 +437,20 @@ uint32_t semblante_player_show(const semblante_player* player, semblante_head* h
  * the first frame. */
 semblante_result semblante_player_between(const semblante_player* player, semblante_timed_frame* from,
                                           semblante_timed_frame* to, float* t);
+/* The current moment with everything that decides the pose, for callers who evaluate frames themselves. */
+typedef struct semblante_moment {
+  uint32_t size;
+  uint32_t is_curve; /* 1: semblante_ease through the four frames; 0: semblante_interpolate between the middle two */
+  double from_time;  /* media times of frames 1 and 2, ms: equal if there is one frame only */
+  double to_time;
+  double viseme_share;       /* of Eq. 5, in place of rig.json's; NaN: rig.json's */
+  float t;                   /* from frame 1 to frame 2, 0..1 */
+  float spans[3];            /* of a curve, as semblante_ease takes them; 0: that frame is absent */
+  semblante_frame frames[4]; /* before, from, to, after */
+} semblante_moment;
+
+/* UNAVAILABLE before the first frame. */
+semblante_result semblante_player_moment(const semblante_player* player, semblante_moment* moment);
 /* The media time to show, ms; NaN before the first frame. */
 double semblante_player_time(const semblante_player* player);
 semblante_result semblante_player_stats(const semblante_player* player, semblante_player_statistics* statistics);

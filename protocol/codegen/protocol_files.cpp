@@ -8,7 +8,6 @@ std::vector<GeneratedFile> protocol_files(const std::string& source_folder) {
   const Json schema = read_json(room + "/schema/messages.json");
   const Json packed = read_json(room + "/schema/packed_tables.json");
   return {{"protocol/cpp/generated/packed_tables.h", render_packed_cpp(packed)},
-          {"protocol/ts/generated/packed_tables.ts", render_packed_typescript(packed)},
           {"protocol/cpp/generated/messages.h", render_cpp(schema)},
           {"protocol/ts/generated/messages.ts", render_typescript(schema)},
           {"protocol/SPEC.md", render_spec(schema, packed, read_text(room + "/SPEC.md"))}};

@@ -18,7 +18,6 @@ std::string render_cpp(const nlohmann::ordered_json& schema);
 std::string render_typescript(const nlohmann::ordered_json& schema);
 /// protocol/cpp/generated/packed_tables.h and protocol/ts/generated/packed_tables.ts: the constants of the packed form.
 std::string render_packed_cpp(const nlohmann::ordered_json& packed);
-std::string render_packed_typescript(const nlohmann::ordered_json& packed);
 /// Two tables of SPEC.md.
 std::string packed_table_list(const nlohmann::ordered_json& packed);
 std::string packed_reference_list(const nlohmann::ordered_json& packed);

@@ -23,16 +23,6 @@ std::string all_values(const Json& packed, const std::string& comment, const std
   return out;
 }
 
-std::string camel_case(const std::string& name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == '_') continue;
-    const bool first = i > 0 && name[i - 1] == '_';
-    out += first ? static_cast<char>(name[i] - 'a' + 'A') : name[i];
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string render_packed_cpp(const Json& packed) {
@@ -63,25 +53,6 @@ namespace semblante::packed_tables {
       "/// By context: the probability of a 1 in 4096ths.\ninline constexpr std::array<std::uint16_t, size> values = "
       "{\n" +
       all_values(packed, "// ", "    ") + "};\n\n}  // namespace semblante::packed_tables\n";
-  return out;
-}
-
-std::string render_packed_typescript(const Json& packed) {
-  std::string out = R"(// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
-
-/** By FAP: one coded before it that often moves as it does; 0: none. */
-)";
-  out += "export const references: readonly number[] = [\n" + numbers(packed.at("references"), "  ") +
-         ",\n];\n\n/** The first context of each table. */\nexport const contexts = {\n";
-  std::size_t at = 0;
-  for (const Json& table : packed.at("tables")) {
-    out += "  " + camel_case(text(table, "name")) + ": " + std::to_string(at) + ",\n";
-    at += table.at("values").size();
-  }
-  out +=
-      "} as const;\n\n/** By context: the probability of a 1 in 4096ths. */\nexport const probabilities = "
-      "Uint16Array.of(\n" +
-      all_values(packed, "// ", "  ") + ");\n";
   return out;
 }
 

@@ -1,7 +1,5 @@
 export * from './messages.ts';
 export * from './protocol_error.ts';
-export * from './frame_codec.ts';
-export { PackedEncoder } from './packed_codec.ts';
 export * from './json_codec.ts';
 export * from './quantizers.ts';
 export * from './weights_format.ts';

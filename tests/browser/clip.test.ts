@@ -7,7 +7,7 @@ import { createDecoderModule } from 'draco3d';
 import { validateBytes } from 'gltf-validator';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { assembleFace, compileKernel, Kernel, neutralFrame, type DracoModule, type Face, type FaceFrame } from '@client/index.ts';
+import { assembleFace, Kernel, neutralFrame, Runtime, type DracoModule, type Face, type FaceFrame } from '@client/index.ts';
 import { standardQuantizers } from '@protocol/index.ts';
 import { buildDir, root, sampleHead, samplePoints } from './support/paths.ts';
 import { patience } from './support/patience.ts';
@@ -58,8 +58,8 @@ beforeAll(async () => {
     readFileSync(join(parts, 'mesh.drc')),
     draco,
   );
-  const module = await compileKernel(readFileSync(join(buildDir, 'wasm/semblante_kernel.wasm')));
-  kernel = await Kernel.create(module, face);
+  const runtime = await Runtime.load(() => readFileSync(join(buildDir, 'wasm/semblante_view.wasm')));
+  kernel = new Kernel(runtime, face);
 
   browser = await launch();
   page = await browser.newPage({ viewport: { width: 800, height: 440 } });

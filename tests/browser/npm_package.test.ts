@@ -72,10 +72,10 @@ test('Package_ClientWithKernel_IsAtMost60kBGzipped', () => {
 test('Package_InNode_LoadsAFaceAndDeformsIt', async () => {
   writeFileSync(
     join(project, 'use.js'),
-    `import { Kernel, loadFace, loadKernelModule, neutralFrame } from 'semblante';
+    `import { Kernel, loadFace, loadRuntime, neutralFrame } from 'semblante';
 import { loadDraco } from 'semblante/draco';
 const face = await loadFace(process.argv[2], 'sample', { draco: await loadDraco() });
-const kernel = await Kernel.create(await loadKernelModule(), face);
+const kernel = new Kernel(await loadRuntime(), face);
 const frame = neutralFrame();
 frame.viseme = { select1: 10, select2: 0, blend: 63 };
 kernel.evaluate(frame, 0);

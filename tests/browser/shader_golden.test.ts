@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 import { expect, test } from 'vitest';
-import { compileKernel, Kernel, neutralFrame, type Face, type Pose } from '../../clients/js/index.ts';
+import { Kernel, neutralFrame, Runtime, type Face, type Pose } from '../../clients/js/index.ts';
 import { featurePoints } from '../../protocol/ts/generated/mpeg4.ts';
 import { rigFapus, type RigDocument, type Vec3 } from '../../protocol/ts/index.ts';
 import { buildDir } from './support/paths.ts';
@@ -88,11 +88,11 @@ function meshOf({ face }: Golden): GoldenMesh {
 
 /** The poses of all cases, then of all interpolations, computed by the kernel as the shader's input. */
 async function poses(): Promise<Record<keyof Pose, number[]>[]> {
-  const wasm = process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm/semblante_kernel.wasm');
+  const wasm = process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm/semblante_view.wasm');
   expect(existsSync(wasm), wasm).toBe(true);
   const face = { rig: rigOf(golden) } as Face;
   const count = golden.cases.length;
-  const kernel = await Kernel.create(await compileKernel(new Uint8Array(readFileSync(wasm))), face, {
+  const kernel = new Kernel(await Runtime.load(() => readFileSync(wasm)), face, {
     poseCount: count + golden.interpolations.length,
     withVertices: false,
   });

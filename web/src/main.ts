@@ -1,7 +1,7 @@
 import './ui/styles/index.css';
 import { neutralFrame } from '@client/index.ts';
 import { dracoDecoder } from './face/draco.ts';
-import { kernelModule } from './face/kernel_module.ts';
+import { loadRuntime } from './face/runtime.ts';
 import { loadStageFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import type { Session } from './net/types.ts';
@@ -112,7 +112,7 @@ function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
   const sources = {
     base: api.base,
     draco: dracoDecoder,
-    kernel: kernelModule,
+    runtime: loadRuntime,
     image: (sha256: string, signal: AbortSignal) => api.content(sha256, signal),
   };
   return new SceneView(canvas, {

@@ -7,7 +7,7 @@ import { Emitter } from '../emitter.ts';
 import { OrbitCamera } from '../view/camera.ts';
 import { FaceRenderer, type RenderQuality } from '../view/face_renderer.ts';
 import { frameOf, type Fit } from '../view/framing.ts';
-import { loadKernelModule } from '../wasm.ts';
+import { loadRuntime } from '../wasm.ts';
 import { budgetOf, cheaperSteps, fewerPixels, firstVertices, Pace, thisDevice, type Budget, type QualityName, type Step } from './detail.ts';
 import { Link } from './link.ts';
 import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
@@ -48,7 +48,8 @@ export class FaceShow extends Emitter<ShowEvents> {
   readonly camera = new OrbitCamera();
   readonly link: Link;
   face: Face | null = null;
-  player: Player | null = null;
+  /** Follows the stream while the face is still loading. */
+  readonly player = new Player(null);
   /** Pictures drawn in the last second in which the face moved. */
   framesPerSecond = 0;
 
@@ -91,6 +92,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.renderer.onChange = () => this.invalidate();
     this.images = new Images(options.source);
     this.link = new Link(options.source);
+    this.player.follow(this.link.client);
     this.link.on('state', () => this.takeLink());
     for (const name of ['online', 'pageshow', 'focus']) window.addEventListener(name, this.check);
     document.addEventListener('visibilitychange', this.check);
@@ -131,6 +133,8 @@ export class FaceShow extends Emitter<ShowEvents> {
     document.removeEventListener('visibilitychange', this.check);
     this.resized.disconnect();
     this.link.close();
+    this.player.dispose();
+    this.kernel?.dispose();
     this.renderer.dispose();
   }
 
@@ -144,24 +148,22 @@ export class FaceShow extends Emitter<ShowEvents> {
     const { signal } = this.work;
     const { source } = this.options;
     const draco = loadDraco();
-    const module = loadKernelModule();
+    const library = loadRuntime();
     try {
       const model = await modelOf(source, signal);
       if (model !== this.model) {
         const level = { maxVertices: Math.min(firstVertices, this.budget.maxVertices) };
-        const [face, compiled] = await Promise.all([faceOf(source, model, draco, level, this.images, signal), module]);
+        const [face, runtime] = await Promise.all([faceOf(source, model, draco, level, this.images, signal), library]);
         const small = smallImages(face.rig.images).map(({ sha256 }) => this.images.get(sha256));
         await Promise.race([Promise.allSettled(small), new Promise((wake) => setTimeout(wake, imagePatience))]);
-        const kernel = await Kernel.create(compiled, face, { withVertices: false });
         if (signal.aborted) return;
+        const kernel = new Kernel(runtime, face, { withVertices: false });
+        this.kernel?.dispose();
         this.model = model;
         this.kernel = kernel;
         this.show(face);
         this.camera.subject = frameOf(face.rig, this.options.fit);
-        this.player = new Player(kernel);
-        this.player.follow(this.link.client);
-        // What came before the player was there.
-        if (this.link.newest) this.player.pushKeyframe(this.link.newest);
+        this.player.show(kernel);
         this.emit('ready', undefined);
       }
       this.attempts = 0;
@@ -249,7 +251,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.frameRequest = requestAnimationFrame(this.frame); // first: an exception below must not end the loop
     const delta = Math.min(0.5, (time - this.lastTime) / 1000);
     this.lastTime = time;
-    if (!this.visible || !this.kernel || !this.player) return;
+    if (!this.visible || !this.kernel) return;
     const begun = performance.now();
     const moved = !this.paused && this.player.update(delta);
     if (moved || this.dirty || this.renderer.isFading) {

@@ -1,5 +1,4 @@
 import { StreamClient, streamUrl, type StreamEvents } from '../stream_client.ts';
-import type { Keyframe } from '../../../protocol/ts/messages.ts';
 import { Emitter } from '../emitter.ts';
 import type { Source } from './loader.ts';
 
@@ -12,14 +11,11 @@ const answerTime = 3_000;
 
 /**
  * The connection of a page to its stream. Adds to StreamClient what a page on a phone needs: it notices a connection that
- * is open and dead (the phone slept, the network changed), connects at once when there is reason to hope, and holds the
- * last face, for a player that is made later.
+ * is open and dead (the phone slept, the network changed), and connects at once when there is reason to hope.
  */
 export class Link extends Emitter<{ state: LinkState }> {
   readonly client: StreamClient;
   state: LinkState = 'connecting';
-  /** The newest state of the face; null before the first. */
-  newest: Keyframe | null = null;
   private heard = performance.now();
   private readonly timer: ReturnType<typeof setInterval>;
   private answer: ReturnType<typeof setTimeout> | undefined;
@@ -36,20 +32,7 @@ export class Link extends Emitter<{ state: LinkState }> {
       this.answer = undefined;
     };
     this.stops = [
-      this.client.on('header', hear),
-      this.client.on('clock', hear),
-      this.client.on('keyframe', (keyframe) => {
-        hear();
-        this.newest = keyframe;
-      }),
-      this.client.on('frames', (batch) => {
-        hear();
-        const last = batch.frames.at(-1);
-        if (!last) return;
-        const { time, state } = last;
-        const sequence = batch.sequence + batch.frames.length - 1;
-        this.newest = { type: 'keyframe', sequence, media_time: batch.media_time + time, state };
-      }),
+      this.client.on('message', hear),
       this.client.on('end', ({ reason }) => (this.ended = reason === 'finished' || reason === 'deleted')),
       this.client.on('state', (state) => this.take(state)),
     ];
@@ -67,7 +50,7 @@ export class Link extends Emitter<{ state: LinkState }> {
   check(): void {
     if (this.state === 'lost') return this.client.connect();
     if (this.state !== 'open' || this.answer !== undefined) return;
-    this.client.ping();
+    this.client.measureClock();
     this.answer = setTimeout(() => {
       this.answer = undefined;
       this.renew();
@@ -78,7 +61,7 @@ export class Link extends Emitter<{ state: LinkState }> {
     clearInterval(this.timer);
     clearTimeout(this.answer);
     for (const stop of this.stops) stop();
-    this.client.close();
+    this.client.dispose();
   }
 
   /** Drops a dead connection, which may not notice for minutes, for a new one that resumes. */

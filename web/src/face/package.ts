@@ -1,4 +1,4 @@
-import { Kernel, loadFace, type DracoModule } from '@client/index.ts';
+import { Kernel, loadFace, type DracoModule, type Runtime } from '@client/index.ts';
 import { drawableMesh } from '@client/gpu/drawable_mesh.ts';
 import { loadMaterials } from '@client/gpu/face_material.ts';
 import type { LoadedFace } from './loaded_face.ts';
@@ -8,7 +8,7 @@ export interface FaceSources {
   /** The server's base URL; empty: the server of this page. */
   base: string;
   draco: () => Promise<DracoModule>;
-  kernel: () => Promise<WebAssembly.Module>;
+  runtime: () => Promise<Runtime>;
   /** Fetches an image of the package by its content hash. */
   image: (sha256: string, signal: AbortSignal) => Promise<Uint8Array>;
 }
@@ -23,11 +23,9 @@ export async function loadStageFace(
   level: number,
   signal: AbortSignal,
 ): Promise<LoadedFace> {
-  const [draco, module] = await Promise.all([sources.draco(), sources.kernel()]);
+  const [draco, runtime] = await Promise.all([sources.draco(), sources.runtime()]);
   const face = await loadFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
-  const [kernel, materials] = await Promise.all([
-    Kernel.create(module, face, { poseCount }),
-    loadMaterials(face.rig, (sha256) => sources.image(sha256, signal)),
-  ]);
+  const materials = await loadMaterials(face.rig, (sha256) => sources.image(sha256, signal));
+  const kernel = new Kernel(runtime, face, { poseCount });
   return { mesh: drawableMesh(face), materials, kernel, packageBytes: face.rig.mesh.bytes + face.rig.weights.bytes };
 }

@@ -1,14 +1,9 @@
-import { existsSync, readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
+import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { compileKernel, Kernel, neutralFrame, type Face, type FaceFrame } from '../../../../clients/js/index.ts';
+import { Kernel, neutralFrame, type Face, type FaceFrame, type Runtime } from '../../../../clients/js/index.ts';
 import { fullTurn, rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
 import { featurePoints } from '../../../../protocol/ts/generated/mpeg4.ts';
-
-// The module is made by the C++ build (target semblante-kernel-wasm).
-const modulePath =
-  process.env['SEMBLANTE_WASM'] ??
-  fileURLToPath(new URL('../../../../build/wasm/semblante_kernel.wasm', import.meta.url));
+import { loadRuntime } from '../support/runtime.ts';
 
 type Sparse = Record<string, Vec3>;
 /** Dense numbers of point and leader, share. */
@@ -108,14 +103,14 @@ function worstAngle(a: ArrayLike<number>, b: ArrayLike<number>): number {
   return (2 * Math.asin(Math.min(1, worst / 2)) * 180) / Math.PI;
 }
 
-describe.skipIf(!existsSync(modulePath))('Kernel', () => {
-  let module: WebAssembly.Module;
+describe('Kernel', () => {
+  let runtime: Runtime;
   beforeAll(async () => {
-    module = await compileKernel(new Uint8Array(readFileSync(modulePath)));
+    runtime = await loadRuntime();
   });
 
   it('EvaluateAndDeform_GoldenFrames_GiveTheGoldenNumbers', async () => {
-    const kernel = await Kernel.create(module, faceOf(vectors), { poseCount: vectors.cases.length + 1 });
+    const kernel = new Kernel(runtime, faceOf(vectors), { poseCount: vectors.cases.length + 1 });
     vectors.cases.forEach((each, pose) => {
       const [frame, steps] = frameOf(each.frame);
       kernel.evaluate(frame, pose, steps);
@@ -134,7 +129,7 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
   });
 
   it('Ease_FromRestToRest_IsTheSmoothStepOfTheWay', async () => {
-    const kernel = await Kernel.create(module, faceOf(vectors), { poseCount: 5 });
+    const kernel = new Kernel(runtime, faceOf(vectors), { poseCount: 5 });
     const [frame, steps] = frameOf(vectors.cases[3]!.frame);
     kernel.evaluate(frame, 2, steps);
     const to = kernel.poses[2]!.featurePoints;
@@ -150,7 +145,7 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
 
   it('Deform_WithNormals_GivesTheGoldenNormals', async () => {
     const out = golden.cases.length;
-    const kernel = await Kernel.create(module, faceOf(golden), { poseCount: out + 1, withNormals: true });
+    const kernel = new Kernel(runtime, faceOf(golden), { poseCount: out + 1, withNormals: true });
     const neutral = golden.cases.find(({ name }) => name === 'neutral')!;
     expect(worstAngle(kernel.normals, neutral.vertex_normals)).toBeLessThan(golden.tolerance.normal_degrees);
     const check = (name: string, pose: number, positions: number[], normals: number[]): void => {
@@ -178,7 +173,7 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
   it('Create_WithNormalsOfAMeshWithoutAny_JoinsWhatSharesAPlace', async () => {
     const face = faceOf(golden);
     face.mesh.normals = null;
-    const kernel = await Kernel.create(module, face, { withNormals: true });
+    const kernel = new Kernel(runtime, face, { withNormals: true });
     const { rest } = golden.face;
     let joined = 0;
     rest.forEach((place, v) => {
@@ -191,13 +186,13 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
   });
 
   it('Create_WithoutNormals_HasNone', async () => {
-    expect((await Kernel.create(module, faceOf(golden))).normals.length).toBe(0);
-    const poses = await Kernel.create(module, faceOf(golden), { withVertices: false, withNormals: true });
+    expect(new Kernel(runtime, faceOf(golden)).normals.length).toBe(0);
+    const poses = new Kernel(runtime, faceOf(golden), { withVertices: false, withNormals: true });
     expect(poses.normals.length).toBe(0);
   });
 
   it('Create_PosesAreNeutralAndPositionsAtRest', async () => {
-    const kernel = await Kernel.create(module, faceOf(vectors));
+    const kernel = new Kernel(runtime, faceOf(vectors));
     expect(kernel.positions).toEqual(Float32Array.from(vectors.face.rest.flat()));
     expect(kernel.poses.length).toBe(3);
     expect(Array.from(kernel.poses[0]!.headRotation)).toEqual([0, 0, 0, 1]);
@@ -212,7 +207,7 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
       visemes: vectors.rig.visemes.map((set, i) => (i === 10 ? { '0': viseme } : set)),
       expressions: vectors.rig.expressions.map((set, i) => (i === 1 ? { '0': expression } : set)),
     };
-    const kernel = await Kernel.create(module, faceOf({ ...vectors, rig }));
+    const kernel = new Kernel(runtime, faceOf({ ...vectors, rig }));
     const frame = neutralFrame();
     frame.viseme = { select1: 10, select2: 0, blend: 63 };
     frame.expression = { select1: 1, intensity1: 63, select2: 0, intensity2: 0 };
@@ -231,11 +226,30 @@ describe.skipIf(!existsSync(modulePath))('Kernel', () => {
   });
 
   it('Create_WithoutVertices_GivesPosesAlone', async () => {
-    const kernel = await Kernel.create(module, faceOf(vectors), { withVertices: false });
+    const kernel = new Kernel(runtime, faceOf(vectors), { withVertices: false });
     const [frame, steps] = frameOf(vectors.cases[3]!.frame);
     kernel.evaluate(frame, 0, steps);
     expect(kernel.poses[0]!.featurePoints.some((x) => x !== 0)).toBe(true);
     expect(() => kernel.deform(0)).toThrow(RangeError);
     expect(() => kernel.evaluate(frame, 3)).toThrow(RangeError);
+  });
+
+  it('Positions_AfterTheMemoryHasGrown_AreThoseOfTheNewMemory', () => {
+    const kernel = new Kernel(runtime, faceOf(vectors));
+    const before = kernel.positions;
+    const pose = kernel.poses[0]!;
+    const big = runtime.alloc(runtime.bytes.length);
+    expect(before.length).toBe(0); // that is what growing does to a view
+    expect(pose.headRotation.length).toBe(0);
+    expect(kernel.positions).toEqual(Float32Array.from(vectors.face.rest.flat()));
+    expect(Array.from(kernel.poses[0]!.headRotation)).toEqual([0, 0, 0, 1]);
+    runtime.free(big);
+  });
+
+  it('Dispose_AThousandTimes_GivesTheMemoryBack', () => {
+    new Kernel(runtime, faceOf(golden), { withNormals: true }).dispose();
+    const before = runtime.bytes.length;
+    for (let i = 0; i < 1000; ++i) new Kernel(runtime, faceOf(golden), { withNormals: true }).dispose();
+    expect(runtime.bytes.length).toBe(before);
   });
 });

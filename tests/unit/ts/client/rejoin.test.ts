@@ -1,7 +1,10 @@
-import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Player, StreamClient, type PoseMaker, type StreamOptions } from '../../../../clients/js/index.ts';
 import { neutralFrame, type FaceFrame, type Frames, type Header, type Message } from '../../../../protocol/ts/index.ts';
-import { FakeSocket } from './fake_socket.ts';
+import { FakeSocket } from '../support/fake_socket.ts';
+import { loadRuntime } from '../support/runtime.ts';
+
+beforeAll(loadRuntime);
 
 const epochs = [3, 4];
 const held = 12;
@@ -109,14 +112,13 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-describe.each(['binary', 'json'] as const)('StreamClient %s', (subprotocol) => {
+describe('StreamClient', () => {
   it('Kill_TwoHundredTimes_MissesNothingThatItIsToldWasRecovered', () => {
-    const below = chance(subprotocol === 'json' ? 5 : 9);
+    const below = chance(9);
     let now = 0;
     const server = new Server();
     const client = new StreamClient('ws://x', {
       WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
-      subprotocol,
       now: () => now,
       backoff: { first: 20, longest: 40 },
     });

@@ -24,7 +24,7 @@ const longestDelay = 2000;
 
 /** The network measurements that explain the delay. */
 function networkWords({ clock, jitter, starved }: Player['stats']): string {
-  if (Number.isNaN(clock.uncertainty)) return '';
+  if (clock === null || Number.isNaN(clock.uncertainty)) return '';
   const words = [
     `Round trip ${clock.roundTrip.toFixed(0)} ms`,
     `jitter ${jitter.toFixed(0)} ms`,

@@ -1,4 +1,3 @@
-import type { StreamCoding } from '@protocol/messages.ts';
 import type { StreamInfo } from '../../net/types.ts';
 import { h, setText } from '../shared/dom.ts';
 import type { LiveModel } from './live_model.ts';
@@ -12,21 +11,18 @@ const sourceWords: Record<NonNullable<StreamInfo['active_source']>, string> = {
   demo: 'The server’s demo',
 };
 
-const codingWords: Record<StreamCoding, string> = { plain: 'Plain', packed: 'Packed' };
-
 /** The active source of a stream as text. */
 export function fedBy({ active_source: source, playing }: StreamInfo): string {
   if (source === null) return 'No source';
   return playing?.name ? `${sourceWords[source]}: ${playing.name}` : sourceWords[source];
 }
 
-/** Facts about the subscribed stream: the server's, and the encoding of this subscription. */
+/** Facts about the subscribed stream. */
 export class StreamFacts {
   readonly element = h('dl', { class: 'facts', 'aria-label': 'About the stream' });
   private readonly fed = this.fact('Source');
   private readonly watching = this.fact('Subscribers');
   private readonly batch = this.fact('Batch interval');
-  private readonly coding = this.fact('Encoding');
   private readonly share = this.fact('Viseme share');
 
   constructor(private readonly live: LiveModel) {
@@ -47,8 +43,6 @@ export class StreamFacts {
     setText(this.watching, String(stream.subscribers));
     const { batch_interval: batch, viseme_share: share } = stream;
     setText(this.batch, batch === 0 ? 'None' : `${batch} ms`);
-    const header = this.live.status.value.kind === 'open' ? this.live.subscriber.value?.client.header : null;
-    setText(this.coding, header ? codingWords[header.coding] : '–');
     setText(this.share, share === null ? 'Default of the head' : `${Math.round(share * 100)} %`);
   }
 }

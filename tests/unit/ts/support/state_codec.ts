@@ -1,8 +1,8 @@
-import { EndOfBytes, type ByteReader, type ByteWriter } from './byte_io.ts';
-import { maxBlend, maxExpression, maxViseme, sameExpression, sameViseme, type FaceFrame } from './face_frame.ts';
-import { limits } from './generated/messages.ts';
-import { fapGroups, type FapGroup } from './generated/mpeg4.ts';
-import { ProtocolError } from './protocol_error.ts';
+import { EndOfBytes, type ByteReader, type ByteWriter } from '../../../../protocol/ts/byte_io.ts';
+import { maxBlend, maxExpression, maxViseme, sameExpression, sameViseme, type FaceFrame } from '../../../../protocol/ts/face_frame.ts';
+import { limits } from '../../../../protocol/ts/generated/messages.ts';
+import { fapGroups, type FapGroup } from '../../../../protocol/ts/generated/mpeg4.ts';
+import { ProtocolError } from '../../../../protocol/ts/protocol_error.ts';
 
 /** The binary form of a face state as the differences to another state: SPEC.md, "State". */
 

@@ -2,8 +2,6 @@ import { describe, expect, it } from 'vitest';
 import {
   decodeJson,
   encodeJson,
-  FrameDecoder,
-  FrameEncoder,
   neutralFrame,
   ProtocolError,
   quantize,
@@ -12,7 +10,8 @@ import {
   type Header,
   type Message,
 } from '../../../../protocol/ts/index.ts';
-import { fromHex, toHex, vectorJson } from './vectors.ts';
+import { fromHex, toHex, vectorJson } from '../protocol/vectors.ts';
+import { FrameDecoder, FrameEncoder } from './plain_codec.ts';
 
 interface Vector {
   name: string;

@@ -1,16 +1,13 @@
-import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from './byte_io.ts';
-import { copyFrame, neutralFrame, type FaceFrame, type TimedFrame } from './face_frame.ts';
+import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from '../../../../protocol/ts/byte_io.ts';
+import { copyFrame, neutralFrame, type FaceFrame, type TimedFrame } from '../../../../protocol/ts/face_frame.ts';
 import {
   isAppended,
   limits,
   messages,
-  packedFramesType,
-  packedKeyframeType,
   type Field,
   type Message,
-} from './generated/messages.ts';
-import { PackedDecoder } from './packed_codec.ts';
-import { ProtocolError } from './protocol_error.ts';
+} from '../../../../protocol/ts/messages.ts';
+import { ProtocolError } from '../../../../protocol/ts/protocol_error.ts';
 import { readState, writeState } from './state_codec.ts';
 
 type Values = Record<string, unknown>;
@@ -23,7 +20,7 @@ function check(condition: boolean, what: string): asserts condition {
 }
 
 /**
- * Encodes the messages of ONE stream in the binary form. It keeps the last frame, because a `frames` message contains
+ * Encodes the messages of ONE stream in the plain binary form, as a server for tests; clients have libsemblante. It keeps the last frame, because a `frames` message contains
  * only differences: the decoder must receive every message in order, or a keyframe.
  */
 export class FrameEncoder {
@@ -128,15 +125,11 @@ export class FrameEncoder {
   }
 }
 
-/**
- * Decodes the messages of ONE stream in the binary form, plain or packed, from untrusted bytes. Both forms give the
- * same messages; frames must have the form of the keyframe before them.
- */
+/** Decodes the messages of ONE stream in the plain binary form, independently of libsemblante. */
 export class FrameDecoder {
   /** The last frame of the plain form. */
   private last: FaceFrame | null = null;
   private lastSequence = 0;
-  private packed = new PackedDecoder();
 
   /**
    * Throws ProtocolError: `unsupported` for a message type of a later version (to be skipped), `mismatch` at
@@ -147,12 +140,6 @@ export class FrameDecoder {
     const type = bytes[0];
     if (type === undefined) throw new ProtocolError('truncated', '/type', 'the message is empty');
     if (bytes.length > limits.max_binary_message_bytes) throw new ProtocolError('too_large', '', 'over 256 KiB');
-    if (type === packedKeyframeType) {
-      const keyframe = this.packed.keyframe(bytes);
-      this.last = null;
-      return keyframe;
-    }
-    if (type >= packedFramesType) return this.packed.frames(bytes);
     const description = messages.find((candidate) => candidate.type === type);
     if (!description) throw new ProtocolError('unsupported', '/type', `no message has the type ${type}`);
 
@@ -163,7 +150,6 @@ export class FrameDecoder {
     if (message.type === 'keyframe') {
       this.last = copyFrame(message.state);
       this.lastSequence = message.sequence;
-      this.packed = new PackedDecoder();
     } else if (message.type === 'frames') {
       const next = this.lastSequence + 1;
       if (message.sequence === 0) message.sequence = next;
@@ -178,7 +164,6 @@ export class FrameDecoder {
 
   reset(): void {
     this.last = null;
-    this.packed = new PackedDecoder();
   }
 
   private read(from: ByteReader, field: Field, prefix: string): unknown {
