@@ -512,11 +512,6 @@ semblante_result semblante_take_get_warning(const semblante_take* take, uint32_t
 semblante_result semblante_take_write(uint32_t format, const semblante_timed_frame* frames, uint32_t count, double rate,
                                       char* text, size_t* size, semblante_error* error);
 
-#ifdef __wasm__
-/* Frees memory of semblante_alloc. */
-void semblante_free(void* memory);
-#endif
-
 #ifdef __cplusplus
 }
 #endif

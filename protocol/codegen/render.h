@@ -16,7 +16,7 @@ std::vector<GeneratedFile> protocol_files(const std::string& source_folder);
 std::string render_cpp(const nlohmann::ordered_json& schema);
 /// protocol/ts/generated/messages.ts: interfaces, and the same description as data, which the codecs interpret.
 std::string render_typescript(const nlohmann::ordered_json& schema);
-/// protocol/cpp/generated/packed_tables.h and protocol/ts/generated/packed_tables.ts: the constants of the packed form.
+/// protocol/cpp/generated/packed_tables.h: the constants of the packed form.
 std::string render_packed_cpp(const nlohmann::ordered_json& packed);
 /// Two tables of SPEC.md.
 std::string packed_table_list(const nlohmann::ordered_json& packed);

@@ -41,8 +41,8 @@ std::string descriptor(const Json& field, const Json& schema) {
   std::string out = "{ name: '" + text(field, "name") + "', type: '" + type + "'";
   if (type == "uint" || type == "text") out += ", max: " + field.at("max").dump();
   if (type == "real" || type == "reals" || type == "optional_real") {
-    out += ", min: " + (field.contains("min") ? field.at("min").dump() : "-Number.MAX_VALUE");
-    out += ", max: " + (field.contains("max") ? field.at("max").dump() : "Number.MAX_VALUE");
+    out += ", min: " + (field.contains("min") ? field.at("min").dump() : "-1.7976931348623157e308");
+    out += ", max: " + (field.contains("max") ? field.at("max").dump() : "1.7976931348623157e308");
   }
   if (type == "reals") out += ", length: " + field.at("lengths").at(1).dump();
   if (type == "enum") out += ", values: " + snake_case(text(field, "enum")) + "_values";

@@ -64,9 +64,11 @@ test('Package_HasModulesAndDeclarations_AndNoSources', () => {
     expect(names).toContain(target.replace('./', ''));
 });
 
-test('Package_ClientWithKernel_IsAtMost60kBGzipped', () => {
-  const kernel = gzipSync(readFileSync(join(unpacked, 'dist/semblante.wasm')), { level: 9 }).length;
-  expect(gzipped('index.js') + kernel).toBeLessThanOrEqual(60_000);
+// Streams, clock and playout in WebAssembly are 25 kB; what is still TypeScript beside them (packages, performances,
+// bridges) is half of the client.
+test('Package_ClientWithLibrary_IsAtMost75kBGzipped', () => {
+  const library = gzipSync(readFileSync(join(unpacked, 'dist/semblante.wasm')), { level: 9 }).length;
+  expect(gzipped('index.js') + library).toBeLessThanOrEqual(75_000);
 });
 
 test('Package_InNode_LoadsAFaceAndDeformsIt', async () => {

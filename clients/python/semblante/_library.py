@@ -144,6 +144,13 @@ class PlayerStatistics(Sized):
                 ("error", c_double), ("starved_time", c_double), ("starved", c_uint64), ("snaps", c_uint64)]
 
 
+class Moment(Sized):
+    """What a player shows: `t` from frame 1 to frame 2 of `frames` (before, from, to, after), on a line or a curve."""
+
+    _fields_ = [("size", c_uint32), ("is_curve", c_uint32), ("from_time", c_double), ("to_time", c_double),
+                ("viseme_share", c_double), ("t", c_float), ("spans", c_float * 3), ("frames", Frame * 4)]
+
+
 class TakeWarning(Sized):
     _fields_ = [("size", c_uint32), ("oddity", c_uint32), ("line", c_uint32), ("count", c_uint32), ("message", c_char * 256)]
 
@@ -155,7 +162,7 @@ structs = {
     "semblante_pose": Pose, "semblante_face": Face, "semblante_package": Package, "semblante_head_options": HeadOptions,
     "semblante_stream_options": StreamOptions, "semblante_event": Event, "semblante_header": Header,
     "semblante_clock": Clock, "semblante_player_options": PlayerOptions,
-    "semblante_player_statistics": PlayerStatistics, "semblante_take_warning": TakeWarning,
+    "semblante_player_statistics": PlayerStatistics, "semblante_moment": Moment, "semblante_take_warning": TakeWarning,
 }
 
 _result = ctypes.c_int  # semblante_result
@@ -217,6 +224,7 @@ functions = {  # name: (result, arguments)
     "semblante_player_move_to": (c_uint32, [_handle, c_double]),
     "semblante_player_show": (c_uint32, [_handle, _handle]),
     "semblante_player_between": (_result, [_handle, _timed, _timed, POINTER(c_float)]),
+    "semblante_player_moment": (_result, [_handle, POINTER(Moment)]),
     "semblante_player_time": (c_double, [_handle]),
     "semblante_player_stats": (_result, [_handle, POINTER(PlayerStatistics)]),
     "semblante_player_clear": (None, [_handle]),

@@ -210,7 +210,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'epoch', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
       { name: 'sequence', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
       { name: 'media_time', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
-      { name: 'server_time', type: 'real', min: -Number.MAX_VALUE, max: Number.MAX_VALUE, required: false, fallback: 0 },
+      { name: 'server_time', type: 'real', min: -1.7976931348623157e308, max: 1.7976931348623157e308, required: false, fallback: 0 },
       { name: 'fps_hint', type: 'real', min: 0, max: 1000, required: false, fallback: 0 },
       { name: 'batch_interval', type: 'uint', max: 60000, required: false, fallback: 0 },
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
@@ -258,7 +258,7 @@ export const messages: readonly MessageDescription[] = [
     name: 'ping',
     fields: [
       { name: 'id', type: 'uint', max: 4294967295, required: false, fallback: 0 },
-      { name: 'client_time', type: 'real', min: -Number.MAX_VALUE, max: Number.MAX_VALUE, required: false, fallback: 0 },
+      { name: 'client_time', type: 'real', min: -1.7976931348623157e308, max: 1.7976931348623157e308, required: false, fallback: 0 },
     ],
   },
   {
@@ -266,8 +266,8 @@ export const messages: readonly MessageDescription[] = [
     name: 'pong',
     fields: [
       { name: 'id', type: 'uint', max: 4294967295, required: false, fallback: 0 },
-      { name: 'client_time', type: 'real', min: -Number.MAX_VALUE, max: Number.MAX_VALUE, required: false, fallback: 0 },
-      { name: 'server_time', type: 'real', min: -Number.MAX_VALUE, max: Number.MAX_VALUE, required: false, fallback: 0 },
+      { name: 'client_time', type: 'real', min: -1.7976931348623157e308, max: 1.7976931348623157e308, required: false, fallback: 0 },
+      { name: 'server_time', type: 'real', min: -1.7976931348623157e308, max: 1.7976931348623157e308, required: false, fallback: 0 },
       { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
     ],
   },

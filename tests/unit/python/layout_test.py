@@ -49,8 +49,7 @@ class Layout(unittest.TestCase):
         self.assertEqual(named, set(_library.structs))
 
     def test_every_function_of_the_header_is_declared(self):
-        text = re.sub(r"#ifdef __wasm__.*?#endif", "", (TOP / HEADERS[0]).read_text(), flags=re.S)
-        text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+        text = re.sub(r"/\*.*?\*/", "", (TOP / HEADERS[0]).read_text(), flags=re.S)
         named = set(re.findall(r"\b(semblante_\w+)\(", text))
         self.assertGreater(len(named), 50)
         self.assertEqual(named - set(_library.functions), set())

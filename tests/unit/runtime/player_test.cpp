@@ -65,6 +65,17 @@ TEST(Player, BetweenTwoFrames_ShowsTheShareOfBoth) {
   EXPECT_EQ(to.time, 100);
   EXPECT_FLOAT_EQ(t, 0.25F);
   EXPECT_EQ(to.frame.fap[3], 100);
+  semblante_moment moment{};
+  EXPECT_EQ(semblante_player_moment(player.get(), &moment), SEMBLANTE_INVALID_ARGUMENT) << "no size";
+  moment.size = sizeof(moment);
+  ASSERT_EQ(semblante_player_moment(player.get(), &moment), SEMBLANTE_OK);
+  EXPECT_EQ(moment.is_curve, 0U);
+  EXPECT_EQ(moment.from_time, 0);
+  EXPECT_EQ(moment.to_time, 100);
+  EXPECT_FLOAT_EQ(moment.t, 0.25F);
+  EXPECT_TRUE(std::isnan(moment.viseme_share));
+  EXPECT_EQ(moment.frames[1].fap[3], 0);
+  EXPECT_EQ(moment.frames[2].fap[3], 100);
 
   // A pose set in between is not the player's, so it is set again.
   const semblante_frame neutral{};
@@ -283,6 +294,10 @@ TEST(Player, WrongArguments_AreRefusedOrIgnored) {
   EXPECT_EQ(stats_of(player).held, 0U);
   EXPECT_EQ(semblante_player_advance(player.get(), std::nan(""), 16), 0U);
   EXPECT_EQ(semblante_player_show(nullptr, nullptr), 0U);
+  semblante_moment moment{};
+  moment.size = sizeof(moment);
+  EXPECT_EQ(semblante_player_moment(player.get(), &moment), SEMBLANTE_UNAVAILABLE);
+  EXPECT_EQ(semblante_player_moment(nullptr, &moment), SEMBLANTE_INVALID_ARGUMENT);
   semblante_player_destroy(nullptr);
 }
 

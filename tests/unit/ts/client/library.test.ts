@@ -1,0 +1,69 @@
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import { describe, expect, it } from 'vitest';
+import * as layouts from '../../../../clients/js/layouts.ts';
+import { libraryPath } from '../support/runtime.ts';
+
+const root = fileURLToPath(new URL('../../../..', import.meta.url));
+const wholePath = join(libraryPath, '../semblante.wasm');
+
+const structs: Record<string, Record<string, number>> = {
+  semblante_timed_frame: layouts.timedFrameLayout,
+  semblante_error: layouts.errorLayout,
+  semblante_stream_options: layouts.streamOptionsLayout,
+  semblante_event: layouts.eventLayout,
+  semblante_header: layouts.headerLayout,
+  semblante_clock: layouts.clockLayout,
+  semblante_player_options: layouts.playerOptionsLayout,
+  semblante_player_statistics: layouts.statisticsLayout,
+  semblante_moment: layouts.momentLayout,
+};
+
+describe('libsemblante in WebAssembly', () => {
+  it.each([
+    ['semblante_view.wasm: streams, players and the kernel', libraryPath, 92_000, 40_000],
+    ['semblante.wasm: everything', wholePath, 270_000, 120_000],
+  ])('%s has no imports and is as small as this', async (_, path, bytes, gzipped) => {
+    const file = readFileSync(path);
+    const module = await WebAssembly.compile(file);
+    expect(WebAssembly.Module.imports(module)).toEqual([]);
+    expect(file.length).toBeLessThanOrEqual(bytes);
+    expect(gzipSync(file, { level: 9 }).length).toBeLessThanOrEqual(gzipped);
+  });
+
+  it('semblante.wasm exports the functions of the header', async () => {
+    const exported = new Set(WebAssembly.Module.exports(await WebAssembly.compile(readFileSync(wholePath))).map(({ name }) => name));
+    const listed = readFileSync(join(root, 'clients/runtime/exports.map'), 'utf8').match(/semblante_\w+(?=;)/g)!;
+    expect(listed.filter((name) => !exported.has(name)).sort()).toEqual([
+      // Parts of what semblante_head_positions does, which pages have by semblante_deform_changed.
+      'semblante_deform',
+      'semblante_deform_prepared',
+      'semblante_sincos',
+    ]);
+  });
+
+  it('The layouts of the binding are the compiler\'s', () => {
+    const clang = ['clang-14', 'clang-15', 'clang-16', 'clang-17', 'clang-18', 'clang-19', 'clang'].find((name) =>
+      process.env['PATH']!.split(':').some((folder) => existsSync(join(folder, name))),
+    );
+    expect(clang).toBeDefined();
+    const checks = Object.entries(structs).flatMap(([name, { size, ...members }]) => [
+      `_Static_assert(sizeof(${name}) == ${size}, "${name}");`,
+      ...Object.entries(members).map(([member, at]) => `_Static_assert(__builtin_offsetof(${name}, ${member}) == ${at}, "${name}.${member}");`),
+    ]);
+    checks.push(`_Static_assert(sizeof(semblante_frame) == ${layouts.frameLayout.size}, "semblante_frame");`);
+    checks.push(`_Static_assert(__builtin_offsetof(semblante_frame, fap) == ${layouts.frameLayout.faps}, "semblante_frame.fap");`);
+    const folder = mkdtempSync(join(tmpdir(), 'semblante-layouts-'));
+    try {
+      const source = join(folder, 'layouts.c');
+      writeFileSync(source, `#include "clients/runtime/semblante.h"\n${checks.join('\n')}\n`);
+      execFileSync(clang!, ['--target=wasm32-wasi', '-std=c11', '-fsyntax-only', '-I', root, source], { stdio: 'pipe' });
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+});
