@@ -240,6 +240,8 @@ export class StreamClient extends Emitter<StreamEvents> {
   private isWanted = false;
   private socket: WebSocket | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
+  /** When it fires; it may be earlier than the library has something to do. */
+  private timerAt = Infinity;
 
   constructor(url: string, options: StreamOptions = {}) {
     super();
@@ -351,13 +353,21 @@ export class StreamClient extends Emitter<StreamEvents> {
       const size = runtime.view.getUint32(memory.result, true);
       this.socket?.send(runtime.bytes.slice(bytes, bytes + size) as Uint8Array<ArrayBuffer>);
     }
-    clearTimeout(this.timer);
     const wake = functions.semblante_stream_wake_time(stream);
-    if (wake === Infinity) return;
-    this.timer = setTimeout(() => {
-      functions.semblante_stream_tick(stream, Math.max(wake, this.options.now()));
-      this.act();
-    }, Math.max(0, Math.ceil(wake - this.options.now())));
+    if (wake < this.timerAt) this.wakeAt(wake);
+  }
+
+  private wakeAt(wake: number): void {
+    clearTimeout(this.timer);
+    this.timerAt = wake;
+    this.timer = setTimeout(() => this.wake(wake), Math.max(0, Math.ceil(wake - this.options.now())));
+  }
+
+  private wake(at: number): void {
+    this.timerAt = Infinity;
+    if (this.memory === null) return;
+    this.memory.runtime.functions.semblante_stream_tick(this.memory.stream, Math.max(at, this.options.now()));
+    this.act();
   }
 
   private handle(memory: StreamMemory): void {
@@ -425,15 +435,19 @@ export class StreamClient extends Emitter<StreamEvents> {
     });
     socket.onerror = () => undefined; // a close event follows
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
-      // A text is no message of this subprotocol: the library finds its bytes unreadable.
-      const bytes = typeof event.data === 'string' ? new Uint8Array(1) : new Uint8Array(event.data);
-      current((memory, now) => {
-        const at = memory.room(bytes.length);
-        memory.runtime.bytes.set(bytes, at);
-        memory.runtime.functions.semblante_stream_receive(memory.stream, at, bytes.length, now);
-        this.emit('message', undefined);
-      })();
+      // A text is no message of this subprotocol: the library finds its byte unreadable.
+      if (socket === this.socket) this.receive(typeof event.data === 'string' ? new Uint8Array(1) : new Uint8Array(event.data));
     };
+  }
+
+  private receive(bytes: Uint8Array): void {
+    const { memory } = this;
+    if (memory === null) return;
+    const at = memory.room(bytes.length);
+    memory.runtime.bytes.set(bytes, at);
+    memory.runtime.functions.semblante_stream_receive(memory.stream, at, bytes.length, this.options.now());
+    if (this.has('message')) this.emit('message', undefined);
+    this.act();
   }
 
   private takeHeader({ runtime, stream, header }: StreamMemory): void {

@@ -15,6 +15,9 @@ const rounds = 8;
 let seed = 7;
 const random = () => (seed = (seed * 48271) % 0x7fffffff) / 0x7fffffff;
 
+/** As the client reads them: rig.json has an object by point. */
+const followers = (by) => Object.entries(by).flatMap(([point, leaders]) => Object.entries(leaders).map(([leader, share]) => ({ point, leader, share })));
+
 /** A head whose vertices follow 1 to 6 feature points each, as on a face. */
 function makeFace() {
   const rig = JSON.parse(readFileSync(join(vectors, 'v3/rig.json'), 'utf8'));
@@ -32,14 +35,7 @@ function makeFace() {
     rowOffsets[v + 1] = points.length;
   }
   return {
-    rig: {
-      ...rig,
-      companions: rig.companions ?? [],
-      lower_lip: rig.lower_lip ?? [],
-      irises: rig.irises ?? [null, null],
-      lids: rig.lids ?? [null, null],
-      tongue: rig.tongue ?? null,
-    },
+    rig: { ...rig, companions: followers(rig.companions), lower_lip: followers(rig.lower_lip) },
     mesh: { positions, normals: null, uvs: null, materials: null, fileVertices: null, triangles: new Uint32Array() },
     influence: {
       vertexCount: vertices,

@@ -242,7 +242,7 @@ describe('StreamClient', () => {
     FakeSocket.last.give(header);
     expect(stream.streamClock.at(100)).toBeCloseTo(header.media_time + 50.5, 6);
     FakeSocket.last.drop();
-    vi.advanceTimersByTime(250);
+    vi.advanceTimersByTime(700);
     now = 1000;
     FakeSocket.last.accept();
     now = 1010; // the clock said 1000 and a little at 0 to 100, so now 1900 to 2010
@@ -250,7 +250,7 @@ describe('StreamClient', () => {
     expect(stream.streamClock.at(1010)).toBeCloseTo(1965.5, 6);
     expect(stream.streamClock.steps).toBe(0);
     FakeSocket.last.drop();
-    vi.advanceTimersByTime(250);
+    vi.advanceTimersByTime(700);
     now = 2000;
     FakeSocket.last.accept();
     FakeSocket.last.give({ ...header, epoch: 10, media_time: 7 });
