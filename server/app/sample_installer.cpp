@@ -18,7 +18,8 @@ namespace {
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read");
+  if (!stream || std::filesystem::is_directory(path))
+    throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read");
   return {(std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()};
 }
 

@@ -107,6 +107,11 @@ class Doctor(unittest.TestCase):
         (self.folder / "head.fps.json").write_text("{}")
         self.assertEqual(self.levels(self.doctor("--sample", self.folder / "head.glb"), "sample head"), {"ok"})
 
+    def test_sample_that_is_a_folder(self):
+        told = self.doctor("--sample", self.folder)
+        self.assertEqual(self.levels(told, "sample head"), {"error"})
+        self.assertIn("is a folder", told["sample head"][0][1])
+
     def test_worker_that_does_not_start(self):
         data = self.folder / "data"
         data.mkdir(mode=0o700)

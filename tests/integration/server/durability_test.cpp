@@ -197,6 +197,16 @@ TEST(Start, PublicAddress_IsRefused) {
       ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("can be reached from other machines")));
 }
 
+TEST(Start, SampleThatIsAFolder_IsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(
+      [&] {
+        ServerProcess server(folder.path() / "data", {"--sample", folder.path().string()});
+      },
+      ::testing::ThrowsMessage<std::runtime_error>(
+          HasSubstr("--sample: " + folder.path().string() + " cannot be read")));
+}
+
 TEST(Limits, WorkerOverItsMemory_FailsTheJobWithTheReason) {
   const TemporaryFolder folder;
   ServerProcess server(folder.path() / "data", {"--worker-memory", "60000000"});
