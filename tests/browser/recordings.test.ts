@@ -35,7 +35,6 @@ describe('recordings', () => {
     await studio.waitForStage('ready');
     await page.locator('#tab-live').click();
     await page.getByLabel('About the stream').getByText('The server’s demo').waitFor();
-    await page.getByLabel('About the stream').getByText('Packed').waitFor();
 
     await section.getByRole('button', { name: 'Record', exact: true }).click();
     const stop = section.getByRole('button', { name: 'Stop recording Demo' });
