@@ -1,6 +1,6 @@
 import { firstLowLevelFap, lastLowLevelFap } from './face_frame.ts';
 import { limits, type Header } from './generated/messages.ts';
-import { faps } from './generated/mpeg4.ts';
+import { quantizerSteps } from './generated/mpeg4.ts';
 
 /** FAP units per quantized level, by FAP number (entries 0..2 are 1 and unused). */
 export type QuantizerSteps = Float64Array;
@@ -8,7 +8,7 @@ export type QuantizerSteps = Float64Array;
 /** The quantizer steps of the standard. */
 export const standardQuantizers: QuantizerSteps = (() => {
   const steps = new Float64Array(lastLowLevelFap + 1).fill(1);
-  for (const fap of faps) steps[fap.number] = fap.quantizerStep;
+  steps.set(quantizerSteps, 1);
   return steps;
 })();
 

@@ -8,8 +8,8 @@ import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
-/** The region of the mouth in the front view: the middle of the lower half of the stage. */
-const mouth = [0.36, 0.48, 0.28, 0.3] as const;
+/** The region of mouth and chin in the front view, above the tools. */
+const mouth = [0.33, 0.62, 0.34, 0.29] as const;
 /** A region of the face without the tools that float above and below the head. */
 const faceAlone = [0.3, 0.2, 0.4, 0.5] as const;
 

@@ -252,6 +252,10 @@ export interface Expression {
   };
   out << "export const fapCount = " << data.faps["faps"].size() << ";\n"
       << "export const featurePointCount = " << data.feature_points["feature_points"].size() << ";\n\n";
+  json steps = json::array();
+  for (const json& f : data.faps["faps"]) steps.push_back(f.value("quantizer_step", 1));
+  out << "/** `quantizerStep` of FAPs 1 to 68, for pages that need nothing else of them. */\n"
+      << "export const quantizerSteps: readonly number[] = " << steps.dump() << ";\n\n";
   json groups = json::array();
   for (const json& g : data.faps["groups"]) {
     groups.push_back({{"number", g["group"]}, {"name", g["name"]}, {"first", g["first"]}, {"last", g["last"]}});

@@ -66,6 +66,9 @@ export interface Expression {
 export const fapCount = 68;
 export const featurePointCount = 84;
 
+/** `quantizerStep` of FAPs 1 to 68, for pages that need nothing else of them. */
+export const quantizerSteps: readonly number[] = [1,1,4,2,2,2,2,2,2,2,2,2,2,1,1,1,1,1,1,1,1,1,128,128,128,128,1,1,1,1,2,2,2,2,2,2,1,1,2,2,2,2,1,1,1,1,512,170,170,170,2,2,2,2,2,2,2,2,2,2,1,1,1,1,1,1,1,1];
+
 export const fapGroups: readonly FapGroup[] = [
   {"number":1,"name":"visemes and expressions","first":1,"last":2},
   {"number":2,"name":"jaw, chin and inner lip contour","first":3,"last":18},
