@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/anatomy/rim_points.h"
 #include "core/doctor/face_axes.h"
 #include "core/doctor/mesh_sides.h"
-#include "core/anatomy/rim_points.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_method.h"
 #include "core/types/model.h"
