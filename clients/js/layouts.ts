@@ -6,7 +6,8 @@ import { fapCount } from '../../protocol/ts/generated/mpeg4.ts';
 
 export const frameLayout = { faps: 8, size: 8 + (fapCount + 1) * 4 } as const;
 
-export const timedFrameLayout = { time: 0, frame: 8, size: 8 + 288 } as const;
+/** The size is a multiple of 8, as its time has 8 bytes. */
+export const timedFrameLayout = { time: 0, frame: 8, size: 8 + Math.ceil(frameLayout.size / 8) * 8 } as const;
 
 export const errorLayout = { where: 0, message: 96, size: 352 } as const;
 
@@ -75,5 +76,5 @@ export const momentLayout = {
   t: 32,
   spans: 36,
   frames: 48,
-  size: 48 + 4 * (8 + (fapCount + 1) * 4),
+  size: 48 + 4 * frameLayout.size,
 } as const;

@@ -1,7 +1,7 @@
 import { neutralFrame, type FaceFrame } from '../../protocol/ts/face_frame.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { readFrame } from './frames.ts';
-import { errorLayout, frameLayout, momentLayout, playerOptionsLayout, statisticsLayout } from './layouts.ts';
+import { frameLayout, momentLayout, playerOptionsLayout, statisticsLayout } from './layouts.ts';
 import { Runtime } from './runtime.ts';
 import type { StreamClient, StreamClock } from './stream_client.ts';
 
@@ -198,16 +198,11 @@ export class Player {
   private make(runtime: Runtime): void {
     this.release?.();
     const { functions } = runtime;
-    const given = runtime.struct(playerOptionsLayout.size);
-    const error = runtime.alloc(errorLayout.size);
-    const made = runtime.alloc(4);
-    runtime.view.setUint32(given + playerOptionsLayout.eased, this.eased ? 1 : 0, true);
-    runtime.view.setFloat64(given + playerOptionsLayout.delay, this.options.delay ?? 0, true);
-    const failed = functions.semblante_player_create(given, made, error) !== 0;
-    const words = failed ? runtime.text(error + errorLayout.message) : '';
-    const player = runtime.view.getUint32(made, true);
-    for (const at of [given, error, made]) runtime.free(at);
-    if (failed) throw new RangeError(`delay: ${words}`);
+    const options = (view: DataView, at: number): void => {
+      view.setUint32(at + playerOptionsLayout.eased, this.eased ? 1 : 0, true);
+      view.setFloat64(at + playerOptionsLayout.delay, this.options.delay ?? 0, true);
+    };
+    const player = runtime.create(playerOptionsLayout.size, options, functions.semblante_player_create);
     const moment = runtime.struct(momentLayout.size);
     const statistics = runtime.struct(statisticsLayout.size);
     this.memory = { runtime, player, moment, statistics };

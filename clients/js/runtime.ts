@@ -1,4 +1,5 @@
 import { FaceError } from './face_error.ts';
+import { errorLayout } from './layouts.ts';
 
 /** The functions of libsemblante (clients/runtime/semblante.h) that this SDK calls. Pointers and handles are numbers. */
 interface Functions {
@@ -131,6 +132,29 @@ export class Runtime {
     const at = this.alloc(bytes);
     this.view.setUint32(at, bytes, true);
     return at;
+  }
+
+  /**
+   * The handle that `create` makes from options, a struct of `bytes` bytes that `fill` writes. Throws RangeError with the
+   * library's place and words when it refuses them.
+   */
+  create(
+    bytes: number,
+    fill: (view: DataView, options: number) => void,
+    create: (options: number, handle: number, error: number) => number,
+  ): number {
+    const options = this.struct(bytes);
+    const handle = this.alloc(4);
+    const error = this.alloc(errorLayout.size);
+    try {
+      fill(this.view, options);
+      if (create(options, handle, error) !== 0) {
+        throw new RangeError(`${this.text(error + errorLayout.where)}: ${this.text(error + errorLayout.message)}`);
+      }
+      return this.view.getUint32(handle, true);
+    } finally {
+      for (const at of [options, handle, error]) this.free(at);
+    }
   }
 
   /** A text that ends in zero; empty for null. */

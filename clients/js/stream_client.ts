@@ -138,20 +138,9 @@ export class StreamMemory {
     readonly runtime: Runtime,
     options: (view: DataView, at: number) => void,
   ) {
-    const { functions } = runtime;
-    const given = runtime.struct(streamOptionsLayout.size);
-    options(runtime.view, given);
+    const { semblante_stream_create: create } = runtime.functions;
+    this.stream = runtime.create(streamOptionsLayout.size, options, create);
     this.result = runtime.alloc(8);
-    const error = runtime.alloc(errorLayout.size);
-    try {
-      if (functions.semblante_stream_create(given, this.result, error) !== ok) {
-        throw new RangeError(`${runtime.text(error + errorLayout.where)}: ${runtime.text(error + errorLayout.message)}`);
-      }
-    } finally {
-      runtime.free(error);
-      runtime.free(given);
-    }
-    this.stream = runtime.view.getUint32(this.result, true);
     this.event = runtime.struct(eventLayout.size);
     this.header = runtime.struct(headerLayout.size);
     this.clock = runtime.struct(clockLayout.size);

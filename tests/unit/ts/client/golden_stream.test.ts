@@ -6,7 +6,7 @@ import { fromHex, vectorJson } from '../protocol/vectors.ts';
 import { FakeSocket, headerOf } from '../support/fake_socket.ts';
 import { loadRuntime } from '../support/runtime.ts';
 
-// The golden files, read by the library behind the client.
+// StreamClient decodes the golden files of protocol/vectors by libsemblante in WebAssembly.
 
 beforeAll(loadRuntime);
 beforeEach(() => {

@@ -375,7 +375,7 @@ describe('Player', () => {
     const poses = new NumberPoses();
     const late = new Player(null, { now: () => clock.now });
     late.follow(stream.client);
-    expect(late.update(0.016)).toBe(false); // nothing evaluates yet
+    expect(late.update(0.016)).toBe(false); // no poses are set that could be evaluated
     late.show(poses);
     expect(late.update(0.016)).toBe(true);
     expect(poses.shown).toBe(levelAt(400));
