@@ -1,5 +1,6 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { shownFace, untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
@@ -50,10 +51,8 @@ describe('a stream on a phone', () => {
       context.setDefaultTimeout(patience);
       const phone = await context.newPage();
       await phone.goto(url, { waitUntil: 'domcontentloaded' });
-      await phone.waitForFunction(() =>
-        ['playing', 'error'].includes((window as unknown as { semblanteFace?: { state: string } }).semblanteFace?.state ?? ''),
-      );
-      const state = await phone.evaluate(() => (window as unknown as { semblanteFace: { state: string } }).semblanteFace.state);
+      await untilFace(phone, 'playing', 'error');
+      const { state } = await shownFace(phone);
       await context.close();
       return state;
     };

@@ -1,5 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
+import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch } from './support/studio_page.ts';
@@ -14,13 +15,6 @@ afterAll(async () => {
   await browser?.close();
   await server?.stop();
 });
-
-interface Shown {
-  state: string;
-  message: string;
-  paused: boolean;
-  stats: { vertices: number };
-}
 
 async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean } = {}): Promise<{ page: Page; errors: string[] }> {
   const context = await browser.newContext({
@@ -43,11 +37,6 @@ async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?:
   return { page, errors };
 }
 
-const until = (page: Page, state: string): Promise<unknown> =>
-  page.waitForFunction((wanted) => (window as unknown as { semblanteFace?: Shown }).semblanteFace?.state === wanted, state);
-const message = (page: Page): Promise<string> =>
-  page.evaluate(() => (window as unknown as { semblanteFace: Shown }).semblanteFace.message);
-
 test('View_Demo_MovesWithLessThan250kB', async () => {
   const { page, errors } = await open('/view/demo');
   const session = await page.context().newCDPSession(page);
@@ -58,7 +47,7 @@ test('View_Demo_MovesWithLessThan250kB', async () => {
   await session.send('Network.setCacheDisabled', { cacheDisabled: true });
   bytes = 0;
   await page.reload({ waitUntil: 'domcontentloaded' });
-  await until(page, 'playing');
+  await untilFace(page, 'playing');
   const moved = bytes;
   expect(moved).toBeGreaterThan(100_000); // the head and its decoder are in it
   expect(moved).toBeLessThanOrEqual(250_000);
@@ -69,42 +58,40 @@ test('View_Demo_MovesWithLessThan250kB', async () => {
 
 test('View_UnknownStream_SaysSo_AndShowsItOnceItIsThere', async () => {
   const { page, errors } = await open('/view/later');
-  await until(page, 'error');
-  expect(await message(page)).toContain('There is no stream “later”');
+  await untilFace(page, 'error');
+  expect((await shownFace(page)).message).toContain('There is no stream “later”');
   const create = await fetch(`${server.url}/v1/streams`, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: '{"name":"later"}',
   });
   expect(create.status).toBe(201);
-  await page.waitForFunction(() => (window as unknown as { semblanteFace: Shown }).semblanteFace.message.includes('has no face yet'));
+  await page.waitForFunction(() => (window as unknown as { semblanteFace: ShownFace }).semblanteFace.message.includes('has no face yet'));
   await fetch(`${server.url}/v1/streams/later`, { method: 'DELETE' });
   await fetch(`${server.url}/v1/streams`, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: '{"name":"later","model":"sample"}',
   });
-  await page.waitForFunction(() =>
-    ['resting', 'playing'].includes((window as unknown as { semblanteFace: Shown }).semblanteFace.state),
-  );
+  await untilFace(page, 'resting', 'playing');
   await fetch(`${server.url}/v1/streams/later`, { method: 'DELETE' });
-  await until(page, 'ended');
+  await untilFace(page, 'ended');
   expect(errors).toEqual([]);
   await page.context().close();
 });
 
 test('View_LessMotionWished_WaitsForPlay', async () => {
   const { page, errors } = await open('/view/demo', { reducedMotion: 'reduce' });
-  await until(page, 'resting');
+  await untilFace(page, 'resting');
   await page.getByRole('button', { name: 'Play' }).first().click();
-  await until(page, 'playing');
+  await untilFace(page, 'playing');
   expect(errors).toEqual([]);
   await page.context().close();
 });
 
 test('View_WithoutWebGl_SaysSo', async () => {
   const { page } = await open('/view/demo', { noWebGl: true });
-  await until(page, 'error');
-  expect(await message(page)).toContain('WebGL 2');
+  await untilFace(page, 'error');
+  expect((await shownFace(page)).message).toContain('WebGL 2');
   await page.context().close();
 });

@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { buildDir } from './support/paths.ts';
 import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
@@ -13,26 +14,13 @@ let browser: Browser;
 let network: ChildProcess;
 let address: string;
 
-interface Shown {
-  state: string;
-  message: string;
-  stats: { vertices: number };
-}
-const shown = (page: Page): Promise<Shown> =>
-  page.evaluate(() => {
-    const { state, message, stats } = (window as unknown as { semblanteFace: Shown }).semblanteFace;
-    return { state, message, stats };
-  });
-const until = (page: Page, state: string): Promise<unknown> =>
-  page.waitForFunction((wanted) => (window as unknown as { semblanteFace?: Shown }).semblanteFace?.state === wanted, state);
-
 /** The page of the demo, by a network that can be cut. `mark` tells afterwards whether the page was loaded anew. */
 async function open(): Promise<Page> {
   const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   await page.goto(`${address}/view/demo`, { waitUntil: 'domcontentloaded', timeout: patience });
-  await until(page, 'playing');
+  await untilFace(page, 'playing');
   await page.evaluate(() => Object.assign(window, { mark: true }));
   return page;
 }
@@ -56,10 +44,10 @@ describe('the page of a stream on a bad network', () => {
   test('NetworkGone_IsSaid_AndTheFaceComesBackByItself', async () => {
     const page = await open();
     network.stdin!.write('refuse\ncut\n');
-    await until(page, 'stalled');
-    expect((await shown(page)).message).toContain('Trying again');
+    await untilFace(page, 'stalled');
+    expect((await shownFace(page)).message).toContain('Trying again');
     network.stdin!.write('accept\n');
-    await until(page, 'playing');
+    await untilFace(page, 'playing');
     expect(await sameAsBefore(page)).toBe(true);
     await page.context().close();
   });
@@ -72,14 +60,14 @@ describe('the page of a stream on a bad network', () => {
       const stream = (await (await fetch(`${server.url}/v1/streams/demo`)).json()) as { subscribers: number };
       return stream.subscribers === 1;
     });
-    await until(page, 'playing');
+    await untilFace(page, 'playing');
     expect(await sameAsBefore(page)).toBe(true);
     await page.context().close();
   });
 
   test('WithoutANetwork_ThePageOpensWithItsFace', async () => {
     const page = await open();
-    // The service worker has kept the package, and its page too.
+    // The service worker stores them some seconds after the face has begun to move.
     await eventually('the page and its face are kept', () =>
       page.evaluate(async () => {
         const names = await caches.keys();
@@ -91,10 +79,10 @@ describe('the page of a stream on a bad network', () => {
     );
     network.stdin!.write('refuse\ncut\n');
     await page.reload({ waitUntil: 'domcontentloaded', timeout: patience });
-    await page.waitForFunction(() => ((window as unknown as { semblanteFace?: Shown }).semblanteFace?.stats.vertices ?? 0) > 0);
-    expect((await shown(page)).state).not.toBe('error');
+    await page.waitForFunction(() => ((window as unknown as { semblanteFace?: ShownFace }).semblanteFace?.stats.vertices ?? 0) > 0);
+    expect((await shownFace(page)).state).not.toBe('error');
     network.stdin!.write('accept\n');
-    await until(page, 'playing');
+    await untilFace(page, 'playing');
     await page.context().close();
   });
 });

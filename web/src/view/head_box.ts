@@ -52,7 +52,7 @@ export function findHead(pieces: readonly Piece[]): Box | null {
       const end = top - ((neck >= 0 ? neck + 1 : slice) / slices) * height;
       if (top - end >= leastShare * height) {
         const box = boxOf(pieces, end);
-        box.min[1] = end; // a coarse mesh has its lowest vertex far above
+        box.min[1] = end; // where the mesh is coarse, its lowest vertex above the cut is far away
         return box;
       }
       // A bun, a horn or a hat's tip: the head is below.

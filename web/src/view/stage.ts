@@ -137,12 +137,12 @@ export class Stage {
   /** Shows the whole face again, from where the camera is. */
   frameFace(): void {
     this.before = null;
-    this.fly(this.center, this.radius * 1.06, this.camera.position.clone().sub(this.controls.target), false);
+    this.fly(this.center, this.radius * 1.06, this.arm(), false);
   }
 
   /** Brings a place to the middle of the picture, and nearer, from where the camera is. */
   focus(place: readonly [number, number, number]): void {
-    this.fly(new Vector3(...place), this.radius * 0.45, this.camera.position.clone().sub(this.controls.target), false);
+    this.fly(new Vector3(...place), this.radius * 0.45, this.arm(), false);
   }
 
   look(view: ViewName, atOnce = false): void {
@@ -153,7 +153,7 @@ export class Stage {
   /** Moves the camera to a place of the model so that a ball of `radius` fits; `outward`: the surface normal there. */
   lookAt(place: Vector3, radius: number, outward: Vector3): void {
     const { target } = this.controls;
-    this.before ??= { target: target.clone(), arm: this.camera.position.clone().sub(target) };
+    this.before ??= { target: target.clone(), arm: this.arm() };
     // The mean of the normal and the front: no view from below or behind because of one triangle's normal.
     const direction = outward
       .clone()
@@ -170,6 +170,11 @@ export class Stage {
     const { target, arm } = this.before;
     this.before = null;
     this.start(target, arm, false);
+  }
+
+  /** The vector from what the camera looks at to the camera. */
+  private arm(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target);
   }
 
   private fly(target: Vector3, radius: number, direction: Vector3, atOnce: boolean): void {
@@ -197,7 +202,7 @@ export class Stage {
   /** Rotates the camera around the head, for the keyboard. Angles in radians. */
   orbit(yaw: number, pitch: number): void {
     this.flight.stop();
-    const arm = this.camera.position.clone().sub(this.controls.target);
+    const arm = this.arm();
     arm.applyAxisAngle(new Vector3(0, 1, 0), yaw);
     const side = new Vector3().crossVectors(this.camera.up, arm).normalize();
     const tilted = arm.clone().applyAxisAngle(side, pitch);
@@ -210,7 +215,7 @@ export class Stage {
   /** Moves the camera's target parallel to the screen, in fractions of the picture's height; for the keyboard. */
   pan(right: number, up: number): void {
     this.flight.stop();
-    const arm = this.camera.position.clone().sub(this.controls.target);
+    const arm = this.arm();
     const height = 2 * arm.length() * Math.tan((this.camera.fov * Math.PI) / 360);
     const side = new Vector3().crossVectors(this.camera.up, arm).normalize();
     const above = new Vector3().crossVectors(arm, side).normalize();

@@ -3,6 +3,7 @@ import { isLoopback, phoneLink } from '../../net/phone_link.ts';
 import { problemOf } from '../../net/problem.ts';
 import { getSession } from '../../net/session.ts';
 import type { Session, StreamInfo } from '../../net/types.ts';
+import { showDialog } from '../shared/dialog.ts';
 import { h, replace, setText, svg } from '../shared/dom.ts';
 import type { Studio } from '../shared/studio.ts';
 
@@ -52,31 +53,16 @@ export class PhoneDialog {
   }
 
   async open(): Promise<void> {
-    const dialog = h(
-      'dialog',
-      { class: 'dialog', 'aria-labelledby': 'phone-title' },
-      h(
-        'form',
-        { method: 'dialog' },
-        h('h2', { id: 'phone-title' }, `${this.stream.title || this.stream.id} on a phone`),
-        this.place,
-        this.note,
-        this.privacy,
-        h('label', { for: 'phone-address' }, 'Address'),
-        this.address,
-        h(
-          'div',
-          { class: 'row end' },
-          this.invite,
-          h('button', { type: 'button', on: { click: () => void this.copy() } }, 'Copy'),
-          h('button', { type: 'submit', class: 'primary' }, 'Close'),
-        ),
-      ),
-    );
-    dialog.addEventListener('close', () => dialog.remove());
     this.draw(phoneLink(this.base, this.stream.id));
-    document.body.append(dialog);
-    dialog.showModal();
+    showDialog(
+      `${this.stream.title || this.stream.id} on a phone`,
+      [this.place, this.note, this.privacy, h('label', { for: 'phone-address' }, 'Address'), this.address],
+      [
+        this.invite,
+        h('button', { type: 'button', on: { click: () => void this.copy() } }, 'Copy'),
+        h('button', { type: 'submit', class: 'primary' }, 'Close'),
+      ],
+    );
     try {
       const session = await getSession(this.studio.api.base);
       const words = privacyWords(session, this.stream);

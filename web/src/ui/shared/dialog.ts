@@ -26,30 +26,33 @@ export async function ask(question: Question): Promise<string | null> {
 }
 
 /** A modal dialog; selects the text of the first input. Resolves with whether the dialog was accepted. */
-export function openDialog(words: Pick<Question, 'title' | 'accept' | 'danger'>, ...content: Child[]): Promise<boolean> {
-  return new Promise((resolve) => {
-    const dialog = h(
-      'dialog',
-      { class: 'dialog', 'aria-labelledby': 'dialog-title' },
-      h(
-        'form',
-        { method: 'dialog' },
-        h('h2', { id: 'dialog-title' }, words.title),
-        content,
-        h(
-          'div',
-          { class: 'row end' },
-          h('button', { type: 'button', on: { click: () => dialog.close('') } }, 'Cancel'),
-          h('button', { type: 'submit', value: 'yes', class: words.danger ? 'danger' : 'primary' }, words.accept),
-        ),
-      ),
-    );
-    dialog.addEventListener('close', () => {
-      dialog.remove();
-      resolve(dialog.returnValue === 'yes');
-    });
-    document.body.append(dialog);
-    dialog.showModal();
-    dialog.querySelector<HTMLInputElement>('input[type="text"]')?.select();
-  });
+export async function openDialog(
+  words: Pick<Question, 'title' | 'accept' | 'danger'>,
+  ...content: Child[]
+): Promise<boolean> {
+  const cancel = h('button', { type: 'button', on: { click: () => dialog.close('') } }, 'Cancel');
+  const accept = h('button', { type: 'submit', value: 'yes', class: words.danger ? 'danger' : 'primary' }, words.accept);
+  const dialog = showDialog(words.title, content, [cancel, accept]);
+  dialog.querySelector<HTMLInputElement>('input[type="text"]')?.select();
+  await new Promise((resolve) => dialog.addEventListener('close', resolve));
+  return dialog.returnValue === 'yes';
+}
+
+/** Shows a modal dialog with its buttons in the last row; a submit button closes it. It removes itself when it closes. */
+export function showDialog(title: string, content: Child, buttons: Child): HTMLDialogElement {
+  const dialog = h(
+    'dialog',
+    { class: 'dialog', 'aria-labelledby': 'dialog-title' },
+    h(
+      'form',
+      { method: 'dialog' },
+      h('h2', { id: 'dialog-title' }, title),
+      content,
+      h('div', { class: 'row end' }, buttons),
+    ),
+  );
+  dialog.addEventListener('close', () => dialog.remove());
+  document.body.append(dialog);
+  dialog.showModal();
+  return dialog;
 }
