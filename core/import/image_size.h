@@ -12,8 +12,8 @@ struct ImageSize {
   [[nodiscard]] std::size_t pixels() const { return width * height; }
 };
 
-/// The size that the header of a PNG or a JPEG declares, each side below 2^32. Nothing is decoded. Nothing for other
-/// bytes, and where there is no such header: viewers show nothing of those either.
+/// The size that the header of a PNG or a JPEG declares, each side below 2^32; nullopt for other bytes, and for an
+/// image without a complete header, of which viewers show nothing. Nothing is decoded.
 std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::import

@@ -1,5 +1,7 @@
 #include "server/access/client_limits.h"
 
+#include <cmath>
+
 namespace semblante::access {
 namespace {
 
@@ -41,6 +43,10 @@ bool ClientRates::take_creation(const std::string& address, Clock::time_point no
   const std::lock_guard lock(mutex_);
   forget_idle(creations_, now);
   return creations_.try_emplace(address, most / seconds_per_minute, most, now).first->second.take(1.0, now);
+}
+
+unsigned ClientRates::seconds_per_creation() const {
+  return static_cast<unsigned>(std::ceil(seconds_per_minute / limits_.creations_per_minute));
 }
 
 std::size_t ClientRates::size() const {

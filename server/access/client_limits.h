@@ -34,7 +34,8 @@ class ClientRates {
   void count_failure(const std::string& address, Clock::time_point now = Clock::now());
   /// False when this address has created as much as it may for now.
   bool take_creation(const std::string& address, Clock::time_point now = Clock::now());
-  [[nodiscard]] double creations_per_minute() const { return limits_.creations_per_minute; }
+  /// Seconds after which an address may create one thing more.
+  [[nodiscard]] unsigned seconds_per_creation() const;
   /// Number of clients in memory.
   [[nodiscard]] std::size_t size() const;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "server/api/access.h"
 #include "server/api/common.h"
@@ -20,7 +19,6 @@ using access::Verdict;
 using http::make_problem;
 
 constexpr unsigned retry_after_rate = 1, retry_after_failures = 30;
-constexpr double seconds_per_minute = 60.0;
 
 /// "a=1; semblante_session=x" -> "x".
 std::string_view cookie_of(const http::Request& head) {
@@ -214,7 +212,7 @@ std::optional<unsigned> wait_for_creation(const Security& security, const http::
   const auto address = http::parse_address(asking.from.address);
   if (is_admin || !address || http::is_loopback(*address)) return std::nullopt;
   if (security.rates->take_creation(network_of(asking.from.address))) return std::nullopt;
-  return static_cast<unsigned>(std::ceil(seconds_per_minute / security.rates->creations_per_minute()));
+  return security.rates->seconds_per_creation();
 }
 
 std::optional<http::Response> refuse_access(const Security& security, streams::StreamHub& hub,

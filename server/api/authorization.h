@@ -36,7 +36,7 @@ std::optional<http::Response> refuse_bypass(const Security& security, const http
 /// The answer to a client that sends too many requests; nullopt when it may go on.
 std::optional<http::Response> refuse_rate(const Security& security, const http::Request& head);
 /// Counts a creation of the requester's address: after how many seconds it may be tried again if there were too many.
-/// Those of this machine and of the scope admin (with a token) are not counted.
+/// Creations by this machine, and with a token of the scope admin, are not counted.
 std::optional<unsigned> wait_for_creation(const Security& security, const http::Request& request);
 /// The answer to a request that its sender may not make; nullopt when it may go on. Does not wait: jobs and recordings
 /// of tokens for one stream or model are checked by refuse_foreign_resource(). `needed`: of the route, or of the role

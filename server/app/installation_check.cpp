@@ -197,16 +197,12 @@ void check_studio(InstallationFindings& findings, const ServeOptions& options) {
 void check_sample(InstallationFindings& findings, const ServeOptions& options) {
   if (options.sample.empty()) return;
   for (const auto& file : {options.sample, fs::path(options.sample).replace_extension(".fps.json")}) {
-    if (fs::is_directory(file)) {
-      findings.push_back({Level::error, "sample head", file.string() + " is a folder",
-                          "Name the file of the head with --sample, or leave it out (--sample \"\")."});
-      return;
-    }
-    if (::access(file.c_str(), R_OK) != 0) {
-      findings.push_back({Level::error, "sample head", file.string() + " cannot be read: " + reason(),
-                          "Correct --sample, or leave it out (--sample \"\")."});
-      return;
-    }
+    const bool is_folder = fs::is_directory(file);
+    if (!is_folder && ::access(file.c_str(), R_OK) == 0) continue;
+    findings.push_back({Level::error, "sample head",
+                        file.string() + " cannot be read: " + (is_folder ? "it is a folder" : reason()),
+                        "Correct --sample, or leave it out (--sample \"\")."});
+    return;
   }
   findings.push_back({Level::ok, "sample head", options.sample.string() + " is readable", ""});
 }

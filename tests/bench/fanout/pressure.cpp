@@ -33,7 +33,7 @@ class Phases {
       : pool_(pool), server_(server), options_(options) {}
 
   void quiet(Histogram& into) {
-    pool_.run_for(std::chrono::duration<double>(options_.smoke ? 0.2 : 0.7));  // what was before has ended
+    pool_.run_for(std::chrono::duration<double>(options_.smoke ? 0.2 : 0.7));  // the effects of the phase before end
     measure(into);
   }
 
@@ -107,7 +107,7 @@ int pressure(const Options& given) {
     Used used;
     Outcome outcome;
     for (int round = 0; round < options.repetitions; ++round) {
-      // Each half has the same moments of the run on the average.
+      // The order alternates, so that neither half is measured earlier than the other on average.
       for (const int half : {round % 2, 1 - round % 2}) {
         phases.quiet(halves[half]);
         if (half == 1) outcome = phases.pressed(attack, pressed, used);

@@ -46,7 +46,8 @@ class SubscriberPool {
 
   /// From now on deliveries and lateness count anew.
   void begin_measuring();
-  /// The same, but the moments that lateness is measured from stay: phases are compared with each other.
+  /// Starts the counts anew as begin_measuring() does, but keeps the reference times of lateness, so that the lateness
+  /// of several phases can be compared.
   void begin_phase();
   [[nodiscard]] const PoolCounts& counts() const { return counts_; }
   /// Against when a batch was due.

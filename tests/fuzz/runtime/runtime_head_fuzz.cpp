@@ -14,7 +14,7 @@ using namespace semblante;
 
 namespace {
 
-/// Puts a hash where the text has one after `part`, so that changed parts still belong together.
+/// Replaces the first SHA-256 behind `part` in the rig, so that a mutated part still matches the hash that names it.
 void write_hash(std::string& rig, const char* part, const Sha256& hash) {
   const std::size_t begin = rig.find("\"sha256\":\"", std::min(rig.find(part), rig.size()));
   const std::string hex = to_hex(hash);
@@ -70,9 +70,9 @@ void pose(semblante_head* head, std::uint8_t seed) {
 
 }  // namespace
 
-/// The input: flags, a number for the poses, the lengths of `weights` (inflated) and of the mesh, these, and rig.json.
-/// Bit 0: the mesh is mesh.drc; otherwise it is corners, and the positions follow from their number. Bit 1: no
-/// vertices.
+/// The input, in this order: flags, a number that chooses the poses, the length of `weights` (inflated), the length of
+/// the mesh, `weights`, the mesh, rig.json. Bit 0: the mesh is mesh.drc; otherwise it is corners, and the positions
+/// follow from their number. Bit 1: no vertices.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Pieces input(data, size);
   const std::uint8_t flags = input.byte();

@@ -73,7 +73,7 @@ void expect_same_motion(const std::vector<glm::vec3>& package_rest, const std::v
     }
     alike += found ? 1 : 0;
   }
-  // Where lids and the neck move a vertex, its motion is not linear in what was quantized: 2 of 11,478 differ by more.
+  // The motion of lids and neck is not linear in the quantized weights: 2 of 11,478 vertices differ by more.
   EXPECT_GE(alike, package_rest.size() - package_rest.size() / 1000);
 }
 

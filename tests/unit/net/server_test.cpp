@@ -178,7 +178,7 @@ TEST_F(ServerTest, WebSocket_WantsAKeyOf16Bytes_AndDoesNotNameItsLibrary) {
   EXPECT_EQ(head.find("Beast"), std::string::npos) << head;
 }
 
-/// Fragments of no byte, and control frames between fragments, as RFC 6455 section 5.4 permits them.
+/// RFC 6455 section 5.4 permits empty fragments, and control frames between fragments.
 TEST_F(ServerTest, WebSocket_MessageInOddPieces_IsOneMessage) {
   const Client client(port_);
   client.upgrade();
@@ -421,8 +421,8 @@ TEST_F(LeastRate, SlowReaderOfAFile_IsCutOff) {
   EXPECT_TRUE(slow.read_head().starts_with("HTTP/1.1 200 "));
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t got = 0;
-  // Its reads make room for pieces, so that no single one waits for ever; never more than a quarter of the rate, so
-  // that what the sockets hold is all that it has in advance.
+  // The client reads at no more than a quarter of the least rate: enough that no single write of the server waits for
+  // long, so that only the rate can end the connection.
   EXPECT_TRUE(testing::eventually(
       [&] {
         const std::chrono::duration<double> past = std::chrono::steady_clock::now() - begin;
