@@ -19,7 +19,10 @@ const build = resolve(process.argv[2] ?? join(root, 'build'));
 const seconds = Number(process.argv[3] ?? 10);
 const pictures = process.argv[4];
 
-/** What the proxy is told (tests/support/tcp_proxy.h): delays in ms each way, bandwidth in bytes a second. */
+/**
+ * What the proxy is told (tests/support/tcp_proxy.h): delays in ms each way, bandwidth in bytes a second. The bandwidth is
+ * that of each connection, of which Chromium opens up to six: the page as a whole has more.
+ */
 const networks = [
   { name: 'loopback', proxy: [] },
   { name: '4G: 9 Mbit/s, 85 ms', proxy: ['delay=42', 'jitter=15', 'bandwidth=1125000'] },
