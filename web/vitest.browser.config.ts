@@ -1,4 +1,5 @@
 import { defineConfig } from 'vitest/config';
+import { patience } from '../tests/browser/support/patience.ts';
 import { aliases, packagesForTests } from './aliases.ts';
 
 /** The studio in headless Chromium against a real server process: slow, one at a time. */
@@ -8,9 +9,9 @@ export default defineConfig({
   test: {
     include: ['../tests/browser/**/*.test.ts'],
     environment: 'node',
-    // Each wait has a limit of its own (support/patience.ts).
-    testTimeout: 3_600_000,
-    hookTimeout: 3_600_000,
+    // Each wait has a limit of its own (support/patience.ts); this ends what hangs without one, and names it.
+    testTimeout: 2 * patience,
+    hookTimeout: 2 * patience,
     fileParallelism: false,
   },
 });

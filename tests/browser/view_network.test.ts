@@ -31,8 +31,12 @@ beforeAll(async () => {
   network = spawn(join(buildDir, 'bin/semblante-test-proxy'), [new URL(server.url).port, 'delay=20'], {
     stdio: ['pipe', 'pipe', 'inherit'],
   });
-  const port = await new Promise((resolve) => createInterface({ input: network.stdout! }).once('line', resolve));
-  address = `http://127.0.0.1:${String(port)}`;
+  const port = await new Promise<string>((resolve, reject) => {
+    createInterface({ input: network.stdout! }).once('line', resolve);
+    network.once('error', reject);
+    network.once('exit', (code) => reject(new Error(`the proxy ended with exit code ${code}`)));
+  });
+  address = `http://127.0.0.1:${port}`;
 });
 afterAll(async () => {
   await browser?.close();
