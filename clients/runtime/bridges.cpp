@@ -63,4 +63,8 @@ const char* semblante_arkit_name(uint32_t shape) {
   return shape < arkit_count ? arkit_name(shape).data() : nullptr;  // a literal, so it ends with a zero
 }
 
+const char* semblante_oculus_name(uint32_t viseme) {
+  return viseme < oculus_count ? oculus_name(viseme).data() : nullptr;
+}
+
 }  // extern "C"

@@ -187,6 +187,8 @@ semblante_result semblante_frame_from_oculus(const float weights[15], semblante_
 semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]);
 /* The name of an ARKit shape ("jawOpen"), 0..51; null beyond. */
 const char* semblante_arkit_name(uint32_t shape);
+/* The name of a viseme of Oculus Lipsync ("PP"), 0..14; null beyond. */
+const char* semblante_oculus_name(uint32_t viseme);
 
 /* A frame at a time. 296 bytes. */
 typedef struct semblante_timed_frame {
@@ -486,6 +488,13 @@ typedef enum semblante_take_format {
   SEMBLANTE_TAKE_LIVE_LINK_CSV = 1 /* CSV of the app Live Link Face: ARKit's shapes, head and eyes */
 } semblante_take_format;
 
+/* How a .fap file is understood; without meaning for other formats. */
+typedef struct semblante_take_options {
+  uint32_t size;
+  uint32_t absent; /* the value of a FAP that a frame omits. 0: zero; 1: that of the frame before */
+  uint32_t gaps;   /* the motion where frame numbers are left out. 0: the face holds still; 1: it is interpolated */
+} semblante_take_options;
+
 /* A deviation from the format that was accepted. */
 typedef struct semblante_take_warning {
   uint32_t size;
@@ -495,8 +504,10 @@ typedef struct semblante_take_warning {
   char message[256]; /* for display */
 } semblante_take_warning;
 
-/* Reads a file of at most 64 MiB. Errors: MALFORMED with line and word, TOO_LARGE, INVALID_ARGUMENT, OUT_OF_MEMORY. */
-semblante_result semblante_take_read(uint32_t format, const char* text, size_t size, semblante_take** take,
+/* Reads a file of at most 64 MiB. `options` may be null. Errors: MALFORMED with line and word, TOO_LARGE,
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. */
+semblante_result semblante_take_read(uint32_t format, const char* text, size_t size,
+                                     const semblante_take_options* options, semblante_take** take,
                                      semblante_error* error);
 void semblante_take_destroy(semblante_take* take);
 /* By rising time from the start, ms. */

@@ -39,10 +39,10 @@ semblante_take_warning warning_of(std::uint32_t oddity, std::uint32_t line, std:
   return warning;
 }
 
-Status read_fap(std::string_view text, semblante_take& take) {
+Status read_fap(std::string_view text, const FapFileMeaning& meaning, semblante_take& take) {
   const auto reading = read_fap_file(text);
   if (!reading) return reading.error();
-  const auto frames = frames_of(reading->file);
+  const auto frames = frames_of(reading->file, meaning);
   if (!frames) return frames.error();
   take.rate = reading->file.rate;
   take.frames.reserve(frames->size());
@@ -114,7 +114,8 @@ using namespace semblante::runtime;
 
 extern "C" {
 
-semblante_result semblante_take_read(uint32_t format, const char* text, size_t size, semblante_take** take,
+semblante_result semblante_take_read(uint32_t format, const char* text, size_t size,
+                                     const semblante_take_options* options, semblante_take** take,
                                      semblante_error* error) {
   if (take == nullptr) return fail(error, SEMBLANTE_INVALID_ARGUMENT, "take", "the pointer for it is null");
   *take = nullptr;
@@ -122,10 +123,17 @@ semblante_result semblante_take_read(uint32_t format, const char* text, size_t s
   if (format > SEMBLANTE_TAKE_LIVE_LINK_CSV) {
     return fail(error, SEMBLANTE_INVALID_ARGUMENT, "format", "there is no such format");
   }
+  semblante_take_options given;
+  if (!read_struct(options, given)) return fail(error, SEMBLANTE_INVALID_ARGUMENT, "options.size", "is too small");
+  if (given.absent > 1 || given.gaps > 1) {
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, given.absent > 1 ? "options.absent" : "options.gaps",
+                "must be 0 or 1");
+  }
+  const FapFileMeaning meaning = {static_cast<AbsentFap>(given.absent), static_cast<FrameGap>(given.gaps)};
   return guarded(error, [&] {
     auto made = std::make_unique<semblante_take>();
     const Status read =
-        format == SEMBLANTE_TAKE_FAP ? read_fap({text, size}, *made) : read_live_link({text, size}, *made);
+        format == SEMBLANTE_TAKE_FAP ? read_fap({text, size}, meaning, *made) : read_live_link({text, size}, *made);
     if (!read) return fail(error, read.error());
     *take = made.release();
     return SEMBLANTE_OK;

@@ -151,6 +151,10 @@ class Moment(Sized):
                 ("viseme_share", c_double), ("t", c_float), ("spans", c_float * 3), ("frames", Frame * 4)]
 
 
+class TakeOptions(Sized):
+    _fields_ = [("size", c_uint32), ("absent", c_uint32), ("gaps", c_uint32)]
+
+
 class TakeWarning(Sized):
     _fields_ = [("size", c_uint32), ("oddity", c_uint32), ("line", c_uint32), ("count", c_uint32), ("message", c_char * 256)]
 
@@ -162,7 +166,8 @@ structs = {
     "semblante_pose": Pose, "semblante_face": Face, "semblante_package": Package, "semblante_head_options": HeadOptions,
     "semblante_stream_options": StreamOptions, "semblante_event": Event, "semblante_header": Header,
     "semblante_clock": Clock, "semblante_player_options": PlayerOptions,
-    "semblante_player_statistics": PlayerStatistics, "semblante_moment": Moment, "semblante_take_warning": TakeWarning,
+    "semblante_player_statistics": PlayerStatistics, "semblante_moment": Moment, "semblante_take_options": TakeOptions,
+    "semblante_take_warning": TakeWarning,
 }
 
 _result = ctypes.c_int  # semblante_result
@@ -198,6 +203,7 @@ functions = {  # name: (result, arguments)
     "semblante_frame_from_oculus": (_result, [POINTER(c_float), _frame, _error]),
     "semblante_oculus_from_frame": (_result, [_frame, POINTER(c_float)]),
     "semblante_arkit_name": (c_char_p, [c_uint32]),
+    "semblante_oculus_name": (c_char_p, [c_uint32]),
     "semblante_stream_create": (_result, [POINTER(StreamOptions), _made, _error]),
     "semblante_stream_destroy": (None, [_handle]),
     "semblante_stream_start": (None, [_handle, c_double]),
@@ -233,7 +239,7 @@ functions = {  # name: (result, arguments)
     "semblante_performance_name": (c_char_p, [_handle]),
     "semblante_performance_duration": (c_double, [_handle]),
     "semblante_performance_frame_at": (_result, [_handle, c_double, c_double, _frame]),
-    "semblante_take_read": (_result, [c_uint32, c_char_p, c_size_t, _made, _error]),
+    "semblante_take_read": (_result, [c_uint32, c_char_p, c_size_t, POINTER(TakeOptions), _made, _error]),
     "semblante_take_destroy": (None, [_handle]),
     "semblante_take_frames": (_timed, [_handle, _count]),
     "semblante_take_frame_rate": (c_double, [_handle]),

@@ -7,7 +7,7 @@ from .errors import check
 
 ARKIT_NAMES = tuple(library.semblante_arkit_name(i).decode() for i in range(52))
 # In the order of Oculus Lipsync, which is that of FAP 1.
-OCULUS_NAMES = ("sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "ih", "oh", "ou")
+OCULUS_NAMES = tuple(library.semblante_oculus_name(i).decode() for i in range(15))
 
 
 def _numbers(values, names, kind):

@@ -3,7 +3,7 @@
 import ctypes
 import enum
 
-from ._library import Error, Frame, TakeWarning, TimedFrame, library
+from ._library import Error, Frame, TakeOptions, TakeWarning, TimedFrame, library
 from .errors import Owner, check, make
 
 
@@ -44,9 +44,12 @@ class Take(Owner):
 
     _destroy = library.semblante_take_destroy
 
-    def __init__(self, text, format=TakeFormat.FAP):
+    def __init__(self, text, format=TakeFormat.FAP, keep_absent=False, interpolate_gaps=False):
+        """Of a .fap file: `keep_absent` lets a FAP that a frame omits keep its value (else it is zero); `interpolate_gaps`
+        lets the face move where frame numbers are left out (else it holds still)."""
         text = text.encode() if isinstance(text, str) else bytes(text)
-        super().__init__(make(library.semblante_take_read, int(format), text, len(text)))
+        options = TakeOptions(absent=int(keep_absent), gaps=int(interpolate_gaps))
+        super().__init__(make(library.semblante_take_read, int(format), text, len(text), ctypes.byref(options)))
 
     @property
     def frames(self):

@@ -3,15 +3,18 @@
 #include "clients/runtime/semblante.h"
 #include "tests/fuzz/runtime/pieces.h"
 
-/// The input: the format's byte, then the file. What was read is in order and finite, and can be written and read
-/// again.
+/// The input: a byte of the format and the options, then the file. What was read is in order and finite, and can be
+/// written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Pieces input(data, size);
-  const std::uint32_t format = input.byte() % 3U;
+  const std::uint32_t kind = input.byte();
+  const std::uint32_t format = kind % 3U;
+  const semblante_take_options options{sizeof(options), kind / 3U % 3U, kind / 9U % 3U};
   const auto text = input.rest();
   semblante_take* take = nullptr;
   semblante_error error{};
-  const auto made = semblante_take_read(format, reinterpret_cast<const char*>(text.data()), text.size(), &take, &error);
+  const auto made =
+      semblante_take_read(format, reinterpret_cast<const char*>(text.data()), text.size(), &options, &take, &error);
   must((made == SEMBLANTE_OK) == (take != nullptr));
   must(made == SEMBLANTE_OK || error.message[0] != '\0');
   must(made != SEMBLANTE_INTERNAL);
@@ -46,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
          needed == written.size());
     semblante_take* again = nullptr;
     // Live Link writes the time of day, and a file of one frame has no rate: those alone may be refused.
-    if (semblante_take_read(to, written.data(), written.size(), &again, &why) == SEMBLANTE_OK)
+    if (semblante_take_read(to, written.data(), written.size(), nullptr, &again, &why) == SEMBLANTE_OK)
       semblante_take_destroy(again);
     else
       must(last >= 80000.0 * 1000 || count == 1);

@@ -1,10 +1,15 @@
 // Performances and takes, against protocol/vectors.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -32,9 +37,10 @@ OwnedPerformance make(const std::string& text, semblante_error* error = nullptr)
   return OwnedPerformance(performance);
 }
 
-OwnedTake take_of(semblante_take_format format, const std::string& text, semblante_error* error = nullptr) {
+OwnedTake take_of(semblante_take_format format, const std::string& text, semblante_error* error = nullptr,
+                  const semblante_take_options* options = nullptr) {
   semblante_take* take = nullptr;
-  const auto result = semblante_take_read(format, text.data(), text.size(), &take, error);
+  const auto result = semblante_take_read(format, text.data(), text.size(), options, &take, error);
   EXPECT_EQ(result == SEMBLANTE_OK, take != nullptr);
   return OwnedTake(take);
 }
@@ -147,7 +153,37 @@ TEST(Take, Refused_NamesThePlace) {
   semblante_error error{};
   EXPECT_FALSE(take_of(SEMBLANTE_TAKE_LIVE_LINK_CSV, "Timecode,BlendShapeCount\n", &error));
   semblante_take* take = nullptr;
-  EXPECT_EQ(semblante_take_read(7, "", 0, &take, &error), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_take_read(7, "", 0, nullptr, &take, &error), SEMBLANTE_INVALID_ARGUMENT);
+}
+
+TEST(Take, WhatAFrameOmits_IsZeroOrStays) {
+  const auto mask = [](std::initializer_list<std::size_t> faps) {
+    std::string text;
+    for (std::size_t fap = 1; fap <= SEMBLANTE_FAP_COUNT; ++fap)
+      text += std::find(faps.begin(), faps.end(), fap) == faps.end() ? "0 " : "1 ";
+    return text + "\n";
+  };
+  const std::string text = "2.1 x 10 2\n" + mask({3}) + "0 400\n" + mask({14}) + "5 7\n";
+  const auto jaws = [&](std::uint32_t absent, std::uint32_t gaps) {
+    semblante_take_options options{sizeof(options), absent, gaps};
+    const OwnedTake take = take_of(SEMBLANTE_TAKE_FAP, text, nullptr, &options);
+    std::uint32_t count = 0;
+    const semblante_timed_frame* frames = semblante_take_frames(take.get(), &count);
+    std::vector<std::pair<double, float>> found;
+    for (std::uint32_t i = 0; i < count; ++i) found.emplace_back(frames[i].time, frames[i].frame.fap[3]);
+    return found;
+  };
+  using Jaws = std::vector<std::pair<double, float>>;
+  EXPECT_EQ(jaws(0, 0), (Jaws{{0, 400}, {400, 400}, {500, 0}}));
+  EXPECT_EQ(jaws(1, 1), (Jaws{{0, 400}, {500, 400}}));
+
+  semblante_error error{};
+  semblante_take_options options{sizeof(options), 2, 0};
+  EXPECT_FALSE(take_of(SEMBLANTE_TAKE_FAP, text, &error, &options));
+  EXPECT_STREQ(error.where, "options.absent");
+  options = {0, 0, 0};
+  EXPECT_FALSE(take_of(SEMBLANTE_TAKE_FAP, text, &error, &options));
+  EXPECT_STREQ(error.where, "options.size");
 }
 
 std::string written(std::uint32_t format, const semblante_timed_frame* frames, std::uint32_t count, double rate = 0) {
