@@ -4,12 +4,13 @@ import { defineConfig, type Plugin } from 'vite';
 import { aliases } from './aliases.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
-const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm/semblante_view.wasm');
+const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm');
 const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
-/** Files that are fetched at run time under a fixed name: the client library and the Draco decoder. */
+/** Files that are fetched at run time under a fixed name: the client library, all of it and its smaller part, and the Draco decoder. */
 const assets: Record<string, string> = {
-  'semblante.wasm': library,
+  'semblante.wasm': `${library}/semblante.wasm`,
+  'semblante_view.wasm': `${library}/semblante_view.wasm`,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
 };
@@ -30,7 +31,7 @@ function runtimeAssets(): Plugin {
       for (const [fileName, file] of Object.entries(assets)) {
         if (!existsSync(file)) {
           const advice =
-            fileName === 'semblante.wasm' ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM' : '';
+            file.startsWith(library) ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM to its folder' : '';
           this.error(`${fileName} is missing${advice}`);
         }
         this.emitFile({ type: 'asset', fileName, source: readFileSync(file) });

@@ -1,10 +1,10 @@
 // Makes the npm package `semblante` in build/npm/semblante, ready for `npm pack`: ES modules, declarations, WebAssembly.
 //   node clients/js/build.mjs [FOLDER]
-// Tools and three.js come from web/node_modules. SEMBLANTE_WASM names the library, SEMBLANTE_BUILD the build folder.
+// Tools and three.js come from web/node_modules. SEMBLANTE_WASM is the folder of the library's files, SEMBLANTE_BUILD the build folder.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { join, resolve } from 'node:path';
+import { basename, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
@@ -15,9 +15,9 @@ const { build, transform } = await import(pathToFileURL(tools.resolve('esbuild')
 const buildFolder = resolve(process.env.SEMBLANTE_BUILD ?? join(root, 'build'));
 const folder = resolve(process.argv[2] ?? join(root, 'build/npm/semblante'));
 const dist = join(folder, 'dist');
-const wasm = process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm/semblante_view.wasm');
-if (!existsSync(wasm)) {
-  console.error(`${wasm} is missing: build the target semblante-runtime-wasm, or set SEMBLANTE_WASM`);
+const wasm = ['semblante_view.wasm', 'semblante.wasm'].map((name) => join(process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm'), name));
+for (const file of wasm.filter((one) => !existsSync(one))) {
+  console.error(`${file} is missing: build the target semblante-runtime-wasm, or set SEMBLANTE_WASM`);
   process.exit(1);
 }
 rmSync(folder, { recursive: true, force: true });
@@ -34,7 +34,7 @@ const dracoModule = await transform(`${dracoScript}\nexport default DracoDecoder
 });
 
 await build({
-  entryPoints: { index: 'npm.ts', draco: 'draco/index.ts', element: 'element/index.ts', three: 'three/index.ts' },
+  entryPoints: { index: 'npm.ts', draco: 'draco/index.ts', element: 'element/index.ts', motion: 'motion/npm.ts', three: 'three/index.ts' },
   absWorkingDir: here,
   outdir: dist,
   bundle: true,
@@ -76,7 +76,7 @@ function shorterShaders(source) {
   );
 }
 
-cpSync(wasm, join(dist, 'semblante.wasm'));
+for (const file of wasm) cpSync(file, join(dist, basename(file)));
 cpSync(join(dracoFolder, 'draco_decoder.wasm'), join(dist, 'draco_decoder.wasm'));
 for (const name of ['package.json', 'README.md', 'example.html']) cpSync(join(here, name), join(folder, name));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));

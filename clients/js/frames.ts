@@ -1,6 +1,6 @@
 import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
 import { fapCount } from '../../protocol/ts/generated/mpeg4.ts';
-import type { QuantizerSteps } from '../../protocol/ts/quantizers.ts';
+import { nearestLevel, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { frameLayout } from './layouts.ts';
 
 /** Writes a frame as semblante_frame, whose FAPs are in FAP units. Allocates nothing. */
@@ -17,9 +17,15 @@ export function writeFrame(view: DataView, at: number, { viseme, expression, lev
   }
 }
 
-/** The inverse of `writeFrame`. Allocates nothing. */
+/** The inverse of `writeFrame`; FAPs become the nearest level of a message. Allocates nothing. */
 export function readFrame(view: DataView, at: number, into: FaceFrame, steps: QuantizerSteps): FaceFrame {
-  const { viseme, expression, levels } = into;
+  readSelects(view, at, into);
+  for (let fap = 3; fap <= fapCount; ++fap) into.levels[fap] = nearestLevel(fapOf(view, at, fap), steps[fap]!);
+  return into;
+}
+
+/** FAPs 1 and 2 of a semblante_frame. */
+export function readSelects(view: DataView, at: number, { viseme, expression }: Pick<FaceFrame, 'viseme' | 'expression'>): void {
   viseme.select1 = view.getUint8(at);
   viseme.select2 = view.getUint8(at + 1);
   viseme.blend = view.getUint8(at + 2);
@@ -27,8 +33,9 @@ export function readFrame(view: DataView, at: number, into: FaceFrame, steps: Qu
   expression.intensity1 = view.getUint8(at + 4);
   expression.select2 = view.getUint8(at + 5);
   expression.intensity2 = view.getUint8(at + 6);
-  for (let fap = 3; fap <= fapCount; ++fap) {
-    levels[fap] = Math.round(view.getFloat32(at + frameLayout.faps + fap * 4, true) / steps[fap]!);
-  }
-  return into;
+}
+
+/** A low-level FAP of a semblante_frame, FAP units. */
+export function fapOf(view: DataView, at: number, fap: number): number {
+  return view.getFloat32(at + frameLayout.faps + fap * 4, true);
 }

@@ -78,3 +78,7 @@ export const momentLayout = {
   frames: 48,
   size: 48 + 4 * frameLayout.size,
 } as const;
+
+export const takeOptionsLayout = { absent: 4, gaps: 8, size: 12 } as const;
+
+export const takeWarningLayout = { oddity: 4, line: 8, count: 12, message: 16, size: 272 } as const;

@@ -1,8 +1,8 @@
 import { FaceError } from './face_error.ts';
 import { errorLayout } from './layouts.ts';
 
-/** The functions of libsemblante (clients/runtime/semblante.h) that this SDK calls. Pointers and handles are numbers. */
-interface Functions {
+/** The functions of libsemblante (clients/runtime/semblante.h) that every page calls. Pointers and handles are numbers. */
+export interface Functions {
   memory: WebAssembly.Memory;
   malloc(bytes: number): number;
   free(at: number): void;
@@ -49,12 +49,16 @@ interface Functions {
 /** What a fetch of the WebAssembly file gives, or its bytes. */
 export type ModuleSource = BufferSource | Response | Promise<BufferSource | Response>;
 
+/** The error that a refusal of the library becomes: its result, the place and the words. */
+export type Refusal = (result: number, where: string, message: string) => Error;
+
+const refusedOptions: Refusal = (_, where, message) => new RangeError(`${where}: ${message}`);
 const largestText = 4096;
 const decoder = new TextDecoder();
 
-/** libsemblante in WebAssembly: one instance, whose memory holds all faces, streams and players of a page. */
-export class Runtime {
-  readonly functions: Functions;
+/** libsemblante in WebAssembly: an instance with its memory. One holds all faces, streams and players of a page. */
+export class Runtime<Of extends Functions = Functions> {
+  readonly functions: Of;
   private seen: ArrayBufferLike | null = null;
   private wholeBytes = new Uint8Array();
   private wholeView = new DataView(new ArrayBuffer(0));
@@ -83,15 +87,21 @@ export class Runtime {
   }
 
   private static async make(source: ModuleSource): Promise<Runtime> {
-    const given = await source;
-    const bytes = given instanceof ArrayBuffer || ArrayBuffer.isView(given) ? given : await given.arrayBuffer();
-    const { instance } = await WebAssembly.instantiate(bytes as BufferSource, {});
-    Runtime.one = new Runtime(instance.exports as unknown as Functions);
+    Runtime.one = await Runtime.open(source);
     for (const use of Runtime.waiting.splice(0)) use(Runtime.one);
     return Runtime.one;
   }
 
-  private constructor(functions: Functions) {
+  /** An instance of its own, of a file that has the functions `Of`. */
+  static async open<Of extends Functions>(source: ModuleSource): Promise<Runtime<Of>> {
+    const given = await source;
+    if ('ok' in given && !given.ok) throw new FaceError('http', `${given.url}: status ${given.status}`, given.status);
+    const bytes = 'arrayBuffer' in given ? await given.arrayBuffer() : given;
+    const { instance } = await WebAssembly.instantiate(bytes, {});
+    return new Runtime(instance.exports as unknown as Of);
+  }
+
+  private constructor(functions: Of) {
     this.functions = functions;
     functions._initialize();
   }
@@ -144,16 +154,33 @@ export class Runtime {
     create: (options: number, handle: number, error: number) => number,
   ): number {
     const options = this.struct(bytes);
-    const handle = this.alloc(4);
-    const error = this.alloc(errorLayout.size);
     try {
       fill(this.view, options);
-      if (create(options, handle, error) !== 0) {
-        throw new RangeError(`${this.text(error + errorLayout.where)}: ${this.text(error + errorLayout.message)}`);
-      }
+      return this.made((handle, error) => create(options, handle, error), refusedOptions);
+    } finally {
+      this.free(options);
+    }
+  }
+
+  /** The handle that `make` writes. Throws what `refusal` makes of the library's words when it refuses. */
+  made(make: (handle: number, error: number) => number, refusal: Refusal): number {
+    const handle = this.alloc(4);
+    try {
+      this.attempt((error) => make(handle, error), refusal);
       return this.view.getUint32(handle, true);
     } finally {
-      for (const at of [options, handle, error]) this.free(at);
+      this.free(handle);
+    }
+  }
+
+  /** Calls a function that gives a result and explains it by an error. Throws like `made`. */
+  attempt(call: (error: number) => number, refusal: Refusal): void {
+    const error = this.alloc(errorLayout.size);
+    try {
+      const result = call(error);
+      if (result !== 0) throw refusal(result, this.text(error + errorLayout.where), this.text(error + errorLayout.message));
+    } finally {
+      this.free(error);
     }
   }
 

@@ -1,12 +1,12 @@
 /**
- * The file of libsemblante lies beside this one in the package; bundlers find it by the expression with `import.meta.url` and
+ * The file of libsemblante that shows faces and follows streams lies beside this one in the package; bundlers find it by the expression with `import.meta.url` and
  * take it along.
  */
 import { Runtime } from './runtime.ts';
 
 /** The library, fetched and made once for all faces, streams and players of a page; after a failure the next call retries. */
 export function loadRuntime(): Promise<Runtime> {
-  return Runtime.load(() => bytesOf(new URL('./semblante.wasm', import.meta.url)));
+  return Runtime.load(() => bytesOf(new URL('./semblante_view.wasm', import.meta.url)));
 }
 
 /** The bytes of a file of this package: by fetch, in Node from the disk, which its fetch does not read. */

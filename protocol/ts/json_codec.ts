@@ -8,8 +8,6 @@ import {
   type FaceFrame,
   type TimedFrame,
 } from './face_frame.ts';
-import { frameOf } from './bridges/face_values.ts';
-import { readJsonBridges } from './bridges/json_bridges.ts';
 import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
 import { parseJsonObject, type JsonCursor } from './json_cursor.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
@@ -52,7 +50,10 @@ export function encodeJson(message: Message, steps: QuantizerSteps = standardQua
   return JSON.stringify(values);
 }
 
-/** Decodes one message. Throws ProtocolError with the JSON pointer of the invalid member in `where`. */
+/**
+ * Decodes one message as a server writes it: the members `arkit` and `oculus` of a frame are for servers to read. Throws ProtocolError with the
+ * JSON pointer of the invalid member in `where`.
+ */
 export function decodeJson(text: string, steps: QuantizerSteps = standardQuantizers): Message {
   const root = parseJsonObject(text, limits.max_json_message_bytes);
   const type = root.member('type');
@@ -115,8 +116,7 @@ function readFrames(at: JsonCursor, steps: QuantizerSteps): TimedFrame[] {
 }
 
 function readFrame(at: JsonCursor, steps: QuantizerSteps): FaceFrame {
-  const bridged = readJsonBridges(at);
-  const state = bridged ? frameOf(bridged, steps) : neutralFrame();
+  const state = neutralFrame();
   const viseme = at.optional('viseme');
   if (viseme) {
     state.viseme.select1 = viseme.member('select1').integer(0, maxViseme);

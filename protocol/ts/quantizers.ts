@@ -28,3 +28,8 @@ export function quantize(fapUnits: number, step: number): number | null {
   const level = Math.sign(fapUnits) * Math.round(Math.abs(fapUnits) / step);
   return Math.abs(level) <= limits.max_level ? level + 0 : null;
 }
+
+/** The nearest level of a number, limited to those of a message. */
+export function nearestLevel(fapUnits: number, step: number): number {
+  return quantize(fapUnits, step) ?? Math.sign(fapUnits) * limits.max_level;
+}

@@ -1,7 +1,9 @@
 import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { parseFap } from '@protocol/fap_file.ts';
+import { loadWhole, readTake } from '@client/motion/index.ts';
+import { buildDir } from './support/paths.ts';
 import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
@@ -61,8 +63,9 @@ describe('recordings', () => {
       item.getByRole('button', { name: '.fap', exact: true }).click(),
     ]);
     expect(download.suggestedFilename()).toBe(`${recordings[0]!.name}.fap`);
-    const { file } = parseFap(readFileSync(await download.path(), 'utf8'));
-    expect(file.frames.length).toBeGreaterThan(0);
+    const library = await loadWhole(() => readFileSync(join(buildDir, 'wasm/semblante.wasm')));
+    const take = readTake(library, 'fap', readFileSync(await download.path()));
+    expect(take.frames.length).toBeGreaterThan(0);
     const [clip] = await Promise.all([
       page.waitForEvent('download'),
       item.getByRole('button', { name: 'GLB clip' }).click(),

@@ -88,7 +88,7 @@ function meshOf({ face }: Golden): GoldenMesh {
 
 /** The poses of all cases, then of all interpolations, computed by the kernel as the shader's input. */
 async function poses(): Promise<Record<keyof Pose, number[]>[]> {
-  const wasm = process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm/semblante_view.wasm');
+  const wasm = join(process.env['SEMBLANTE_WASM'] ?? join(buildDir, 'wasm'), 'semblante_view.wasm');
   expect(existsSync(wasm), wasm).toBe(true);
   const face = { rig: rigOf(golden) } as Face;
   const count = golden.cases.length;

@@ -1,7 +1,7 @@
 import './ui/styles/index.css';
 import { neutralFrame } from '@client/index.ts';
 import { dracoDecoder } from './face/draco.ts';
-import { loadRuntime } from './face/runtime.ts';
+import { loadLibrary, loadRuntime } from './face/runtime.ts';
 import { loadStageFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import type { Session } from './net/types.ts';
@@ -27,6 +27,7 @@ import { PointsPanel } from './ui/points/points_panel.ts';
 import { startPolling } from './ui/page/polling.ts';
 import { RecordingsModel } from './ui/recordings/recordings_model.ts';
 import { RecordingsPanel } from './ui/recordings/recordings_panel.ts';
+import { messageOf } from './ui/shared/message_of.ts';
 import { saveFile } from './ui/shared/save_file.ts';
 import { SceneView } from './ui/stage/scene.ts';
 import { letIn, signOutButton } from './ui/page/sign_in.ts';
@@ -62,13 +63,13 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
       driver.byHand();
       live.touch();
     },
-    onIdle: (on) => driver.setIdle(on),
+    onIdle: (on) => driver.setIdle(on ? loadLibrary : null),
     onJawTakesLip: (takes) => {
       scene.jawTakesLip = takes;
       driver.byHand();
     },
   });
-  const clip = new ClipPanel(driver);
+  const clip = new ClipPanel(driver, loadLibrary);
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
@@ -149,7 +150,7 @@ if (root) {
           'div',
           { class: 'no-stage', role: 'alert' },
           h('h1', {}, 'Semblante'),
-          h('p', {}, error instanceof Error ? error.message : String(error)),
+          h('p', {}, messageOf(error)),
         ),
       );
     });

@@ -1,8 +1,15 @@
 import { readFileSync } from 'node:fs';
-import { describe, expect, test } from 'vitest';
+import { beforeAll, describe, expect, test } from 'vitest';
 import { neutralFrame, type TimedFrame } from '@client/index.ts';
-import { parseFap } from '@protocol/fap_file.ts';
+import type { Library } from '@client/motion/index.ts';
+import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
 import { ClipPlayer, FrameClip } from '../src/face/clip.ts';
+import { clipOf, readClipFile } from '../src/face/clip_file.ts';
+
+let library: Library;
+beforeAll(async () => {
+  library = await loadLibrary();
+});
 
 const at = (time: number): TimedFrame => ({ time, state: neutralFrame() });
 const clip = (): FrameClip => new FrameClip([at(0), at(40), at(80), at(1000)]);
@@ -28,9 +35,9 @@ describe('clip', () => {
 
   test('FapFile_WhatAFrameLeavesOut_IsZeroOrStays', () => {
     const text = readFileSync(new URL('../../protocol/vectors/fap/mask_changes.fap', import.meta.url), 'utf8');
-    const { file } = parseFap(text);
+    const file = readClipFile(library, 'a.fap', text);
     const levels = (absent: 'zero' | 'keep'): number[] =>
-      FrameClip.ofFap(file, { absent }).frames.map(({ state }) => state.levels.filter((level) => level !== 0).length);
+      (clipOf(library, file, absent) as FrameClip).frames.map(({ state }) => state.levels.filter((level) => level !== 0).length);
     const [zero, keep] = [levels('zero'), levels('keep')];
     expect(keep).not.toEqual(zero);
     keep.forEach((count, i) => expect(count).toBeGreaterThanOrEqual(zero[i]!));

@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, test } from 'vitest';
 import { neutralFrame, type FaceFrame, type StreamClient, type TimedFrame } from '@client/index.ts';
+import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
 import { FrameClip } from '../src/face/clip.ts';
 import type { Api } from '../src/net/api.ts';
 import type { Recording } from '../src/net/types.ts';
@@ -85,23 +86,41 @@ describe('face driver', () => {
     expect(told).toEqual(['hand', 'hand', 'stream']);
   });
 
-  test.each(sources)('IdleLife_Under%s_RunsUnderTheHandAlone', (source) => {
-    driver.setIdle(true);
+  test.each(sources)('IdleLife_Under%s_RunsUnderTheHandAlone', async (source) => {
+    await driver.setIdle(loadLibrary);
     takes[source]();
     driver.step(0.016);
     expect(face.enlivened).toBe(source === 'hand' ? 1 : 0);
   });
 
-  test.each(sources)('IdleSwitchedOn_Under%s_GivesTheFaceToTheHand', (source) => {
+  test.each(sources)('IdleSwitchedOn_Under%s_GivesTheFaceToTheHand', async (source) => {
     takes[source]();
-    driver.setIdle(true);
+    await driver.setIdle(loadLibrary);
     expect(driver.source.value).toBe('hand');
   });
 
-  test.each(sources)('IdleSwitchedOff_Under%s_LeavesAClipAndAStreamAlone', (source) => {
+  test.each(sources)('IdleSwitchedOff_Under%s_LeavesAClipAndAStreamAlone', async (source) => {
     takes[source]();
-    driver.setIdle(false);
+    await driver.setIdle(null);
     expect(driver.source.value).toBe(source === 'clip' || source === 'stream' ? source : 'hand');
+    driver.step(0.016);
+    expect(face.enlivened).toBe(0);
+  });
+
+  test('IdleSwitchedOff_WhileItsLibraryLoads_StaysOff', async () => {
+    let arrive: () => void = () => undefined;
+    const loads = new Promise<void>((resolve) => (arrive = resolve));
+    const switched = driver.setIdle(() => loads.then(loadLibrary));
+    await driver.setIdle(null);
+    arrive();
+    await switched;
+    takes.hand();
+    driver.step(0.016);
+    expect(face.enlivened).toBe(0);
+  });
+
+  test('IdleLife_WithoutItsLibrary_FailsAndStaysOff', async () => {
+    await expect(driver.setIdle(() => Promise.reject(new Error('no connection')))).rejects.toThrow('no connection');
     driver.step(0.016);
     expect(face.enlivened).toBe(0);
   });

@@ -1,11 +1,18 @@
 import { readFileSync } from 'node:fs';
-import { describe, expect, test } from 'vitest';
-import { Performance, readPerformance } from '@client/index.ts';
+import { beforeAll, describe, expect, test } from 'vitest';
+import { Performance, type Library } from '@client/motion/index.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
+import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
 import { ClipPlayer } from '../src/face/clip.ts';
 import { clipOf, readClipFile } from '../src/face/clip_file.ts';
 import { fineSteps } from '../src/face/fine_steps.ts';
 import { PerformanceClip } from '../src/face/performance_clip.ts';
+
+let library: Library;
+beforeAll(async () => {
+  library = await loadLibrary();
+});
+const perform = (text: string): Performance => new Performance(library, text);
 
 const hello = readFileSync(new URL('../../protocol/examples/performances/hello.json', import.meta.url), 'utf8');
 const idleText = '{"format": "semblante.performance", "version": 1, "idle": {"seed": 3, "head": 1}}';
@@ -16,9 +23,8 @@ const levelsAt = (clip: PerformanceClip, position: number, lap = 0): [number[], 
 
 describe('performance clip', () => {
   test('Moment_AnywhereInAnyOrder_IsThePerformanceThere', () => {
-    const script = readPerformance(hello);
-    const clip = new PerformanceClip(script);
-    const performance = new Performance(script);
+    const performance = perform(hello);
+    const clip = new PerformanceClip(performance);
     expect(clip.duration).toBe(performance.duration);
     for (const position of [0, 7, 20, 33, 1234.5, 1250, 300, clip.duration]) {
       const { from, to, t } = clip.momentAt(position);
@@ -32,15 +38,15 @@ describe('performance clip', () => {
   });
 
   test('Moment_FrameByFrame_MakesEachFrameOnce', () => {
-    const clip = new PerformanceClip(readPerformance(hello));
+    const clip = new PerformanceClip(perform(hello));
     const first = clip.momentAt(1000).to;
     expect(clip.momentAt(1005).to).toBe(first);
     expect(clip.momentAt(1021).from).toBe(first);
   });
 
   test('IdleAlone_HasNoEnd_AndGoesOn', () => {
-    const file = readClipFile('idle.json', idleText);
-    const clip = clipOf(file, 'zero');
+    const file = readClipFile(library, 'idle.json', idleText);
+    const clip = clipOf(library, file, 'zero');
     expect(clip.duration).toBe(Infinity);
     const player = new ClipPlayer();
     player.loop = true;
@@ -54,7 +60,7 @@ describe('performance clip', () => {
 
   test('Loop_IdleLife_RunsOnWhereTheCuesBeginAgain', () => {
     const text = idleText.replace('}}', '}, "duration": 1000, "cues": [{"time": 0, "duration": 900, "viseme": "o"}]}');
-    const clip = new PerformanceClip(readPerformance(text));
+    const clip = new PerformanceClip(perform(text));
     const end = levelsAt(clip, 1000)[0];
     const again = levelsAt(clip, 0, 1)[0];
     expect(again).toEqual(end);
@@ -71,7 +77,7 @@ describe('performance clip', () => {
   test('File_WithAFault_NamesItsPointerOrItsLine', () => {
     const where = (name: string, text: string): string => {
       try {
-        readClipFile(name, text);
+        readClipFile(library, name, text);
       } catch (error) {
         if (error instanceof ProtocolError) return error.where;
         throw error;

@@ -107,36 +107,9 @@ std::string render_cpp(const ArkitData& data) {
   return out.str();
 }
 
-std::string render_typescript(const ArkitData& data) {
-  std::ostringstream out;
-  out << "// Generated from core/bridges/data/arkit.json by semblante-codegen-bridges; change the data, not this.\n\n"
-      << "/** mirror: index of the shape of the other side. faps: [FAP, FAP units at coefficient 1]. cost: mm^2. */\n"
-      << "export interface ArkitShape {\n  name: string;\n  mirror: number;\n  cost: number;\n"
-      << "  faps: readonly (readonly [number, number])[];\n}\n\n"
-      << "export const arkitSettings = {\n";
-  for (const auto& [name, value] : data.settings) out << "  " << name << ": " << value << ",\n";
-  out << "  /** IRISD, ES, ENS, MNS, MW on a usual head, whole units */\n  millimetres: [";
-  for (std::size_t u = 0; u < units.size(); ++u) out << (u > 0 ? ", " : "") << data.millimetres[u];
-  out << "],\n} as const;\n\nexport const arkitRotationNames = [\n";
-  for (const std::string& name : data.rotations) out << "  '" << name << "',\n";
-  out << "] as const;\n\n// prettier-ignore\nexport const arkitShapes: readonly ArkitShape[] = [\n";
-  for (const ShapeData& shape : data.shapes) {
-    out << "  { name: '" << shape.name << "', mirror: " << shape.mirror << ", cost: " << shape.cost << ", faps: [";
-    const char* separator = "";
-    for (const auto& [fap, value] : shape.faps) {
-      out << separator << "[" << fap << ", " << value << "]";
-      separator = ", ";
-    }
-    out << "] },\n";
-  }
-  out << "];\n";
-  return out.str();
-}
-
 std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder) {
   const ArkitData data = read_arkit_data(source_folder + "/core/bridges/data/arkit.json");
-  return {{"core/bridges/generated/arkit_tables.h", render_cpp(data)},
-          {"protocol/ts/generated/arkit.ts", render_typescript(data)}};
+  return {{"core/bridges/generated/arkit_tables.h", render_cpp(data)}};
 }
 
 }  // namespace semblante::bridges

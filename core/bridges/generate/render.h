@@ -29,8 +29,6 @@ ArkitData read_arkit_data(const std::string& file);
 
 /// core/bridges/generated/arkit_tables.h
 std::string render_cpp(const ArkitData& data);
-/// protocol/ts/generated/arkit.ts
-std::string render_typescript(const ArkitData& data);
 
 /// All generated files, from core/bridges/data.
 std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);

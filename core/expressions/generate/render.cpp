@@ -149,35 +149,9 @@ std::string render_header(const Sets& sets) {
   return out.str();
 }
 
-std::string render_typescript(const Sets& sets) {
-  std::ostringstream out;
-  out << "// Generated from core/expressions/data by semblante-codegen-expressions; change the data, not this.\n\n"
-      << "/** FPs by dense index (2.1 is 0) with their displacement, FAPU units: [point, x, y, z]. */\n"
-      << "export interface DisplacementSet {\n  readonly name: string;\n"
-      << "  readonly displacements: readonly (readonly [number, number, number, number])[];\n}\n";
-  const auto list = [&](const char* name, const std::vector<AuthoredSet>& entries) {
-    out << "\n// prettier-ignore\nexport const " << name << ": readonly DisplacementSet[] = [\n";
-    for (const AuthoredSet& set : entries) {
-      out << "  { name: '" << set.name << "', displacements: [";
-      const char* separator = "";
-      for (const auto& [point, d] : set.displacements) {
-        out << separator << "[" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
-            << "]";
-        separator = ", ";
-      }
-      out << "] },\n";
-    }
-    out << "];\n";
-  };
-  list("visemeSets", sets.visemes);
-  list("expressionSets", sets.expressions);
-  return out.str();
-}
-
 std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder) {
   const Sets sets = read_sets(source_folder + "/core/expressions/data");
-  return {{"core/expressions/generated/displacement_sets.h", render_header(sets)},
-          {"protocol/ts/generated/displacement_sets.ts", render_typescript(sets)}};
+  return {{"core/expressions/generated/displacement_sets.h", render_header(sets)}};
 }
 
 }  // namespace semblante::expressions

@@ -32,8 +32,6 @@ Sets read_sets(const std::string& data_folder);
 
 /// core/expressions/generated/displacement_sets.h
 std::string render_header(const Sets& sets);
-/// protocol/ts/generated/displacement_sets.ts
-std::string render_typescript(const Sets& sets);
 
 /// All of them, from core/expressions/data.
 std::vector<codegen::GeneratedFile> generated_files(const std::string& source_folder);

@@ -1,4 +1,4 @@
-// The golden vectors that TypeScript reads too.
+// The golden vectors.
 
 #include <cmath>
 #include <fstream>

@@ -1,5 +1,3 @@
-import { framesOfFap, type FapMeaning } from '@protocol/fap_frames.ts';
-import type { FapFile } from '@protocol/fap_file.ts';
 import type { TimedFrame } from '@client/index.ts';
 import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 
@@ -32,10 +30,6 @@ export class FrameClip implements Clip {
     if (!first) throw new RangeError('a clip needs at least one frame');
     this.duration = frames.at(-1)!.time;
     this.moment = { from: first, to: first, t: 0 };
-  }
-
-  static ofFap(file: FapFile, meaning: FapMeaning): FrameClip {
-    return new FrameClip(framesOfFap(file, meaning));
   }
 
   /** Allocates nothing. */

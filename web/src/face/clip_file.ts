@@ -1,22 +1,26 @@
-import { readPerformance, type PerformanceScript } from '@client/index.ts';
-import { parseFap, type FapFileReading } from '@protocol/fap_file.ts';
+import { Performance, readTake, type Library, type Take } from '@client/motion/index.ts';
 import { FrameClip, type Clip } from './clip.ts';
 import { PerformanceClip } from './performance_clip.ts';
 
 /** The parsed content of a file that can be played. */
-export type ClipFile = { kind: 'fap'; reading: FapFileReading } | { kind: 'performance'; script: PerformanceScript };
+export type ClipFile =
+  | { kind: 'fap'; text: string; take: Take }
+  | { kind: 'performance'; performance: Performance; cues: number; hasIdle: boolean };
 
 /** The kind of a clip file, from the extension of its name. */
 export const kindOfClip = (name: string): ClipFile['kind'] => (/\.fap$/i.test(name) ? 'fap' : 'performance');
 
 /** Throws ProtocolError with the line (.fap) or the JSON pointer (performance document) of the error. */
-export function readClipFile(name: string, text: string): ClipFile {
-  return kindOfClip(name) === 'fap'
-    ? { kind: 'fap', reading: parseFap(text) }
-    : { kind: 'performance', script: readPerformance(text) };
+export function readClipFile(library: Library, name: string, text: string): ClipFile {
+  if (kindOfClip(name) === 'fap') return { kind: 'fap', text, take: readTake(library, 'fap', text) };
+  const performance = new Performance(library, text);
+  const { cues, idle } = JSON.parse(text) as { cues?: unknown[]; idle?: object };
+  return { kind: 'performance', performance, cues: cues?.length ?? 0, hasIdle: idle !== undefined };
 }
 
 /** `absent`: the value of a FAP that a frame of a .fap file omits: zero, or the value of the frame before. */
-export function clipOf(file: ClipFile, absent: 'zero' | 'keep'): Clip {
-  return file.kind === 'fap' ? FrameClip.ofFap(file.reading.file, { absent }) : new PerformanceClip(file.script);
+export function clipOf(library: Library, file: ClipFile, absent: 'zero' | 'keep'): Clip {
+  if (file.kind === 'performance') return new PerformanceClip(file.performance);
+  const take = absent === 'zero' ? file.take : readTake(library, 'fap', file.text, { absent });
+  return new FrameClip(take.frames);
 }

@@ -1,6 +1,5 @@
 import { faps } from '@protocol/generated/mpeg4.ts';
 import { maxBlend, type FaceFrame } from '@protocol/face_frame.ts';
-import { shutLidUnits } from '@protocol/performance_document.ts';
 import { quantize, standardQuantizers } from '@protocol/quantizers.ts';
 
 /** Editing of a frame by the sliders; its levels count the standard's quantizer steps. */
@@ -83,10 +82,10 @@ export function mirrorFrame(frame: FaceFrame): void {
 
 /** Values of FAPs 19 to 22 for closed eyes, as performances close them. FAP units: 1024ths. */
 export const shutLids: readonly (readonly [number, number])[] = [
-  [19, shutLidUnits.upper],
-  [20, shutLidUnits.upper],
-  [21, shutLidUnits.lower],
-  [22, shutLidUnits.lower],
+  [19, 940],
+  [20, 940],
+  [21, 84],
+  [22, 84],
 ];
 
 /** Closes the eyes; returns the function that restores the lids. A lid that was moved meanwhile keeps its value. */

@@ -1,4 +1,5 @@
-import { Performance, type PerformanceScript, type TimedFrame } from '@client/index.ts';
+import type { TimedFrame } from '@client/index.ts';
+import type { Performance } from '@client/motion/index.ts';
 import type { Clip, ClipMoment } from './clip.ts';
 import { fineSteps } from './fine_steps.ts';
 
@@ -9,13 +10,11 @@ const interval = 20;
 export class PerformanceClip implements Clip {
   readonly duration: number;
   readonly steps = fineSteps;
-  private readonly performance: Performance;
   private readonly moment: ClipMoment;
   private lap = 0;
 
-  constructor(script: PerformanceScript) {
-    this.performance = new Performance(script);
-    this.duration = this.performance.duration > 0 ? this.performance.duration : Infinity;
+  constructor(private readonly performance: Performance) {
+    this.duration = performance.duration > 0 ? performance.duration : Infinity;
     const first = this.frameAt(0);
     this.moment = { from: first, to: first, t: 0 };
   }

@@ -6,10 +6,9 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { describe, expect, it } from 'vitest';
 import * as layouts from '../../../../clients/js/layouts.ts';
-import { libraryPath } from '../support/runtime.ts';
+import { viewPath, wholePath } from '../support/runtime.ts';
 
 const root = fileURLToPath(new URL('../../../..', import.meta.url));
-const wholePath = join(libraryPath, '../semblante.wasm');
 
 const structs: Record<string, Record<string, number>> = {
   semblante_timed_frame: layouts.timedFrameLayout,
@@ -21,11 +20,13 @@ const structs: Record<string, Record<string, number>> = {
   semblante_player_options: layouts.playerOptionsLayout,
   semblante_player_statistics: layouts.statisticsLayout,
   semblante_moment: layouts.momentLayout,
+  semblante_take_options: layouts.takeOptionsLayout,
+  semblante_take_warning: layouts.takeWarningLayout,
 };
 
 describe('libsemblante in WebAssembly', () => {
   it.each([
-    ['semblante_view.wasm: streams, players and the kernel', libraryPath, 92_000, 40_000],
+    ['semblante_view.wasm: streams, players and the kernel', viewPath, 92_000, 40_000],
     ['semblante.wasm: everything', wholePath, 270_000, 120_000],
   ])('%s has no imports and is as small as this', async (_, path, bytes, gzipped) => {
     const file = readFileSync(path);

@@ -1,8 +1,9 @@
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { describe, expect, it } from 'vitest';
-import { Performance } from '../../../../clients/js/performance.ts';
-import { ProtocolError, readPerformance } from '../../../../protocol/ts/index.ts';
+import { beforeAll, describe, expect, it } from 'vitest';
+import { Performance, type Library } from '../../../../clients/js/motion/index.ts';
+import { ProtocolError } from '../../../../protocol/ts/index.ts';
+import { loadLibrary } from '../support/runtime.ts';
 
 const protocol = new URL('../../../../protocol/', import.meta.url);
 const read = (name: string): string => readFileSync(new URL(name, protocol), 'utf8');
@@ -23,16 +24,25 @@ interface GoldenFrame {
 
 const documents = JSON.parse(read('vectors/performance/documents.json')) as Documents;
 
-describe('readPerformance', () => {
+let library: Library;
+beforeAll(async () => {
+  library = await loadLibrary();
+});
+const perform = (document: string): Performance => new Performance(library, document);
+
+describe('A performance document', () => {
   it('Good_IsTaken', () => {
-    for (const document of documents.good) expect(() => readPerformance(JSON.stringify(document))).not.toThrow();
+    for (const document of documents.good as { cues?: unknown[]; idle?: object }[]) {
+      const text = JSON.stringify(document);
+      if (document.cues?.length || document.idle) expect(() => perform(text), text).not.toThrow();
+      else expect(() => perform(text), text).toThrow(/no cues and no idle life/); // a document, but nothing to play
+    }
   });
 
   it('Bad_IsRefusedAtThePlace', () => {
     for (const { where, document } of documents.refused) {
-      if (where === '/cues/64') continue; // how many act at once is the server's to count
       try {
-        readPerformance(JSON.stringify(document));
+        perform(JSON.stringify(document));
         expect.fail(`taken: ${JSON.stringify(document)}`);
       } catch (error) {
         expect(error, JSON.stringify(document)).toBeInstanceOf(ProtocolError);
@@ -58,7 +68,7 @@ describe('Performance', () => {
     ['vectors/performance/corners.json', 'vectors/performance/corners.frames.json'],
     ['examples/performances/hello.json', 'vectors/performance/hello.frames.json'],
   ])('%s_GivesTheGoldenFrames', (document, golden) => {
-    const performance = new Performance(readPerformance(read(document)));
+    const performance = perform(read(document));
     const { frames } = JSON.parse(read(golden)) as { frames: GoldenFrame[] };
     const none = { viseme: { select1: 0, select2: 0, blend: 0 } };
     const neutral = { expression: { select1: 0, intensity1: 0, select2: 0, intensity2: 0 } };
@@ -72,7 +82,7 @@ describe('Performance', () => {
   });
 
   it('FrameAt_IsWhatAStreamCarries', () => {
-    const performance = new Performance(readPerformance(read('examples/performances/hello.json')));
+    const performance = perform(read('examples/performances/hello.json'));
     const frame = performance.frameAt(700);
     const face = performance.at(700);
     expect(frame.levels[48]).toBe(Math.round(face.faps[48]! / 170));
@@ -81,7 +91,12 @@ describe('Performance', () => {
 
   it('At_WithABlinkInMoreTimeThanANumberHolds_KeepsTheEyesOpen', () => {
     const idle = { blinks_per_minute: 1e-310, head: 0, eyes: 0 };
-    const script = readPerformance(JSON.stringify({ format: 'semblante.performance', version: 1, idle }));
-    expect(Array.from(new Performance(script).at(1000).faps)).toEqual(new Array<number>(69).fill(0));
+    const performance = perform(JSON.stringify({ format: 'semblante.performance', version: 1, idle }));
+    expect(Array.from(performance.at(1000).faps)).toEqual(new Array<number>(69).fill(0));
+  });
+
+  it('At_ATimeThatIsNone_Throws', () => {
+    const performance = perform(read('examples/performances/hello.json'));
+    for (const ms of [-1, NaN, Infinity]) expect(() => performance.at(ms)).toThrow(RangeError);
   });
 });

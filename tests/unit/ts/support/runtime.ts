@@ -1,12 +1,21 @@
 import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Runtime } from '../../../../clients/js/index.ts';
+import { loadWhole, type Library } from '../../../../clients/js/motion/index.ts';
 
-/** The C++ build makes it: target semblante-runtime-wasm. */
-export const libraryPath =
-  process.env['SEMBLANTE_WASM'] ?? fileURLToPath(new URL('../../../../build/wasm/semblante_view.wasm', import.meta.url));
+const folder = process.env['SEMBLANTE_WASM'] ?? fileURLToPath(new URL('../../../../build/wasm', import.meta.url));
+
+/** The C++ build makes them: target semblante-runtime-wasm. */
+export const viewPath = join(folder, 'semblante_view.wasm');
+export const wholePath = join(folder, 'semblante.wasm');
 
 /** The library of this test file. */
 export function loadRuntime(): Promise<Runtime> {
-  return Runtime.load(() => readFileSync(libraryPath));
+  return Runtime.load(() => readFileSync(viewPath));
+}
+
+/** The whole library of this test file. */
+export function loadLibrary(): Promise<Library> {
+  return loadWhole(() => readFileSync(wholePath));
 }

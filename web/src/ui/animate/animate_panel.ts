@@ -10,20 +10,23 @@ import {
   setVisemes,
   shutEyes,
 } from '../../face/frame.ts';
-import { h } from '../shared/dom.ts';
+import { h, setText } from '../shared/dom.ts';
 import { expressionFace } from './expression_face.ts';
 import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from '../shared/icons.ts';
+import { messageOf } from '../shared/message_of.ts';
 import { capital } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
 import { VisemeGrid } from './viseme_grid.ts';
+
+const idleNote = 'Blinks and glances under what you set, on this page.';
 
 export interface AnimatePanelOptions {
   frame: FaceFrame;
   /** Called after a slider or button changed the frame. */
   onChange: () => void;
-  /** Called when idle life is switched on or off. */
-  onIdle: (on: boolean) => void;
+  /** Called when idle life is switched on or off. Fails if it cannot be played. */
+  onIdle: (on: boolean) => Promise<void>;
   /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
   onJawTakesLip: (takes: boolean) => void;
 }
@@ -148,7 +151,14 @@ export class AnimatePanel {
 
   private makeIdle(): HTMLElement {
     const box = h('input', { type: 'checkbox', role: 'switch', id: 'idle-life' });
-    box.addEventListener('change', () => this.options.onIdle(box.checked));
+    const note = h('small', { class: 'muted' }, idleNote);
+    box.addEventListener('change', () => {
+      setText(note, idleNote);
+      this.options.onIdle(box.checked).catch((error: unknown) => {
+        box.checked = false;
+        setText(note, `Could not be loaded: ${messageOf(error)}`);
+      });
+    });
     return h(
       'label',
       { class: 'switch-row', for: 'idle-life' },
@@ -156,7 +166,7 @@ export class AnimatePanel {
         'span',
         { class: 'grow' },
         h('strong', {}, 'Idle life'),
-        h('small', { class: 'muted' }, 'Blinks and glances under what you set, on this page.'),
+        note,
       ),
       box,
     );

@@ -1,3 +1,4 @@
+import type { Library } from '@client/motion/index.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
 import type { ClipPlayer } from '../../face/clip.ts';
 import { clipOf, readClipFile, type ClipFile } from '../../face/clip_file.ts';
@@ -7,10 +8,10 @@ import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { exampleSelect } from '../documents/example_select.ts';
 import { excerptBox } from '../documents/excerpt_box.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
-import { fapWarningText } from '../documents/fap_words.ts';
 import { fapWarnings } from '../documents/fap_warnings.ts';
 import { chooseFile } from '../shared/file_button.ts';
 import { formatCount, formatTime } from '../shared/format.ts';
+import { messageOf } from '../shared/message_of.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
@@ -23,13 +24,18 @@ export class ClipPanel {
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
   private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': 'Position' });
-  private file: { name: string; content: ClipFile } | null = null;
+  private file: { name: string; content: ClipFile; library: Library } | null = null;
+  private newest = 0;
   private absent: Absent = 'zero';
   private held = false;
   private shownPlaying = false;
   private readonly player: ClipPlayer;
 
-  constructor(private readonly driver: FaceDriver) {
+  /** `load` gives the library that reads and plays files. */
+  constructor(
+    private readonly driver: FaceDriver,
+    private readonly load: () => Promise<Library>,
+  ) {
     const player = (this.player = driver.clip);
     this.seek.addEventListener('input', () => {
       this.held = true;
@@ -51,7 +57,7 @@ export class ClipPanel {
           accept: '.json,.fap,application/json',
           take: (file) => void this.takeFile(file),
         }),
-        exampleSelect((name, text) => this.take(name, text)),
+        exampleSelect((name, text) => void this.take(name, text)),
       ),
       this.body,
     );
@@ -63,7 +69,7 @@ export class ClipPanel {
   }
 
   async takeFile(file: File): Promise<void> {
-    this.take(file.name, await file.text());
+    await this.take(file.name, await file.text());
     this.element.scrollIntoView({ block: 'nearest' });
   }
 
@@ -75,13 +81,16 @@ export class ClipPanel {
     this.showClock();
   }
 
-  private take(name: string, text: string): void {
+  private async take(name: string, text: string): Promise<void> {
+    const number = (this.newest += 1);
     try {
-      this.file = { name, content: readClipFile(name, text) };
+      const library = await this.load();
+      if (number !== this.newest) return; // another file was taken meanwhile
+      this.file = { name, content: readClipFile(library, name, text), library };
       this.read(false);
       this.play();
     } catch (error) {
-      if (!(error instanceof ProtocolError)) throw error;
+      if (number !== this.newest) return;
       this.file = null;
       this.player.load(null);
       this.driver.release('clip');
@@ -96,7 +105,7 @@ export class ClipPanel {
   }
 
   private read(keepPlace: boolean): void {
-    if (this.file) this.player.load(clipOf(this.file.content, this.absent), keepPlace);
+    if (this.file) this.player.load(clipOf(this.file.library, this.file.content, this.absent), keepPlace);
   }
 
   private showClock(): void {
@@ -163,7 +172,7 @@ export class ClipPanel {
         this.read(true);
         this.draw();
       }),
-      fapWarnings(content.reading.warnings.map((warning) => `${fapWarningText(warning)}.`)),
+      fapWarnings(content.take.warnings.map(({ message }) => `${capital(message)}.`)),
     ];
   }
 
@@ -173,7 +182,8 @@ export class ClipPanel {
     this.draw();
   }
 
-  private refuse(name: string, error: ProtocolError, text: string): void {
+  private refuse(name: string, error: unknown, text: string): void {
+    const where = error instanceof ProtocolError ? error.where : '';
     replace(
       this.body,
       h(
@@ -183,9 +193,9 @@ export class ClipPanel {
         h(
           'div',
           { class: 'grow' },
-          h('strong', {}, `${name}: ${error.message}`),
-          placeOf(error.where),
-          excerptBox(excerptAt(text, error.where)),
+          h('strong', {}, `${name}: ${messageOf(error)}`),
+          placeOf(where),
+          excerptBox(excerptAt(text, where)),
         ),
       ),
     );
@@ -194,13 +204,13 @@ export class ClipPanel {
 
 function sizeOf(content: ClipFile): string {
   if (content.kind === 'fap') {
-    const { rate, frames } = content.reading.file;
-    return `${formatCount(frames.length)} frames, ${rate} a second`;
+    const { frameRate, frames } = content.take;
+    return `${formatCount(frames.length)} frames, ${frameRate} a second`;
   }
-  const { cues, idle } = content.script;
-  const count = `${formatCount(cues.length)} ${cues.length === 1 ? 'cue' : 'cues'}`;
-  if (!idle) return count;
-  return cues.length > 0 ? `${count}, idle life` : 'Idle life';
+  const { cues, hasIdle } = content;
+  const count = `${formatCount(cues)} ${cues === 1 ? 'cue' : 'cues'}`;
+  if (!hasIdle) return count;
+  return cues > 0 ? `${count}, idle life` : 'Idle life';
 }
 
 /** The place of an error: a JSON pointer as code, "line 3, word 2" as text. */

@@ -1,4 +1,5 @@
 import type { FaceFrame, StreamClient } from '@client/index.ts';
+import type { Library } from '@client/motion/index.ts';
 import { ClipPlayer } from '../../face/clip.ts';
 import { IdlePlayer } from '../../face/idle_player.ts';
 import type { Performer } from '../../face/performer.ts';
@@ -28,6 +29,7 @@ export class FaceDriver {
   private face: DrivenFace | null = null;
   private client: StreamClient | null = null;
   private idle: IdlePlayer | null = null;
+  private loadIdle: (() => Promise<Library>) | null = null;
 
   constructor(
     /** The frame set with the sliders, which change it in place. */
@@ -67,10 +69,16 @@ export class FaceDriver {
     if (this.source.value === source) this.byHand();
   }
 
-  /** Switching idle life on makes `hand` take the face; switching it off does not interrupt a clip or stream. */
-  setIdle(on: boolean): void {
-    this.idle = on ? new IdlePlayer(this.frame, idleSettings) : null;
-    if (on || this.source.value === 'hand' || this.source.value === 'recording') this.byHand();
+  /**
+   * Switches idle life on, which the library that `load` gives plays, or off (null). On makes `hand` take the face; off does
+   * not interrupt a clip or stream. Fails if the library cannot be loaded.
+   */
+  async setIdle(load: (() => Promise<Library>) | null): Promise<void> {
+    this.loadIdle = load;
+    const library = load ? await load() : null;
+    if (this.loadIdle !== load) return; // switched meanwhile
+    this.idle = library ? new IdlePlayer(library, this.frame, idleSettings) : null;
+    if (library || this.source.value === 'hand' || this.source.value === 'recording') this.byHand();
   }
 
   /** Replaces the face or its level of detail. The current source continues, except `recording`, which ends. */

@@ -1,0 +1,74 @@
+import type { StreamErrorCode } from '../../../protocol/ts/generated/messages.ts';
+import { ProtocolError } from '../../../protocol/ts/protocol_error.ts';
+import { Runtime, type Functions, type ModuleSource, type Refusal } from '../runtime.ts';
+
+/** The functions of the whole library that the smaller file for pages does not have. */
+export interface MotionFunctions extends Functions {
+  semblante_frame_from_arkit(coefficients: number, frame: number, error: number): number;
+  semblante_arkit_from_frame(frame: number, coefficients: number): number;
+  semblante_frame_from_oculus(weights: number, frame: number, error: number): number;
+  semblante_oculus_from_frame(frame: number, weights: number): number;
+  semblante_arkit_name(shape: number): number;
+  semblante_oculus_name(viseme: number): number;
+
+  semblante_performance_create(json: number, size: number, performance: number, error: number): number;
+  semblante_performance_destroy(performance: number): void;
+  semblante_performance_name(performance: number): number;
+  semblante_performance_duration(performance: number): number;
+  semblante_performance_frame_at(performance: number, ms: number, idleMs: number, frame: number): number;
+
+  semblante_take_read(format: number, text: number, size: number, options: number, take: number, error: number): number;
+  semblante_take_destroy(take: number): void;
+  semblante_take_frames(take: number, count: number): number;
+  semblante_take_frame_rate(take: number): number;
+  semblante_take_warning_count(take: number): number;
+  semblante_take_get_warning(take: number, index: number, warning: number): number;
+  semblante_take_write(
+    format: number,
+    frames: number,
+    count: number,
+    rate: number,
+    text: number,
+    size: number,
+    error: number,
+  ): number;
+}
+
+/** All of libsemblante (`semblante.wasm`). */
+export type Library = Runtime<MotionFunctions>;
+
+let loading: Promise<Library> | null = null;
+
+/** The page's instance of the whole library, made once; after a failure the next call tries again. */
+export function loadWhole(source: () => ModuleSource): Promise<Library> {
+  loading ??= Runtime.open<MotionFunctions>(source()).catch((error: unknown) => {
+    loading = null;
+    throw error;
+  });
+  return loading;
+}
+
+/** semblante_result, by number from 1. */
+const codes: readonly StreamErrorCode[] = ['invalid_argument', 'malformed', 'unsupported', 'mismatch', 'too_large'];
+/** SEMBLANTE_BUFFER_TOO_SMALL */
+export const bufferTooSmall = 6;
+
+/** What the library refuses in bytes from outside is a ProtocolError. */
+export const refusedBytes: Refusal = (result, where, message) =>
+  new ProtocolError(codes[result - 1] ?? 'internal', where, message);
+
+/** Calls `use` with the address of a copy of the bytes, which is freed afterwards. */
+export function withBytes<Result>(
+  library: Library,
+  given: string | Uint8Array,
+  use: (at: number, size: number) => Result,
+): Result {
+  const bytes = typeof given === 'string' ? new TextEncoder().encode(given) : given;
+  const at = library.alloc(Math.max(1, bytes.length));
+  try {
+    library.bytes.set(bytes, at);
+    return use(at, bytes.length);
+  } finally {
+    library.free(at);
+  }
+}
