@@ -285,7 +285,13 @@ export class Kernel {
    */
   evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps = standardQuantizers): void {
     writeFrame(this.runtime.view, this.at.frame, frame, steps);
-    this.runtime.functions.semblante_evaluate(this.at.rig, this.at.frame, this.poseAt(pose));
+    this.evaluateAt(this.runtime, this.at.frame, pose);
+  }
+
+  /** Evaluates a semblante_frame by its address. Throws RangeError unless `runtime` is the library of this kernel. */
+  evaluateAt(runtime: Runtime, frame: number, pose: number): void {
+    if (runtime !== this.runtime) throw new RangeError('the frame lies in the memory of another instance of the library');
+    runtime.functions.semblante_evaluate(this.at.rig, frame, this.poseAt(pose));
   }
 
   /** Interpolates linearly between poses a and b, `t` 0..1. `out` may be a or b. */

@@ -1,14 +1,12 @@
-import { neutralFrame, type FaceFrame } from '../../protocol/ts/face_frame.ts';
-import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
-import { readFrame } from './frames.ts';
 import { frameLayout, momentLayout, playerOptionsLayout, statisticsLayout } from './layouts.ts';
 import { Runtime } from './runtime.ts';
 import type { StreamClient, StreamClock } from './stream_client.ts';
 
 /** The part of the kernel that the player uses: poses by number. */
 export interface PoseMaker {
-  evaluate(frame: FaceFrame, pose: number, steps: QuantizerSteps): void;
-  /** Sets the viseme share of Eq. 5 from the stream's header for later calls of `evaluate`; null: the model's own. */
+  /** `frame`: the address of a semblante_frame in the memory of `runtime`. */
+  evaluateAt(runtime: Runtime, frame: number, pose: number): void;
+  /** Sets the viseme share of Eq. 5 from the stream's header for later calls of `evaluateAt`; null: the model's own. */
   setVisemeShare?(share: number | null): void;
   interpolate(a: number, b: number, t: number, out: number): void;
   /** Required for `eased` interpolation: the poses before, from, to, after, and the spans between them. */
@@ -93,7 +91,6 @@ export class Player {
   private shownT = NaN;
   private isCurve = false;
   private readonly spans = [0, 0, 0];
-  private readonly frame = neutralFrame();
 
   constructor(poses: PoseMaker | null, options: PlayerOptions = {}) {
     this.options = options;
@@ -224,7 +221,8 @@ export class Player {
     this.forgetPoses(); // the evaluated poses used the old share
   }
 
-  private showMoment({ runtime, player, moment }: PlayerMemory): boolean {
+  private showMoment(memory: PlayerMemory): boolean {
+    const { runtime, player, moment } = memory;
     const { poses } = this;
     if (poses === null || runtime.functions.semblante_player_moment(player, moment) !== 0) return false;
     const { view } = runtime;
@@ -235,12 +233,12 @@ export class Player {
     const to = view.getFloat64(moment + of.to_time, true);
     const t = view.getFloat32(moment + of.t, true);
     if (from !== this.fromTime || to !== this.toTime) {
-      if (from !== this.fromTime) this.evaluate(view, moment, 1, fromPose, poses);
-      this.evaluate(view, moment, 2, toPose, poses);
+      if (from !== this.fromTime) evaluate(memory, 1, fromPose, poses);
+      evaluate(memory, 2, toPose, poses);
       this.isCurve = view.getUint32(moment + of.is_curve, true) !== 0;
       for (let i = 0; i < 3; i += 1) this.spans[i] = view.getFloat32(moment + of.spans + i * 4, true);
-      if (this.isCurve && this.spans[0]! > 0) this.evaluate(view, moment, 0, beforePose, poses);
-      if (this.isCurve && this.spans[2]! > 0) this.evaluate(view, moment, 3, afterPose, poses);
+      if (this.isCurve && this.spans[0]! > 0) evaluate(memory, 0, beforePose, poses);
+      if (this.isCurve && this.spans[2]! > 0) evaluate(memory, 3, afterPose, poses);
       this.fromTime = from;
       this.toTime = to;
     } else if (t === this.shownT) {
@@ -251,10 +249,9 @@ export class Player {
     this.shownT = t;
     return true;
   }
+}
 
-  private evaluate(view: DataView, moment: number, frame: number, pose: number, poses: PoseMaker): void {
-    const steps = this.client?.steps ?? standardQuantizers;
-    const at = moment + momentLayout.frames + frame * frameLayout.size;
-    poses.evaluate(readFrame(view, at, this.frame, steps), pose, steps);
-  }
+/** One of the four frames of the moment. */
+function evaluate({ runtime, moment }: PlayerMemory, frame: number, pose: number, poses: PoseMaker): void {
+  poses.evaluateAt(runtime, moment + momentLayout.frames + frame * frameLayout.size, pose);
 }

@@ -141,7 +141,7 @@ interface Trace {
 const traces = JSON.parse(readFileSync(new URL('../../../../protocol/vectors/clock/traces.json', import.meta.url), 'utf8')) as Trace[];
 
 class NoPoses implements PoseMaker {
-  evaluate(): void {}
+  evaluateAt(): void {}
   interpolate(): void {}
   ease(): void {}
 }

@@ -1,9 +1,11 @@
 import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { Kernel, neutralFrame, type Face, type FaceFrame, type Runtime } from '../../../../clients/js/index.ts';
+import { writeFrame } from '../../../../clients/js/frames.ts';
+import { Kernel, neutralFrame, Runtime, type Face, type FaceFrame } from '../../../../clients/js/index.ts';
+import { frameLayout } from '../../../../clients/js/layouts.ts';
 import { fullTurn, rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
 import { featurePoints } from '../../../../protocol/ts/generated/mpeg4.ts';
-import { loadRuntime } from '../support/runtime.ts';
+import { loadRuntime, viewPath } from '../support/runtime.ts';
 
 type Sparse = Record<string, Vec3>;
 /** Dense numbers of point and leader, share. */
@@ -232,6 +234,20 @@ describe('Kernel', () => {
     expect(kernel.poses[0]!.featurePoints.some((x) => x !== 0)).toBe(true);
     expect(() => kernel.deform(0)).toThrow(RangeError);
     expect(() => kernel.evaluate(frame, 3)).toThrow(RangeError);
+  });
+
+  it('EvaluateAt_OfAFrameInTheLibrary_IsEvaluate_AndOfAnotherInstanceThrows', async () => {
+    const kernel = new Kernel(runtime, faceOf(vectors));
+    const [frame, steps] = frameOf(vectors.cases[3]!.frame);
+    kernel.evaluate(frame, 0, steps);
+    const at = runtime.alloc(frameLayout.size);
+    writeFrame(runtime.view, at, frame, steps);
+    kernel.evaluateAt(runtime, at, 1);
+    expect(kernel.poses[1]).toEqual(kernel.poses[0]);
+    expect(() => kernel.evaluateAt(runtime, at, 3)).toThrow(RangeError);
+    const other = await Runtime.open(readFileSync(viewPath));
+    expect(() => kernel.evaluateAt(other, at, 1)).toThrow(/another instance/);
+    runtime.free(at);
   });
 
   it('Positions_AfterTheMemoryHasGrown_AreThoseOfTheNewMemory', () => {

@@ -5,9 +5,11 @@ import {
   StreamClient,
   type PlayerOptions,
   type PoseMaker,
+  type Runtime,
   type StreamOptions,
 } from '../../../../clients/js/index.ts';
-import { neutralFrame, type FaceFrame, type Frames, type Header, type Keyframe } from '../../../../protocol/ts/index.ts';
+import { readFrame } from '../../../../clients/js/frames.ts';
+import { neutralFrame, standardQuantizers, type FaceFrame, type Frames, type Header, type Keyframe } from '../../../../protocol/ts/index.ts';
 import { FakeSocket, headerOf } from '../support/fake_socket.ts';
 import { loadRuntime } from '../support/runtime.ts';
 
@@ -21,8 +23,8 @@ class NumberPoses implements PoseMaker {
   setVisemeShare(share: number | null): void {
     this.share = share;
   }
-  evaluate(frame: FaceFrame, pose: number): void {
-    this.values[pose] = frame.levels[3]!;
+  evaluateAt({ view }: Runtime, frame: number, pose: number): void {
+    this.values[pose] = readFrame(view, frame, neutralFrame(), standardQuantizers).levels[3]!;
     this.evaluations += 1;
   }
   interpolate(a: number, b: number, t: number, out: number): void {

@@ -100,7 +100,7 @@ class Server {
 }
 
 class NoPoses implements PoseMaker {
-  evaluate(): void {}
+  evaluateAt(): void {}
   interpolate(): void {}
 }
 
