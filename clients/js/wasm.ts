@@ -12,8 +12,8 @@ export function loadRuntime(): Promise<Runtime> {
 /** The bytes of a file of this package: by fetch, in Node from the disk, which its fetch does not read. */
 export async function bytesOf(address: URL): Promise<Uint8Array<ArrayBuffer>> {
   if (address.protocol === 'file:') {
-    const fileSystem = 'node:fs/promises'; // no bundler for a page shall look for it
-    const { readFile } = (await import(/* webpackIgnore: true */ /* @vite-ignore */ fileSystem)) as {
+    const fileSystem = 'node:fs/promises'; // no bundler for a page shall look for it: see build.mjs
+    const { readFile } = (await import(fileSystem)) as {
       readFile(path: URL): Promise<Uint8Array<ArrayBuffer>>;
     };
     return readFile(address);
