@@ -273,6 +273,7 @@ void run_serve(const ServeOptions& options) {
   net_config.limits.max_connections = open_files.connections;
   net_config.limits.max_files = open_files.bodies;
   net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);
+  net_config.limits.max_handshakes_per_address = static_cast<std::uint32_t>(options.max_handshakes_per_address);
   net_config.limits.drain_time = std::chrono::seconds(options.drain_seconds);
   net::Server server(net_config, api);
   running = &server;

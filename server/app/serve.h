@@ -46,6 +46,7 @@ struct ServeOptions {
   access::ClientLimits client_limits;
   access::TokenLimits token_limits;
   std::uint64_t max_connections_per_address = net::ServerLimits{}.max_connections_per_address;
+  std::uint64_t max_handshakes_per_address = net::ServerLimits{}.max_handshakes_per_address;
   std::string log_level = "info";
   std::string log_format = "text";
 };

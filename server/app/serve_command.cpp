@@ -154,6 +154,9 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "Connections of one address (of IPv6: its first 64 bits); this machine and trusted proxies have no such limit",
       "MAX_ADDRESS_CONNECTIONS")
       ->check(CLI::Range(1, 1'000'000));
+  add("--max-address-handshakes", options->max_handshakes_per_address,
+      "Handshakes of TLS that one address has begun and not finished; likewise", "MAX_ADDRESS_HANDSHAKES")
+      ->check(CLI::Range(1, 1'000'000));
   add("--log-level", options->log_level, "debug (one line per request), info, warning or error", "LOG_LEVEL");
   add("--log-format", options->log_format, "text, or json: one object per line", "LOG_FORMAT");
 }

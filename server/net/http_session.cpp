@@ -88,6 +88,7 @@ class Session {
   asio::awaitable<void> run() {
     transport_.expires_after(state_->config.limits.header_timeout);
     if (co_await transport_.handshake()) co_return;
+    count_.handshake_done();
     while (!state_->stopping) {
       const auto next = co_await serve_one();
       if (next == Next::again) continue;

@@ -16,6 +16,14 @@ using E = boost::beast::http::error;
 
 std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
+/// Whether the field of this name goes on in a further line (obs-fold). The parser has seen the end of the first line
+/// and the byte after it.
+bool is_folded(boost::beast::string_view name) {
+  const char* at = name.end();
+  while (*at != '\r') ++at;
+  return at[2] == ' ' || at[2] == '\t';
+}
+
 }  // namespace
 
 RequestParser::RequestParser(std::uint32_t max_bytes, std::uint32_t max_fields)
@@ -51,6 +59,11 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
 }
 
 void RequestParser::on_field_impl(boost::beast::http::field field, View name, View value, ErrorCode& error) {
+  if (is_folded(name)) {
+    problem_ = http::make_problem("malformed-request", "a header field goes on in a further line");
+    error = E::bad_field;
+    return;
+  }
   if (is_header_done()) return;  // a trailer: ignored
   if (++fields_ > max_fields_) {
     problem_ = header_too_large();

@@ -99,15 +99,17 @@ asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const Context& context
   const auto executor = socket.get_executor();
   const auto address = counted_address(socket, state->config);
   auto tls = context();
-  if (state->connections_open >= limits.max_connections ||
-      (address && state->addresses.of(*address) >= limits.max_connections_per_address)) {
+  const bool has_room = state->connections_open < limits.max_connections &&
+                        (!address || state->addresses.of(*address) < limits.max_connections_per_address) &&
+                        (!address || !tls || state->handshakes.of(*address) < limits.max_handshakes_per_address);
+  if (!has_room) {
     ++state->connections_total;
     ++state->connections_refused;
     if (!tls) asio::co_spawn(executor, turn_away(std::move(socket)), log_fault);
     co_return true;
   }
-  asio::co_spawn(executor, serve_connection(std::move(socket), std::move(tls), state, ConnectionCount(state, address)),
-                 log_fault);
+  ConnectionCount count(state, address, tls != nullptr);
+  asio::co_spawn(executor, serve_connection(std::move(socket), std::move(tls), state, std::move(count)), log_fault);
   co_return true;
 }
 
@@ -160,6 +162,9 @@ Server::Server(ServerConfig config, http::Application& application)
 Server::~Server() {
   state_->workers.stop();
   state_->workers.join();
+  // Connections that a stop has cut off, and what was posted after the contexts had stopped.
+  state_->live.drop_pending();
+  state_->io.drop_pending();
 }
 
 Result<std::vector<std::uint16_t>> Server::listen() {

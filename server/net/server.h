@@ -20,6 +20,8 @@ struct ServerLimits {
   std::uint32_t max_connections = 1024;
   /// Of one IP address; addresses of this machine and those of ServerConfig::proxies have no such limit.
   std::uint32_t max_connections_per_address = 512;
+  /// Of one address likewise: connections whose handshake of TLS has begun and is not done.
+  std::uint32_t max_handshakes_per_address = 64;
   std::uint32_t max_files = 256;               ///< of bodies that are received or sent, open beside the connections
   std::uint32_t max_header_bytes = 16 * 1024;  ///< also of the trailers, of the line before a chunk, of all chunk
                                                ///< extensions of a body, and of the unparsed bytes of a connection
@@ -27,9 +29,11 @@ struct ServerLimits {
   std::chrono::seconds idle_timeout{60};       ///< between requests; a WebSocket is pinged at half of it
   std::chrono::seconds header_timeout{10};     ///< from the first byte of a request to the end of its header, and for
                                                ///< the handshake of TLS
-  std::chrono::seconds read_timeout{30};       ///< between two pieces of a body
-  std::chrono::seconds body_grace{30};         ///< for a whole body, in addition to the time of the least rate
-  std::uint32_t least_body_rate = 1024;        ///< bytes per second, of a body that arrives and of a file that is sent
+  double controls_per_second = 100;            ///< pings and pongs that one WebSocket sends, on average
+  double controls_burst = 1000;
+  std::chrono::seconds read_timeout{30};  ///< between two pieces of a body
+  std::chrono::seconds body_grace{30};    ///< for a whole body, in addition to the time of the least rate
+  std::uint32_t least_body_rate = 1024;   ///< bytes per second, of a body that arrives and of a file that is sent
 
   /// What is left for a body that has begun then and of which so many bytes have passed.
   [[nodiscard]] std::chrono::steady_clock::duration body_time_left(std::chrono::steady_clock::time_point begin,
@@ -67,6 +71,7 @@ struct ServerCounts {
 class Server {
  public:
   Server(ServerConfig config, http::Application& application);
+  /// Closes the connections that are left; WebSockets are told that they are disconnected.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -18,7 +18,7 @@
 
 namespace semblante::net {
 
-/// Number of open connections by address. Any thread.
+/// Number of open connections, or of something else, by address. Any thread.
 class AddressCounts {
  public:
   [[nodiscard]] std::uint32_t of(const http::AddressBytes& address) const {
@@ -41,6 +41,15 @@ class AddressCounts {
   std::map<http::AddressBytes, std::uint32_t> counts_;
 };
 
+/// An io_context whose pending operations can be destroyed before it is: they own connections, and these own the state
+/// that owns the context.
+class Context : public boost::asio::io_context {
+ public:
+  using io_context::io_context;
+  /// After its threads have ended. Nothing that is posted later runs.
+  void drop_pending() { shutdown(); }
+};
+
 struct SharedState {
   SharedState(ServerConfig c, http::Application& a)
       : config(std::move(c)),
@@ -51,27 +60,31 @@ struct SharedState {
 
   ServerConfig config;
   http::Application& application;
-  boost::asio::io_context io;    ///< connections until they become WebSockets
-  boost::asio::io_context live;  ///< WebSockets
+  Context io;    ///< connections until they become WebSockets
+  Context live;  ///< WebSockets
   WorkerPool workers;
-  AddressCounts addresses;
+  AddressCounts addresses;   ///< of connections
+  AddressCounts handshakes;  ///< of those whose handshake of TLS is not done
   std::atomic<bool> stopping{false};
   std::atomic<std::uint64_t> connections_open{0}, connections_total{0}, connections_refused{0}, requests_total{0},
       busy{0}, websockets_open{0}, upload_number{0};
   std::atomic<std::uint64_t> files_open{0};  ///< see BodyFile
 };
 
-/// Counts one open connection during its lifetime, and that of its address.
+/// Counts one open connection during its lifetime, and that of its address; also its handshake of TLS, until it is
+/// done.
 class ConnectionCount {
  public:
-  explicit ConnectionCount(std::shared_ptr<SharedState> state, std::optional<http::AddressBytes> address = {})
-      : state_(std::move(state)), address_(address) {
+  ConnectionCount(std::shared_ptr<SharedState> state, std::optional<http::AddressBytes> address, bool with_tls)
+      : state_(std::move(state)), address_(address), in_handshake_(with_tls && address) {
     ++state_->connections_open;
     ++state_->connections_total;
     if (address_) state_->addresses.add(*address_);
+    if (in_handshake_) state_->handshakes.add(*address_);
   }
   ~ConnectionCount() {
     if (!state_) return;
+    handshake_done();
     --state_->connections_open;
     if (address_) state_->addresses.remove(*address_);
   }
@@ -80,9 +93,14 @@ class ConnectionCount {
   ConnectionCount& operator=(const ConnectionCount&) = delete;
   ConnectionCount& operator=(ConnectionCount&&) = delete;
 
+  void handshake_done() {
+    if (std::exchange(in_handshake_, false)) state_->handshakes.remove(*address_);
+  }
+
  private:
   std::shared_ptr<SharedState> state_;
   std::optional<http::AddressBytes> address_;
+  bool in_handshake_;
 };
 
 }  // namespace semblante::net

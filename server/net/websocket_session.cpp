@@ -10,6 +10,7 @@
 #include <boost/asio/strand.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "core/types/token_bucket.h"
 #include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/net/outbox.h"
@@ -55,7 +56,10 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
                       ConnectionCount count)
-      : state_(std::move(state)), peer_(std::move(peer)), count_(std::move(count)) {
+      : state_(std::move(state)),
+        peer_(std::move(peer)),
+        count_(std::move(count)),
+        controls_(state_->config.limits.controls_per_second, state_->config.limits.controls_burst) {
     ++state_->busy;
   }
   ~WebSocketConnection() override {
@@ -104,6 +108,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     clocks.idle_timeout = state_->config.limits.idle_timeout;
     clocks.keep_alive_pings = true;
     ws_->set_option(clocks);
+    ws_->control_callback([this](websocket::frame_type kind, beast::string_view) { count_control(kind); });
     ws_->read_message_max(peer_->max_message_bytes());
     ws_->set_option(websocket::stream_base::decorator(
         [name = std::string(peer_->subprotocol()), id = std::string(request_id)](websocket::response_type& response) {
@@ -123,6 +128,12 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     open_ = true;
     if (!told([this] { peer_->attach(outbox_); })) return end();
     read();
+  }
+
+  /// Each ping costs a pong, and Beast answers it by itself.
+  void count_control(websocket::frame_type kind) {
+    if (kind == websocket::frame_type::close || controls_.take(1, TokenBucket::Clock::now())) return;
+    on_close({websocket::close_code::policy_error, "sends too many pings"});  // posted: Beast is reading
   }
 
   void read() {
@@ -203,6 +214,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   const std::shared_ptr<SharedState> state_;
   std::shared_ptr<http::WebSocketPeer> peer_;
   const ConnectionCount count_;
+  TokenBucket controls_;
   asio::any_io_executor executor_;
   std::shared_ptr<Outbox> outbox_;
   std::optional<Stream> ws_;

@@ -65,23 +65,32 @@ void StreamConnection::disconnected() {
   stream_->leave(*this);
 }
 
+Result<Message> StreamConnection::read(std::string_view bytes, bool binary) {
+  if (binary != binary_)
+    return Error{ErrorCode::malformed, "",
+                 binary_ ? "text message in a binary subprotocol" : "binary message in a text subprotocol"};
+  if (!binary_) return decode_json(bytes, stream_->steps());
+  FrameDecoder decoder_of_one;
+  return (decoder_ ? *decoder_ : decoder_of_one)
+      .decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+}
+
 void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (closing_) return;
-  // An invalid message is answered with an error and the connection stays open. The stream closes a client that sends
-  // no hello in time.
-  if (binary != binary_) {
-    refuse(StreamErrorCode::malformed, "",
-           binary_ ? "text message in a binary subprotocol" : "binary message in a text subprotocol");
+  auto message = read(bytes, binary);
+  const bool has_frames =
+      message && (std::holds_alternative<Frames>(*message) || std::holds_alternative<Keyframe>(*message));
+  // The frames of a publisher have a limit of their own.
+  if (!(has_frames && role_ == Role::publishes) && !messages_.take(1, TokenBucket::Clock::now())) {
+    close(Message(StreamError{StreamErrorCode::throttled, "", "too many messages"}), {1008, "sends too many messages"});
     return;
   }
-  FrameDecoder decoder_of_one;
-  auto& decoder = decoder_ ? *decoder_ : decoder_of_one;
-  auto decoded = binary_ ? decoder.decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()))
-                         : decode_json(bytes, stream_->steps());
-  if (decoded)
-    handle(std::move(*decoded));
+  // An invalid message is answered with an error and the connection stays open. The stream closes a client that sends
+  // no hello in time.
+  if (message)
+    handle(std::move(*message));
   else
-    send(Message(to_stream_error(decoded.error())));
+    send(Message(to_stream_error(message.error())));
 }
 
 void StreamConnection::handle(Message message) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/token_bucket.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
 #include "server/http/websocket_peer.h"
@@ -19,6 +20,9 @@ namespace semblante::streams {
 /// publishing.
 class StreamConnection : public http::WebSocketPeer, public StreamPeer {
  public:
+  /// Limit of the messages of one connection that are not a publisher's frames: most are answered.
+  static constexpr double messages_per_second = 100, messages_burst = 1000;
+
   StreamConnection(std::shared_ptr<StreamAccess> stream, bool binary, bool subprotocol_offered,
                    ConnectionRights rights = {});
   ~StreamConnection() override;
@@ -43,6 +47,7 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   // All on the strand: Sends an answer, which is never replaced by newer state.
   void send(const Message& message);
   void refuse(StreamErrorCode code, std::string where, std::string message);
+  Result<Message> read(std::string_view bytes, bool binary);
   void handle(Message message);
   void handle_hello(const Hello& hello);
   void handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
@@ -51,7 +56,8 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   const bool binary_;
   const bool subprotocol_offered_;
   std::atomic<bool> closing_{false};
-  Role role_ = Role::unknown;              ///< strand only
+  Role role_ = Role::unknown;                                  ///< strand only
+  TokenBucket messages_{messages_per_second, messages_burst};  ///< strand only
   std::unique_ptr<FrameDecoder> decoder_;  ///< strand only; of a publisher: its messages depend on earlier ones
 
   struct LastWords {

@@ -11,14 +11,15 @@
 
 namespace semblante::testing {
 
-TlsClient::TlsClient(std::uint16_t port, int least_version, int greatest_version, int receive_buffer)
+TlsClient::TlsClient(std::uint16_t port, int least_version, int greatest_version, int receive_buffer,
+                     std::uint32_t address)
     : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), context_(SSL_CTX_new(TLS_client_method())) {
   std::signal(SIGPIPE, SIG_IGN);
   if (receive_buffer > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
   sockaddr_in to{};
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  to.sin_addr.s_addr = htonl(address);
   SSL_CTX_set_min_proto_version(context_, least_version);
   SSL_CTX_set_max_proto_version(context_, greatest_version);
   SSL_CTX_set_cipher_list(context_, "ALL:@SECLEVEL=0");

@@ -10,11 +10,15 @@ struct ssl_st;
 
 namespace semblante::testing {
 
-/// A blocking client of TLS on a loopback port. It trusts every certificate.
+/// A blocking client of TLS on a port of this machine. It trusts every certificate.
 class TlsClient {
  public:
+  static constexpr std::uint32_t loopback = 0x7F000001;
+
   /// Versions as OpenSSL numbers them, such as TLS1_1_VERSION; 0: any. `receive_buffer`: bytes of the socket; 0: usual.
-  explicit TlsClient(std::uint16_t port, int least_version = 0, int greatest_version = 0, int receive_buffer = 0);
+  /// `address`: of this machine, in the byte order of the host.
+  explicit TlsClient(std::uint16_t port, int least_version = 0, int greatest_version = 0, int receive_buffer = 0,
+                     std::uint32_t address = loopback);
   ~TlsClient();
   TlsClient(const TlsClient&) = delete;
   TlsClient& operator=(const TlsClient&) = delete;

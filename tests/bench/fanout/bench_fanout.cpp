@@ -59,7 +59,9 @@ int main(int count, char** words) {
       ->transform(CLI::CheckedTransformer(codings));
   app.add_option("--seconds", options.seconds, "Of each measurement")->check(CLI::Range(0.1, 86'400.0));
   app.add_option("--minutes", minutes, "The same in minutes")->check(CLI::Range(0.01, 1'440.0));
-  app.add_option("--repetitions", options.repetitions, "Rounds of the comparison")->check(CLI::Range(1, 100));
+  app.add_option("--repetitions", options.repetitions,
+                 "Rounds of the comparison, turns of --pressure; else as the mode has it")
+      ->check(CLI::Range(1, 100));
   app.add_option("--stalled", options.stalled, "Share of readers that stop reading")->check(CLI::Range(0.0, 0.5));
   app.add_option("--servers", options.servers, "Which to compare: " + CLI::detail::join(options.servers, ", "))
       ->delimiter(',')

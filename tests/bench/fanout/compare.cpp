@@ -93,7 +93,7 @@ int compare(const Options& given) {
   Options options = given;
   if (options.subscribers == 0) options.subscribers = options.smoke ? 50 : 5000;
   if (options.seconds == 0.0) options.seconds = options.smoke ? 1.0 : 8.0;
-  if (options.smoke) options.repetitions = 1;
+  if (options.repetitions == 0) options.repetitions = options.smoke ? 1 : 3;
 
   const std::size_t bytes = message_bytes(options);
   std::printf("%zu subscribers, %.0f messages/s each, %zu bytes, %d rounds of %.0f s\n", options.subscribers,

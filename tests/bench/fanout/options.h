@@ -14,7 +14,7 @@ struct Options {
   int batch_ms = 0;
   Coding coding = Coding::plain;
   double seconds = 0.0;  ///< of each measurement; 0: as the mode has it
-  int repetitions = 3;
+  int repetitions = 0;   ///< 0: as the mode has it
   double stalled = 0.01;
   std::vector<std::string> servers = {"semblante", "semblante-tls", "epoll", "epoll-tls", "beast", "ws"};
   std::string url;      ///< a server that runs already; empty: one of our own

@@ -1,14 +1,19 @@
-// What the subscribers of a stream notice of loads that have nothing to do with them: quiet phases and phases under
-// pressure in turn. All phases of a kind are counted together, so that a p99 is of hundreds of batches; how much two
-// halves of the quiet phases differ says what the machine does by itself.
+// What the subscribers of a stream notice of loads that have nothing to do with them: short quiet phases and phases
+// under pressure in turn. Each phase under pressure is compared with the quiet ones right before and after it, and the
+// median of these comparisons counts, so that what else the machine does falls on both or drops out. How much the quiet
+// phases differ from their neighbours says what the machine does by itself.
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <string>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
+#include "tests/bench/fanout/median.h"
 #include "tests/bench/fanout/pressures.h"
 #include "tests/bench/fanout/target.h"
 #include "tests/bench/fanout/verdict.h"
@@ -72,14 +77,43 @@ class Phases {
 
 double p99(const Histogram& histogram) { return histogram.percentile_ms(0.99); }
 
+/// What the phases of one attack have shown: a p99 in ms each, quiet ones first and last.
+struct Turns {
+  std::vector<double> quiet, pressed;
+  std::vector<double> quiet_medians, pressed_medians;  ///< p50
+
+  /// Each phase under pressure as a multiple of its two neighbours.
+  [[nodiscard]] std::vector<double> ratios() const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < pressed.size(); ++i) all.push_back(pressed[i] / std::sqrt(quiet[i] * quiet[i + 1]));
+    return all;
+  }
+  /// The same of quiet phases: each but the outer ones.
+  [[nodiscard]] std::vector<double> ratios_of_quiet() const {
+    std::vector<double> all;
+    for (std::size_t i = 1; i + 1 < quiet.size(); ++i) all.push_back(quiet[i] / std::sqrt(quiet[i - 1] * quiet[i + 1]));
+    return all;
+  }
+};
+
+/// "0.98 (0.91 to 1.07)": the median, and between what half of the values lie.
+std::string median_and_half(std::vector<double> values) {
+  if (values.empty()) return "-";
+  std::sort(values.begin(), values.end());
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f (%.2f to %.2f)", median(values), values[values.size() / 4],
+                values[values.size() - 1 - values.size() / 4]);
+  return text;
+}
+
 }  // namespace
 
 int pressure(const Options& given) {
   Options options = given;
   if (options.subscribers == 0) options.subscribers = options.smoke ? 50 : 1000;
-  if (options.seconds == 0.0) options.seconds = options.smoke ? 0.5 : 4.0;
+  if (options.seconds == 0.0) options.seconds = options.smoke ? 0.5 : 1.5;
   if (options.batch_ms == 0) options.batch_ms = 100;
-  if (options.smoke) options.repetitions = 1;
+  if (options.repetitions == 0) options.repetitions = options.smoke ? 1 : 9;
   // Messages of many bytes, so that a reader that does not read fills its buffers within the phase.
   options.feed.heavy = true;
   options.feed.frames_per_message = std::max<std::size_t>(options.feed.frames_per_message, 8);
@@ -91,36 +125,42 @@ int pressure(const Options& given) {
   pool.run_for(std::chrono::duration<double>(options.smoke ? 0.3 : 2.0));
   pool.begin_measuring();
   pool.run_for(std::chrono::duration<double>(options.smoke ? 0.3 : 4.0));  // learns when batches are due
-  std::printf("%zu subscribers, %d ms batches%s%s; %d rounds of %.1f s quiet, %.1f s under pressure\n", pool.live(),
+  std::printf("%zu subscribers, %d ms batches%s%s; %d turns of %.1f s quiet, %.1f s under pressure\n", pool.live(),
               options.batch_ms, options.tls ? ", TLS" : "",
               options.apart ? ", the server on a processor of its own" : "", options.repetitions, options.seconds,
               options.seconds);
   std::printf(
-      "| pressure | p99 quiet, ms | halves of it | p99 under pressure | ratio | p50 quiet, pressure | server, attack, "
-      "%% "
-      "of a processor | the last came to |\n|---|---|---|---|---|---|---|---|\n");
+      "| pressure | p99 quiet, pressure, ms | ratio, half of them | the same of quiet phases | p50 quiet, pressure | "
+      "server, attack, %% of a processor | the last came to |\n|---|---|---|---|---|---|---|\n");
 
   Verdict verdict;
   Phases phases(pool, server, options);
   for (const Attack& attack : pressures(server, stream.path, options)) {
-    Histogram halves[2], pressed;
+    Turns turns;
     Used used;
     Outcome outcome;
-    for (int round = 0; round < options.repetitions; ++round) {
-      // The order alternates, so that neither half is measured earlier than the other on average.
-      for (const int half : {round % 2, 1 - round % 2}) {
-        phases.quiet(halves[half]);
-        if (half == 1) outcome = phases.pressed(attack, pressed, used);
-        verdict.expect_whole(pool, stream.timeline, attack.name);
-      }
+    const auto quiet = [&] {
+      Histogram lateness;
+      phases.quiet(lateness);
+      turns.quiet.push_back(p99(lateness));
+      turns.quiet_medians.push_back(lateness.percentile_ms(0.5));
+      verdict.expect_whole(pool, stream.timeline, attack.name);
+    };
+    quiet();
+    for (int turn = 0; turn < options.repetitions; ++turn) {
+      Histogram lateness;
+      outcome = phases.pressed(attack, lateness, used);
+      turns.pressed.push_back(p99(lateness));
+      turns.pressed_medians.push_back(lateness.percentile_ms(0.5));
+      verdict.expect_whole(pool, stream.timeline, attack.name);
       for (const auto& broken : outcome.broken) verdict.expect(false, attack.name + ": " + broken);
+      quiet();
     }
-    Histogram quiet = halves[0];
-    quiet += halves[1];
-    const double ratio = p99(pressed) / p99(quiet);
-    std::printf("| %s | %.2f | %.2f, %.2f | %.2f | %.3f | %.2f, %.2f | %.0f, %.0f | %s |\n", attack.name.c_str(),
-                p99(quiet), p99(halves[0]), p99(halves[1]), p99(pressed), ratio, quiet.percentile_ms(0.5),
-                pressed.percentile_ms(0.5), used.server * 100.0 / used.time, used.attack * 100.0 / used.time,
+    const double ratio = median(turns.ratios());
+    std::printf("| %s | %.1f, %.1f | %s | %s | %.1f, %.1f | %.0f, %.0f | %s |\n", attack.name.c_str(),
+                median(turns.quiet), median(turns.pressed), median_and_half(turns.ratios()).c_str(),
+                median_and_half(turns.ratios_of_quiet()).c_str(), median(turns.quiet_medians),
+                median(turns.pressed_medians), used.server * 100.0 / used.time, used.attack * 100.0 / used.time,
                 outcome.words.c_str());
     std::fflush(stdout);
     if (!options.smoke) verdict.expect(ratio <= 1.1, attack.name + ": p99 of the subscribers is over a tenth worse");

@@ -37,7 +37,7 @@ int stall(const Options& given) {
   Options options = given;
   if (options.subscribers == 0) options.subscribers = options.smoke ? 100 : 1000;
   if (options.seconds == 0.0) options.seconds = options.smoke ? 1.0 : 8.0;
-  if (options.smoke) options.repetitions = 1;
+  if (options.repetitions == 0) options.repetitions = options.smoke ? 1 : 3;
   // Messages of many bytes: a reader of a few hundred bytes a second may stop for minutes before a kernel's buffer is
   // full and anyone can know.
   options.feed.heavy = true;

@@ -24,6 +24,7 @@
 #include "server/recordings/recording_format.h"
 #include "server/streams/flood_guard.h"
 #include "server/streams/player.h"
+#include "server/streams/stream_connection.h"
 #include "server/streams/stream_limits.h"
 #include "server/streams/timeline.h"
 
@@ -45,6 +46,11 @@ std::string count(Number number) {
 template <class Duration>
 std::string seconds(Duration duration) {
   return count(std::chrono::duration_cast<std::chrono::seconds>(duration).count()) + " s";
+}
+
+template <class Number>
+std::string rate_of(Number per_second, Number burst) {
+  return count(per_second) + " per second, " + count(burst) + " in a burst";
 }
 
 /// The second column of the rows of "## Limits" by the first, without the commas within numbers.
@@ -77,7 +83,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
   const jobs::JobConfig job;
   const access::TokenLimits token;
   const access::ClientLimits client;
-  const std::string rate = count(flood.frames_per_second) + " per second, " + count(flood.frames_burst) + " in a burst";
+  const std::string rate = rate_of(flood.frames_per_second, flood.frames_burst);
   const std::vector<std::pair<std::string, std::string>> kept = {
       {"model file", size(api.max_upload_bytes)},
       {"bytes stored by one token: models with what is made from them (each content once), recordings, expressions",
@@ -96,8 +102,9 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"unparsed bytes of a connection", size(net.max_header_bytes)},
       {"connections of one address (IPv6: of 64 bits), except this machine and proxies",
        count(net.max_connections_per_address)},
+      {"handshakes of TLS of one address that are not done, likewise", count(net.max_handshakes_per_address)},
       {"requests of one token, or of one address without one, on a server that asks for tokens",
-       count(client.requests_per_second) + " per second, " + count(client.request_burst) + " in a burst"},
+       rate_of(client.requests_per_second, client.request_burst)},
       {"tokens of one address that are not accepted", count(client.failures_per_minute) + " per minute"},
       {"models, jobs, streams, recordings and expressions that one address creates, together; this machine and the "
        "scope admin have no such limit",
@@ -109,6 +116,9 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
        seconds(net.body_grace) + ", and 1 s for each " + count(net.least_body_rate) + " bytes of it"},
       {"parts of a model that are listed and can be given a role",
        "the " + count(store::max_part_records) + " with the most vertices; 32 in a list of models"},
+      {"pings and pongs (control frames) of one WebSocket", rate_of(net.controls_per_second, net.controls_burst)},
+      {"messages of one stream connection that are not a publisher's frames",
+       rate_of(streams::StreamConnection::messages_per_second, streams::StreamConnection::messages_burst)},
       {"subscriber that reads nothing", seconds(stream.stalled)},
       {"hello of a stream connection", seconds(stream.hello_time)},
       {"idle connection", seconds(net.idle_timeout)},

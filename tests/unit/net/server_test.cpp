@@ -23,80 +23,12 @@
 #include "server/net/worker_pool.h"
 #include "tests/support/wait.h"
 #include "tests/unit/net/echo_application.h"
+#include "tests/unit/net/raw_client.h"
 
 namespace semblante::net {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::string get(std::string_view path) { return "GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n"; }
-
-class Client {
- public:
-  explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(port);
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
-  }
-  ~Client() { ::close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  void send(std::string_view bytes) const {
-    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
-  }
-  /// So many bytes, or fewer when the connection ends before, or nothing comes for long.
-  [[nodiscard]] std::string read(std::size_t count) const {
-    std::string all;
-    std::array<char, 1> piece{};
-    constexpr int poll_ms = std::chrono::milliseconds(testing::patience).count();
-    while (all.size() < count) {
-      pollfd waiting{socket_, POLLIN, 0};
-      if (::poll(&waiting, 1, poll_ms) != 1 || ::recv(socket_, piece.data(), 1, 0) != 1) break;
-      all += piece[0];
-    }
-    return all;
-  }
-  /// False when the connection has ended.
-  [[nodiscard]] bool try_send(std::string_view bytes) const {
-    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
-  }
-  /// Reads what is there, at most 64 KiB; 0 at the end.
-  [[nodiscard]] std::size_t read_some() const {
-    std::array<char, 65536> piece{};
-    const auto got = ::recv(socket_, piece.data(), piece.size(), 0);
-    return got > 0 ? static_cast<std::size_t>(got) : 0;
-  }
-  [[nodiscard]] std::string read_head() const {
-    std::string head;
-    while (!head.ends_with("\r\n\r\n")) {
-      const auto more = read(1);
-      if (more.empty()) break;
-      head += more;
-    }
-    return head;
-  }
-  void upgrade() const {
-    send(upgrade_request);
-    EXPECT_TRUE(read_head().starts_with("HTTP/1.1 101 "));
-  }
-  /// One whole text message in one frame; the mask of zeros leaves it as it is.
-  void say(std::string_view text) const { send(frame('\x81', text)); }
-  static std::string frame(char first, std::string_view payload) {
-    EXPECT_LT(payload.size(), 126U);
-    std::string bytes{first, static_cast<char>(0x80U | payload.size()), 0, 0, 0, 0};
-    return bytes.append(payload);
-  }
-
-  static constexpr std::string_view upgrade_request =
-      "GET /echo HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-
- private:
-  int socket_;
-};
 
 class ServerTest : public ::testing::Test {
  protected:
@@ -176,6 +108,33 @@ TEST_F(ServerTest, WebSocket_WantsAKeyOf16Bytes_AndDoesNotNameItsLibrary) {
   const auto head = client.read_head();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 101 "));
   EXPECT_EQ(head.find("Beast"), std::string::npos) << head;
+}
+
+TEST_F(ServerTest, WebSocketThatPingsWithoutEnd_IsClosed_AndOthersAreNot) {
+  const ServerLimits limits;
+  const Client good(port_);
+  good.upgrade();
+  for (const char opcode : {'\x89', '\x8A'}) {  // pings, pongs
+    const Client bad(port_);
+    bad.upgrade();
+    // Read by the server in far less time than the rate gives back as many.
+    const auto number = static_cast<int>(limits.controls_burst) * 20;
+    std::thread reader([&] {
+      // Pongs, then a close frame with the reason, then nothing.
+      std::string all;
+      while (const auto piece = bad.read_piece()) all += *piece;
+      EXPECT_NE(all.find("\x03\xF0sends too many pings"), std::string::npos) << all.size();
+      EXPECT_LT(all.size(), static_cast<std::size_t>(number) * 2);
+    });
+    std::string pings;
+    for (int i = 0; i < number; ++i) pings += Client::frame(opcode, "");
+    static_cast<void>(bad.try_send(pings));
+    static_cast<void>(bad.try_send(Client::frame('\x88', "\x03\xF0")));
+    reader.join();
+    EXPECT_TRUE(testing::eventually([&] { return application_.peers == 1; }));
+  }
+  for (int i = 0; i < limits.controls_burst / 2; ++i) good.send(Client::frame('\x89', "p"));
+  for (int i = 0; i < limits.controls_burst / 2; ++i) ASSERT_EQ(good.read(3), "\x8A\x01p") << i;
 }
 
 /// RFC 6455 section 5.4 permits empty fragments, and control frames between fragments.
@@ -290,15 +249,28 @@ TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
   const std::string begin = "GET /immediate HTTP/1.1\r\n";
   const std::string host = "Host: localhost\r\n";
   const std::string chunked = "Transfer-Encoding: chunked\r\n";
-  for (const std::string& head :
-       {begin, begin + host + host, begin + host + "Host: other.example\r\n",
-        begin + host + "Transfer-Encoding: xchunked\r\n", begin + host + "Transfer-Encoding: gzip\r\n",
-        begin + host + "Transfer-Encoding: identity\r\nContent-Length: 2\r\n",
-        begin + host + "Transfer-Encoding: chunked, gzip\r\n", begin + host + "Transfer-Encoding: gzip, chunked\r\n",
-        begin + host + chunked + chunked, begin + host + chunked + "Content-Length: 2\r\n",
-        begin + host + "Content-Length: 2\r\n" + chunked, begin + host + "Content-Length: 2\r\nContent-Length: 2\r\n",
-        begin + host + "Content-Length: 2, 2\r\n", begin + host + "Content-Length: +2\r\n",
-        "GET /immediate HTTP/1.0\r\n" + chunked}) {
+  for (const std::string& head : {begin,
+                                  begin + host + host,
+                                  begin + host + "Host: other.example\r\n",
+                                  begin + host + "Transfer-Encoding: xchunked\r\n",
+                                  begin + host + "Transfer-Encoding: gzip\r\n",
+                                  begin + host + "Transfer-Encoding: identity\r\nContent-Length: 2\r\n",
+                                  begin + host + "Transfer-Encoding: chunked, gzip\r\n",
+                                  begin + host + "Transfer-Encoding: gzip, chunked\r\n",
+                                  begin + host + chunked + chunked,
+                                  begin + host + chunked + "Content-Length: 2\r\n",
+                                  begin + host + "Content-Length: 2\r\n" + chunked,
+                                  begin + host + "Content-Length: 2\r\nContent-Length: 2\r\n",
+                                  begin + host + "Content-Length: 2, 2\r\n",
+                                  begin + host + "Content-Length: +2\r\n",
+                                  "GET /immediate HTTP/1.0\r\n" + chunked,
+                                  begin + host + "X: a\r\n b\r\n",
+                                  begin + host + "X: a\r\n\tb\r\n",
+                                  begin + host + "X:\r\n a\r\n",
+                                  begin + host + "X: a\r\n \r\n",
+                                  begin + "Host:\r\n localhost\r\n",
+                                  begin + " X: a\r\n" + host,
+                                  begin + host + "X : a\r\n"}) {
     SCOPED_TRACE(head);
     const Client client(port_);
     client.send(head + "\r\n");
@@ -307,6 +279,16 @@ TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
   const Client old(port_);
   old.send("GET /immediate HTTP/1.0\r\n\r\n");
   EXPECT_TRUE(old.read_head().starts_with("HTTP/1.0 200 ")) << "HTTP/1.0 needs no Host";
+}
+
+TEST_F(ServerTest, TrailerThatGoesOnInAFurtherLine_IsRefused) {
+  const Client client(port_);
+  client.send(
+      "GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\nX: a\r\n b\r\n\r\n");
+  const auto head = client.read_head();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 400 "));
+  const auto length = std::stoul(head.substr(head.find("Content-Length: ") + 16));
+  EXPECT_NE(client.read(length).find("a header field goes on in a further line"), std::string::npos);
 }
 
 TEST_F(ServerTest, FileThatCannotBeOpened_IsAnswered503_AndTheConnectionStays) {

@@ -205,6 +205,25 @@ TEST_F(StreamTest, Rate_IsLimited) {
   EXPECT_EQ(stream_->info().sequence, 2U);
 }
 
+TEST_F(StreamTest, MessagesWithoutFrames_HaveARate_AndFramesOfAPublisherAreNotAmongThem) {
+  constexpr int burst = static_cast<int>(StreamConnection::messages_burst);
+  const auto ping = encode_json(Ping{1, 1.0});
+  const std::string garbage = "{";
+  FakeClient good(stream_, StreamRole::publish);
+  for (const auto& message : {ping, garbage}) {
+    FakeClient bad(stream_, StreamRole::subscribe);
+    // In far less time than the rate gives back as many.
+    for (int i = 0; i < 20 * burst && !bad.socket->closed(); ++i) bad.connection->receive(message, false);
+    ASSERT_TRUE(bad.socket->closed());
+    EXPECT_EQ(bad.socket->closed()->code, 1008);
+    const auto heard = bad.take_all();
+    EXPECT_GE(heard.size(), static_cast<std::size_t>(burst));
+    EXPECT_EQ(std::get<StreamError>(heard.back()).code, StreamErrorCode::throttled);
+  }
+  for (int i = 0; i < burst - 1; ++i) good.connection->receive(ping, false);
+  EXPECT_FALSE(good.socket->closed());
+}
+
 TEST_F(StreamTest, Ended_TakesNobody) {
   const auto subscriber = connect(StreamRole::subscribe);
   stream_->end(EndReason::deleted);
