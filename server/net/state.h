@@ -75,7 +75,8 @@ struct SharedState {
 /// done.
 class ConnectionCount {
  public:
-  ConnectionCount(std::shared_ptr<SharedState> state, std::optional<http::AddressBytes> address, bool with_tls)
+  explicit ConnectionCount(std::shared_ptr<SharedState> state, std::optional<http::AddressBytes> address = {},
+                           bool with_tls = false)
       : state_(std::move(state)), address_(address), in_handshake_(with_tls && address) {
     ++state_->connections_open;
     ++state_->connections_total;
