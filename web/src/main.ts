@@ -14,6 +14,10 @@ import { routeDrops } from './ui/page/file_drop.ts';
 import { pointOutFindings } from './ui/fit/fit_highlight.ts';
 import { FitModel } from './ui/fit/fit_model.ts';
 import { FitPanel } from './ui/fit/fit_panel.ts';
+import { influenceLegend } from './ui/influence/influence_legend.ts';
+import { InfluenceModel } from './ui/influence/influence_model.ts';
+import { InfluencePanel } from './ui/influence/influence_panel.ts';
+import { InfluenceReader } from './ui/influence/influence_reader.ts';
 import { exposeInspection } from './ui/page/inspect.ts';
 import { makeLayout } from './ui/page/layout.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
@@ -57,8 +61,12 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const recordings = new RecordingsModel(studio, live, driver, saveFile);
   const scene = makeScene(canvas, api);
 
+  const influence = new InfluenceModel(scene);
+  const reader = new InfluenceReader(canvas, scene, influence);
   const animate = new AnimatePanel({
     frame,
+    influence: new InfluencePanel(influence, scene).element,
+    onFap: (fap, mirror) => influence.useFap(fap, mirror),
     onChange: () => {
       driver.byHand();
       live.touch();
@@ -77,7 +85,8 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
   const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element);
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab, demo });
-  const stagePanel = new StagePanel(canvas, scene, studio, points, chip);
+  const stagePanel = new StagePanel(canvas, scene, studio, points, chip, influence.on);
+  stagePanel.element.append(influenceLegend(influence, scene), reader.element, reader.said);
   const panels = {
     heads: shelf.element,
     fit: fitPanel.element,

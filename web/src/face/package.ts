@@ -27,5 +27,5 @@ export async function loadStageFace(
   const face = await loadFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
   const materials = await loadMaterials(face.rig, (sha256) => sources.image(sha256, signal));
   const kernel = new Kernel(runtime, face, { poseCount });
-  return { mesh: drawableMesh(face), materials, kernel, packageBytes: face.rig.mesh.bytes + face.rig.weights.bytes };
+  return { rig: face.rig, mesh: drawableMesh(face), materials, kernel, packageBytes: face.rig.mesh.bytes + face.rig.weights.bytes };
 }

@@ -30,16 +30,7 @@ export class Markers {
   private markers: Marker[] = [];
 
   constructor() {
-    const seen = material(1, true);
-    const hidden = material(0.22, false);
-    for (const [order, one] of [hidden, seen].entries()) {
-      const points = new Points(this.geometry, one);
-      points.frustumCulled = false;
-      // Sizes are in CSS pixels, independent of the render resolution.
-      points.onBeforeRender = (renderer) => (one.uniforms['ratio']!.value = renderer.getPixelRatio());
-      points.renderOrder = 10 + order;
-      this.object.add(points);
-    }
+    this.object.add(...makeDiscs(this.geometry));
   }
 
   get count(): number {
@@ -93,10 +84,25 @@ export class Markers {
 
 const projected = new Vector3();
 
-function material(opacity: number, depthTest: boolean): ShaderMaterial {
+/**
+ * Draws the points of a geometry (attributes `position`, `color`, `size`: CSS pixels, `ring`: 0 or 1) as discs: opaque where
+ * visible, faint where something hides them.
+ */
+export function makeDiscs(geometry: BufferGeometry): Points<BufferGeometry, ShaderMaterial>[] {
+  return [discMaterial(0.22, false), discMaterial(1, true)].map((material, order) => {
+    const points = new Points(geometry, material);
+    points.frustumCulled = false;
+    points.onBeforeRender = (renderer) => (material.uniforms['ratio']!.value = renderer.getPixelRatio());
+    points.renderOrder = 10 + order;
+    return points;
+  });
+}
+
+function discMaterial(opacity: number, depthTest: boolean): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: { ratio: { value: 1 }, opacity: { value: opacity } },
     vertexShader: /* glsl */ `
+      #include <common>
       attribute vec3 color;
       attribute float size;
       attribute float ring;
@@ -107,7 +113,8 @@ function material(opacity: number, depthTest: boolean): ShaderMaterial {
       void main() {
         tint = color;
         open = ring;
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        #include <begin_vertex>
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(transformed, 1.0);
         // A small depth offset towards the camera, so that the skin at the point does not hide the marker.
         gl_Position.z -= 0.0025 * gl_Position.w;
         gl_PointSize = size * ratio;

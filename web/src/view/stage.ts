@@ -51,6 +51,8 @@ export class Stage {
   readonly controls: OrbitControls;
   /** Frames drawn in the last full second. */
   framesPerSecond = 0;
+  /** Frames drawn so far. */
+  drawn = 0;
 
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
@@ -323,6 +325,7 @@ export class Stage {
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
       this.framesInSecond += 1;
+      this.drawn += 1;
     }
     if (time - this.secondStart >= 1000) {
       this.framesPerSecond = Math.round((this.framesInSecond * 1000) / (time - this.secondStart));

@@ -25,6 +25,10 @@ export interface AnimatePanelOptions {
   frame: FaceFrame;
   /** Called after a slider or button changed the frame. */
   onChange: () => void;
+  /** Called when a slider of a FAP is used, with the mirror FAP that moves with it, or 0. */
+  onFap: (fap: number, mirror: number) => void;
+  /** The controls of the influence view. */
+  influence: HTMLElement;
   /** Called when idle life is switched on or off. Fails if it cannot be played. */
   onIdle: (on: boolean) => Promise<void>;
   /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
@@ -70,6 +74,7 @@ export class AnimatePanel {
     this.faps = new FapSliders({
       frame: options.frame,
       onChange: () => this.changed(),
+      onUse: options.onFap,
       onJawTakesLip: options.onJawTakesLip,
     });
     this.resetAll = h(
@@ -92,6 +97,7 @@ export class AnimatePanel {
         this.resetAll,
       ),
       this.makeIdle(),
+      options.influence,
       h(
         'section',
         {},

@@ -9,6 +9,8 @@ import { Slider } from '../shared/slider.ts';
 export interface FapSlidersOptions {
   frame: FaceFrame;
   onChange: () => void;
+  /** Called when a slider is used, with the FAP and the mirror FAP that moves with it, or 0. */
+  onUse: (fap: number, mirror: number) => void;
   /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
   onJawTakesLip: (takes: boolean) => void;
 }
@@ -114,8 +116,9 @@ export class FapSliders {
       min: fap.usualMin,
       max: fap.usualMax,
       onInput: (value) => {
-        setFap(this.options.frame, fap.number, value, this.both);
+        const mirror = setFap(this.options.frame, fap.number, value, this.both);
         this.changed();
+        this.options.onUse(fap.number, mirror);
       },
     });
     this.sliders.set(fap.number, slider);

@@ -10,7 +10,7 @@ export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf): 
     const model = studio.selected.value;
     if (state.kind !== 'ready' || !model || shelf.thumbnails.has(model.id)) return;
     requestAnimationFrame(() => {
-      shelf.thumbnails.set(model.id, scene.stage.thumbnail(size));
+      shelf.thumbnails.set(model.id, scene.thumbnail(size));
       shelf.draw();
     });
   });

@@ -6,6 +6,7 @@ import { pointById } from '../../face/feature_points.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { overlayCard } from './stage_overlay.ts';
+import type { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 
 const views: { name: ViewName; label: string; key: string }[] = [
@@ -33,13 +34,15 @@ export class StagePanel {
     private readonly studio: Studio,
     private readonly points: PointsModel,
     driver: HTMLElement,
+    private readonly influence: Signal<boolean>,
   ) {
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'application');
     canvas.setAttribute(
       'aria-label',
       'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view, F shows the whole face. ' +
-        'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next.',
+        'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next. ' +
+        'With the influence view I reads the weights at the cross.',
     );
     this.element = h(
       'div',
@@ -75,6 +78,9 @@ export class StagePanel {
 
   private makeTools(): HTMLElement {
     const wire = toggle('Wireframe', 'wire', (on) => (this.scene.wireframe = on));
+    const influence = toggle('Influence of the points', 'influence', (on) => this.influence.set(on));
+    this.influence.watch((on) => influence.setAttribute('aria-pressed', String(on)));
+    this.scene.faceShown.watch((face) => (influence.hidden = !face));
     const path = h(
       'button',
       {
@@ -108,6 +114,7 @@ export class StagePanel {
         ),
       ),
       h('span', { class: 'divider' }),
+      influence,
       wire,
       path,
     );

@@ -1,4 +1,5 @@
 import { Vector3 } from 'three';
+import type { RigDocument } from '@protocol/rig_document.ts';
 import type { LoadedFace } from '../../face/loaded_face.ts';
 import { Performer } from '../../face/performer.ts';
 import type { Model } from '../../net/types.ts';
@@ -7,6 +8,7 @@ import type { Problem } from '../../net/types.ts';
 import { makeMaterials } from '@client/three/face_materials.ts';
 import { FaceView, type DeformPath } from '@client/three/face_view.ts';
 import { ballAround, Highlight, type HighlightTarget } from '../../view/highlight.ts';
+import type { InfluenceView } from '../../view/influence_view.ts';
 import { Markers, type Marker } from '../../view/markers.ts';
 import { PreviewView } from '../../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../../view/quality.ts';
@@ -34,8 +36,13 @@ export class SceneView {
   readonly packageBytes = new Signal(0);
   /** The displayed level of detail of the face; 0 is the full mesh. */
   readonly level = new Signal(0);
+  /** Whether the animated face is on the stage, not the still model. */
+  readonly faceShown = new Signal(false);
   preview: PreviewView | null = null;
   face: FaceView | null = null;
+  /** What the server told of the animated face. */
+  rig: RigDocument | null = null;
+  private painted: InfluenceView | null = null;
   private wanted: 'preview' | 'face' = 'face';
   private path: DeformPath = 'gpu';
   private wire = false;
@@ -123,6 +130,7 @@ export class SceneView {
     if (this.face) this.face.object.visible = face;
     this.markers.object.visible = what === 'preview' && this.preview !== null;
     this.highlight.object.visible = this.markers.object.visible;
+    this.faceShown.set(face);
     this.stage.invalidate();
   }
 
@@ -148,6 +156,7 @@ export class SceneView {
     this.wire = on;
     if (this.preview) this.preview.wireframe = on;
     if (this.face) this.face.wireframe = on;
+    if (this.painted) this.painted.wireframe = on;
     this.stage.invalidate();
   }
 
@@ -158,6 +167,7 @@ export class SceneView {
   set deformPath(path: DeformPath) {
     this.path = path;
     this.face?.usePath(path);
+    this.painted?.usePath(path);
     const performer = this.performer.value;
     if (performer && this.face) this.pose(this.face, performer);
     this.stage.invalidate();
@@ -172,8 +182,40 @@ export class SceneView {
     return true;
   }
 
+  /** What paints the weights over the face; null: nothing. It belongs to the face, and ends with it. */
+  get influence(): InfluenceView | null {
+    return this.painted;
+  }
+
+  set influence(view: InfluenceView | null) {
+    this.painted?.dispose();
+    this.painted = view;
+    if (!view) return;
+    view.usePath(this.path);
+    view.wireframe = this.wire;
+  }
+
+  showInfluence(on: boolean): void {
+    if (!this.painted) return;
+    this.painted.on = on;
+    if (this.face && this.performer.value) this.pose(this.face, this.performer.value);
+    this.stage.invalidate();
+  }
+
+  /** A small image of the head as it is, without its weights. */
+  thumbnail(size: number): string {
+    const { painted } = this;
+    const on = painted?.on ?? false;
+    if (painted) painted.on = false;
+    const image = this.stage.thumbnail(size);
+    if (painted) painted.on = on;
+    return image;
+  }
+
   private pose(face: FaceView, performer: Performer): void {
-    if (this.path === 'gpu') return face.setPose(performer.pose);
+    // The feature points of the influence view are moved by the shader on both paths.
+    if (this.path === 'gpu' || this.painted?.on) face.setPose(performer.pose);
+    if (this.path === 'gpu') return;
     performer.kernel.deform(performer.poseNumber);
     face.setVertices(performer.kernel.positions, performer.pose);
   }
@@ -202,8 +244,10 @@ export class SceneView {
       this.stage.scene.add(preview.object);
     }
     this.performer.value?.dispose();
+    this.influence = null;
     this.face?.dispose();
     this.face = face?.view ?? null;
+    this.rig = face?.loaded.rig ?? null;
     this.packageBytes.set(face?.loaded.packageBytes ?? 0);
     if (face) {
       this.stage.scene.add(face.view.object);
@@ -228,10 +272,12 @@ export class SceneView {
 
   private clear(): void {
     this.highlight.clear();
+    this.influence = null;
     this.preview?.dispose();
     this.face?.dispose();
     this.preview = null;
     this.face = null;
+    this.rig = null;
     this.packageBytes.set(0);
     this.performer.value?.dispose();
     this.performer.set(null);
