@@ -38,6 +38,7 @@ import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
 import { Studio } from './ui/shared/studio.ts';
+import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { Toasts } from './ui/shared/toast.ts';
@@ -65,7 +66,10 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const reader = new InfluenceReader(canvas, scene, influence);
   const animate = new AnimatePanel({
     frame,
-    influence: new InfluencePanel(influence, scene).element,
+    views: [
+      new InfluencePanel(influence, scene).element,
+      new UnitsPanel(scene, points, studio, parametrizer).element,
+    ],
     onFap: (fap, mirror) => influence.useFap(fap, mirror),
     onChange: () => {
       driver.byHand();

@@ -10,6 +10,7 @@ import {
   paintRegions,
   paintStrongest,
   paintUncovered,
+  skinVertices,
   strongestPoints,
   type InfluenceRows,
 } from '../src/face/influence_map.ts';
@@ -25,8 +26,8 @@ import {
 } from '../src/face/influence_palette.ts';
 import { readingWords } from '../src/ui/influence/influence_model.ts';
 
-/** A table with these rows of [point, weight]; `rigid` by vertex. */
-function table(rows: [number, number][][], rigid: number[] = []): InfluenceRows {
+/** A table with these rows of [point, weight]. */
+function table(rows: [number, number][][]): InfluenceRows {
   const offsets = [0];
   for (const row of rows) offsets.push(offsets.at(-1)! + row.length);
   return {
@@ -34,12 +35,11 @@ function table(rows: [number, number][][], rigid: number[] = []): InfluenceRows 
     rowOffsets: Uint32Array.from(offsets),
     rowPoints: Uint8Array.from(rows.flat().map(([point]) => point)),
     rowWeights: Float32Array.from(rows.flat().map(([, weight]) => weight)),
-    rigid: Uint8Array.from(rows.map((_, v) => rigid[v] ?? 0)),
   };
 }
 
 const pixel = (paint: Uint8Array, v: number): number[] => [...paint.subarray(v * 4, v * 4 + 4)];
-const rows = table([[[2, 0.25], [7, 0.75]], [[2, 0.5], [7, 0.5]], [], [[7, 0.3]], [[2, 0]], []], [0, 0, 0, 0, 0, 1]);
+const rows = table([[[2, 0.25], [7, 0.75]], [[2, 0.5], [7, 0.5]], [], [[7, 0.3]], [[2, 0]], []]);
 
 describe('influence', () => {
   test('InfluencersOf_ARow_HasTheStrongestFirstAndNoZeros', () => {
@@ -68,14 +68,26 @@ describe('influence', () => {
     expect(pixel(paint, 2)).toEqual([...restColour, 0]);
   });
 
-  test('PaintUncovered_NoneLittleAndEyes_AreTold', () => {
+  test('SkinVertices_HairEyesAndTongue_AreNone', () => {
+    const indices = Uint32Array.from([0, 1, 2, 3, 4, 5, 6, 6, 6]);
+    const groups = [0, 1, 2].map((material) => ({ start: material * 3, count: 3, material }));
+    const rigid = Uint8Array.from([0, 1, 5, 0, 0, 0, 0, 0]); // an eye, a lid
+    const materials = [
+      { name: 'Face', roughness: 0.5, alpha_mode: 'opaque' as const },
+      { name: 'Hair', roughness: 0.5, alpha_mode: 'opaque' as const },
+      { name: 'Veil', roughness: 0.5, alpha_mode: 'blend' as const },
+    ];
+    expect([...skinVertices({ vertexCount: 8, indices, groups, rigid }, materials)]).toEqual([1, 0, 1, 0, 0, 0, 0, 0]);
+  });
+
+  test('PaintUncovered_NoneAndLittle_AreToldOfSkinOnly', () => {
     const paint = new Uint8Array(24);
     expect(littleWeight).toBeGreaterThan(0.3);
-    expect(paintUncovered(rows, paint)).toEqual({ vertices: 5, none: 2, little: 1 });
+    expect(paintUncovered(rows, Uint8Array.of(1, 1, 1, 1, 1, 0), paint)).toEqual({ vertices: 5, none: 2, little: 1 });
     expect(pixel(paint, 0)).toEqual([...coveredColour, 0]);
     expect(pixel(paint, 2)).toEqual([...uncoveredColour, 255]);
     expect(pixel(paint, 3)).toEqual([...littleColour, 0]);
-    expect(pixel(paint, 5)).toEqual([...restColour, 0]); // an eye moves without weights
+    expect(pixel(paint, 5)).toEqual([...restColour, 0]); // no skin
   });
 
   test('ColourRegions_NeighboursDifferAndMirrorPointsMatch', () => {

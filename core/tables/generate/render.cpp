@@ -227,9 +227,18 @@ export interface FeaturePoint {
   readonly mirror: string;
 }
 
+/** Coordinate `axis` (0 x, 1 y, 2 z) of `to` minus that of `from`, on the neutral face. */
+export interface FapuMeasure {
+  readonly from: string;
+  readonly to: string;
+  readonly axis: 0 | 1;
+}
+
 export interface Fapu {
   readonly name: FapUnit;
   readonly meaning: string;
+  /** The unit is 1024th of their mean; two: left and right eye; none: an angle. */
+  readonly measures: readonly FapuMeasure[];
 }
 
 export interface Viseme {
@@ -285,7 +294,9 @@ export interface Expression {
                     {"usualMax", usual[1]}});
   }
   json fapus = json::array();
-  for (const json& f : data.fapus["fapus"]) fapus.push_back({{"name", f["name"]}, {"meaning", f["meaning"]}});
+  for (const json& f : data.fapus["fapus"]) {
+    fapus.push_back({{"name", f["name"]}, {"meaning", f["meaning"]}, {"measures", f.value("measures", json::array())}});
+  }
   list("FapGroup", "fapGroups", groups);
   out << "/** faps[n - 1] is FAP n. */\n";
   list("Fap", "faps", faps);

@@ -46,9 +46,18 @@ export interface FeaturePoint {
   readonly mirror: string;
 }
 
+/** Coordinate `axis` (0 x, 1 y, 2 z) of `to` minus that of `from`, on the neutral face. */
+export interface FapuMeasure {
+  readonly from: string;
+  readonly to: string;
+  readonly axis: 0 | 1;
+}
+
 export interface Fapu {
   readonly name: FapUnit;
   readonly meaning: string;
+  /** The unit is 1024th of their mean; two: left and right eye; none: an angle. */
+  readonly measures: readonly FapuMeasure[];
 }
 
 export interface Viseme {
@@ -267,12 +276,12 @@ export const quickSet: readonly string[] = [
 ];
 
 export const fapus: readonly Fapu[] = [
-  {"name":"IRISD","meaning":"iris diameter (equal, by the definition of the neutral face, to the distance between upper and lower lid)"},
-  {"name":"ES","meaning":"distance between the centres of the eyes (pupils)"},
-  {"name":"ENS","meaning":"distance from the line between the eyes to the base of the nose"},
-  {"name":"MNS","meaning":"distance from the base of the nose to the mouth line"},
-  {"name":"MW","meaning":"mouth width"},
-  {"name":"AU","meaning":"angle unit"},
+  {"name":"IRISD","meaning":"iris diameter (equal, by the definition of the neutral face, to the distance between upper and lower lid)","measures":[{"from":"3.3","to":"3.1","axis":1},{"from":"3.4","to":"3.2","axis":1}]},
+  {"name":"ES","meaning":"distance between the centres of the eyes (pupils)","measures":[{"from":"3.6","to":"3.5","axis":0}]},
+  {"name":"ENS","meaning":"distance from the line between the eyes to the base of the nose","measures":[{"from":"9.15","to":"3.5","axis":1}]},
+  {"name":"MNS","meaning":"distance from the base of the nose to the mouth line","measures":[{"from":"2.2","to":"9.15","axis":1}]},
+  {"name":"MW","meaning":"mouth width","measures":[{"from":"8.4","to":"8.3","axis":0}]},
+  {"name":"AU","meaning":"angle unit","measures":[]},
 ];
 
 /** By the number that FAP 1 selects. */

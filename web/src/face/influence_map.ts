@@ -1,5 +1,7 @@
 import type { DrawableMesh } from '@client/gpu/drawable_mesh.ts';
+import { isSkinLike } from '@client/gpu/studio_look.ts';
 import { featurePointCount, featurePoints } from '@protocol/generated/mpeg4.ts';
+import type { RigMaterial } from '@protocol/rig_document.ts';
 import { eyeOf, rigidMotion } from '@protocol/weights_format.ts';
 import {
   coveredColour,
@@ -11,7 +13,7 @@ import {
 } from './influence_palette.ts';
 
 /** The rows of the influence table; see DrawableMesh. */
-export type InfluenceRows = Pick<DrawableMesh, 'vertexCount' | 'rowOffsets' | 'rowPoints' | 'rowWeights' | 'rigid'>;
+export type InfluenceRows = Pick<DrawableMesh, 'vertexCount' | 'rowOffsets' | 'rowPoints' | 'rowWeights'>;
 
 /** A vertex that follows points by less than this in all follows little. */
 export const littleWeight = 0.5;
@@ -31,7 +33,7 @@ export function influencersOf(rows: InfluenceRows, vertex: number): Influencer[]
 }
 
 /** Whether a vertex is to follow points by weights: eyes and the tongue have motions of their own. */
-export const followsPoints = (rigid: number): boolean => eyeOf(rigid) < 0 && rigid < rigidMotion.tongue;
+const followsPoints = (rigid: number): boolean => eyeOf(rigid) < 0 && rigid < rigidMotion.tongue;
 
 /** Points that move at least one vertex, by dense index. */
 export function movingPoints(rows: InfluenceRows): boolean[] {
@@ -93,9 +95,29 @@ export function colourRegions(strongest: Int16Array, indices: Uint32Array): Uint
   return colours;
 }
 
+/**
+ * 1 for each vertex of the skin: hair, lashes and teeth by their materials, and eyes and tongue, whose motions are their own,
+ * are none.
+ */
+export function skinVertices(
+  mesh: Pick<DrawableMesh, 'vertexCount' | 'indices' | 'groups' | 'rigid'>,
+  materials: readonly Pick<RigMaterial, 'name' | 'roughness' | 'alpha_mode'>[],
+): Uint8Array {
+  const skin = new Uint8Array(mesh.vertexCount);
+  for (const { start, count, material } of mesh.groups) {
+    const facts = materials[material];
+    if (facts && !isSkinLike(facts.name, facts.roughness, facts.alpha_mode !== 'opaque')) continue;
+    for (let i = start; i < start + count; i += 1) {
+      const vertex = mesh.indices[i]!;
+      skin[vertex] = followsPoints(mesh.rigid[vertex]!) ? 1 : 0;
+    }
+  }
+  return skin;
+}
+
 /** How much of a face follows points by weights. */
 export interface Coverage {
-  /** Vertices without eyes and tongue. */
+  /** Vertices of the skin. */
   vertices: number;
   /** Of these: with no weight, and with less than `littleWeight` in all. */
   none: number;
@@ -141,10 +163,10 @@ export function paintStrongest(strongest: Int16Array, colours: Uint8Array, out: 
 }
 
 /** Vertices that follow no point, hatched, and those that follow points a little, in colours of warning. */
-export function paintUncovered(rows: InfluenceRows, out: VertexColours): Coverage {
+export function paintUncovered(rows: InfluenceRows, skin: Uint8Array, out: VertexColours): Coverage {
   const coverage = { vertices: 0, none: 0, little: 0 };
   for (let v = 0; v < rows.vertexCount; v += 1) {
-    if (!followsPoints(rows.rigid[v]!)) {
+    if (skin[v] === 0) {
       put(out, v, restColour, 0);
       continue;
     }

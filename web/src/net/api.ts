@@ -6,6 +6,7 @@ import type {
   AbsentFap,
   FapPlaying,
   FeaturePointsBody,
+  FeaturePointsEdit,
   FeaturePointSet,
   FitReport,
   FrameWish,
@@ -117,6 +118,16 @@ export class Api {
     const headers: Record<string, string> = options.etag ? { 'If-Match': options.etag } : {};
     return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points${query}`, {
       method: 'PUT',
+      json: body,
+      headers,
+    });
+  }
+
+  /** Changes what the body names; the rest stays. With the `etag` of the base set as in `putFeaturePoints`. */
+  patchFeaturePoints(id: string, body: FeaturePointsEdit, etag: string | null): Promise<Answer<FeaturePointSet>> {
+    const headers: Record<string, string> = etag ? { 'If-Match': etag } : {};
+    return requestJson<FeaturePointSet>(`${this.base}/v1/models/${segment(id)}/feature-points`, {
+      method: 'PATCH',
       json: body,
       headers,
     });

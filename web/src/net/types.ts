@@ -41,6 +41,7 @@ export type LevelError = Schemas['SurfaceError'];
 
 export type FeaturePointSet = Schemas['FeaturePoints'];
 export type FeaturePointsBody = Schemas['FeaturePointsBody'];
+export type FeaturePointsEdit = Schemas['FeaturePointsEdit'];
 export type FeaturePointValue = FeaturePointSet['points'][string];
 export type ParametrizationOptions = JsonBody<operations['createParametrization']>;
 

@@ -27,8 +27,8 @@ export interface AnimatePanelOptions {
   onChange: () => void;
   /** Called when a slider of a FAP is used, with the mirror FAP that moves with it, or 0. */
   onFap: (fap: number, mirror: number) => void;
-  /** The controls of the influence view. */
-  influence: HTMLElement;
+  /** What is seen on the face beside its picture: the controls of the influence view and of the units. */
+  views: readonly HTMLElement[];
   /** Called when idle life is switched on or off. Fails if it cannot be played. */
   onIdle: (on: boolean) => Promise<void>;
   /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
@@ -97,7 +97,7 @@ export class AnimatePanel {
         this.resetAll,
       ),
       this.makeIdle(),
-      options.influence,
+      ...options.views,
       h(
         'section',
         {},

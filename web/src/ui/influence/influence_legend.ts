@@ -2,7 +2,6 @@ import { pointById } from '../../face/feature_points.ts';
 import { littleWeight, type Coverage } from '../../face/influence_map.ts';
 import {
   coveredColour,
-  cssColour,
   heatGradient,
   littleColour,
   regionColours,
@@ -14,6 +13,7 @@ import { h, replace, type Child } from '../shared/dom.ts';
 import { formatCount } from '../shared/format.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { SceneView } from '../stage/scene.ts';
+import { swatch } from './swatch.ts';
 import { percent, pointName, type InfluenceModel } from './influence_model.ts';
 
 /** What the colours on the stage mean, at the edge of the stage. */
@@ -33,7 +33,7 @@ export function influenceLegend(model: InfluenceModel, scene: SceneView): HTMLEl
 function content(model: InfluenceModel): Child[] {
   switch (model.mode.value) {
     case 'heat':
-      return [h('strong', {}, heatTitle(model)), scale(), row(restColour, 'No influence')];
+      return [h('strong', {}, heatTitle(model)), scale(), row(restColour, 'None')];
     case 'regions':
       return [
         h('strong', {}, 'Regions'),
@@ -60,10 +60,12 @@ function heatTitle({ fap, chosen }: InfluenceModel): string {
 
 /** The scale of weights with its numbers, from 100 % at the top. */
 function scale(): HTMLElement {
+  const ramp = h('span', { class: 'legend-ramp' });
+  ramp.style.backgroundImage = heatGradient('to top');
   return h(
     'div',
     { class: 'legend-scale', role: 'img', 'aria-label': 'Weight, from 0 % dark violet to 100 % yellow' },
-    h('span', { class: 'legend-ramp', style: `background: ${heatGradient('to top')}` }),
+    ramp,
     h(
       'span',
       { class: 'legend-numbers', 'aria-hidden': 'true' },
@@ -79,8 +81,9 @@ function coverageRows(coverage: Coverage | null): Child {
   const share = (count: number): string => `${formatCount(count)} · ${percent(count / Math.max(vertices, 1))}`;
   return [
     row(uncoveredColour, 'No point', share(none), true),
-    row(littleColour, `Less than ${percent(littleWeight)}`, share(little)),
+    row(littleColour, `< ${percent(littleWeight)}`, share(little)),
     row(coveredColour, 'Covered', share(covered)),
+    row(restColour, 'No skin'),
   ];
 }
 
@@ -88,7 +91,7 @@ function row(colour: Rgb, label: string, note = '', hatched = false): HTMLElemen
   return h(
     'div',
     { class: 'legend-row' },
-    h('i', { class: hatched ? 'swatch hatched' : 'swatch', style: `background-color: ${cssColour(colour)}` }),
+    swatch(colour, hatched),
     h('span', {}, label),
     note ? h('small', {}, note) : null,
   );

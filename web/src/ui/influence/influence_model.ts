@@ -9,6 +9,7 @@ import {
   paintRegions,
   paintStrongest,
   paintUncovered,
+  skinVertices,
   strongestPoints,
   type Coverage,
 } from '../../face/influence_map.ts';
@@ -51,6 +52,7 @@ export class InfluenceModel {
   /** Ids of the points that move at least one vertex of the shown face. */
   moving: ReadonlySet<string> = new Set();
   private strongest: Int16Array = new Int16Array();
+  private skin: Uint8Array = new Uint8Array();
   private regionOf: Uint8Array = new Uint8Array();
 
   constructor(private readonly scene: SceneView) {
@@ -126,7 +128,8 @@ export class InfluenceModel {
     this.moving = new Set();
     if (mesh) movingPoints(mesh).forEach((moves, i) => moves && (this.moving as Set<string>).add(featurePoints[i]!.id));
     this.strongest = new Int16Array();
-    this.coverage.set(mesh ? paintUncovered(mesh, new Uint8Array(mesh.vertexCount * 4)) : null);
+    this.skin = mesh ? skinVertices(mesh, this.scene.rig?.materials ?? []) : new Uint8Array();
+    this.coverage.set(mesh ? paintUncovered(mesh, this.skin, new Uint8Array(mesh.vertexCount * 4)) : null);
     if (!this.on.value) return;
     this.prepare();
     this.scene.showInfluence(true);
@@ -157,7 +160,7 @@ export class InfluenceModel {
     else if (mode === 'regions')
       paintRegions(mesh, new Map(chosen.map((point, i) => [point, i % regionColours.length])), influence.paint);
     else if (mode === 'strongest') paintStrongest(this.strongest, this.regionOf, influence.paint);
-    else paintUncovered(mesh, influence.paint);
+    else paintUncovered(mesh, this.skin, influence.paint);
     influence.repaint(mode === 'heat');
     influence.showDiscs(rig.feature_points.map(({ id }) => this.disc(id)));
     this.scene.stage.invalidate();
@@ -166,7 +169,7 @@ export class InfluenceModel {
   private disc(id: string): Disc {
     const bySelection = this.mode.value === 'heat' || this.mode.value === 'regions';
     if (bySelection && this.chosen.value.includes(id)) return { color: this.colourOf(id) ?? [255, 90, 44], size: 15 };
-    return this.moving.has(id) ? { color: [70, 66, 64], size: 7 } : null;
+    return this.moving.has(id) ? { color: [70, 66, 64], size: 6 } : null;
   }
 }
 

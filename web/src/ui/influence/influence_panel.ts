@@ -1,11 +1,11 @@
 import { pointGroups } from '../../face/feature_points.ts';
-import { cssColour } from '../../face/influence_palette.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { fapGroupTitles, fapTitle } from '../shared/names.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { faps } from '@protocol/generated/mpeg4.ts';
+import { swatch } from './swatch.ts';
 import { pointName, type InfluenceMode, type InfluenceModel } from './influence_model.ts';
 
 const modes: { mode: InfluenceMode; title: string; words: string }[] = [
@@ -133,7 +133,7 @@ export class InfluencePanel {
     return h(
       'span',
       { class: 'chip', role: 'listitem', 'data-point': id, title: pointName(id) },
-      colour ? h('i', { class: 'swatch', style: `background-color: ${cssColour(colour)}` }) : null,
+      colour ? swatch(colour) : null,
       h('span', {}, id),
       h('span', { class: 'chip-name' }, pointName(id)),
       h(

@@ -1,9 +1,9 @@
 import { Vector3 } from 'three';
 import { pickVertex } from '../../face/ray_pick.ts';
-import { cssColour } from '../../face/influence_palette.ts';
 import { h, replace, setText } from '../shared/dom.ts';
 import { formatCount } from '../shared/format.ts';
 import type { SceneView } from '../stage/scene.ts';
+import { swatch } from './swatch.ts';
 import { percent, readingWords, type InfluenceModel, type Reading } from './influence_model.ts';
 
 /** How long a finger rests until the place under it is read, ms; and how far it may slip, pixels. */
@@ -195,7 +195,7 @@ export class InfluenceReader {
           'div',
           { class: 'reading-row' },
           h('b', {}, percent(weight)),
-          colour ? h('i', { class: 'swatch', style: `background: ${cssColour(colour)}` }) : null,
+          colour ? swatch(colour) : null,
           h('span', {}, `${id} ${name}`),
         );
       }),

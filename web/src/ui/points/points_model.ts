@@ -172,6 +172,23 @@ export class PointsModel {
     );
   }
 
+  /** Gives a unit (FAPU) by hand, a length in model units; null: it is measured again. Unsaved points stay as they are. */
+  async setUnit(unit: string, length: number | null): Promise<boolean> {
+    const { model } = this;
+    if (!model) return false;
+    this.busy.set(true);
+    const done = await this.studio.attempt('The unit was not changed', async () => {
+      const body = { points: {}, fapu: { [unit]: length } };
+      const answer = await this.studio.api.patchFeaturePoints(model.id, body, this.etag);
+      if (this.model?.id !== model.id) return;
+      this.fapu = answer.value.fapu;
+      this.etag = answer.etag;
+    });
+    this.busy.set(false);
+    this.touch();
+    return done;
+  }
+
   /** Uploads a file of the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server validates it. */
   async importFile(file: File): Promise<boolean> {
     let body: FeaturePointsBody;

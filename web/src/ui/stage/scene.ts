@@ -8,6 +8,7 @@ import type { Problem } from '../../net/types.ts';
 import { makeMaterials } from '@client/three/face_materials.ts';
 import { FaceView, type DeformPath } from '@client/three/face_view.ts';
 import { ballAround, Highlight, type HighlightTarget } from '../../view/highlight.ts';
+import type { UnitLines } from '../../view/unit_lines.ts';
 import type { InfluenceView } from '../../view/influence_view.ts';
 import { Markers, type Marker } from '../../view/markers.ts';
 import { PreviewView } from '../../view/preview_view.ts';
@@ -43,6 +44,7 @@ export class SceneView {
   /** What the server told of the animated face. */
   rig: RigDocument | null = null;
   private painted: InfluenceView | null = null;
+  private lines: UnitLines | null = null;
   private wanted: 'preview' | 'face' = 'face';
   private path: DeformPath = 'gpu';
   private wire = false;
@@ -195,6 +197,17 @@ export class SceneView {
     view.wireframe = this.wire;
   }
 
+  /** The lines of the face's units; null: none. They belong to the face, and end with it. */
+  set units(lines: UnitLines | null) {
+    this.lines?.dispose();
+    this.lines = lines;
+    if (lines && this.face && this.performer.value) {
+      lines.setPose(this.performer.value.pose);
+      this.face.object.add(lines.object);
+    }
+    this.stage.invalidate();
+  }
+
   showInfluence(on: boolean): void {
     if (!this.painted) return;
     this.painted.on = on;
@@ -215,6 +228,7 @@ export class SceneView {
   private pose(face: FaceView, performer: Performer): void {
     // The feature points of the influence view are moved by the shader on both paths.
     if (this.path === 'gpu' || this.painted?.on) face.setPose(performer.pose);
+    this.lines?.setPose(performer.pose);
     if (this.path === 'gpu') return;
     performer.kernel.deform(performer.poseNumber);
     face.setVertices(performer.kernel.positions, performer.pose);
@@ -245,6 +259,7 @@ export class SceneView {
     }
     this.performer.value?.dispose();
     this.influence = null;
+    this.units = null;
     this.face?.dispose();
     this.face = face?.view ?? null;
     this.rig = face?.loaded.rig ?? null;
@@ -273,6 +288,7 @@ export class SceneView {
   private clear(): void {
     this.highlight.clear();
     this.influence = null;
+    this.units = null;
     this.preview?.dispose();
     this.face?.dispose();
     this.preview = null;
