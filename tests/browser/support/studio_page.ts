@@ -35,6 +35,11 @@ export class StudioPage {
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: 'reduce',
     });
+    return StudioPage.openIn(context, url, options);
+  }
+
+  /** In a context of the test's own, such as one of a touch screen. */
+  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed'> = {}): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
     const page = await context.newPage();
     const studio = new StudioPage(context, page);
@@ -223,14 +228,24 @@ export interface Inside {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
       stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number };
-      face: { mesh: { vertexCount: number }; object: { visible: boolean } } | null;
-      performer: { value: { player: { playhead: number; delay: number; stats: object } } | null };
+      face: {
+        mesh: { vertexCount: number; rowOffsets: Uint32Array; rowWeights: Float32Array };
+        object: { visible: boolean };
+      } | null;
+      rig: { feature_points: { id: string; vertex: number | null }[] } | null;
+      performer: {
+        value: {
+          poseNumber: number;
+          kernel: { deform(pose: number): void; positions: Float32Array };
+          player: { playhead: number; delay: number; stats: object };
+        } | null;
+      };
       highlight: {
         parts: { children: { geometry: { index: { count: number } | null } }[] };
         dots: { count: number; object: { visible: boolean } };
       };
     };
-    driver: { source: { value: string } };
+    driver: { source: { value: string }; byHand(): void };
     studio: { selected: { value: { id: string; state: string } | null } };
   };
 }
