@@ -1,27 +1,16 @@
 #include "server/jobs/worker.h"
 
-#include <csignal>
 #include <iostream>
 #include <iterator>
 #include <new>
 #include <unistd.h>
 #include <utility>
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-
 #include "server/jobs/isolation.h"
-#include "server/log/thread_rank.h"
 #include "server/store/store_error.h"
 
 namespace semblante::jobs {
 namespace {
-
-void limit(int what, std::uint64_t value, std::uint64_t grace = 0) {
-  if (value == 0) return;
-  const rlimit limits{value, value + grace};
-  setrlimit(static_cast<__rlimit_resource>(what), &limits);
-}
 
 /// Writes the whole line with one call: a line cut off by a crash must not look like another one.
 void say(const WorkerLine& line) {
@@ -35,18 +24,6 @@ int report(http::Problem problem) {
 }
 
 }  // namespace
-
-void limit_this_process(const WorkerLimits& limits) {
-  // The kernel kills the worker when its server is killed.
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  log::set_thread_rank(log::ThreadRank::jobs);
-  limit(RLIMIT_AS, limits.memory_bytes);
-  // SIGXCPU tells the reason; at the hard limit the kernel sends SIGKILL, and would at once if both were equal.
-  limit(RLIMIT_CPU, limits.cpu_seconds, 1);
-  limit(RLIMIT_FSIZE, limits.file_bytes);
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
-}
 
 int run_worker(const RunJob& run_job) {
   const std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());

@@ -3,14 +3,11 @@
 #include <functional>
 
 #include "server/jobs/input_files.h"
+#include "server/jobs/process_limits.h"
 #include "server/jobs/result_files.h"
 #include "server/jobs/worker_protocol.h"
 
 namespace semblante::jobs {
-
-/// Sets the limits of this process, and its death signal on the parent's end. To be called before a byte of a model is
-/// read.
-void limit_this_process(const WorkerLimits& limits);
 
 /// What a worker does in its isolation; tests do other things in it.
 using RunJob = std::function<Result<JobOutcome>(const JobRequest&, const InputFiles&, ResultFiles&, const Progress&)>;

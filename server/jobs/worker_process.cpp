@@ -125,7 +125,8 @@ std::string own_executable() {
 Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,
                                       const std::filesystem::path& error_file, std::chrono::seconds wall_limit,
                                       const std::function<void(std::string_view line)>& on_line,
-                                      const std::function<Wish()>& poll_wish) {
+                                      const std::function<Wish()>& poll_wish,
+                                      const std::optional<WorkerLimits>& limits) {
   Pipe in;
   Pipe out;
   if (in.read_end() < 0 || out.read_end() < 0)
@@ -133,6 +134,7 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
   auto started = spawn(arguments, in, out, error_file);
   if (!started) return started.error();
   const pid_t pid = *started;
+  if (limits) limit_process(pid, *limits);
   in.close_read();
   out.close_write();
   ::fcntl(in.write_end(), F_SETFL, O_NONBLOCK);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <sys/types.h>
 
 #include "core/types/result.h"
+#include "server/jobs/process_limits.h"
 
 namespace semblante::jobs {
 
@@ -31,12 +33,14 @@ enum class Wish { go_on, cancel, stop };
 
 /// Runs `arguments[0]` with these arguments, `input` on its standard input, and passes on each line of its standard
 /// output as it arrives. Blocks until the process has ended. Cancel is SIGTERM, and SIGKILL two seconds later; stop is
-/// SIGKILL immediately. The process has its own group, so that a Ctrl-C at the terminal reaches only the server. Error
-/// `io` when it cannot be started.
+/// SIGKILL immediately. The process has its own group, so that a Ctrl-C at the terminal reaches only the server.
+/// `limits`: of a program that does not limit itself, in force before it gets its input. Error `io` when it cannot be
+/// started.
 Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,
                                       const std::filesystem::path& error_file, std::chrono::seconds wall_limit,
                                       const std::function<void(std::string_view line)>& on_line,
-                                      const std::function<Wish()>& poll_wish);
+                                      const std::function<Wish()>& poll_wish,
+                                      const std::optional<WorkerLimits>& limits = std::nullopt);
 
 /// Path of this program, to start it again as a worker.
 std::string own_executable();

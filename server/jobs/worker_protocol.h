@@ -18,13 +18,6 @@ struct WorkerRequest {
   JobRequest job;
 };
 
-/// The limits that a worker sets for itself before it reads the model. 0: no limit.
-struct WorkerLimits {
-  std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
-  std::uint64_t cpu_seconds = 300;
-  std::uint64_t file_bytes = std::uint64_t{1} << 30U;
-};
-
 /// The outcome of a worker.
 struct WorkerResult {
   JobOutcome outcome;

@@ -1,0 +1,143 @@
+// A voice: reads a request, writes sound and what is said when (server/voice/README.md), by libespeak-ng.
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+#include <iterator>
+#include <string>
+
+#include <espeak-ng/speak_lib.h>
+#include <sys/resource.h>
+
+#include "server/jobs/isolation.h"
+#include "server/voice/espeak/phoneme_trace.h"
+#include "server/voice/voice_protocol.h"
+
+namespace semblante::voice {
+namespace {
+
+constexpr int usual_words_per_minute = 160;
+constexpr int usual_pitch = 50;
+constexpr std::size_t samples_a_line = 16'384;
+
+void say(const std::string& line) { std::cout.write(line.data(), static_cast<std::streamsize>(line.size())); }
+
+int refuse(const std::string& message) {
+  say(error_line(message));
+  std::cout.flush();
+  return 2;
+}
+
+/// What the callback of libespeak-ng, which has no argument of ours, works with.
+struct Speaking {
+  PhonemeTrace* trace = nullptr;
+  std::size_t samples = 0, most_samples = 0;
+  bool too_long = false, broken = false;
+};
+Speaking speaking;  // NOLINT: see above
+
+void say_event(const espeak_EVENT& event) {
+  const double time = std::max(0, event.audio_position);
+  const auto first = static_cast<std::size_t>(std::max(1, event.text_position) - 1);
+  switch (event.type) {
+    case espeakEVENT_PHONEME: {
+      const std::string symbol(event.id.string, ::strnlen(event.id.string, sizeof event.id.string));
+      say(line_of(SpokenPhoneme{time, symbol, speaking.trace->stress_of(symbol)}));
+      break;
+    }
+    case espeakEVENT_WORD:
+      if (event.length > 0) say(line_of(SpokenWord{time, {first, static_cast<std::size_t>(event.length)}}));
+      break;
+    case espeakEVENT_SENTENCE:
+      say(line_of(SpokenSentence{time, first}));
+      break;
+    case espeakEVENT_MARK:
+      say(line_of(SpokenMark{time, event.id.name != nullptr ? event.id.name : ""}));
+      break;
+    default:
+      break;
+  }
+}
+
+/// 1 stops the synthesis.
+int take(short* samples, int count, espeak_EVENT* events) {
+  for (; events->type != espeakEVENT_LIST_TERMINATED; ++events) say_event(*events);
+  for (std::size_t at = 0; samples != nullptr && at < static_cast<std::size_t>(std::max(0, count));) {
+    const std::size_t here = std::min(samples_a_line, static_cast<std::size_t>(count) - at);
+    if (speaking.samples + here > speaking.most_samples) {
+      speaking.too_long = true;
+      return 1;
+    }
+    say(audio_line({samples + at, here}));
+    speaking.samples += here;
+    at += here;
+  }
+  speaking.broken = !std::cout;
+  return speaking.broken ? 1 : 0;
+}
+
+/// "pt-BR" -> "pt-br"; English without a country is American.
+bool choose_voice(const VoiceRequest& request) {
+  if (!request.voice.empty()) return espeak_SetVoiceByName(request.voice.c_str()) == EE_OK;
+  std::string name = request.language;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (name == "en") name = "en-us";
+  if (name == "pt") name = "pt-br";
+  if (espeak_SetVoiceByName(name.c_str()) == EE_OK) return true;
+  return espeak_SetVoiceByName(name.substr(0, name.find('-')).c_str()) == EE_OK;
+}
+
+/// From here on this process can compute and write to its pipe, nothing else.
+std::string isolate() {
+  const rlimit none{0, 0};
+  if (::setrlimit(RLIMIT_NOFILE, &none) != 0) return "cannot forbid itself to open files";
+  const auto isolated = jobs::isolate_this_process({}, {.highest_landlock = 0});
+  return isolated ? "" : isolated.error().message;
+}
+
+int run() {
+  std::string text(max_request_bytes + 1, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
+  const auto request = request_from_json(text);
+  if (!request) return refuse("the request: " + request.error().where + ": " + request.error().message);
+
+  PhonemeTrace trace;
+  if (trace.stream() == nullptr) return refuse("there is not enough memory");
+  const int rate =
+      espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
+                        espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
+  if (rate <= 0) return refuse("espeak-ng finds no data: is espeak-ng-data installed?");
+  if (!choose_voice(*request)) return refuse("there is no voice " + request->voice + " for " + request->language);
+  espeak_SetParameter(espeakRATE, static_cast<int>(usual_words_per_minute * request->rate), 0);
+  espeak_SetParameter(espeakPITCH, std::min(99, static_cast<int>(usual_pitch * request->pitch)), 0);
+  espeak_SetPhonemeTrace(espeakPHONEMES_SHOW | espeakPHONEMES_IPA | '_' << 8, trace.stream());
+  espeak_SetSynthCallback(take);
+  speaking.trace = &trace;
+  speaking.most_samples = static_cast<std::size_t>(max_seconds * rate);
+  const char* data = nullptr;
+  const std::string name = std::string("espeak-ng ") + espeak_Info(&data);
+  // The text is a stranger's: from here on the library reads it.
+  if (const auto fault = isolate(); !fault.empty()) return refuse(fault);
+
+  say(header_line(name, static_cast<std::uint32_t>(rate)));
+  const unsigned flags = espeakCHARS_UTF8 | espeakENDPAUSE | (request->ssml ? espeakSSML : 0U);
+  const auto code =
+      espeak_Synth(request->text.c_str(), request->text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr);
+  if (speaking.too_long) return refuse("the sound is longer than " + std::to_string(int(max_seconds)) + " s");
+  if (code != EE_OK || speaking.broken) return refuse("espeak-ng failed with code " + std::to_string(code));
+  say(end_line());
+  std::cout.flush();
+  return std::cout ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace semblante::voice
+
+int main() {
+  try {
+    return semblante::voice::run();
+  } catch (const std::exception& fault) {
+    std::cerr << fault.what() << "\n";
+    return 1;
+  }
+}

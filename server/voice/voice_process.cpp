@@ -1,0 +1,85 @@
+#include "server/voice/voice_process.h"
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <unistd.h>
+
+#include "core/types/printable.h"
+#include "server/jobs/worker_process.h"
+
+namespace semblante::voice {
+namespace {
+
+constexpr const char* usual_name = "semblante-voice-espeak";
+
+/// What the voice writes to standard error, for as long as it runs.
+class ErrorFile {
+ public:
+  ErrorFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "semblante-voice-XXXXXX").string();
+    const int file = ::mkstemp(name.data());
+    if (file < 0) return;
+    ::close(file);
+    path_ = name;
+  }
+  ~ErrorFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  ErrorFile(const ErrorFile&) = delete;
+  ErrorFile& operator=(const ErrorFile&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string with_last_words(std::string message, const std::string& words) {
+  const auto last = words.substr(words.rfind('\n') == std::string::npos ? 0 : words.rfind('\n') + 1);
+  return last.empty() ? message : message + ": " + printable(last);
+}
+
+}  // namespace
+
+std::string installed_voice() {
+  const auto path = std::filesystem::path(jobs::own_executable()).parent_path() / usual_name;
+  return ::access(path.c_str(), X_OK) == 0 ? path.string() : std::string();
+}
+
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request) {
+  if (const auto checked = check(request); !checked) return checked.error();
+  if (program.command.empty() || program.command[0].empty())
+    return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
+  const ErrorFile errors;
+  if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
+
+  jobs::WorkerLimits limits;
+  limits.memory_bytes = program.memory_bytes;
+  limits.cpu_seconds = program.cpu_seconds;
+  limits.file_bytes = 1U << 20U;
+  VoiceAnswer answer;
+  std::optional<Error> fault;
+  const auto exit = jobs::run_worker_process(
+      program.command, to_json(request), errors.path(), std::chrono::seconds(program.wall_seconds),
+      [&](std::string_view line) {
+        if (fault) return;
+        if (const auto taken = answer.take(line); !taken) fault = taken.error();
+      },
+      [&fault] { return fault ? jobs::Wish::stop : jobs::Wish::go_on; }, limits);
+  if (!exit) return exit.error();
+  if (fault) return *fault;
+  using Kind = jobs::WorkerExit::Kind;
+  if (exit->kind == Kind::timed_out)
+    return Error{ErrorCode::io, "voice", "took longer than " + std::to_string(program.wall_seconds) + " s"};
+  if (exit->kind == Kind::signalled)
+    return Error{
+        ErrorCode::io, "voice",
+        with_last_words(std::string("was ended by the signal \"") + ::strsignal(exit->code) + "\"", exit->last_words)};
+  if (exit->code != 0)
+    return Error{ErrorCode::io, "voice",
+                 with_last_words("failed with exit code " + std::to_string(exit->code), exit->last_words)};
+  return std::move(answer).finish();
+}
+
+}  // namespace semblante::voice

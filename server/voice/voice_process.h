@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/speech/utterance.h"
+#include "core/types/result.h"
+#include "server/voice/voice_protocol.h"
+
+namespace semblante::voice {
+
+/// How a voice is started.
+struct VoiceProgram {
+  std::vector<std::string> command;  ///< the program's path and its arguments
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30U;
+  std::uint64_t cpu_seconds = 60;
+  std::uint64_t wall_seconds = 120;
+};
+
+/// The voice that is installed beside this program, or built beside it; empty if there is none.
+std::string installed_voice();
+
+/// Starts the voice, with its limits in force before it gets the request, and reads its answer. A voice that breaks the
+/// protocol is killed at the first wrong line. Blocks until the process has ended. Errors: those of check() and
+/// VoiceAnswer; `io`: it cannot be started, crashed, or reached a limit, with the end of what it wrote to standard
+/// error.
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request);
+
+}  // namespace semblante::voice

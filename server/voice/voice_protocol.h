@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/speech/utterance.h"
+#include "core/types/result.h"
+
+namespace semblante::voice {
+
+// The protocol between Semblante and a voice: README.md.
+inline constexpr int protocol_version = 1;
+inline constexpr std::size_t max_text_bytes = 20'000;
+inline constexpr std::size_t max_request_bytes = 160'000;  ///< every byte of the text escaped as six, and the rest
+inline constexpr std::size_t max_line_bytes = 65'536;      ///< of an answer
+inline constexpr std::size_t max_events = 200'000;         ///< of all kinds together
+inline constexpr double max_seconds = 1'200.0;             ///< of sound
+inline constexpr std::uint32_t least_sample_rate = 8'000, most_sample_rate = 48'000;
+inline constexpr std::size_t max_symbol_bytes = 32;
+inline constexpr std::size_t max_name_bytes = 200;
+inline constexpr double least_factor = 0.5, most_factor = 2.0;  ///< of rate and pitch
+
+struct VoiceRequest {
+  std::string text;      ///< UTF-8 without control characters except tab and newline
+  bool ssml = false;     ///< the text is a document of SSML
+  std::string language;  ///< BCP 47: "pt-BR"
+  std::string voice;     ///< a name that the voice program knows; empty: its own choice
+  double rate = 1.0;     ///< times the usual speed
+  double pitch = 1.0;    ///< times the usual pitch
+};
+
+/// Checks what the request must be before any voice sees it. Errors name the member.
+Status check(const VoiceRequest& request);
+
+std::string to_json(const VoiceRequest& request);
+/// Reads and checks the request, as a voice does.
+Result<VoiceRequest> request_from_json(std::string_view text);
+
+// ---- lines of the answer, as a voice writes them; each ends with a newline
+std::string header_line(std::string_view name, std::uint32_t sample_rate);
+std::string audio_line(std::span<const std::int16_t> samples);
+std::string line_of(const SpokenPhoneme& phoneme);
+std::string line_of(const SpokenWord& word);
+std::string line_of(const SpokenSentence& sentence);
+std::string line_of(const SpokenMark& mark);
+std::string end_line();
+std::string error_line(std::string_view message);
+
+/// Reads an answer line by line. A voice is another's program: every line is checked.
+class VoiceAnswer {
+ public:
+  /// A line without its newline. After an error the answer is of no use.
+  Status take(std::string_view line);
+  /// The utterance, once `end` has come.
+  Result<Utterance> finish() &&;
+
+ private:
+  Status take_audio(std::string_view base64);
+
+  Utterance utterance_;
+  std::size_t events_ = 0;
+  bool begun_ = false, ended_ = false;
+};
+
+}  // namespace semblante::voice
