@@ -72,6 +72,7 @@ int main(int count, char** words) {
   app.add_option("--pid", options.pid, "Its process, for processor time and memory");
   app.add_option("--program", options.program, "The semblante to start; else the one beside this program");
   app.add_flag("--apart", options.apart, "The server has the first processor for itself, this program the others");
+  app.add_option("--only", options.only, "Those pressures that have this in their name");
   app.add_flag("--smoke", options.smoke, "Short and small, to see that it works: judges no time");
   CLI11_PARSE(app, count, words);
   if (minutes > 0.0) options.seconds = minutes * 60.0;

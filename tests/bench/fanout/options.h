@@ -20,6 +20,7 @@ struct Options {
   std::string url;      ///< a server that runs already; empty: one of our own
   pid_t pid = 0;        ///< of that
   std::string program;  ///< semblante; empty: the one beside the bench
+  std::string only;     ///< which pressures: those with this in their name
   bool tls = false;     ///< a server of our own listens with TLS
   bool apart = false;   ///< a server of our own has the first processor, this program the others
   bool smoke = false;   ///< correctness only: no judgement of any time

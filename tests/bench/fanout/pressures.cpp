@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <poll.h>
+#include <sched.h>
 #include <thread>
 #include <unistd.h>
 
-#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include "tests/bench/fanout/websocket_wire.h"
@@ -217,11 +217,13 @@ std::vector<Attack> pressures(SemblanteServer& server, const std::string& path, 
       {"idle connections", [=](const std::atomic<bool>& enough) { return idle_connections(endpoint, idle, enough); }},
       {"half-open handshakes",
        [=](const std::atomic<bool>& enough) { return half_open(endpoint, half_open_number, enough); }}};
+  std::erase_if(all, [&](const Attack& attack) { return attack.name.find(options.only) == std::string::npos; });
   for (auto& attack : all) {
     attack.run = [run = attack.run](const std::atomic<bool>& enough) {
-      constexpr int lowest = 19;  // as seen from the rest of this program, whatever that was started with
-      const auto thread = static_cast<id_t>(::gettid());
-      ::setpriority(PRIO_PROCESS, thread, std::min(lowest, ::getpriority(PRIO_PROCESS, thread) + lowest));
+      // Every other thread takes the processor from it at once: it must not hold up the subscribers, which are beside
+      // it.
+      const sched_param none{};
+      ::sched_setscheduler(0, SCHED_IDLE, &none);
       return run(enough);
     };
   }
