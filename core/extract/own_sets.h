@@ -16,12 +16,7 @@ struct OwnSets {
   std::vector<std::string> words;  ///< what they were taken from, which are missing and why
 };
 
-/// Looks for each viseme of FAP 1 and each expression of FAP 2 among the model's shapes:
-///
-/// 1. a shape of its name: the names of Oculus Lipsync and VRM, as avatars spell them (viseme_PP, Fcl_MTH_A,
-/// Fcl_ALL_Joy),
-///    or the library's own;
-/// 2. else the sum of ARKit's shapes that arkit_from_frame gives for it, if the model has most of them.
+/// Looks for each viseme of FAP 1 and each expression of FAP 2 among the model's shapes (named_shapes.h).
 ///
 /// `points`, `fapu`: of the neutral head. Errors: `missing` at "/expressions" for a model without any of them.
 Result<OwnSets> own_sets(const Model& model, const FeaturePointSet& points, const Fapu& fapu);

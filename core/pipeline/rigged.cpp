@@ -2,9 +2,19 @@
 
 #include <utility>
 
+#include "core/extract/own_articulation.h"
 #include "core/parametrize/parametrize.h"
 
 namespace semblante {
+namespace {
+
+Articulation articulation_of(const MarkedHead& head, const Fapu& fapu, std::optional<double> by_hand) {
+  if (by_hand) return {*by_hand, "set by hand"};
+  if (auto own = own_articulation(head.model, head.points, fapu)) return *std::move(own);
+  return {usual_articulation, "the usual one: the head has no own shapes of open vowels (a, e, o)"};
+}
+
+}  // namespace
 
 Result<RiggedHead> rig_head(MarkedHead head, const RigRequest& request, const Progress& progress) {
   ParametrizeOptions options;
@@ -15,10 +25,12 @@ Result<RiggedHead> rig_head(MarkedHead head, const RigRequest& request, const Pr
   options.progress = progress;
   auto rig = parametrize(head.model, head.surface, head.points, options);
   if (!rig) return rig.error();
-  RiggedHead rigged{std::move(head), std::move(*rig)};
+  RiggedHead rigged{std::move(head), std::move(*rig), {}};
   rigged.warnings.rig = std::move(rigged.rig.warnings);
   rigged.rig.warnings.clear();
-  rigged.rig.articulation = request.articulation;
+  Articulation articulation = articulation_of(rigged, rigged.rig.fapu, request.articulation);
+  rigged.rig.articulation = articulation.value;
+  rigged.articulation_reason = std::move(articulation.reason);
   return rigged;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/parametrize/weight_method.h"
 #include "core/pipeline/marked.h"
 #include "core/types/articulation.h"
@@ -10,13 +13,15 @@ namespace semblante {
 /// and unit.
 struct RiggedHead : MarkedHead {
   Rig rig;
+  std::string articulation_reason;  ///< where rig.articulation comes from, as a sentence
 };
 
 struct RigRequest {
   WeightMethod weights = WeightMethod::paper;
   DistanceMetric metric = DistanceMetric::edge;
-  /// least_articulation to most_articulation.
-  double articulation = usual_articulation;
+  /// least_articulation to most_articulation. Empty: that of the head's own shapes (own_articulation), or the usual
+  /// one if they show none.
+  std::optional<double> articulation = std::nullopt;
 };
 
 /// Errors: those of parametrize.

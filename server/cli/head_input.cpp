@@ -121,9 +121,9 @@ void add_rig_options(CLI::App& command, HeadOptions& options) {
       ->envname("SEMBLANTE_METRIC");
   command
       .add_option("--articulation", options.articulation,
-                  "How far the jaw opens in visemes, as a multiple of the usual opening")
+                  "How far the jaw opens in visemes, as a multiple of the usual opening; without it, as far as in the "
+                  "head's own shapes (morph targets) of open vowels, 1 without them")
       ->check(CLI::Range(least_articulation, most_articulation))
-      ->capture_default_str()
       ->envname("SEMBLANTE_ARTICULATION");
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/pipeline/points_file.h"
 #include "core/pipeline/rigged.h"
-#include "core/types/articulation.h"
 
 namespace CLI {
 class App;
@@ -17,10 +17,10 @@ namespace semblante {
 struct HeadOptions {
   std::string model_path;
   std::string feature_points_path;
-  std::string format;             ///< empty: detected from content and name
-  std::string weights = "paper";  ///< a name of weight_method_names
-  std::string metric = "edge";    ///< a name of distance_metric_names
-  double articulation = usual_articulation;
+  std::string format;                  ///< empty: detected from content and name
+  std::string weights = "paper";       ///< a name of weight_method_names
+  std::string metric = "edge";         ///< a name of distance_metric_names
+  std::optional<double> articulation;  ///< empty: that of the head's own shapes, or the usual one
   std::string unit, up, front;  ///< of the model file, values of length_unit_names and direction_names; empty: guessed
   std::vector<std::string> fapu;  ///< "ES=62.5"
   bool quiet = false;

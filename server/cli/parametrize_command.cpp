@@ -85,6 +85,12 @@ void print_fit(const WeightFit& fit) {
     std::cerr << "semblante: not fitted to " << fit.ignored.size() << " shapes that move no feature point, or all\n";
 }
 
+/// "articulation 2.24: in its own a (viseme_aa), ..." on stderr.
+void print_articulation(const Head& head) {
+  std::cerr << std::defaultfloat << std::setprecision(3) << "semblante: articulation " << head.rig.articulation << ": "
+            << head.articulation_reason << "\n";
+}
+
 std::vector<FacePackage> pack(const LevelledHead& head, const ParametrizeCommand& options, std::vector<NamedSet> worn,
                               const Progress& progress) {
   PackageOptions package_options;
@@ -124,6 +130,8 @@ void run(const ParametrizeCommand& options) {
                [&](std::ostream& out) { write_weights_json(head.rig, rig_request(options.head), out); });
   }
   const std::optional<WeightFit> fit = head.rig.fit;
+  if (head.rig.articulation != usual_articulation && !options.head.articulation && !options.head.quiet)
+    print_articulation(head);
   if (!options.out.empty()) write_packages(head, options);
   if (fit && !options.head.quiet) print_fit(*fit);
   print_warnings(head.all_warnings(), options.head.quiet);

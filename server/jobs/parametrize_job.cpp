@@ -13,6 +13,7 @@
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"
+#include "server/report/articulation_json.h"
 #include "server/report/fit_json.h"
 #include "server/report/levels_json.h"
 #include "server/store/frame_json.h"
@@ -102,6 +103,7 @@ Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, cons
   const double eye_separation = 1024.0 * head->rig.fapu[FapuUnit::es].value_or(0.0);
   auto levels = levels_of_detail_json(head->levels, *errors, head->poses, eye_separation, head->missed);
   std::vector<ReportSection> sections = {{"levels_of_detail", std::move(levels)}};
+  sections.push_back({"articulation", articulation_json({head->rig.articulation, head->articulation_reason})});
   if (head->rig.fit) sections.push_back({"weight_fit", weight_fit_json(*head->rig.fit)});
   if (auto written = files.write_report(report, head->frame, request.head.model.frame_wish, std::move(sections));
       !written)
@@ -126,14 +128,14 @@ std::vector<std::string> ParametrizeJob::finish(store::JobRecord& job, Outcome o
 void to_json(nlohmann::json& json, const ParametrizeJob& job) {
   json = {{"metric", job.metric}, {"weights", job.weights}, {"weight_bits", job.weight_bits}, {"lods", job.lods}};
   if (job.expressions != "library") json["expressions"] = job.expressions;
-  if (job.articulation != usual_articulation) json["articulation"] = job.articulation;
+  if (job.articulation) json["articulation"] = *job.articulation;
 }
 
 void from_json(const nlohmann::json& json, ParametrizeJob& job) {
   json.at("metric").get_to(job.metric);
   json.at("weights").get_to(job.weights);
   json.at("weight_bits").get_to(job.weight_bits);
-  job.articulation = json.value("articulation", usual_articulation);
+  if (json.contains("articulation")) job.articulation = json["articulation"].get<double>();
   json.at("lods").get_to(job.lods);
   job.expressions = json.value("expressions", "library");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,7 +9,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/extract/named_set.h"
-#include "core/types/articulation.h"
 #include "core/types/progress.h"
 #include "core/types/result.h"
 #include "server/jobs/model_source.h"
@@ -29,7 +29,7 @@ struct ParametrizeJob {
   int weight_bits = 12;
   std::vector<std::uint32_t> lods;      ///< vertex budgets of the levels of detail, decreasing
   std::string expressions = "library";  ///< or "own": those of the head's own shapes, where it has them
-  double articulation = usual_articulation;
+  std::optional<double> articulation;   ///< empty: that of the head's own shapes, or the usual one
 
   struct Request;
   struct Outcome;

@@ -6,7 +6,7 @@ import { Signal } from '../src/ui/shared/signal.ts';
 import type { Studio } from '../src/ui/shared/studio.ts';
 import { importingModel } from './support/models.ts';
 
-test('Run_NothingChosen_AsksForTheLevelsThatSuitTheHead', async () => {
+function recorder(): { parametrizer: Parametrizer; asked: ParametrizationOptions[] } {
   const asked: ParametrizationOptions[] = [];
   const studio = {
     selected: new Signal<Model | null>(importingModel({ state: 'ready' })),
@@ -16,9 +16,22 @@ test('Run_NothingChosen_AsksForTheLevelsThatSuitTheHead', async () => {
     },
   } as unknown as Studio;
   const points = { draft: { changes: 0 } } as unknown as PointsModel;
-  await new Parametrizer(studio, points).run();
-  // Left out, `lods` means none: see openapi.json.
-  expect(asked).toEqual([
-    { weights: 'smooth', metric: 'edge', articulation: 1, expressions: 'library', lods: 'auto' },
-  ]);
+  return { parametrizer: new Parametrizer(studio, points), asked };
+}
+
+test('Run_NothingChosen_AsksForTheLevelsThatSuitTheHead', async () => {
+  const { parametrizer, asked } = recorder();
+  await parametrizer.run();
+  // Left out, `lods` means none: see openapi.json. Left out, `articulation` is that of the head's own shapes.
+  expect(asked).toEqual([{ weights: 'smooth', metric: 'edge', expressions: 'library', lods: 'auto' }]);
+});
+
+test('SetArticulation_IsSent_UntilItIsTheHeadsOwnAgain', async () => {
+  const { parametrizer, asked } = recorder();
+  parametrizer.setArticulation(2.5);
+  await parametrizer.run();
+  expect(asked[0]).toMatchObject({ articulation: 2.5, weights: 'smooth' });
+  parametrizer.setArticulation(null);
+  await parametrizer.run();
+  expect(asked[1]).not.toHaveProperty('articulation');
 });

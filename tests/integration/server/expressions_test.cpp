@@ -392,6 +392,7 @@ TEST_F(ExpressionRoutes, AModelWearsItsOwnShapes_ByOneRequest) {
   const auto report = json_of(request(port(), "GET", path + "/report.json"));
   ASSERT_EQ(report["weight_fit"]["shapes"].size(), 2U) << report;
   EXPECT_EQ(report["weight_fit"]["shapes"][0]["name"], "happy");
+  EXPECT_EQ(report["articulation"]["value"], 1) << "its viseme_aa does not move the lips' points";
 
   // What is chosen by hand stays, and the rest stays its own when the package is made again.
   const auto again =
@@ -449,6 +450,8 @@ TEST_F(ExpressionRoutes, AModelWearsASet_AsItWas_UntilItIsTakenOff) {
   ASSERT_EQ(wait_for_job(port(), job["id"]).value("state", ""), "done");
   EXPECT_EQ(json_of(request(port(), "GET", path))["package"]["weight_bits"], 10);
   EXPECT_EQ(json_of(rig())["articulation"], 2);
+  const auto report = json_of(request(port(), "GET", path + "/report.json"));
+  EXPECT_EQ(report["articulation"], (json{{"value", 2}, {"reason", "set by hand"}}));
   EXPECT_EQ(worn("visemes", "a"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
   EXPECT_EQ(worn("expressions", "joy"), (json{{"8.3", {1.0, -0.5, 0.0}}}));
   EXPECT_NE(rig().headers.at("etag"), with_joy.headers.at("etag"));

@@ -9,6 +9,7 @@
 #include "core/pipeline/points_file.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"
+#include "tests/support/sample_shapes.h"
 
 namespace semblante {
 namespace {
@@ -167,6 +168,46 @@ Result<LevelledHead> whole_way(const Progress& progress) {
   if (!errors) return errors.error();
   EXPECT_EQ(errors->size(), head->levels.size());
   return head;
+}
+
+/// The family's avatar, its own shapes exaggerated.
+MarkedHead avatar(float exaggerated) {
+  const std::vector<std::uint8_t>& bytes = testing::sample_avatar_glb();
+  auto imported = import_head(bytes, {"avatar.glb", std::nullopt, {}});
+  EXPECT_TRUE(imported);
+  for (Example& example : imported->model.examples)
+    for (glm::vec3& d : example.displacements) d *= exaggerated;
+  FeaturePointsFile file;
+  for (const SampleHeadPoint& point : testing::sample_avatar().points)
+    file.points.push_back({point.id, point.vertex, glm::dvec3(point.position)});
+  auto marked = mark_by_file(std::move(*imported), file, {});
+  EXPECT_TRUE(marked) << marked.error().message;
+  return *std::move(marked);
+}
+
+// The avatar's visemes were made of the library's.
+TEST(RigHead, ArticulatesAsItsOwnShapes_UnlessSetByHand) {
+  const auto usual = rig_head(avatar(1.0F), {});
+  ASSERT_TRUE(usual);
+  EXPECT_NEAR(usual->rig.articulation, usual_articulation, 0.02) << usual->articulation_reason;
+
+  const auto wide = rig_head(avatar(2.24F), {});
+  ASSERT_TRUE(wide);
+  EXPECT_GT(wide->rig.articulation, 2.2);
+  EXPECT_THAT(wide->articulation_reason, HasSubstr("a (viseme_aa)"));
+  EXPECT_THAT(wide->articulation_reason, HasSubstr("the mouth opens 2.2"));
+
+  const auto by_hand = rig_head(avatar(2.24F), {.articulation = 0.5});
+  ASSERT_TRUE(by_hand);
+  EXPECT_EQ(by_hand->rig.articulation, 0.5);
+  EXPECT_EQ(by_hand->articulation_reason, "set by hand");
+
+  MarkedHead bare = avatar(2.24F);
+  bare.model.examples.clear();
+  const auto without = rig_head(std::move(bare), {});
+  ASSERT_TRUE(without);
+  EXPECT_EQ(without->rig.articulation, usual_articulation);
+  EXPECT_THAT(without->articulation_reason, HasSubstr("no own shapes"));
 }
 
 TEST(Pipeline, Warnings_ComeOnce_InTheOrderOfTheStages) {

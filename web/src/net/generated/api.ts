@@ -1215,6 +1215,13 @@ export interface components {
             findings: components["schemas"]["Finding"][];
             frame?: components["schemas"]["ModelFrame"];
             levels_of_detail?: components["schemas"]["LevelsOfDetail"];
+            /** @description How far the jaw opens in the library's visemes on this model. A member of report.json after a parametrization */
+            articulation?: {
+                /** @description A multiple of the usual opening */
+                value: number;
+                /** @description Where it comes from: set by hand, from the model's own shapes (which, and how far they open the mouth), or the usual one */
+                reason: string;
+            };
             weight_fit?: components["schemas"]["WeightFit"];
         };
         /** @description Lengths in model units, MPEG-4 axes. protocol/SPEC.md describes every member; unknown ones are to be skipped */
@@ -2726,10 +2733,7 @@ export interface operations {
                     expressions?: "library" | "own";
                     /** @default 12 */
                     weight_bits?: number;
-                    /**
-                     * @description How far the jaw opens in the library's visemes, as a multiple of the usual opening
-                     * @default 1
-                     */
+                    /** @description How far the jaw opens in the library's visemes, as a multiple of the usual opening. Left out: as far as in the model's own shapes (morph targets) of open vowels, found by the names of Oculus Lipsync, VRM or ARKit; 1 without them. report.json has the value and its reason */
                     articulation?: number;
                     /**
                      * @description The most vertices of each level of detail beside the full mesh, falling. Feature points, borders of lips and lids, borders and seams stay, so a level may have more (a warning says so), and one that would hardly be smaller is left out. auto: those of 50000, 20000, 10000, 5000 and 2500 that are at most half of the model, none for a model of 10000 vertices or less

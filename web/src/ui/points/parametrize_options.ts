@@ -20,7 +20,13 @@ const metricChoices: readonly Choice[] = [
   { value: 'edge', title: 'Along edges', note: 'As in the paper; fastest.' },
   { value: 'unfolded', title: 'Across triangles', note: 'Closer to the true distance over the skin.' },
 ];
+const ownArticulation = 'own';
 const articulationChoices: readonly Choice[] = [
+  {
+    value: ownArticulation,
+    title: 'Automatic',
+    note: 'The jaw opens as far as in the shapes (morph targets) of the model; as usual if it has none.',
+  },
   { value: '0.5', title: 'Quiet', note: 'The jaw opens half as far in speech.' },
   { value: '1', title: 'Usual', note: 'The jaw opens as far as that of an adult who talks.' },
   { value: '1.5', title: 'Clear', note: 'The jaw opens half as far again.' },
@@ -63,7 +69,7 @@ export class ParametrizeOptions {
     this.parametrizer.set({ metric: value as ChosenOptions['metric'] }),
   );
   private readonly articulation = this.field('Articulation', articulationChoices, (value) =>
-    this.parametrizer.set({ articulation: Number(value) }),
+    this.parametrizer.setArticulation(value === ownArticulation ? null : Number(value)),
   );
   private readonly expressions = this.field('Expressions', expressionChoices, (value) =>
     this.parametrizer.set({ expressions: value as ChosenOptions['expressions'] }),
@@ -85,7 +91,7 @@ export class ParametrizeOptions {
     parametrizer.options.watch((options) => {
       const levels = options.lods === 'auto' ? 'auto' : options.lods.length === 0 ? 'none' : 'own';
       const titles = [this.weights.show(options.weights), this.metric.show(options.metric)];
-      this.articulation.show(String(options.articulation));
+      this.articulation.show(String(options.articulation ?? ownArticulation));
       this.expressions.show(options.expressions);
       this.levels.show(levels);
       this.budgets.hidden = levels !== 'own';

@@ -5,15 +5,18 @@ import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
 import { needsCare, type Studio } from '../shared/studio.ts';
 
-/** All options are always sent: the server's defaults follow the paper and make no levels of detail. */
-export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits'>>;
+/**
+ * These options are always sent: the server's defaults follow the paper and make no levels of detail. Without an
+ * articulation the server takes that of the head's own shapes.
+ */
+export type ChosenOptions = Required<Omit<ParametrizationOptions, 'weight_bits' | 'articulation'>> &
+  Pick<ParametrizationOptions, 'articulation'>;
 
 /** Starts parametrizations with the chosen options and reports the outcome. */
 export class Parametrizer {
   readonly options = new Signal<ChosenOptions>({
     weights: 'smooth',
     metric: 'edge',
-    articulation: 1,
     expressions: 'library',
     lods: 'auto',
   });
@@ -25,6 +28,12 @@ export class Parametrizer {
 
   set(change: Partial<ChosenOptions>): void {
     this.options.set({ ...this.options.value, ...change });
+  }
+
+  /** Null: that of the head's own shapes. */
+  setArticulation(articulation: number | null): void {
+    const { articulation: _, ...others } = this.options.value;
+    this.options.set(articulation === null ? others : { ...others, articulation });
   }
 
   async run(): Promise<void> {
