@@ -13,6 +13,9 @@ void change_axes(Model& model, const glm::dmat3& to_mpeg4) {
   for (Example& example : model.examples) {
     for (glm::vec3& displacement : example.displacements) displacement = glm::vec3(to_mpeg4 * glm::dvec3(displacement));
   }
+  for (auto* const joint : {&model.neck_joints.neck, &model.neck_joints.head}) {
+    if (*joint) (*joint)->position = glm::vec3(to_mpeg4 * glm::dvec3((*joint)->position));
+  }
   const glm::dmat3 to_file = glm::inverse(to_mpeg4);
   const glm::dmat3 turn = glm::transpose(to_file);
   for (glm::vec3& normal : model.normals) {

@@ -25,6 +25,8 @@ class GltfDocument {
   GltfDocument& operator=(const GltfDocument&) = delete;
 
   [[nodiscard]] JsonCursor root() { return {tree_, fault_}; }
+  /// The same, with its faults in `report`: for members that may be wrong without harm.
+  [[nodiscard]] JsonCursor root(JsonCursor::Report& report) { return {tree_, report}; }
   [[nodiscard]] bool failed() const { return fault_.has_value(); }
   [[nodiscard]] const Error& fault() const { return *fault_; }
   [[nodiscard]] std::size_t count(const char* array) { return root().size_of(array); }

@@ -8,6 +8,7 @@
 #include "core/import/gltf_document.h"
 #include "core/import/gltf_materials.h"
 #include "core/import/gltf_morph_targets.h"
+#include "core/import/gltf_neck_joints.h"
 #include "core/import/gltf_scene.h"
 #include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
@@ -134,7 +135,11 @@ class GltfReader {
   Result<Model> read(const char* format) {
     check_asset(document_);
     if (!document_.failed()) uv_sources_ = read_materials(document_, builder_);
-    if (!document_.failed()) placements_ = place_meshes(document_);
+    if (!document_.failed()) {
+      GltfScene scene = read_scene(document_);
+      placements_ = std::move(scene.meshes);
+      if (!document_.failed()) builder_.model.neck_joints = find_neck_joints(document_, scene.world);
+    }
     for (std::size_t mesh = 0; !document_.failed() && mesh < document_.count("meshes"); ++mesh) read_mesh(mesh);
     if (document_.failed()) return document_.fault();
     pad(builder_.model.uvs);

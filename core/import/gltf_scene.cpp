@@ -104,10 +104,10 @@ void apply(const SkinPose& pose, MeshPlacement& placement) {
 
 }  // namespace
 
-std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
+GltfScene read_scene(GltfDocument& document) {
   const std::size_t mesh_count = document.count("meshes");
   const std::size_t node_count = document.count("nodes");
-  if (node_count == 0) return std::vector<std::optional<MeshPlacement>>(mesh_count, MeshPlacement{});
+  if (node_count == 0) return {std::vector<std::optional<MeshPlacement>>(mesh_count, MeshPlacement{}), {}};
 
   std::vector<std::optional<MeshPlacement>> placements(mesh_count);
   struct Visit {
@@ -147,7 +147,7 @@ std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document) {
     if (is_new) pose->second = pose_of(document, *placement->skin, world);
     apply(pose->second, *placement);
   }
-  return placements;
+  return {std::move(placements), std::move(world)};
 }
 
 }  // namespace semblante::import

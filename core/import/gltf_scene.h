@@ -21,8 +21,13 @@ struct MeshPlacement {
   std::shared_ptr<const std::vector<glm::dmat4>> joints;
 };
 
-/// Per mesh of the document; nullopt for a mesh that is not in the scene. A document without nodes has all meshes
-/// untransformed. Errors (loops, indices out of range, numbers) are kept in the document.
-std::vector<std::optional<MeshPlacement>> place_meshes(GltfDocument& document);
+struct GltfScene {
+  std::vector<std::optional<MeshPlacement>> meshes;  ///< per mesh of the document; nullopt if it is not in the scene
+  std::vector<std::optional<glm::dmat4>> world;      ///< per node: its transform; nullopt if it is not in the scene
+};
+
+/// A document without nodes has all meshes untransformed. Errors (loops, indices out of range, numbers) are kept in the
+/// document.
+GltfScene read_scene(GltfDocument& document);
 
 }  // namespace semblante::import

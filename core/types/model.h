@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/types/example.h"
+#include "core/types/neck_joints.h"
 
 namespace semblante {
 
@@ -64,6 +65,8 @@ struct Model {
   std::vector<Image> images;
 
   std::vector<Example> examples;  ///< morph targets; empty in most models
+
+  NeckJoints neck_joints;  ///< empty without a skeleton
 
   /// Transforms positions to the axes and unit of the file. Identity if the file has MPEG-4 axes.
   glm::mat4 to_file_frame{1.0F};

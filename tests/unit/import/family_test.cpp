@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/import/import.h"
@@ -76,6 +77,11 @@ TEST(AvatarFile, Skeleton_LeavesTheRestPose) {
   const auto model = import_model(testing::sample_avatar_glb(), ModelFormat::glb);
   ASSERT_TRUE(model);
   EXPECT_EQ(model->positions, testing::sample_head_model({.form = SampleHeadForm::body}).positions);
+  ASSERT_TRUE(model->neck_joints.neck && model->neck_joints.head);
+  EXPECT_EQ(model->neck_joints.neck->name, "Neck");
+  EXPECT_LT(glm::distance(model->neck_joints.neck->position, glm::vec3(0.0F, -0.175F, -0.04F)), 1e-6F);
+  EXPECT_EQ(model->neck_joints.head->name, "Head");
+  EXPECT_LT(glm::distance(model->neck_joints.head->position, glm::vec3(0.0F, -0.09F, -0.025F)), 1e-6F);
   const SampleHead& avatar = testing::sample_avatar();
   for (const char* const name : {"Hips", "Spine", "Neck", "Head", "LeftArm", "RightHand", "LeftEye"}) {
     EXPECT_TRUE(std::any_of(avatar.joints.begin(), avatar.joints.end(), [&](const SampleHeadJoint& joint) {
