@@ -29,7 +29,12 @@ constexpr double shoulder_widening = 1.6;  ///< shoulders begin where the neck i
 constexpr double beyond_neck = 1.5;        ///< radii of the neck from its axis: not neck, whatever its height
 constexpr double chin_below_mouth = 0.6;   ///< in heights of the eyes above the mouth, without a point of the chin
 constexpr double border_height = 0.04;     ///< from the border of the skin: still
-constexpr double spanning = 0.5;  ///< of the width of the neck: a border that is less wide is a hole, not its end
+constexpr double spanning = 0.5;     ///< of the width of the neck: a border that is less wide is a hole, not its end
+constexpr double joint_aside = 0.4;  ///< of a joint from the middle
+constexpr double joint_behind_chin = 0.2;      ///< at least
+constexpr double joint_far_behind_chin = 2.5;  ///< at most
+constexpr double head_joint_below_chin = 0.5;  ///< at most
+constexpr double joint_from_shoulders = 0.75;  ///< farther from the neck's joint no shoulders begin
 constexpr double full_from =
     0.98;  ///< of the way from the shoulders (0) to the head (1): from there vertices turn fully
 
@@ -247,6 +252,14 @@ std::optional<Neck> find_neck(const Surface& surface, const std::vector<bool>& i
   return neck;
 }
 
+/// Lets the shoulders begin at the neck's joint if they were measured somewhere else: on a body without a waist below
+/// its chin (narrow shoulders, hair in one piece with the skin), or where something else is narrow. A measured line
+/// near the joint is kept, because skeletons place it anywhere between the nape and the collar bones.
+void start_shoulders_at(const SkinJoint& joint, const Landmarks& marks, Neck& neck) {
+  if (std::abs(neck.shoulders - static_cast<double>(joint.position.y)) > joint_from_shoulders * marks.height)
+    neck.shoulders = joint.position.y;
+}
+
 bool is_still(const Neck& neck, const Landmarks& marks, const glm::dvec3& p) {
   if (p.y <= neck.shoulders) return true;
   if (neck.is_cut || p.y >= marks.chin.y) return false;
@@ -303,14 +316,33 @@ bool may_be_body(const Part& part) {
 
 }  // namespace
 
+NeckJoints plausible_joints(const NeckJoints& joints, std::span<const Part> parts, const FeaturePointSet& points) {
+  const std::optional<double> eyes = eye_height(points, parts);
+  const std::optional<glm::dvec3> chin = eyes ? chin_place(points, *eyes) : std::nullopt;
+  if (!chin || !(*eyes > chin->y)) return {};
+  const double height = *eyes - chin->y;
+  const auto is_within = [&](const std::optional<SkinJoint>& joint, double low, double high) {
+    if (!joint) return false;
+    const glm::dvec3 from_chin = (glm::dvec3(joint->position) - *chin) / height;
+    return std::abs(from_chin.x) <= joint_aside && from_chin.z <= -joint_behind_chin &&
+           from_chin.z >= -joint_far_behind_chin && from_chin.y >= low && from_chin.y <= high;
+  };
+  NeckJoints result;
+  if (is_within(joints.head, -head_joint_below_chin, 1.0)) result.head = joints.head;
+  const bool is_below_head = !joints.head || (joints.neck && joints.neck->position.y < joints.head->position.y);
+  if (is_below_head && is_within(joints.neck, -shoulders_within, 0.0)) result.neck = joints.neck;
+  return result;
+}
+
 std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part> parts, const FeaturePointSet& points,
-                                         const glm::vec3& head_pivot) {
+                                         const glm::vec3& head_pivot, const NeckJoints& joints) {
   const std::optional<Landmarks> marks = landmarks_of(points, parts, head_pivot);
   if (!marks) return {};
   const std::vector<bool> is_skin = skin_of(surface, parts);
   const std::vector<Border> borders = borders_below_jaw(surface, is_skin, *marks);
-  const std::optional<Neck> neck = find_neck(surface, is_skin, *marks, borders);
+  std::optional<Neck> neck = find_neck(surface, is_skin, *marks, borders);
   if (!neck) return {};
+  if (joints.neck) start_shoulders_at(*joints.neck, *marks, *neck);
 
   std::vector<SurfaceVertexId> seeds;
   for (const SurfacePoint& point : surface_points(surface, points)) {

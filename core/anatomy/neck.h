@@ -8,6 +8,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/types/feature_points.h"
+#include "core/types/neck_joints.h"
 #include "core/types/rig.h"
 
 namespace semblante {
@@ -23,9 +24,16 @@ namespace semblante {
 /// value: 255 (hair, glasses, eyes), or 0 if it hangs at the shoulders. The latter also gets the role `body`, unless
 /// the user set another role.
 ///
+/// If there is a joint of the neck and the shoulders are measured far from it, they begin at the joint.
+///
 /// Needs points that show the height of the eyes (pupils, else lids, else eyeballs) and of the chin (2.1, else 2.10,
-/// else a lip). `head_pivot` is the result of head_pivot().
+/// else a lip). `head_pivot` is the result of head_pivot(), `joints` of plausible_joints().
 std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part> parts, const FeaturePointSet& points,
-                                         const glm::vec3& head_pivot);
+                                         const glm::vec3& head_pivot, const NeckJoints& joints = {});
+
+/// The joints of a skeleton that can be those of this head: both behind the chin and near the middle; the head's from
+/// the eyes down to half the face's height below the chin; the neck's below the chin and the head's joint, above where
+/// shoulders can be. The others are left out. Without points of eyes and chin, none is kept.
+NeckJoints plausible_joints(const NeckJoints& joints, std::span<const Part> parts, const FeaturePointSet& points);
 
 }  // namespace semblante

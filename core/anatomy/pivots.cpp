@@ -72,8 +72,9 @@ glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRol
   return glm::vec3(round ? ball->center : center);
 }
 
-glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points) {
+glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points, const NeckJoints& joints) {
   if (const FeaturePoint* const marked = find_point(points, "7.1")) return marked->position;
+  if (joints.head) return joints.head->position;
   if (const std::optional<Pupils> pupils = find_pupils(points)) {
     const double es = glm::distance(pupils->left, pupils->right);
     const glm::dvec3 middle = 0.5 * (pupils->left + pupils->right);

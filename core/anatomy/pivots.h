@@ -6,6 +6,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/types/feature_points.h"
+#include "core/types/neck_joints.h"
 #include "core/types/rig.h"
 
 namespace semblante {
@@ -15,7 +16,8 @@ namespace semblante {
 /// eyeball.
 glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRole role, const FeaturePointSet& points);
 
-/// The pivot of the head: 7.1, or an estimate from the points or the skin's box.
-glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points);
+/// The pivot of the head: 7.1, or the head's joint of `joints` (the result of plausible_joints()), or an estimate from
+/// the points or the skin's box.
+glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points, const NeckJoints& joints = {});
 
 }  // namespace semblante

@@ -162,8 +162,9 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   const WeightTable<double>* const weights = &weighed->rows;
   if (options.weights == WeightMethod::fitted) rig.fit = WeightFit{std::move(weighed->errors), std::move(own.ignored)};
 
-  rig.head_pivot = head_pivot(rig.parts, points);
-  const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot);
+  const NeckJoints joints = plausible_joints(model.neck_joints, rig.parts, points);
+  rig.head_pivot = head_pivot(rig.parts, points, joints);
+  const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot, joints);
   rig.weights = rows_of_file_vertices(surface, *weights);
   const std::vector<MouthShare> mouth = share_of_jaw(surface, rig.parts, on_surface);
   rig.influence = rows_of_file_vertices(

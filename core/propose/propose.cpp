@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/neck.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/rim_points.h"
 #include "core/geometry/similarity.h"
@@ -102,13 +103,14 @@ struct Spot {
 class Proposer {
  public:
   Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const FeaturePointSet& known,
-           std::span<const ReferenceHead> references)
+           std::span<const ReferenceHead> references, const std::optional<SkinJoint>& head_joint)
       : surface_(surface),
         parts_(parts),
         frame_(frame),
         known_(known),
         face_(surface, parts, frame),
         references_(references) {
+    if (head_joint) head_joint_ = frame(glm::dvec3(head_joint->position));
     for (const FeaturePoint& point : known) {
       settled_[point.id.value()] = frame(glm::dvec3(point.position));
       if (!point.vertex) continue;
@@ -169,6 +171,8 @@ class Proposer {
       return refuse(id, "the thickness of the hair cannot be derived from the face");
     const double error = guesses_[id]->error;
     const glm::dvec3 place = images_[id] ? *images_[id] : related(id, guesses_[id]->place);
+    if (id == index_of("7.1") && head_joint_)
+      return settle(id, {*head_joint_, std::nullopt}, ProposalMethod::shape, error);
     if (id == index_of("7.1")) return settle(id, {place, std::nullopt}, ProposalMethod::proportion, error);
     if (id == index_of("3.5") || id == index_of("3.6")) {
       const glm::dvec3 pupil = find_pupil(face_, parts_, role_of_point(id_of(id)), place);
@@ -285,6 +289,7 @@ class Proposer {
   const FeaturePointSet& known_;
   FaceSurface face_;
   std::span<const ReferenceHead> references_;
+  std::optional<glm::dvec3> head_joint_;
   MirrorPlane plane_;
   Places settled_;                           ///< known, and proposed so far
   std::unordered_set<std::uint32_t> taken_;  ///< surface vertices with a point
@@ -313,7 +318,8 @@ std::optional<Error> find_too_few_known(const FeaturePointSet& known) {
 }
 
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
-                                         const FeaturePointSet& known, std::span<const ReferenceHead> references) {
+                                         const FeaturePointSet& known, std::span<const ReferenceHead> references,
+                                         const NeckJoints& joints) {
   if (std::optional<Error> fault = find_too_few_known(known)) return std::move(*fault);
   Places places;
   for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
@@ -325,7 +331,7 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
             missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
-  return Proposer(surface, parts, *frame, known, references).run();
+  return Proposer(surface, parts, *frame, known, references, plausible_joints(joints, parts, known).head).run();
 }
 
 }  // namespace semblante

@@ -11,6 +11,7 @@
 #include "core/geometry/surface.h"
 #include "core/propose/reference_heads.h"
 #include "core/types/feature_points.h"
+#include "core/types/neck_joints.h"
 #include "core/types/result.h"
 #include "core/types/rig.h"
 
@@ -20,7 +21,7 @@ namespace semblante {
 enum class ProposalMethod : std::uint8_t {
   mirror,      ///< the mirror image of the point on the other side
   proportion,  ///< the proportions of reference heads, deformed to the known points, then the nearest surface vertex
-  shape,       ///< an extreme of the shape near that position: the highest, the most forward, an edge
+  shape,       ///< an extreme of the shape near that position (the highest, the most forward, an edge), or a joint
 };
 inline constexpr std::array<std::string_view, 3> proposal_method_names = {"mirror", "proportion", "shape"};
 
@@ -58,10 +59,13 @@ std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 
 /// Proposes the feature points that are missing in `known`. Known points are not changed. Deterministic, and
 /// independent of the order of the points and of the model's unit. `references`: the proportions of other heads.
+/// `joints`: of the model's skeleton; 7.1 is proposed at that of the head, if it can be this head's
+/// (plausible_joints()).
 ///
 /// Errors: `missing` for too few known points, or points too close together to determine the pose of the head.
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known,
-                                         std::span<const ReferenceHead> references = reference_heads());
+                                         std::span<const ReferenceHead> references = reference_heads(),
+                                         const NeckJoints& joints = {});
 
 }  // namespace semblante

@@ -65,7 +65,7 @@ struct Rig {
   std::array<std::optional<Iris>, 2> irises;  ///< left, right; empty: the eye has no movable iris
   std::optional<Tongue> tongue;               ///< empty: the head has no tongue that can roll
   std::array<std::optional<Lids>, 2> lids;    ///< left, right; empty: the lids move by Eq. 7 alone
-  glm::vec3 head_pivot{0.0F};                 ///< 7.1, or an estimate from the box of the model when it is not marked
+  glm::vec3 head_pivot{0.0F};                 ///< 7.1, else the joint of a skeleton, else an estimate
   double articulation = usual_articulation;   ///< the multiple of the library's opening of the jaw in visemes
   std::optional<WeightFit> fit;               ///< only of `fitted` weights
   std::vector<std::string> warnings;          ///< texts: what is missing, and what does not move without it

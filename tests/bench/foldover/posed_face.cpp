@@ -1,5 +1,6 @@
 #include "tests/bench/foldover/posed_face.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/parametrize/place_feature_points.h"
@@ -79,6 +80,25 @@ semblante_frame frame_of(std::initializer_list<std::pair<int, float>> faps) {
   semblante_frame frame{};
   for (const auto& [number, value] : faps) frame.fap[number] = value;
   return frame;
+}
+
+std::vector<semblante_frame> head_turns() {
+  std::vector<semblante_frame> frames;
+  for (const int fap : {48, 49, 50}) {
+    for (const float angle : {-60000.0F, 60000.0F}) frames.push_back(frame_of({{fap, angle}}));
+  }
+  frames.push_back(frame_of({{48, 30000.0F}, {49, 30000.0F}}));
+  return frames;
+}
+
+std::vector<Triangle> neck_triangles(const PosedFace& face) {
+  const std::vector<std::uint8_t>& turn = face.rig().turn_of_vertex;
+  std::vector<Triangle> neck;
+  for (const Triangle& t : face.head().model.triangles) {
+    if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return turn[v] > 0 && turn[v] < 255; }))
+      neck.push_back(t);
+  }
+  return neck;
 }
 
 }  // namespace semblante::bench

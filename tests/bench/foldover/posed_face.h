@@ -43,6 +43,10 @@ class PosedFace {
 
 /// Of viseme 0 to 14 and expression 0 to 6 at full strength; 0 of either is the face at rest.
 semblante_frame frame_of(std::uint8_t viseme, std::uint8_t expression);
+/// The head turned by 0.6 rad about each axis, both ways, and by 0.3 about two at once.
+std::vector<semblante_frame> head_turns();
+/// The triangles that turn with the head in part.
+std::vector<Triangle> neck_triangles(const PosedFace& face);
 /// Low-level FAPs alone.
 semblante_frame frame_of(std::initializer_list<std::pair<int, float>> faps);
 

@@ -124,15 +124,6 @@ TEST(Jaw, TakesTheChinAlong) {
   }
 }
 
-std::vector<semblante_frame> turns() {
-  std::vector<semblante_frame> frames;
-  for (const int fap : {48, 49, 50}) {
-    for (const float angle : {-60000.0F, 60000.0F}) frames.push_back(frame_of({{fap, angle}}));
-  }
-  frames.push_back(frame_of({{48, 30000.0F}, {49, 30000.0F}}));
-  return frames;
-}
-
 /// The file vertices below the chin where the skin of a face ends: of a cut neck, of a bust, in a collar.
 std::vector<std::uint32_t> border_below_chin(const PosedFace& face) {
   const Head& head = face.head();
@@ -166,7 +157,7 @@ TEST(Neck, StaysWhereTheSkinEnds) {
     const std::vector<std::uint32_t> border = border_below_chin(face);
     ASSERT_FALSE(border.empty()) << head.name;
     const std::vector<glm::vec3> rest = face.pose({});
-    for (const semblante_frame& frame : turns()) {
+    for (const semblante_frame& frame : bench::head_turns()) {
       const std::vector<glm::vec3> moved = face.pose(frame);
       for (const std::uint32_t v : border) {
         ASSERT_LE(glm::distance(rest[v], moved[v]), millimetre(face)) << head.name << ", vertex " << v;
@@ -179,16 +170,11 @@ TEST(Neck, StaysWhereTheSkinEnds) {
 TEST(Neck, DoesNotFold) {
   for (const Head& head : heads_in_motion()) {
     const PosedFace face(head, WeightMethod::smooth);
-    const auto& turn = face.rig().turn_of_vertex;
-    if (turn.empty()) continue;
-    std::vector<Triangle> neck;
-    for (const Triangle& t : head.model.triangles) {
-      if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return turn[v] > 0 && turn[v] < 255; }))
-        neck.push_back(t);
-    }
+    if (face.rig().turn_of_vertex.empty()) continue;
+    const std::vector<Triangle> neck = bench::neck_triangles(face);
     ASSERT_FALSE(neck.empty()) << head.name;
     const std::vector<glm::vec3> rest = face.pose({});
-    for (const semblante_frame& frame : turns()) {
+    for (const semblante_frame& frame : bench::head_turns()) {
       const std::size_t folded = bench::count_fold_over(neck, rest, face.pose(frame)).inverted;
       EXPECT_EQ(folded, 0U) << head.name << ", " << neck.size() << " triangles, FAPs 48 to 50: " << frame.fap[48] << ' '
                             << frame.fap[49] << ' ' << frame.fap[50];

@@ -54,7 +54,10 @@ struct Figure {
   std::vector<Part> parts;
   std::vector<std::uint8_t> turn;
 
-  explicit Figure(double bottom) : model(revolution(1.9, bottom, figure)) {}
+  NeckJoints joints;
+
+  explicit Figure(double bottom, const std::function<double(double)>& radius = figure)
+      : model(revolution(1.9, bottom, radius)) {}
 
   void find() {
     surface = build_surface(model);
@@ -64,7 +67,8 @@ struct Figure {
     }
     std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     parts = describe_parts(model, surface, points);
-    turn = turn_with_head(surface, parts, points, glm::vec3(0.0F, 0.6F, -0.2F));
+    turn =
+        turn_with_head(surface, parts, points, glm::vec3(0.0F, 0.6F, -0.2F), plausible_joints(joints, parts, points));
   }
   [[nodiscard]] int at(std::uint32_t ring, std::uint32_t slice = 0) const {
     return turn[surface.surface_of[ring * slices + slice].value()];
@@ -122,6 +126,58 @@ TEST(TurnWithHead, HasMostOfTheTurnLow_InFrontOnly) {
   const std::uint32_t middle = 22;  // of the rings of the neck
   EXPECT_GT(figure.at(middle, 0), figure.at(middle, slices / 4));
   EXPECT_GT(figure.at(middle, slices / 4), figure.at(middle, slices / 2));
+}
+
+/// The same without shoulders: a body as narrow as its neck.
+double narrow_figure(double y) { return y > -0.9 ? figure(y) : 0.55; }
+
+TEST(TurnWithHead, EndsAtTheJointOfTheNeck_WhereNoShouldersAreFound) {
+  Figure without(-8.0, narrow_figure);
+  without.find();
+  ASSERT_FALSE(without.turn.empty());
+  EXPECT_GT(without.at(60), 10) << "without a joint the whole body takes part";
+
+  Figure with(-8.0, narrow_figure);
+  with.joints.neck = SkinJoint{"Neck", {0.0F, -0.9F, -0.1F}};
+  with.joints.head = SkinJoint{"Head", {0.0F, 0.2F, 0.0F}};
+  with.find();
+  ASSERT_FALSE(with.turn.empty());
+  for (std::uint32_t slice = 0; slice < slices; ++slice) {
+    for (std::uint32_t ring = 0; ring < 12; ++ring) EXPECT_EQ(with.at(ring, slice), 255) << ring;
+    for (std::uint32_t ring = 28; ring < 99; ++ring) EXPECT_EQ(with.at(ring, slice), 0) << ring;
+    for (std::uint32_t ring = 12; ring < 28; ++ring) EXPECT_LE(with.at(ring, slice), with.at(ring - 1, slice));
+  }
+}
+
+TEST(TurnWithHead, KeepsMeasuredShoulders_NearTheJoint) {
+  Figure measured(-4.0);
+  measured.find();
+  for (const float y : {-0.6F, -1.3F}) {
+    Figure hinted(-4.0);
+    hinted.joints.neck = SkinJoint{"Neck", {0.0F, y, -0.1F}};
+    hinted.find();
+    EXPECT_EQ(hinted.turn, measured.turn) << y;
+  }
+}
+
+TEST(PlausibleJoints, AreBehindTheChin_AndTheNeckBelowIt) {
+  Figure figure(-4.0);
+  figure.find();
+  const auto kept = [&](glm::vec3 neck, glm::vec3 head) {
+    return plausible_joints({SkinJoint{"n", neck}, SkinJoint{"h", head}}, figure.parts, figure.points);
+  };
+  // The chin is at y = 0.1, the eyes 1 above it.
+  const NeckJoints both = kept({0, -0.8F, -0.1F}, {0, 0.3F, -0.1F});
+  EXPECT_TRUE(both.neck && both.head);
+  EXPECT_FALSE(kept({0, 0.2F, -0.1F}, {0, 0.3F, -0.1F}).neck) << "above the chin";
+  EXPECT_FALSE(kept({0, -0.3F, -0.1F}, {0, -0.35F, -0.1F}).neck) << "above the head's joint";
+  EXPECT_FALSE(kept({0, -3.5F, -0.1F}, {0, 0.3F, -0.1F}).neck) << "at the hips";
+  EXPECT_FALSE(kept({1.5F, -0.8F, -0.1F}, {0, 0.3F, -0.1F}).neck) << "of another figure beside it";
+  EXPECT_FALSE(kept({0, -0.8F, 0.6F}, {0, 0.3F, 0.6F}).head) << "before the chin";
+  EXPECT_FALSE(kept({0, -0.8F, -0.1F}, {0, 1.3F, -0.1F}).head) << "above the eyes";
+  EXPECT_FALSE(kept({0, -0.8F, -4.0F}, {0, 0.3F, -4.0F}).head) << "far behind";
+  const auto without_points = plausible_joints({SkinJoint{"n", {0, -0.8F, -0.1F}}, {}}, figure.parts, {});
+  EXPECT_FALSE(without_points.neck);
 }
 
 TEST(TurnWithHead, IsTheWholeModel_WithoutANeck) {

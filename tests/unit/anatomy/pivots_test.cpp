@@ -86,10 +86,12 @@ TEST(HeadPivot, Marked_IsThatPoint) {
   FeaturePointSet points = pupils;
   points.push_back(bare("7.1", {0, -1, 0.5F}));
   EXPECT_EQ(head_pivot({}, points), glm::vec3(0, -1, 0.5F));
+  EXPECT_EQ(head_pivot({}, points, {{}, SkinJoint{"Head", {0, 2, 3}}}), glm::vec3(0, -1, 0.5F)) << "marked by hand";
 }
 
 TEST(HeadPivot, NotMarked_IsEstimatedFromTheEyes) {
   // ES0 = 6: 0.74 * 6 = 4.44 below the eyes' middle (0, 4, 9), 1.6 * 6 = 9.6 behind it.
+  EXPECT_EQ(head_pivot({}, pupils, {{}, SkinJoint{"Head", {0, 2, 3}}}), glm::vec3(0, 2, 3));
   EXPECT_LT(glm::distance(head_pivot({}, pupils), glm::vec3(0, -0.44F, -0.6F)), 1e-5F);
 }
 

@@ -44,6 +44,20 @@ const Proposal* find(const Proposals& proposals, FeaturePointId id) {
   return found == proposals.points.end() ? nullptr : &*found;
 }
 
+TEST_F(Propose, PutsThePivotAtTheJointOfTheHead_IfItCanBeThisHeads) {
+  const FeaturePointSet known = some(quick_set);
+  const auto pivot = [&](const NeckJoints& joints) {
+    const auto proposals =
+        propose_feature_points(surface_, describe_parts(model_, surface_, known), known, reference_heads(), joints);
+    EXPECT_TRUE(proposals);
+    return find(*proposals, fp("7.1"))->point.position;
+  };
+  const glm::vec3 guess = pivot({});
+  const glm::vec3 joint = guess - glm::vec3(0.0F, 0.03F, 0.005F);
+  EXPECT_LT(glm::distance(pivot({{}, SkinJoint{"Head", joint}}), joint), 1e-6F);
+  EXPECT_EQ(pivot({{}, SkinJoint{"Head", joint + glm::vec3(0.5F, 0.0F, 0.0F)}}), guess) << "of a figure beside it";
+}
+
 TEST_F(Propose, FromTheQuickSetGivesOrExplainsEveryOtherPointOnce) {
   const FeaturePointSet known = some(quick_set);
   ASSERT_EQ(known.size(), quick_set.size());
