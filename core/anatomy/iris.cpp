@@ -178,7 +178,6 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
   IrisOfEye found;
   found.shape.axis = glm::vec3(axis);
   double radius = 0.5 * *iris_diameter;
-  const double pupil_radius = radius / 3.0;
   std::vector<Layer> layers = layers_of(surface, parts, role, axis, center, radius);
   // In front of another layer, and also in front of the middle of the iris: excludes a ball with a hole for the iris.
   const auto lies_over = [&](const Layer& a, const Layer& b) {
@@ -209,7 +208,7 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
   }
   if (moving < 3) return refuse("has no vertices between the middle of its pupil and the rim of its iris");
   std::sort(found.vertices.begin(), found.vertices.end());
-  found.shape.pupil_radius = static_cast<float>(pupil_radius);
+  found.shape.pupil_radius = pupil_of_iris * static_cast<float>(radius);
   found.shape.iris_radius = static_cast<float>(radius);
   found.shape.bend = static_cast<float>(bend_of(surface, found.vertices, axis, center, radius));
   return found;

@@ -23,9 +23,9 @@ struct IrisOfEye {
 /// The axis of the iris leads from the eye's pivot through the pupil point. If that point is a corner of a flat regular
 /// face at the front (of eyes without a vertex at the pupil), it leads through the centre of that face. If the iris is
 /// a separate flat part (an iris disc), that part defines its size. Otherwise the diameter is IRISD0, because in the
-/// standard's neutral face the lids touch the iris, and the pupil is a third of it. The vertices of the iris are those
-/// of the eye's parts within this size, except those of a part in front of another, which is the cornea and does not
-/// move.
+/// standard's neutral face the lids touch the iris. The pupil is `pupil_of_iris` of it. The vertices of the iris are
+/// those of the eye's parts within this size, except those of a part in front of another, which is the cornea and does
+/// not move.
 std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, std::span<const Part> parts,
                                    PartRole role, const FeaturePointSet& points, const glm::vec3& pivot,
                                    std::optional<double> iris_diameter, std::string& why_not);

@@ -17,13 +17,12 @@
 namespace semblante {
 namespace {
 
-constexpr float usual_pupil = 1.0F / 3.0F;        ///< of the iris, as in the neutral face
 constexpr float iris_of_ball = 0.49F;             ///< radius of the iris by that of the eyeball, of adults
 constexpr float widest_span = 4.0F;               ///< radii of the iris that the texture shows at most
 constexpr glm::vec2 black_place(0.5F, 0.5F);      ///< the pupil
 constexpr glm::vec2 white_place(0.004F, 0.004F);  ///< a corner of the texture
 
-enum class Paint : std::uint8_t { none, eye, film };
+enum class Paint : std::uint8_t { none, eye, cornea };
 
 /// A place in the frame of an eye: across its axis to the face's left and up, and along it.
 struct EyePlace {
@@ -40,8 +39,7 @@ EyePlace place_of(const PaintedEye& eye, const glm::vec3& p) {
 
 bool can_be_painted(const PaintedEye& eye) {
   // An axis along y has no left; no eye looks there at rest.
-  return eye.iris_radius > 0.0F && eye.pupil_radius > 0.0F && eye.pupil_radius < eye.iris_radius &&
-         std::abs(eye.axis.y) < 0.9F;
+  return eye.iris_radius > 0.0F && std::abs(eye.axis.y) < 0.9F;
 }
 
 /// The white of an eye: an opaque colour near white, without an image.
@@ -81,22 +79,24 @@ class EyePainter {
     for (const RigidMotion motion : look.motion) {
       if (moves_as_iris(motion)) has_moving_iris_[is_left_eye(motion) ? 0 : 1] = true;
     }
+    find_corneas();
   }
 
   /// Without an eye if the triangle is not of a plain eyeball.
   [[nodiscard]] PaintedTriangle painted(const Primitive& primitive, const Triangle& corners) const {
     const auto side = side_of(corners);
-    if (!side || has_own_iris_[*side]) return {};
+    if (!side) return {};
+    const bool is_cornea = is_cornea_[part_of(corners).value()];
+    if (has_own_iris_[*side] && !is_cornea) return {};
     const Material* const own = material_of(model_, primitive);
-    if (own != nullptr && is_film(*own)) return {};
+    if (own != nullptr && (is_film(*own) || !(says_nothing(*own) || is_eye_white(*own)))) return {};
     const PartRole role = *side == 0 ? PartRole::left_eye : PartRole::right_eye;
     const Plain plain =
         plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
     if (plain != Plain::sclera && plain != Plain::iris) return {};
     const std::optional<PaintedEye>& eye = look_.eyes[*side];
     if (!eye || !can_be_painted(*eye)) return {};
-    const bool is_cornea = has_moving_iris_[*side] && is_in_front_of_iris(*eye, corners);
-    return {&*eye, is_cornea ? Paint::film : Paint::eye, plain == Plain::iris};
+    return {&*eye, is_cornea ? Paint::cornea : Paint::eye, plain == Plain::iris};
   }
 
   /// In radii of the iris; nothing of the front of an eye is farther from its axis.
@@ -121,7 +121,7 @@ class EyePainter {
  private:
   /// 0 left, 1 right; empty if the triangle is not of an eye.
   [[nodiscard]] std::optional<std::size_t> side_of(const Triangle& corners) const {
-    const PartId part = surface_.part_of[surface_.surface_of[corners[0]].value()];
+    const PartId part = part_of(corners);
     if (part.value() >= parts_.size()) return std::nullopt;
     const PartRole role = parts_[part.value()].role;
     if (role == PartRole::left_eye) return 0;
@@ -129,13 +129,32 @@ class EyePainter {
     return std::nullopt;
   }
 
-  /// Whether a triangle is over the iris and does not move with it.
-  [[nodiscard]] bool is_in_front_of_iris(const PaintedEye& eye, const Triangle& corners) const {
+  [[nodiscard]] PartId part_of(const Triangle& corners) const {
+    return surface_.part_of[surface_.surface_of[corners[0]].value()];
+  }
+
+  /// A part over a moving iris of which nothing moves with it. As a whole: its triangles end elsewhere than the iris.
+  void find_corneas() {
+    is_cornea_.assign(parts_.size(), false);
+    if (!has_moving_iris_[0] && !has_moving_iris_[1]) return;
+    std::vector<bool> moves(parts_.size());
+    for (const Triangle& corners : model_.triangles) {
+      const auto side = side_of(corners);
+      if (!side || !has_moving_iris_[*side] || !look_.eyes[*side]) continue;
+      const std::size_t part = part_of(corners).value();
+      if (is_in_front(*look_.eyes[*side], corners)) is_cornea_[part] = true;
+      if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return moves_as_iris(look_.motion[v]); })) {
+        moves[part] = true;
+      }
+    }
+    for (std::size_t p = 0; p < moves.size(); ++p) is_cornea_[p] = is_cornea_[p] && !moves[p];
+  }
+
+  /// Whether the middle of a triangle is before the iris or on it.
+  [[nodiscard]] bool is_in_front(const PaintedEye& eye, const Triangle& corners) const {
     const glm::vec3 sum = model_.positions[corners[0]] + model_.positions[corners[1]] + model_.positions[corners[2]];
     const EyePlace center = place_of(eye, sum / 3.0F);
-    return center.along > 0.0F && glm::length(center.across) < eye.iris_radius &&
-           std::none_of(corners.begin(), corners.end(),
-                        [&](std::uint32_t v) { return moves_as_iris(look_.motion[v]); });
+    return center.along > 0.0F && glm::length(center.across) < eye.iris_radius;
   }
 
   const Model& model_;
@@ -145,6 +164,7 @@ class EyePainter {
   // Left, right.
   std::array<bool, 2> has_own_iris_{};     ///< the file gives the eye a look of its own
   std::array<bool, 2> has_moving_iris_{};  ///< some vertices move as its iris
+  std::vector<bool> is_cornea_;            ///< by PartId
 };
 
 /// Texture coordinates of single corners, in a model that may have none.
@@ -183,7 +203,7 @@ class CornerUvs {
 
 /// Divides the primitives where the paint changes.
 std::vector<Primitive> divided(const Model& model, std::span<const PaintedTriangle> painted, int eye_material,
-                               int film_material) {
+                               int cornea_material) {
   std::vector<Primitive> runs;
   for (const Primitive& primitive : model.primitives) {
     const std::uint32_t end = primitive.first_triangle + primitive.triangle_count;
@@ -194,7 +214,7 @@ std::vector<Primitive> divided(const Model& model, std::span<const PaintedTriang
       while (t < end && painted[t].paint == paint) ++t;
       run.triangle_count = t - run.first_triangle;
       if (paint == Paint::eye) run.material = eye_material;
-      if (paint == Paint::film) run.material = film_material;
+      if (paint == Paint::cornea) run.material = cornea_material;
       runs.push_back(std::move(run));
     }
     if (primitive.triangle_count == 0) runs.push_back(primitive);
@@ -211,7 +231,7 @@ EyeLook eyes_of(const Rig& rig) {
   look.motion = rig.rigid_of_vertex;
   for (std::size_t e = 0; e < 2; ++e) {
     if (const std::optional<Iris>& iris = rig.irises[e]) {
-      look.eyes[e] = PaintedEye{pivots[e], iris->axis, iris->iris_radius, iris->pupil_radius};
+      look.eyes[e] = PaintedEye{pivots[e], iris->axis, iris->iris_radius};
       continue;
     }
     const auto pupil = std::find_if(rig.points.begin(), rig.points.end(),
@@ -221,7 +241,7 @@ EyeLook eyes_of(const Rig& rig) {
     const glm::vec3 gaze = pupil->position - pivots[e];
     if (!(glm::length(gaze) > 0.0F)) continue;
     const auto radius = static_cast<float>(512.0 * *diameter);
-    look.eyes[e] = PaintedEye{pivots[e], glm::normalize(gaze), radius, usual_pupil * radius};
+    look.eyes[e] = PaintedEye{pivots[e], glm::normalize(gaze), radius};
   }
   return look;
 }
@@ -240,7 +260,7 @@ EyeLook guessed_eyes(std::span<const Part> parts) {
     if (!(radius > 0.0F)) continue;
     // From the front, since many eyeballs are only their visible half.
     const glm::vec3 center(0.5F * (low.x + high.x), 0.5F * (low.y + high.y), high.z - radius);
-    look.eyes[e] = PaintedEye{center, {0.0F, 0.0F, 1.0F}, iris_of_ball * radius, iris_of_ball * usual_pupil * radius};
+    look.eyes[e] = PaintedEye{center, {0.0F, 0.0F, 1.0F}, iris_of_ball * radius};
   }
   return look;
 }
@@ -249,7 +269,7 @@ void paint_eyes(Model& model, const Surface& surface, std::span<const Part> part
   const EyePainter painter(model, surface, parts, look);
   std::vector<PaintedTriangle> painted(model.triangles.size());
   float span = 1.0F;
-  float pupil = 0.0F;
+  bool is_any_painted = false;
   for (const Primitive& primitive : model.primitives) {
     for (std::size_t t = primitive.first_triangle; t < std::size_t{primitive.first_triangle} + primitive.triangle_count;
          ++t) {
@@ -257,32 +277,39 @@ void paint_eyes(Model& model, const Surface& surface, std::span<const Part> part
       if (painted[t].eye == nullptr) continue;
       const PaintedEye& eye = *painted[t].eye;
       span = std::max(span, painter.reach(eye, model.triangles[t]));
-      pupil = eye.pupil_radius / eye.iris_radius;
+      is_any_painted = true;
     }
   }
-  if (pupil == 0.0F) return;
+  if (!is_any_painted) return;
   span = std::min(1.02F * span, widest_span);
 
   CornerUvs uvs(model);
   for (std::size_t t = 0; t < painted.size(); ++t) {
-    if (painted[t].paint != Paint::eye) continue;
+    if (painted[t].paint == Paint::none) continue;
     std::array<std::optional<glm::vec2>, 3> places;
     for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
     if (!places[0] || !places[1] || !places[2]) {
-      uvs.set_all(t, painted[t].is_inside ? black_place : white_place);
+      uvs.set_all(t, painted[t].is_inside && painted[t].paint == Paint::eye ? black_place : white_place);
       continue;
     }
     for (std::size_t c = 0; c < 3; ++c) uvs.set(t, static_cast<int>(c), model.triangles[t][c], *places[c]);
   }
-  model.images.push_back(eye_texture(span, pupil));
-  Material eye = plain_material(Plain::sclera);
-  eye.name = "eye";
-  eye.base_color = glm::vec4(1.0F);
-  eye.base_color_image = static_cast<int>(model.images.size() - 1);
-  model.materials.push_back(eye);
-  model.materials.push_back(plain_material(Plain::fluid));
-  const auto film = static_cast<int>(model.materials.size() - 1);
-  model.primitives = divided(model, painted, film - 1, film);
+  const auto add_material = [&model](const char* name, Image image) {
+    model.images.push_back(std::move(image));
+    Material material = plain_material(Plain::sclera);
+    material.name = name;
+    material.base_color = glm::vec4(1.0F);
+    material.base_color_image = static_cast<int>(model.images.size() - 1);
+    model.materials.push_back(std::move(material));
+    return static_cast<int>(model.materials.size() - 1);
+  };
+  const int eye = add_material("eye", eye_texture(span));
+  int cornea = -1;
+  if (std::any_of(painted.begin(), painted.end(), [](const auto& t) { return t.paint == Paint::cornea; })) {
+    cornea = add_material("eye white", cornea_texture(span));
+    model.materials.back().alpha_mode = Material::AlphaMode::mask;
+  }
+  model.primitives = divided(model, painted, eye, cornea);
 }
 
 }  // namespace semblante

@@ -17,7 +17,6 @@ struct PaintedEye {
   glm::vec3 pivot{0.0F};
   glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit vector from the pivot through the centre of the pupil
   float iris_radius = 0.0F;          ///< 0: nothing is painted
-  float pupil_radius = 0.0F;
 };
 
 struct EyeLook {
@@ -35,9 +34,9 @@ EyeLook guessed_eyes(std::span<const Part> parts);
 
 /// Gives eyeballs to which the file gave no texture, and no colour but white, a texture with a round iris and pupil:
 /// adds the image, its material and texture coordinates, measured from the axis of the eye, and divides primitives. A
-/// cornea over an iris becomes clear. Every viewer then draws the same eye, at each pixel, and it turns and its pupil
-/// grows with the vertices. `parts` by PartId. Eyes with a look of their own, and heads without eyeballs, stay as they
-/// are.
+/// part over an iris that moves gets the same white and a round window before the iris. Every viewer then draws the
+/// same eye, at each pixel, and it turns and its pupil grows with the vertices. `parts` by PartId. Other eyes
+/// with a look of their own, and heads without eyeballs, stay as they are.
 void paint_eyes(Model& model, const Surface& surface, std::span<const Part> parts, const EyeLook& look);
 
 }  // namespace semblante

@@ -48,6 +48,9 @@ constexpr bool is_left_eye(RigidMotion motion) {
   return motion == RigidMotion::left_eye || motion == RigidMotion::left_iris;
 }
 
+/// Radius of the pupil by that of the iris on the neutral face: where eyes are measured and where they are drawn.
+inline constexpr float pupil_of_iris = 1.0F / 3.0F;
+
 /// The iris of one eye on the neutral face, in model units.
 struct Iris {
   glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit vector from the eye's pivot through the middle of the pupil

@@ -9,7 +9,7 @@ namespace semblante::sample_head_detail {
 /// under the hair. Symmetric.
 SampleHeadImage paint_skin(const HalfMesh& skin);
 
-/// An eyeball seen from the front: sclera, iris with fibres and a dark rim, pupil a third of the iris' diameter.
+/// An eyeball seen from the front: sclera, iris with fibres and a dark rim, pupil (`pupil_of_iris`).
 SampleHeadImage paint_eye();
 
 /// Strands from top to bottom, for hair combed along v.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -60,7 +61,7 @@ struct Eyes {
       part.role = model.positions[v].x > 0.0F ? PartRole::left_eye : PartRole::right_eye;
     }
     for (const std::size_t e : {0U, 1U})
-      look.eyes[e] = PaintedEye{{e == 0 ? 30.0F : -30.0F, 0.0F, 0.0F}, glm::normalize(gaze), 6.0F, 2.0F};
+      look.eyes[e] = PaintedEye{{e == 0 ? 30.0F : -30.0F, 0.0F, 0.0F}, glm::normalize(gaze), 6.0F};
   }
 
   void paint() { paint_eyes(model, surface, parts, look); }
@@ -201,16 +202,81 @@ TEST(PaintedEyes, AnIrisOfTheFile_BesideAWhite_IsEnough) {
     EXPECT_EQ(primitive.material > 0, primitive.first_triangle >= of_one) << primitive.first_triangle;
 }
 
-TEST(PaintedEyes, ACorneaInFrontOfAnIris_BecomesClear) {
+/// The right ball as a shell around the left one, of which what is near the axis moves as its iris.
+Eyes eye_in_a_shell(std::vector<RigidMotion>& motion) {
+  Eyes eyes;
+  const std::size_t half = eyes.model.positions.size() / 2;
+  motion.assign(2 * half, RigidMotion::left_eye);
+  for (std::size_t v = 0; v < half; ++v) {
+    const glm::vec3 d = eyes.model.positions[v] - glm::vec3(30.0F, 0.0F, 0.0F);
+    if (d.z > 0.0F && std::hypot(d.x, d.y) < 6.0F) motion[v] = RigidMotion::left_iris;
+    eyes.model.positions[half + v] = glm::vec3(30.0F, 0.0F, 0.0F) + 1.1F * d;
+  }
+  for (Part& part : eyes.parts) part.role = PartRole::left_eye;
+  eyes.look.motion = motion;
+  return eyes;
+}
+
+TEST(PaintedEyes, ACorneaOverAnIris_HasARoundWindow) {
+  std::vector<RigidMotion> motion;
+  Eyes eyes = eye_in_a_shell(motion);
+  eyes.paint();
+  const auto assigned = assign_materials(eyes.model, eyes.surface, eyes.parts);
+  const std::size_t half = eyes.model.triangles.size() / 2;
+  for (std::size_t t = 0; t < 2 * half; ++t)
+    ASSERT_EQ(assigned.materials[assigned.of_triangle[t]].name, t < half ? "eye" : "eye white") << t;
+  const Material& white = assigned.materials[assigned.of_triangle[half]];
+  EXPECT_EQ(white.alpha_mode, Material::AlphaMode::mask);
+  const Image& image = eyes.model.images[static_cast<std::size_t>(white.base_color_image)];
+  EXPECT_LE(image.bytes.size(), 8U * 1024U);
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> rgba(
+      stbi_load_from_memory(image.bytes.data(), static_cast<int>(image.bytes.size()), &width, &height, &channels, 4),
+      &stbi_image_free);
+  ASSERT_TRUE(rgba);
+  // The shell is 13.2 wide, the iris 6: the texture shows all of the shell.
+  for (const auto& [radius, is_clear] : {std::pair{0.0, true}, {5.7, true}, {6.3, false}, {12.0, false}}) {
+    for (int k = 0; k < 32; ++k) {
+      const auto at = [&](double wave) {
+        return static_cast<int>((0.5 + 0.5 * radius / (1.02 * 13.2) * wave) * width);
+      };
+      const int x = at(std::cos(0.2 * k));
+      const int y = at(std::sin(0.2 * k));
+      EXPECT_EQ(rgba.get()[4 * (y * width + x) + 3] < 128, is_clear) << radius;
+    }
+  }
+}
+
+TEST(PaintedEyes, ACorneaOverAnIrisOfTheFile_HasAWindowToo) {
+  std::vector<RigidMotion> motion;
+  Eyes eyes = eye_in_a_shell(motion);
+  Material brown;
+  brown.base_color = {0.2F, 0.1F, 0.05F, 1.0F};
+  eyes.model.materials = {brown};
+  Primitive ball = eyes.model.primitives[0];
+  ball.material = 0;
+  ball.triangle_count /= 2;
+  Primitive shell = eyes.model.primitives[0];
+  shell.first_triangle = ball.triangle_count;
+  shell.triangle_count = ball.triangle_count;
+  eyes.model.primitives = {ball, shell};
+  eyes.paint();
+  EXPECT_EQ(eyes.model.primitives[0].material, 0);
+  ASSERT_GT(eyes.model.primitives[1].material, 0);
+  EXPECT_EQ(eyes.model.materials[static_cast<std::size_t>(eyes.model.primitives[1].material)].name, "eye white");
+}
+
+TEST(PaintedEyes, ABallWhoseIrisHasATriangleThatDoesNotMove_IsNoCornea) {
   Eyes eyes;
   std::vector<RigidMotion> motion(eyes.model.positions.size(), RigidMotion::left_eye);
-  // The second ball stands in for an iris that moves; the first is in front of nothing that does.
-  for (std::size_t v = motion.size() / 2; v < motion.size(); ++v) motion[v] = RigidMotion::left_iris;
+  for (std::size_t v = 0; v < segments; ++v) motion[v] = RigidMotion::left_iris;  // the second ring is within, too
   eyes.look.motion = motion;
   eyes.paint();
   const auto assigned = assign_materials(eyes.model, eyes.surface, eyes.parts);
-  EXPECT_EQ(assigned.materials[assigned.of_triangle[0]].name, "fluid");
-  EXPECT_EQ(assigned.materials[assigned.of_triangle[eyes.model.triangles.size() / 2 - 1]].name, "eye") << "the back";
+  for (std::size_t t = 0; t < eyes.model.triangles.size() / 2; ++t)
+    ASSERT_EQ(assigned.materials[assigned.of_triangle[t]].name, "eye") << t;
 }
 
 TEST(PaintedEyes, AHeadWithoutEyes_StaysAsItIs) {
