@@ -50,7 +50,11 @@ Status run(const Arguments& arguments) {
   }
   const std::vector<Part> parts = describe_parts(head->model, head->surface, {}, {});
   paint_eyes(head->model, head->surface, parts, guessed_eyes(parts));
-  auto scene = render::build_scene(head->model);
+  std::vector<PartRole> roles(head->model.positions.size());
+  for (std::size_t v = 0; v < roles.size(); ++v) {
+    roles[v] = parts[head->surface.part_of[head->surface.surface_of[v].value()].value()].role;
+  }
+  auto scene = render::build_scene(head->model, {.points = {}, .role_of_vertex = roles});
   if (!scene) {
     return std::move(scene).error();
   }

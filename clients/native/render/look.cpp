@@ -41,7 +41,7 @@ Appearance appearance_of(Substance substance) {
   return {{0.55F, 0.54F, 0.52F}, 1.0F, 0.6F, 0.03F};
 }
 
-std::optional<Substance> substance_by_role(PartRole role) {
+Substance substance_by_role(PartRole role) {
   switch (role) {
     case PartRole::skin:
       return Substance::skin;
@@ -54,18 +54,19 @@ std::optional<Substance> substance_by_role(PartRole role) {
     case PartRole::tongue:
       return Substance::gums;
     case PartRole::attached:
+      return Substance::hair;
     case PartRole::rest:
     case PartRole::body:
-      return std::nullopt;
+      break;  // cloth must not look like skin
   }
-  return std::nullopt;
+  return Substance::plain;
 }
 
 /// White and greys are the defaults of files without chosen colours.
 bool says_nothing(const Material& material) {
   const glm::vec4& c = material.base_color;
   const float spread = std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
-  return material.base_color_image < 0 && spread < 0.02F && c.a > 0.99F && c.r > 0.3F;
+  return material.is_color_lost || (material.base_color_image < 0 && spread < 0.02F && c.a > 0.99F && c.r > 0.3F);
 }
 
 }  // namespace

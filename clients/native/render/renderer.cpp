@@ -192,6 +192,13 @@ struct Renderer::Impl {
                    offset_of(std::size_t{run.first_triangle} * sizeof(Triangle)));
   }
 
+  /// Not lashes, because the shadow of their strips would cover the eye, nor the white round a window before the iris.
+  [[nodiscard]] static bool casts_shadow(const Run& run) {
+    const bool has_window =
+        run.look.substance == Substance::eyeball && run.look.alpha_mode == Material::AlphaMode::mask;
+    return is_drawn(run) && !is_blended(run) && !has_window && run.look.substance != Substance::lashes;
+  }
+
   void draw_shadow(const ShadowMap& map, const glm::mat4& to_light) {
     glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
     glViewport(0, 0, shadow_side, shadow_side);
@@ -199,8 +206,7 @@ struct Renderer::Impl {
     glUseProgram(shadow_program);
     glUniformMatrix4fv(glGetUniformLocation(shadow_program, "to_light"), 1, GL_FALSE, glm::value_ptr(to_light));
     for (const Run& run : scene.runs) {
-      // Lashes cast no shadow, because the shadow of their strips would cover the eye.
-      if (is_drawn(run) && !is_blended(run) && run.look.substance != Substance::lashes) {
+      if (casts_shadow(run)) {
         draw_triangles(run);
       }
     }

@@ -101,6 +101,23 @@ TEST(Look, RoleOfANamelessPart_TellsTheSubstance) {
   model.primitives[0].name = "";
   EXPECT_EQ(render::look_of(model, model.primitives[0], PartRole::upper_teeth).substance, Substance::teeth);
   EXPECT_EQ(render::look_of(model, model.primitives[0], std::nullopt).substance, Substance::skin);
+  EXPECT_EQ(render::look_of(model, model.primitives[0], PartRole::attached).substance, Substance::hair);
+}
+
+TEST(Look, ClothWhoseTextureIsLost_IsNotSkin) {
+  Model model = seamed_ball();
+  model.primitives[0].name = "Wolf3D_Outfit_Top";
+  Material cloth;
+  cloth.name = "Wolf3D_Outfit_Top";
+  cloth.base_color = {0.9F, 0.5F, 0.4F, 1.0F};  // a tint of the texture that is not there
+  cloth.is_color_lost = true;
+  model.materials = {cloth};
+  model.primitives[0].material = 0;
+  for (const PartRole role : {PartRole::rest, PartRole::body}) {
+    const render::Look look = render::look_of(model, model.primitives[0], role);
+    EXPECT_EQ(look.substance, Substance::plain);
+    EXPECT_LT(look.color.r - look.color.b, 0.1F) << "neutral";
+  }
 }
 
 }  // namespace
