@@ -1,6 +1,7 @@
 #include "core/parametrize/parametrize.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/anatomy/iris.h"
@@ -37,6 +38,12 @@ void warn_of_points(const Surface& surface, const std::vector<SurfacePoint>& poi
                          " are at the same place; that vertex follows the mean of both");
     }
   }
+}
+
+void warn_of_closed_eyes(const Fapu& fapu, std::vector<std::string>& warnings) {
+  if (fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)] != FapuOrigin::closed_eyes) return;
+  warnings.push_back("the eyes are closed: ES0 is the distance between the centres of the lids' corners, and IRISD0 " +
+                     std::to_string(std::lround(100.0 * iris_share)) + " % of it; both can be given by hand");
 }
 
 void warn_of_parts(const std::vector<Part>& parts, const FeaturePointSet& points, std::vector<std::string>& warnings) {
@@ -183,6 +190,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   }
 
   rig.warnings = explain_missing_fapu(rig.fapu, points);
+  warn_of_closed_eyes(rig.fapu, rig.warnings);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
   find_moving_parts(model, surface, on_surface, mouth, are_shares(options.weights), rig);

@@ -5,6 +5,7 @@
 
 #include "core/parametrize/place_feature_points.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante {
 namespace {
@@ -95,6 +96,15 @@ TEST(Parametrize, NoPointsAtAll_MovesNothingAndSaysSo) {
   ASSERT_TRUE(rig);
   EXPECT_TRUE(rig->influence.points.empty());
   EXPECT_THAT(rig->warnings, Contains(HasSubstr("nothing will move")));
+}
+
+TEST(Parametrize, ClosedEyes_BecomeAWarning) {
+  const auto warnings_of = [](const SampleHeadTraits& traits) {
+    const auto rig = parametrize_model(testing::sample_head_model(traits), testing::sample_head_points(traits));
+    return rig ? rig->warnings : std::vector<std::string>{rig.error().message};
+  };
+  EXPECT_THAT(warnings_of({.closed_eyes = true}), Contains(HasSubstr("the eyes are closed: ES0 is the distance")));
+  EXPECT_THAT(warnings_of({}), Not(Contains(HasSubstr("closed"))));
 }
 
 TEST(Parametrize, BarePoint_InfluencesNothing) {
