@@ -58,19 +58,26 @@ constexpr LidRing rings[] = {
 };
 constexpr std::size_t fold_ring = 2;
 
+/// Depth of the line from corner to corner, and how near to a corner a place is; t from -1 to 1.
+double corner_z(double t) { return glm::mix(inner_corner_z, outer_corner_z, 0.5 + 0.5 * t); }
+double near_corner(double t) { return glm::smoothstep(0.55, 1.0, std::abs(t)); }
+
+/// The fold, relative to the centre of the eye.
+Vec3 fold_at(double t) {
+  const double x = t * slit_half_width;
+  const double y = corner_line(x) + (fold_height - corner_line(0.0)) * (1.0 - std::pow(std::abs(t), 2.1));
+  const double z = std::sqrt(std::max(fold_front * fold_front - 0.85 * x * x, 0.0));
+  return {x, y, glm::mix(z, corner_z(t), near_corner(t))};
+}
+
 /// The edge of the skin's opening at step k: along the fold above, along the lower lid below.
 Vec3 opening_edge(int k) {
   const LidPlace place = lid_place(k);
   const double t = 2.0 * place.along - 1.0;
   const double x = t * slit_half_width;
-  const double line = corner_line(x);
-  const double corner = glm::mix(inner_corner_z, outer_corner_z, place.along);
-  const double to_corner = glm::smoothstep(0.55, 1.0, std::abs(t));
-  if (place.upper) {
-    const double y = line + (fold_height - corner_line(0.0)) * (1.0 - std::pow(std::abs(t), 2.1));
-    const double z = std::sqrt(std::max(fold_front * fold_front - 0.85 * x * x, 0.0));
-    return eye_centre + Vec3(x, y, glm::mix(z, corner, to_corner));
-  }
+  if (place.upper) return eye_centre + fold_at(t);
+  const double corner = corner_z(t);
+  const double to_corner = near_corner(t);
   const double y = lower_edge_y(x);
   const double r = eye_radius + lower_thickness;
   const double z = std::sqrt(std::max(r * r - x * x - y * y, 0.0));
@@ -83,6 +90,11 @@ double lower_edge_y(double x) {
   const double t = std::min(std::abs(x) / slit_half_width, 1.0);
   // Fuller towards the nose, where the closing lid comes down farther for the slant of the slit.
   return corner_line(x) - (lid_height + corner_line(0.0)) * (1.0 - std::pow(t, x < 0.0 ? 2.1 : 1.85));
+}
+
+double fold_radius(double x) {
+  const Vec3 fold = fold_at(std::clamp(x / slit_half_width, -1.0, 1.0));
+  return std::hypot(fold.y, fold.z);
 }
 
 double upper_edge_y(double x) {
@@ -153,7 +165,8 @@ void add_eyelids(Skin& skin, const Loop& orbit) {
       const double roof = glm::smoothstep(0.35, 0.9, std::sin(azimuth));
       const double r = eye_radius + glm::mix(0.05, 0.40, roof * std::sin(pi * (j + 1.0) / 7.0));
       Paint paint;
-      paint.inner_uv = {static_cast<double>(j) / 5.0, 1.0};
+      // Raised brows bare the roof.
+      paint.inner_uv = {static_cast<double>(j) / 5.0 * (1.0 - 0.85 * roof), 1.0};
       const Vec3 direction(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
       loop.push_back(mesh.add(eye_centre + direction * r, paint));
     }

@@ -14,6 +14,8 @@ inline constexpr int lid_steps = 24;
 /// Lines of the lids' edges over the eyeball: y at x, both from the middle of the eye.
 double upper_edge_y(double x);
 double lower_edge_y(double x);
+/// Distance of the fold of the upper lid from the line through the eye's middle along x.
+double fold_radius(double x);
 inline constexpr double slit_half_width = 1.52;
 
 }  // namespace semblante::sample_head_detail

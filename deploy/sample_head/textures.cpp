@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/types/moving_parts.h"
 #include "deploy/sample_head/emit.h"
 #include "deploy/sample_head/hair.h"
 #include "deploy/sample_head/sculpt.h"
@@ -86,9 +87,9 @@ Colour skin_colour(const Vec3& p, const Paint& paint) {
 
 Colour lining_colour(int kind, double depth) {
   if (kind == 3) {  // the upper lid, from its lashes to its root
-    // Lighter where raised brows bare it: there it lies in their shadow.
-    const Colour seen = glm::mix(Colour(0.80, 0.575, 0.50), Colour(0.86, 0.66, 0.575), depth);
-    const Colour skin = glm::mix(seen, Colour(0.95, 0.77, 0.68), glm::smoothstep(0.85, 1.0, depth));
+    // Where it comes out from under the fold it is the skin there, or it would show as a crescent above the eye.
+    const Colour fold(0.868, 0.692, 0.598);
+    const Colour skin = glm::mix(Colour(0.835, 0.635, 0.550), fold, glm::smoothstep(0.15, 0.6, depth));
     return glm::mix(Colour(0.13, 0.08, 0.06), skin, glm::smoothstep(0.10, 0.17, depth));
   }
   constexpr double soft[3] = {0.28, 0.5, 0.4};
@@ -241,7 +242,7 @@ SampleHeadImage paint_eye() {
       blue *= 1.0 - 0.30 * glm::smoothstep(0.1, -0.9, q.y / iris);
       c *= 1.0 - 0.22 * glm::smoothstep(0.3, -1.0, q.y / iris);
       c = glm::mix(blue, c, glm::smoothstep(0.96, 1.06, r));
-      c = glm::mix(Colour(0.02, 0.02, 0.025), c, glm::smoothstep(0.30, 0.36, r));
+      c = glm::mix(Colour(0.02, 0.02, 0.025), c, glm::smoothstep(pupil_of_iris - 0.03, pupil_of_iris + 0.03, r));
       // A painted glint makes the eye look alive under any light.
       const Vec2 glint = q / iris - Vec2(0.0, -0.42);
       c = glm::mix(Colour(1.0), c, glm::smoothstep(0.09, 0.16, glm::length(glint)));

@@ -18,6 +18,11 @@ constexpr double half_width = 1.38;
 /// down and must not touch the ball when it passes the ball's middle.
 constexpr double front_radius = eye_radius + 0.14;
 
+/// Distances about the line through the eye's centre along x, on which the lid rolls.
+constexpr double behind_fold = 0.05;
+constexpr double over_ball = 0.06;
+double ball_radius(double x) { return std::sqrt(std::max(eye_radius * eye_radius - x * x, 0.0)); }
+
 /// A row of the shell: `rise` above the edge, `back` behind the edge; both in cm.
 struct Row {
   double rise, back;
@@ -56,8 +61,12 @@ UpperLid make_upper_lid(bool closed) {
       // No lashes in the corners, where the shell is tucked in.
       paint.inner_uv = {std::max(row.shade, 0.4 * glm::smoothstep(0.80, 0.92, std::abs(t))), 3.0};
       // The ends recede under the corners of the skin.
-      const Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise,
-                   edge_z - row.back * (1.0 - 0.55 * t * t) + row.lash * lash - drawn_back);
+      Vec3 p(x * (1.0 + 0.10 * row.lash), edge_y + row.rise,
+             edge_z - row.back * (1.0 - 0.55 * t * t) + row.lash * lash - drawn_back);
+      // What comes out from under the fold as the lid rolls passes behind its edge.
+      const double most = std::max(fold_radius(p.x) - behind_fold, ball_radius(p.x) + over_ball);
+      const double radius = std::hypot(p.y, p.z);
+      if (row.lash == 0.0 && radius > most) p = {p.x, p.y * most / radius, p.z * most / radius};
       loop.push_back(mesh.add(eye_centre + p, paint));
     }
     if (!loops.empty()) bridge(mesh, loops.back(), loop, false, Chart::inner);

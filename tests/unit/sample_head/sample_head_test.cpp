@@ -12,10 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include <glm/ext/vector_int3.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "deploy/sample_head/eyelids.h"
+#include "deploy/sample_head/sculpt.h"
+#include "deploy/sample_head/upper_lid.h"
 #include "deploy/sample_head/write_sample_head.h"
 
 namespace semblante {
@@ -354,6 +358,53 @@ TEST(SampleHead, LidsCanClose_InFrontOfTheBall) {
   EXPECT_LT(highest_of_edge, at("3.3").y + 0.15 * irisd);
   // The iris reaches from lid to lid.
   EXPECT_NEAR(at("3.1").y, 0.5 * irisd, 2e-4);
+}
+
+/// sRGB, 0 to 255.
+glm::ivec3 colour_of(const SampleHeadMesh& mesh, std::size_t vertex) {
+  const SampleHeadImage& image = head().images[head().materials[mesh.material].image.value()];
+  const auto pixel = [](float at, int size) {
+    return std::min(size - 1, static_cast<int>(at * static_cast<float>(size)));
+  };
+  const glm::vec2 uv = mesh.uvs[vertex];
+  const auto i = static_cast<std::size_t>(3 * (pixel(uv.y, image.height) * image.width + pixel(uv.x, image.width)));
+  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
+}
+
+// Otherwise a crescent shows above the eye, light or dark.
+TEST(SampleHead, UpperLid_HasTheColourOfTheSkinAboveIt) {
+  const auto& skin = part("skin");
+  const auto& lid = part("upper lids");
+  const glm::dvec3 above = at("3.1") + glm::dvec3(0.0, 0.0055, 0.002);
+  std::size_t nearest = 0;
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    if (glm::distance(glm::dvec3(skin.positions[v]), above) <
+        glm::distance(glm::dvec3(skin.positions[nearest]), above)) {
+      nearest = v;
+    }
+  }
+  const glm::ivec3 expected = colour_of(skin, nearest);
+  std::size_t compared = 0;
+  for (std::size_t v = 0; v < lid.positions.size(); ++v) {
+    const glm::dvec3 p = lid.positions[v];
+    if (std::abs(p.x - at("3.1").x) > 0.008 || p.y < at("3.1").y + 0.002) continue;  // lashes
+    const glm::ivec3 colour = colour_of(lid, v);
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(colour[c], expected[c], 18) << v << ' ' << c;
+    ++compared;
+  }
+  EXPECT_GT(compared, 50U);
+}
+
+// A lid that is closed does not come out of the skin beside or above its fold.
+TEST(SampleHead, UpperLid_RollsBehindItsFold) {
+  using namespace sample_head_detail;
+  const UpperLid lid = make_upper_lid(false);
+  constexpr std::size_t columns = 21;
+  for (std::size_t v = 2 * columns; v < lid.mesh.positions.size(); ++v) {  // after the lashes
+    const Vec3 p = lid.mesh.positions[v] - eye_centre;
+    const double ball = std::sqrt(std::max(eye_radius * eye_radius - p.x * p.x, 0.0));
+    ASSERT_LE(std::hypot(p.y, p.z), std::max(fold_radius(p.x) - 0.049, ball + 0.061)) << v;
+  }
 }
 
 TEST(SampleHead, TeethAndTongue_StandInsideTheMouth) {
