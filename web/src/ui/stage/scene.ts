@@ -1,5 +1,4 @@
 import { Vector3 } from 'three';
-import type { RigDocument } from '@protocol/rig_document.ts';
 import type { LoadedFace } from '../../face/loaded_face.ts';
 import { Performer } from '../../face/performer.ts';
 import type { Model } from '../../net/types.ts';
@@ -42,7 +41,7 @@ export class SceneView {
   preview: PreviewView | null = null;
   face: FaceView | null = null;
   /** What the server told of the animated face. */
-  rig: RigDocument | null = null;
+  rig: LoadedFace['rig'] | null = null;
   private painted: InfluenceView | null = null;
   private lines: UnitLines | null = null;
   private wanted: 'preview' | 'face' = 'face';

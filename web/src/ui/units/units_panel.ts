@@ -9,7 +9,7 @@ import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
 
 /** Thickness of the lines, as a share of the longest unit. */
-const thickness = 0.011;
+const thickness = 0.014;
 const sides: Record<UnitLine['unit'], LabelledLine['side']> = {
   IRISD: 'beside',
   ES: 'above',
