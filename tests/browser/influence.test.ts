@@ -154,11 +154,12 @@ describe('influence', () => {
     const studio = await open();
     const { page } = studio;
     await page.locator('[data-mode=regions]').click();
-    await page.selectOption('#influence-point', '8.4');
-    const left = await colourAt(studio, beside(await spotOf(studio, '8.3'), 11));
-    const right = await colourAt(studio, beside(await spotOf(studio, '8.4'), -11));
-    expect(left[0]! - left[2]!).toBeGreaterThan(30); // orange
-    expect(right[2]! - right[0]!).toBeGreaterThan(30); // sky blue
+    await page.selectOption('#influence-point', '4.3'); // after 8.3
+    await page.selectOption('#influence-point', '4.4');
+    const left = await colourAt(studio, beside(await spotOf(studio, '4.3'), 0, -12));
+    const right = await colourAt(studio, beside(await spotOf(studio, '4.4'), 0, -12));
+    expect(left[2]! - left[0]!).toBeGreaterThan(30); // sky blue, the second colour
+    expect(right[1]! - right[0]!).toBeGreaterThan(30); // green, the third
     await page.locator('[data-mode=strongest]').click();
     const brow = await colourAt(studio, beside(await spotOf(studio, '4.3'), 11));
     expect(spread(brow)).toBeGreaterThan(50);

@@ -88,6 +88,15 @@ describe('feature points', () => {
     expect(proposed).toBeGreaterThan(40);
     expect(await page.locator('.point-row.proposed').count()).toBe(proposed);
 
+    // The proposals are one step back, and come again.
+    await page.keyboard.press('Control+z');
+    await page.getByText('20 of 84 placed').waitFor();
+    expect(await page.locator('.point-row.proposed').count()).toBe(0);
+    await page.keyboard.press('Control+Shift+z');
+    await confirmAll.waitFor();
+    expect(await count()).toBe(proposed);
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+
     // One point confirmed, one moved, one removed: none of them is a proposal any more.
     await page.getByRole('button', { name: 'Review' }).click();
     await page.getByRole('button', { name: 'Confirm', exact: true }).click();

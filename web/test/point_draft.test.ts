@@ -33,6 +33,29 @@ describe('point draft', () => {
     expect(draft.canRedo).toBe(false);
   });
 
+  test('Draft_SavedMirroredAndProposed_CanBeUndone', () => {
+    const proposal = { method: 'shape', confidence: 'low', expectedError: 0.1 } as const;
+    const draft = new PointDraft();
+    draft.reset([['2.1', at(5)]]);
+    draft.place('8.3', at(6));
+    draft.accept([['2.1', at(5)], ['8.3', at(6)]]); // saved as they are: no step
+    expect(draft.changes).toBe(0);
+    draft.accept([['2.1', at(5)], ['8.3', at(6)], ['8.4', { ...at(7), proposal }], ['9.3', { ...at(8), proposal }]]);
+    expect(draft.proposed).toEqual(['8.4', '9.3']);
+    draft.confirm(['8.4']);
+    draft.undo();
+    expect(draft.proposed).toEqual(['8.4', '9.3']);
+    draft.undo(); // the proposals
+    expect(verticesOf(draft)).toEqual({ '2.1': 5, '8.3': 6 });
+    expect(draft.changes).toBe(2); // the server has them until the draft is saved
+    draft.undo(); // the point that was placed before saving
+    expect(verticesOf(draft)).toEqual({ '2.1': 5 });
+    draft.redo();
+    draft.redo();
+    expect(draft.proposed).toEqual(['8.4', '9.3']);
+    expect(draft.changes).toBe(0);
+  });
+
   test('Draft_SameVertexAgain_CountsNoChange', () => {
     const draft = new PointDraft();
     draft.reset([['2.1', at(5)]]);

@@ -41,6 +41,13 @@ export class PointDraft {
     this.undone = [];
   }
 
+  /** Takes the server's points after a change of this page: a step that can be undone, unless they are the draft already. */
+  accept(points: Iterable<[string, PlacedPoint]>): void {
+    this.saved = new Map([...points].filter(([id]) => pointById(id) !== undefined));
+    if (this.changes > 0) this.step();
+    this.current = new Map(this.saved);
+  }
+
   place(id: string, point: PlacedPoint): void {
     if (pointById(id) === undefined) throw new RangeError(`no feature point ${id}`);
     this.step();

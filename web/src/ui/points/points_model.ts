@@ -48,7 +48,7 @@ export class PointsModel {
     if (!model || model.state === 'importing' || model.state === 'failed') return;
     await this.studio.attempt('The feature points could not be read', async () => {
       const answer = await this.studio.api.getFeaturePoints(model.id);
-      if (this.model?.id === model.id) this.take(answer.value, answer.etag);
+      if (this.model?.id === model.id) this.take(answer.value, answer.etag, true);
     });
   }
 
@@ -264,7 +264,8 @@ export class PointsModel {
     }
   }
 
-  private take(set: FeaturePointSet, etag: string | null): void {
+  /** `fresh`: of a head that has just been opened; otherwise what was done before can be undone. */
+  private take(set: FeaturePointSet, etag: string | null, fresh = false): void {
     const placed: [string, PlacedPoint][] = [];
     for (const [id, value] of Object.entries(set.points)) {
       const { vertex } = value;
@@ -275,7 +276,8 @@ export class PointsModel {
       placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
     }
     this.fapu = set.fapu;
-    this.draft.reset(placed);
+    if (fresh) this.draft.reset(placed);
+    else this.draft.accept(placed);
     // With points beyond the quick set, or with proposals to review, the user needs the whole list.
     if (!this.guidedByUser) {
       const quick = new Set(quickSet.map(({ id }) => id));

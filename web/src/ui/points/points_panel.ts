@@ -17,8 +17,8 @@ export class PointsPanel {
   private readonly count = h('span', { class: 'count', 'aria-live': 'polite' });
   private readonly meter = h('div', { class: 'bar', 'aria-hidden': 'true' }, h('span', {}));
   private readonly notices = h('div', { class: 'notices' });
-  private readonly undo = this.tool('Undo', 'undo', () => this.points.undo());
-  private readonly redo = this.tool('Redo', 'redo', () => this.points.redo());
+  private readonly undo = this.tool('Undo (Ctrl+Z)', 'undo', () => this.points.undo());
+  private readonly redo = this.tool('Redo (Ctrl+Shift+Z)', 'redo', () => this.points.redo());
   private readonly mirror = this.tool(
     'Fill the missing side by mirroring',
     'mirror',
@@ -30,6 +30,7 @@ export class PointsPanel {
     private readonly points: PointsModel,
     parametrizer: Parametrizer,
   ) {
+    document.addEventListener('keydown', (event) => this.key(event));
     this.guide = new Guide({ onSelect: (id) => points.toggle(id) });
     const list = new PointList(points);
     const file = h('input', {
@@ -85,6 +86,17 @@ export class PointsPanel {
       { type: 'button', class: 'quiet square', 'aria-label': label, title: label, on: { click } },
       icon(name),
     );
+  }
+
+  /** Ctrl+Z, with Shift or Ctrl+Y for redo, anywhere on the page but in a text that is being written or a dialog. */
+  private key(event: KeyboardEvent): void {
+    if (this.studio.tab.value !== 'points' || !(event.ctrlKey || event.metaKey) || event.altKey) return;
+    if ((event.target as Element).closest('dialog, textarea, input:not([type=range], [type=checkbox], [type=file])')) return;
+    const key = event.key.toLowerCase();
+    if (key !== 'z' && key !== 'y') return;
+    event.preventDefault();
+    if (key === 'y' || event.shiftKey) this.points.redo();
+    else this.points.undo();
   }
 
   private modes(): HTMLElement {
