@@ -41,7 +41,7 @@ struct SpokenMark {
 
 /// What a voice made of a text: sound, and what is said when. The times of a list do not decrease.
 struct Utterance {
-  std::string voice;             ///< what made it, with its version
+  std::string voice;              ///< what made it, with its version
   std::uint32_t sample_rate = 0;  ///< Hz
   std::vector<std::int16_t> samples;
   std::vector<SpokenPhoneme> phonemes;

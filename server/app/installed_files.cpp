@@ -15,4 +15,13 @@ InstalledFiles installed_files() {
   return files;
 }
 
+std::filesystem::path sample_head_file() {
+  const auto installed = installed_files().sample;
+  if (!installed.empty()) return installed;
+  const auto folder = std::filesystem::path(jobs::own_executable()).parent_path().parent_path();
+  std::error_code error;
+  const auto built = folder / "sample" / "sample-head.glb";
+  return std::filesystem::is_regular_file(built, error) ? built : std::filesystem::path();
+}
+
 }  // namespace semblante

@@ -13,4 +13,7 @@ struct InstalledFiles {
 /// Searches relative to this program, so that an installation can be moved as a whole.
 InstalledFiles installed_files();
 
+/// The sample head that is installed, or the one of the build folder that this program is in; empty if there is none.
+std::filesystem::path sample_head_file();
+
 }  // namespace semblante

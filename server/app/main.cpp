@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/app/commands.h"
+#include "server/app/installed_files.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_play_command(app);
   add_propose_command(app);
   add_restore_command(app);
+  add_say_command(app, sample_head_file().string());
   add_serve_command(app);
   add_token_command(app);
   add_version_command(app);
@@ -37,10 +39,11 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   } catch (const CLI::RequiredError& fault) {
     const bool has_command = !app.get_subcommands().empty();
     std::cerr << "semblante: "
-              << (has_command ? fault.what()
-                              : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, "
-                                "serve, doctor, token, "
-                                "check, backup or restore (see semblante --help)")
+              << (has_command
+                      ? fault.what()
+                      : "give a subcommand: parametrize, deform, convert, examine, extract, play, propose, say, "
+                        "serve, doctor, token, "
+                        "check, backup or restore (see semblante --help)")
               << "\n";
     return CommandFailure::bad_input;
   } catch (const CLI::ParseError& fault) {

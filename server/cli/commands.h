@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -17,5 +19,7 @@ void add_examine_command(CLI::App& app);
 void add_extract_command(CLI::App& app);
 void add_play_command(CLI::App& app);
 void add_propose_command(CLI::App& app);
+/// `sample_head`: the file that `--model sample` means; empty: there is none.
+void add_say_command(CLI::App& app, const std::string& sample_head);
 
 }  // namespace semblante

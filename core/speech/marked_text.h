@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/speech/utterance.h"
+#include "core/types/result.h"
+
+namespace semblante {
+
+/// An expression over a part of a text. 1..6: joy sadness anger fear disgust surprise.
+struct EmotionSpan {
+  std::uint8_t expression = 0;
+  double intensity = 1.0;  ///< 0..1
+  TextRange range;         ///< characters of the text to say
+};
+
+/// A text to say, and the expressions that its marks stand for.
+struct MarkedText {
+  std::string text;  ///< without marks
+  std::vector<EmotionSpan> emotions;
+};
+
+/// 1..6 of "joy" and so on; 0 of "neutral" and "none"; -1 of anything else.
+int expression_of(std::string_view name);
+
+/// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", which nest; emoticons
+/// (":)", ":-(") and emoji. A smiley colours the sentence that it stands in, or ends; before the first word, the first
+/// one. Brackets with other words in them are text. Errors name the byte: a span that is not closed, or closed and not
+/// open; an intensity that is not 0 to 1.
+Result<MarkedText> read_marked_text(std::string_view text);
+
+/// How an expression changes the voice: factors of rate and pitch at full intensity; 1 for none.
+struct Prosody {
+  double rate = 1.0, pitch = 1.0;
+};
+/// The mean over the characters of a text.
+Prosody prosody_of(const MarkedText& text);
+
+}  // namespace semblante

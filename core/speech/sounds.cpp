@@ -1,0 +1,54 @@
+#include "core/speech/sounds.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/speech/sounds_tables.h"
+#include "core/types/printable.h"
+
+namespace semblante {
+namespace {
+
+const std::array<SoundTable, 2>& tables() {
+  static const std::array<SoundTable, 2> all = {sounds::english, sounds::portuguese};
+  return all;
+}
+
+constexpr Sound neutral = {"", sounds::e, sounds::a, 0.6F, 0.5F, SoundKind::vowel};
+
+const SoundTable* find_table(std::string_view language) {
+  std::string primary(language.substr(0, language.find('-')));
+  std::transform(primary.begin(), primary.end(), primary.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const auto at = std::find_if(tables().begin(), tables().end(),
+                               [&](const SoundTable& table) { return table.language == primary; });
+  return at == tables().end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+std::span<const SoundTable> sound_tables() { return tables(); }
+
+bool has_sound_table(std::string_view language) { return find_table(language) != nullptr; }
+
+const SoundTable& sound_table(std::string_view language) {
+  const SoundTable* const table = find_table(language);
+  return table != nullptr ? *table : tables().front();
+}
+
+std::vector<Sound> sounds_of(const SoundTable& table, std::string_view symbol) {
+  std::vector<Sound> found;
+  while (!symbol.empty()) {
+    const Sound* longest = nullptr;
+    for (const Sound& sound : table.sounds)
+      if (symbol.starts_with(sound.ipa) && (longest == nullptr || sound.ipa.size() > longest->ipa.size()))
+        longest = &sound;
+    if (longest != nullptr) found.push_back(*longest);
+    symbol.remove_prefix(longest != nullptr ? longest->ipa.size()
+                                            : std::max<std::size_t>(1, std::min(symbol.size(), utf8_length(symbol))));
+  }
+  if (found.empty()) found.push_back(neutral);
+  return found;
+}
+
+}  // namespace semblante

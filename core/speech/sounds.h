@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace semblante {
+
+/// What a sound does with mouth and jaw, as coarticulation needs it: who gives way to whom.
+enum class SoundKind : std::uint8_t {
+  silence,
+  vowel,
+  round_vowel,
+  both_lips,        ///< p b m: closes completely
+  lip_and_teeth,    ///< f v
+  tongue_tip,       ///< t d n l: the lips are free
+  hiss,             ///< s z: the teeth are nearly closed
+  round_consonant,  ///< ʃ ʒ ɹ: lips forward
+  tongue_back,      ///< k ɡ ŋ: lips and jaw are free
+  throat            ///< h ʔ: the mouth is that of its neighbours
+};
+
+/// A sound of IPA as a mixture of two visemes of MPEG-4: `share` of the first, the rest of the other; `open` times
+/// their displacements.
+struct Sound {
+  std::string_view ipa;
+  std::uint8_t viseme;
+  std::uint8_t other;
+  float share;
+  float open;
+  SoundKind kind;
+};
+
+struct SoundTable {
+  std::string_view language;  ///< BCP 47, the primary subtag
+  std::string_view source;    ///< where its symbols and their articulation are described
+  std::span<const Sound> sounds;
+};
+
+std::span<const SoundTable> sound_tables();
+/// The table of "pt-BR" or "en"; of English for a language without one, whose vowels and consonants it reads by IPA.
+const SoundTable& sound_table(std::string_view language);
+bool has_sound_table(std::string_view language);
+
+/// The sounds of one symbol, in order: one, or several of a diphthong or a syllable ("aɪ", "əl"). Marks of length,
+/// stress, nasality and syllables are skipped; a symbol of unknown letters alone is a neutral vowel.
+std::vector<Sound> sounds_of(const SoundTable& table, std::string_view symbol);
+
+namespace sounds {
+enum Viseme : std::uint8_t { sil, p_b_m, f_v, th, t_d, k_g, ch_j_sh, s_z, n_l, r, a, e, i, o, u };
+}
+
+}  // namespace semblante

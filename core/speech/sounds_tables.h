@@ -1,0 +1,10 @@
+#pragma once
+
+#include "core/speech/sounds.h"
+
+namespace semblante::sounds {
+
+extern constinit const SoundTable english;     ///< sounds_en.cpp
+extern constinit const SoundTable portuguese;  ///< sounds_pt.cpp
+
+}  // namespace semblante::sounds

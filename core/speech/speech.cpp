@@ -1,0 +1,70 @@
+#include "core/speech/speech.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/speech/life.h"
+#include "core/speech/loudness.h"
+#include "core/speech/mouth.h"
+#include "core/speech/segments.h"
+
+namespace semblante {
+namespace {
+
+/// When the words of a range are said: from the first one's beginning to the last one's end.
+std::optional<Interval> time_of(const TextRange& range, const Utterance& utterance, std::span<const Segment> segments) {
+  std::optional<Interval> found;
+  for (std::size_t i = 0; i < utterance.words.size(); ++i) {
+    const SpokenWord& word = utterance.words[i];
+    if (word.range.first >= range.first + range.count || word.range.first + word.range.count <= range.first) continue;
+    double end = i + 1 < utterance.words.size() ? utterance.words[i + 1].time : utterance.duration;
+    for (const Segment& segment : segments)
+      if (segment.is_silence() && segment.begin > word.time) {
+        end = std::min(end, segment.begin);
+        break;
+      }
+    if (!found) found = Interval{word.time, end};
+    found->end = std::max(found->end, end);
+  }
+  return found;
+}
+
+bool moves_brows(std::uint8_t expression) { return expression != 1; }  // joy leaves them at rest
+
+}  // namespace
+
+PerformanceScript speech_performance(const Utterance& utterance, std::span<const EmotionSpan> emotions,
+                                     const SpeechOptions& options) {
+  const Loudness loudness(utterance);
+  const auto segments = segments_of(utterance, sound_table(options.language), loudness);
+  PerformanceScript script;
+  script.name = options.name;
+  script.idle = IdleLife{.seed = options.seed, .blinks_per_minute = 0.0};
+  script.cues = mouth_cues(segments);
+
+  std::vector<Interval> brows_taken;
+  for (const EmotionSpan& span : emotions) {
+    if (span.expression == 0 || span.intensity <= 0.0) continue;
+    const auto said = time_of(span.range, utterance, segments);
+    if (!said) continue;
+    Cue cue;
+    cue.time = std::max(0.0, std::round(said->begin - emotion_lead_ms));
+    cue.duration = std::round(std::min(said->end + emotion_release_ms, utterance.duration) - cue.time);
+    if (!(*cue.duration > 0.0)) continue;
+    cue.attack = std::floor(std::min(emotion_lead_ms, 0.3 * *cue.duration));
+    cue.release = std::floor(std::min(emotion_release_ms, 0.6 * *cue.duration));
+    cue.target = ExpressionTarget{span.expression};
+    cue.value = span.intensity;
+    if (moves_brows(span.expression)) brows_taken.push_back({cue.time, cue.time + *cue.duration});
+    script.cues.push_back(std::move(cue));
+  }
+  for (Cue& cue : life_cues(segments, loudness, brows_taken, options.seed)) script.cues.push_back(std::move(cue));
+  std::stable_sort(script.cues.begin(), script.cues.end(), [](const Cue& a, const Cue& b) { return a.time < b.time; });
+  double end = utterance.duration;
+  for (const Cue& cue : script.cues) end = std::max(end, cue.time + cue.duration.value_or(1000.0));
+  script.duration = std::ceil(end);
+  return script;
+}
+
+}  // namespace semblante

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/performance/cue.h"
+#include "core/speech/marked_text.h"
+#include "core/speech/utterance.h"
+
+namespace semblante {
+
+/// Silence that a face needs around speech, ms: with_silence() adds it.
+inline constexpr double speech_lead_ms = 400.0, speech_tail_ms = 700.0;
+
+struct SpeechOptions {
+  std::string name;
+  std::string language;    ///< BCP 47; a language without a table of sounds is read by that of English
+  std::uint32_t seed = 0;  ///< of what the face does beside speaking
+};
+
+/// The face that says an utterance: mouth, expressions, and life, as cues on the time of the sound. An expression
+/// begins `emotion_lead_ms` before the first word of its range and dies away after the last. Deterministic.
+PerformanceScript speech_performance(const Utterance& utterance, std::span<const EmotionSpan> emotions,
+                                     const SpeechOptions& options);
+inline constexpr double emotion_lead_ms = 300.0, emotion_release_ms = 600.0;
+
+/// The words with their times as WebVTT: a cue for each sentence or, in long ones, part of it, with a time before each
+/// word. `text`: the one that was spoken.
+std::string web_vtt(const Utterance& utterance, std::string_view text);
+
+/// The sound as a WAV file, 16 bits, one channel.
+std::string wav(const Utterance& utterance);
+
+}  // namespace semblante

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "core/speech/speech.h"
+#include "core/types/printable.h"
+
+namespace semblante {
+namespace {
+
+constexpr std::size_t most_characters_a_cue = 70;
+constexpr double word_tail_ms = 800.0;  ///< how long the last word of a cue may stay, at most
+
+std::string time_text(double ms) {
+  const auto whole = static_cast<long long>(std::llround(std::max(0.0, ms)));
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%02lld:%02lld:%02lld.%03lld", whole / 3'600'000, whole / 60'000 % 60,
+                whole / 1000 % 60, whole % 1000);
+  return text.data();
+}
+
+/// The byte at which each character begins, and the end.
+std::vector<std::size_t> character_offsets(std::string_view text) {
+  std::vector<std::size_t> offsets;
+  for (std::size_t at = 0; at < text.size(); at += std::max<std::size_t>(1, utf8_length(text.substr(at))))
+    offsets.push_back(at);
+  offsets.push_back(text.size());
+  return offsets;
+}
+
+/// Text as WebVTT has it: on one line, without markup.
+std::string plain(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else
+      safe += c == '\n' || c == '\t' || c == '\r' ? ' ' : c;
+  }
+  const std::size_t first = safe.find_first_not_of(' ');
+  if (first == std::string::npos) return {};
+  return safe.substr(first, safe.find_last_not_of(' ') - first + 1);
+}
+
+void append_number(std::string& bytes, std::uint32_t value, int count) {
+  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
+}
+
+}  // namespace
+
+std::string web_vtt(const Utterance& utterance, std::string_view text) {
+  const auto offsets = character_offsets(text);
+  const auto byte_of = [&](std::size_t character) { return offsets[std::min(character, offsets.size() - 1)]; };
+  const auto& words = utterance.words;
+  std::string vtt = "WEBVTT\n";
+  for (std::size_t first = 0; first < words.size();) {
+    // To the end of the sentence, or where the line is full.
+    const auto sentence = std::upper_bound(utterance.sentences.begin(), utterance.sentences.end(), words[first].time,
+                                           [](double time, const SpokenSentence& s) { return time < s.time; });
+    std::size_t last = first + 1;
+    while (last < words.size() && (sentence == utterance.sentences.end() || words[last].time < sentence->time) &&
+           words[last].range.first + words[last].range.count <= words[first].range.first + most_characters_a_cue &&
+           words[last].range.first >= words[last - 1].range.first)
+      ++last;
+    const bool is_end = last == words.size();
+    const double end =
+        std::min(is_end ? utterance.duration : words[last].time, words[last - 1].time + word_tail_ms + 200.0);
+    if (end > words[first].time) {
+      vtt += "\n" + time_text(words[first].time) + " --> " + time_text(end) + "\n";
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t begin = byte_of(words[i].range.first);
+        const std::size_t own_end = byte_of(words[i].range.first + words[i].range.count);
+        // With the signs that follow the word.
+        const bool is_last_in_cue = i + 1 == last;
+        const bool is_very_last = i + 1 == words.size();
+        std::size_t until = is_very_last ? text.size() : byte_of(words[i + 1].range.first);
+        if (until < own_end) until = own_end;
+        const std::string word = plain(text.substr(begin, until - begin));
+        if (i > first && words[i].time > words[first].time && words[i].time < end)
+          vtt += "<" + time_text(words[i].time) + ">";
+        vtt += word + (is_last_in_cue ? "\n" : " ");
+      }
+    }
+    first = last;
+  }
+  return vtt;
+}
+
+std::string wav(const Utterance& utterance) {
+  const auto size = static_cast<std::uint32_t>(utterance.samples.size() * 2);
+  std::string bytes = "RIFF";
+  append_number(bytes, 36 + size, 4);
+  bytes += "WAVEfmt ";
+  append_number(bytes, 16, 4);
+  append_number(bytes, 1, 2);  // PCM
+  append_number(bytes, 1, 2);  // channels
+  append_number(bytes, utterance.sample_rate, 4);
+  append_number(bytes, utterance.sample_rate * 2, 4);
+  append_number(bytes, 2, 2);   // bytes of a frame
+  append_number(bytes, 16, 2);  // bits of a sample
+  bytes += "data";
+  append_number(bytes, size, 4);
+  bytes.reserve(bytes.size() + size);
+  for (const std::int16_t sample : utterance.samples) append_number(bytes, static_cast<std::uint16_t>(sample), 2);
+  return bytes;
+}
+
+}  // namespace semblante
