@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/performance/performance.h"
+#include "core/performance/sine_and_cosine.h"
 #include "core/performance/usual_times.h"
 #include "core/tables/mpeg4.h"
 #include "core/types/decimal.h"
@@ -213,9 +214,11 @@ struct Performance::Compiler {
     if (!std::isfinite(target.distance)) return look;
     const double yaw = target.yaw * std::numbers::pi / 180.0;
     const double pitch = target.pitch * std::numbers::pi / 180.0;
-    const double x = target.distance * std::cos(pitch) * std::sin(yaw);
-    const double y = -target.distance * std::sin(pitch);
-    const double z = target.distance * std::cos(pitch) * std::cos(yaw);
+    const auto [sine_of_yaw, cosine_of_yaw] = sine_and_cosine(yaw);
+    const auto [sine_of_pitch, cosine_of_pitch] = sine_and_cosine(pitch);
+    const double x = target.distance * cosine_of_pitch * sine_of_yaw;
+    const double y = -target.distance * sine_of_pitch;
+    const double z = target.distance * cosine_of_pitch * cosine_of_yaw;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const double from_eye = x - (eye == 0 ? 0.5 : -0.5);  // the left eye is half an eye distance along +x
       look.eye_yaw[eye] = degrees(std::atan2(from_eye, z)) - target.yaw;

@@ -27,7 +27,6 @@ struct FapGroup {
 struct Fap {
   std::uint8_t number;  ///< 1..68
   std::string_view name;
-  std::string_view description;
   std::uint8_t group;
   FapKind kind;
   Unit unit;
@@ -74,7 +73,6 @@ struct VisemeInfo {
 
 struct ExpressionInfo {
   std::string_view name;
-  std::string_view description;
 };
 
 /// A feature point that follows another one.

@@ -78,7 +78,7 @@ std::string fap_table() {
   std::string out = header(
       {"FAP", "name", "group", "FP", "motion", "unit", "directions", "step", "range", "what a positive value does"});
   for (const mpeg4::Fap& fap : mpeg4::faps) {
-    const std::string what(fap.description);
+    const std::string what(mpeg4::fap_descriptions[fap.number - 1]);
     const std::string unit(mpeg4::unit_names[static_cast<std::size_t>(fap.unit)]);
     if (fap.kind == mpeg4::FapKind::high_level) {
       out += row({number(fap.number), code(fap.name), number(fap.group), "", motion_of(fap), "", "", "", "", what});

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
@@ -111,8 +113,6 @@ class Reader {
     if (announced != static_cast<double>(lines_of_frames_.size())) {
       note(FapFileOddity::count_differs, header_line_);
     }
-    std::sort(reading_.warnings.begin(), reading_.warnings.end(),
-              [](const FapFileWarning& a, const FapFileWarning& b) { return a.oddity < b.oddity; });
     return std::move(reading_);
   }
 
@@ -131,14 +131,15 @@ class Reader {
     return value.value_or(0.0);
   }
 
+  /// Warnings are in the order of the oddities.
   void note(FapFileOddity oddity, std::uint32_t line) {
-    for (auto& warning : reading_.warnings) {
-      if (warning.oddity == oddity) {
-        ++warning.count;
-        return;
-      }
+    auto at = reading_.warnings.begin();
+    while (at != reading_.warnings.end() && at->oddity < oddity) ++at;
+    if (at != reading_.warnings.end() && at->oddity == oddity) {
+      ++at->count;
+    } else {
+      reading_.warnings.insert(at, {oddity, line, 1});
     }
-    reading_.warnings.push_back({oddity, line, 1});
   }
 
   /// Reads `version name rate count`; the name may contain blanks. Returns the count.
@@ -329,19 +330,33 @@ class Reader {
   }
 
   /// Sorts frames by number, starting from 0, without duplicates.
+  /// By number; of frames with the same number the last one stays.
+  static void sort_frames(std::vector<FapFileFrame>& frames) {
+    std::vector<std::uint64_t> order(frames.size());  // number, then place in the file
+    for (std::size_t i = 0; i < frames.size(); ++i) order[i] = std::uint64_t{frames[i].number} << 32U | i;
+    const auto does_not_rise = [](std::uint64_t a, std::uint64_t b) { return a >> 32U >= b >> 32U; };
+    if (std::adjacent_find(order.begin(), order.end(), does_not_rise) == order.end()) return;
+    std::make_heap(order.begin(), order.end());
+    std::sort_heap(order.begin(), order.end());
+    std::vector<FapFileFrame> sorted;
+    sorted.reserve(frames.size());
+    for (const std::uint64_t key : order) {
+      const FapFileFrame& frame = frames[key & 0xffffffffU];
+      if (!sorted.empty() && sorted.back().number == frame.number) {
+        sorted.back() = frame;
+      } else {
+        sorted.push_back(frame);
+      }
+    }
+    frames = std::move(sorted);
+  }
+
   void order_frames() {
     auto& frames = reading_.file.frames;
     for (std::size_t i = 1; i < frames.size(); ++i) {
       if (frames[i].number <= frames[i - 1].number) note(FapFileOddity::numbers_not_rising, lines_of_frames_[i]);
     }
-    std::stable_sort(frames.begin(), frames.end(),
-                     [](const FapFileFrame& a, const FapFileFrame& b) { return a.number < b.number; });
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < frames.size(); ++i) {
-      if (frames[i].number != frames[kept].number) ++kept;
-      if (kept != i) frames[kept] = frames[i];
-    }
-    frames.resize(kept + 1);
+    sort_frames(frames);
     const std::uint32_t first = frames.front().number;
     if (first != 0) note(FapFileOddity::first_number_not_zero, lines_of_frames_.front());
     if (frames.back().number - first > max_fap_file_number) {

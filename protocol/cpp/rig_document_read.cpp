@@ -112,8 +112,10 @@ void displacement_sets(const JsonCursor& at, std::array<RigDocument::Displacemen
     for (const auto& [name, value] : elements[i].member("displacements").members()) {
       sets[i].displacements.push_back({point_id(value, name), vec3(value)});
     }
-    std::sort(sets[i].displacements.begin(), sets[i].displacements.end(),
-              [](const auto& a, const auto& b) { return a.id < b.id; });
+    // By heap, which is a fifth of the code of std::sort.
+    const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+    std::make_heap(sets[i].displacements.begin(), sets[i].displacements.end(), by_id);
+    std::sort_heap(sets[i].displacements.begin(), sets[i].displacements.end(), by_id);
   }
 }
 

@@ -125,15 +125,17 @@ std::string render_cpp_header(const TableData& data) {
     const json points = fap.value("feature_points", json::array());
     const json levels = fap.value("levels", json::array({0, 0}));
     const json usual = fap.value("usual", json::array({0, 0}));
-    out << "    {" << fap["number"] << ", " << quoted(fap["name"]) << ",\n     " << quoted(fap["description"])
-        << ",\n     " << fap["group"] << ", FapKind::" << fap["kind"].get<std::string>()
-        << ", Unit::" << lower(fap.value("unit", "none")) << ", "
+    out << "    {" << fap["number"] << ", " << quoted(fap["name"]) << ", " << fap["group"]
+        << ", FapKind::" << fap["kind"].get<std::string>() << ", Unit::" << lower(fap.value("unit", "none")) << ", "
         << (fap.value("directionality", "U") == "B" ? "true" : "false") << ", " << axis << ", " << sign << ", {";
     for (std::size_t i = 0; i < points.size(); ++i) out << (i == 0 ? "" : ", ") << index_of(data, points[i]);
     out << "}, " << points.size() << ", " << fap.value("mirror", 0) << ", " << fap.value("mirror_sign", 0) << ", "
         << fap.value("quantizer_step", 1) << ", " << levels[0] << ", " << levels[1] << ", " << usual[0] << ", "
         << usual[1] << "},\n";
   }
+  out << "}};\n\n// Apart, so that a program without use for them does not contain them.\n";
+  array("std::string_view", "fap_descriptions", data.faps["faps"].size());
+  for (const json& fap : data.faps["faps"]) out << "    " << quoted(fap["description"]) << ",\n";
   out << "}};\n\n";
   array("FeaturePointInfo", "feature_points", data.feature_points["feature_points"].size());
   for (const json& point : data.feature_points["feature_points"]) {
@@ -163,7 +165,7 @@ std::string render_cpp_header(const TableData& data) {
   out << "}};\n\n";
   array("ExpressionInfo", "expressions", data.high_level["expressions"].size());
   for (const json& expression : data.high_level["expressions"]) {
-    out << "    {" << quoted(expression["name"]) << ", " << quoted(expression["description"]) << "},\n";
+    out << "    {" << quoted(expression["name"]) << "},\n";
   }
   out << "}};\n\n";
   array("Companion", "companions", data.companions["companions"].size() + data.companions["lower_lip"].size());
