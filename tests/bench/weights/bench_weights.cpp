@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "core/parametrize/weights.h"
 #include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/candidate_weights.h"
+#include "tests/bench/weights/error_regions.h"
 #include "tests/bench/weights/expression_study.h"
 #include "tests/bench/weights/fitted_shares.h"
 #include "tests/bench/weights/smooth_shares.h"
@@ -54,6 +56,32 @@ void print_fitted(const char* name, const ExpressionStudy& study, const Expressi
   const FittedShares fitted = fitted_shares(study, teacher, prior);
   print(name, study, fitted.shares);
   std::printf("  each shape left out: E %.3f, of smooth weights %.3f\n", fitted.fit.error(), fitted.fit.smooth_error());
+}
+
+constexpr WeightPrior::Entry without_measured[] = {
+#include "tests/golden/parametrize/prior_without_measured.inc"
+};
+constexpr WeightPrior::Entry without_makehuman[] = {
+#include "tests/golden/parametrize/prior_without_makehuman.inc"
+};
+
+void print_region_row(const char* name, const ByRegion& values) {
+  std::printf("%-22s %6.3f", name, std::accumulate(values.begin(), values.end(), 0.0));
+  for (const double value : values) std::printf(" %8.4f", value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+/// Where the error of smooth weights lies, by a prior that has not seen the expressions, and where the least possible
+/// one does.
+void print_regions(const char* head, const ExpressionStudy& study, const WeightPrior& unseen) {
+  std::printf("\n%s: what each region adds to E\n\n%-22s %6s", head, "", "E");
+  for (const std::string_view name : region_names) std::printf(" %8s", std::string(name).c_str());
+  std::printf("\n");
+  print_region_row("no motion", motion_by_region(study));
+  print_region_row("smooth, prior unseen", error_by_region(study, smooth_shares(study, unseen)));
+  print_region_row("least of 8 influences", error_by_region(study, best_shares(study, 8)));
+  print_region_row("least of 4 influences", error_by_region(study, best_shares(study, 4)));
 }
 
 template <class Work>
@@ -166,6 +194,8 @@ void run(const std::filesystem::path& folder) {
   print("smooth", other, smooth_shares(other, trained_weight_prior()));
   print("smooth, no prior", other, smooth_shares(other, {}));
   print_fitted("fitted", other, other, trained_weight_prior());
+  print_regions("ict-facekit", study, WeightPrior(without_measured));
+  print_regions("makehuman", other, WeightPrior(without_makehuman));
   std::printf("\nseconds for all points, and whole parametrizations as multiples of the baseline's distances\n");
   std::printf("%-14s %8s %8s %9s %9s %7s %7s\n", "mesh", "vertices", "points", "baseline", "distances", "paper",
               "smooth");
