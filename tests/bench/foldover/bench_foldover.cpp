@@ -57,6 +57,8 @@ void print_closure(const PosedFace& face) {
       {"lips in p_b_m", OpeningKind::mouth, frame_of(1, 0)},
       {"lids half shut", OpeningKind::left_eye, frame_of({{19, 512.0F}, {20, 512.0F}})},
       {"left lids shut", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
+      {"shut, looks up", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {25, -34907.0F}})},
+      {"shut, looks down", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {25, 34907.0F}})},
       {"right lids shut", OpeningKind::right_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
   };
   for (const Shut& shut : shuts) {
@@ -66,8 +68,8 @@ void print_closure(const PosedFace& face) {
       continue;
     }
     const Closure c = opening->measure(face.pose(shut.frame));
-    std::printf("  %-16s slit %5.1f %%  crossing %5.1f %% in %zu columns\n", shut.name, 100.0 * c.slit,
-                100.0 * c.crossing, c.crossing_columns);
+    std::printf("  %-16s slit %5.1f %%  crossing %5.1f %% in %zu columns  pierced %5.1f %%\n", shut.name,
+                100.0 * c.slit, 100.0 * c.crossing, c.crossing_columns, 100.0 * c.pierced);
   }
 }
 

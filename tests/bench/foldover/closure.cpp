@@ -119,7 +119,11 @@ struct Section {
     return range;
   }
 
-  [[nodiscard]] double slit() const {
+  struct Visible {
+    double slit = 0.0;
+    double pierced = 0.0;
+  };
+  [[nodiscard]] Visible visible() const {
     const auto [from, to] = range(0);
     const double step = (to - from) / static_cast<double>(samples - 1);
     enum class Seen : std::uint8_t { nothing, skin, inside, upper, lower };
@@ -140,15 +144,25 @@ struct Section {
     draw(lower, Seen::lower);
     const auto last_lower = std::find(seen.rbegin(), seen.rend(), Seen::lower);
     const auto first_upper = std::find(last_lower.base(), seen.end(), Seen::upper);
+    const auto is_lid = [](Seen what) { return what == Seen::upper || what == Seen::lower; };
+    const auto is_enclosed = [&](auto at) {
+      return std::any_of(seen.begin(), at, is_lid) && std::any_of(at, seen.end(), is_lid);
+    };
     std::size_t run = 0;
     std::size_t longest = 0;
+    std::size_t pierced = 0;
+    std::size_t longest_pierced = 0;
     for (auto at = seen.begin(); at != seen.end(); ++at) {
       const bool between = at >= last_lower.base() && at < first_upper && first_upper != seen.end();
       run = *at == Seen::inside || *at == Seen::nothing || (*at == Seen::skin && between) ? run + 1 : 0;
       longest = std::max(longest, run);
+      // Below the highest of the lower or above the lowest of the upper, but within both.
+      pierced = *at == Seen::inside && !between && is_enclosed(at) ? pierced + 1 : 0;
+      longest_pierced = std::max(longest_pierced, pierced);
     }
     // One sample may fall between the ends of two segments.
-    return longest > 1 ? static_cast<double>(longest) * step : 0.0;
+    const auto length = [step](std::size_t run) { return run > 1 ? static_cast<double>(run) * step : 0.0; };
+    return {length(longest), length(longest_pierced)};
   }
 
   /// How far down upper reaches into lower at most, at one z.
@@ -237,7 +251,9 @@ std::vector<Closure> Opening::columns_of(std::span<const glm::vec3> moved) const
     }
     Closure column;
     if (!section.upper.empty() && !section.lower.empty()) {
-      column.slit = section.slit() / unit_;
+      const Section::Visible visible = section.visible();
+      column.slit = visible.slit / unit_;
+      column.pierced = visible.pierced / unit_;
       column.crossing_columns = section.crosses() ? 1 : 0;
       if (column.crossing_columns == 1) column.crossing = section.overlap() / unit_;
     }
@@ -251,6 +267,7 @@ Closure Opening::measure(std::span<const glm::vec3> moved) const {
   for (const Closure& column : columns_of(moved)) {
     worst.slit = std::max(worst.slit, column.slit);
     worst.crossing = std::max(worst.crossing, column.crossing);
+    worst.pierced = std::max(worst.pierced, column.pierced);
     worst.crossing_columns += column.crossing_columns;
   }
   return worst;

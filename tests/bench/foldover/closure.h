@@ -20,6 +20,9 @@ struct Closure {
   /// Where the surfaces of both cross: how far one reaches into the other, along y.
   double crossing = 0.0;
   std::size_t crossing_columns = 0;
+  /// Seen likewise: the longest way up a column that shows the inside above the edge of the upper or below that of the
+  /// lower, where a lip or lid should cover it.
+  double pierced = 0.0;
 };
 
 /// Upper and lower lip or lid of a head: the vertices nearer to the points of the one than to those of the other.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "core/parametrize/place_feature_points.h"
 #include "tests/oracle/real_heads.h"
@@ -47,6 +48,19 @@ std::vector<Head> known_heads() {
   add("ict-facekit", "neutral.obj", "ict-facekit.fps.json");
   add("makehuman", "head.glb", "makehuman.fps.json");
   add("mediapipe-canonical", "face_model_with_iris.obj", "mediapipe-canonical.fps.json");
+  return heads;
+}
+
+std::vector<Head> heads_with_lids() {
+  std::vector<Head> heads = known_heads();
+  std::erase_if(heads, [](const Head& head) { return head.name == "mediapipe-canonical"; });
+  for (const testing::FamilyMember& member : testing::sample_family()) {
+    if (member.traits == SampleHeadTraits{} || member.traits.form == SampleHeadForm::scan) continue;
+    if (member.traits.closed_eyes) continue;  // there is no way to roll
+    Head head{member.name, testing::sample_head_model(member.traits), {}, testing::sample_head_points(member.traits)};
+    head.surface = build_surface(head.model);
+    heads.push_back(std::move(head));
+  }
   return heads;
 }
 

@@ -23,6 +23,8 @@ struct Head {
 /// Our own head, then those of the folder of real heads where there is one. Throws where a file cannot be read.
 std::vector<Head> known_heads();
 Head sample_head();
+/// Those of them with eyes and lids of their own, and the members of the sample head's family that have such.
+std::vector<Head> heads_with_lids();
 
 /// A head with weights, that takes poses.
 class PosedFace {

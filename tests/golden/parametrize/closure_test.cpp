@@ -63,6 +63,43 @@ TEST(Blink, ShutsTheEyeWithWeightsFittedToOwnShapes) {
   if (fitted == 0) GTEST_SKIP() << "no head with shapes of its own";
 }
 
+struct LidPose {
+  const char* name;
+  float upper, lower;  ///< shares of the opening, of the left eye
+  float slit_at_most, slit_at_least;
+};
+
+/// Each with the gaze straight on, 20 degrees up and down: open lids follow it.
+constexpr LidPose lid_poses[] = {
+    {"upper half", 0.5F, 0.0F, 0.65F, 0.33F},  {"both half", 0.25F, 0.25F, 0.65F, 0.33F},
+    {"upper alone", 1.0F, 0.0F, 0.01F, 0.0F},  {"both", 0.7F, 0.3F, 0.01F, 0.0F},
+    {"lower alone", 0.0F, 1.0F, 0.025F, 0.0F},
+};
+
+TEST(Blink, OfOneEye_ShutsItWhateverTheGaze_AndTheBallIsNeverPierced) {
+  constexpr float most = 34907.0F;  // 20 degrees
+  for (const bench::Head& head : bench::heads_with_lids()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    const auto eye = Opening::find(face, OpeningKind::left_eye);
+    const auto other = Opening::find(face, OpeningKind::right_eye);
+    ASSERT_TRUE(eye && other) << head.name;
+    for (const LidPose& pose : lid_poses) {
+      for (const float pitch : {-most, 0.0F, most}) {
+        const auto moved = face.pose(
+            bench::frame_of({{19, 1024.0F * pose.upper}, {21, 1024.0F * pose.lower}, {25, pitch}, {26, pitch}}));
+        const Closure c = eye->measure(moved);
+        const Closure open = other->measure(moved);
+        const std::string words = head.name + ", " + pose.name + ", pitch " + std::to_string(pitch);
+        EXPECT_LE(c.slit, pose.slit_at_most) << words;
+        EXPECT_GE(c.slit, pose.slit_at_least) << words;
+        EXPECT_LE(c.pierced, 0.0) << words;
+        EXPECT_LE(open.pierced, 0.0) << words;
+        EXPECT_GT(open.slit, 0.5) << words;
+      }
+    }
+  }
+}
+
 TEST(Blink, IsHalfDoneHalfWay) {
   for (const bench::Head& head : heads()) {
     const PosedFace face(head, WeightMethod::smooth);
