@@ -83,7 +83,7 @@ function coverageRows(coverage: Coverage | null): Child {
     row(uncoveredColour, 'No point', share(none), true),
     row(littleColour, `< ${percent(littleWeight)}`, share(little)),
     row(coveredColour, 'Covered', share(covered)),
-    row(restColour, 'No skin'),
+    row(restColour, 'Not skin'),
   ];
 }
 
