@@ -7,11 +7,14 @@ import {
   Vector3,
   type BufferAttribute,
   type Camera,
+  type Intersection,
   type Material,
   type Object3D,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
+import type { PartRole } from '@protocol/rig_document.ts';
+import { pickThrough, type Meeting } from './pick_through.ts';
 import { findHead, type Box } from './head_box.ts';
 
 /** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
@@ -20,6 +23,15 @@ export interface Pick {
   /** Part index, or null for a model imported by a version that did not store parts. */
   part: number | null;
   position: [number, number, number];
+}
+
+/** The parts that a pick is meant for. */
+export interface Meant {
+  roles: readonly PartRole[];
+  /** The role of a part by its index. */
+  roleOf: (part: number) => PartRole | null;
+  /** How far behind the first surface they may lie, model units. */
+  depth: number;
 }
 
 /** Room below the chin, in heights of the head. */
@@ -92,10 +104,14 @@ export class PreviewView {
     return found;
   }
 
-  /** `x`, `y`: normalized device coordinates, -1..1 from the lower left. */
-  pick(x: number, y: number, camera: Camera): Pick | null {
+  /**
+   * `x`, `y`: normalized device coordinates, -1..1 from the lower left. `meant`: the parts that are meant, behind others too;
+   * without it the first surface is.
+   */
+  pick(x: number, y: number, camera: Camera, meant: Meant | null = null): Pick | null {
     this.raycaster.setFromCamera(this.pointer.set(x, y), camera);
-    const hit = this.raycaster.intersectObjects(this.meshes, false)[0];
+    const hits = this.raycaster.intersectObjects(this.meshes, false);
+    const hit = hits[meant ? pickThrough(hits.map((one) => this.meeting(one, meant)), meant.roles, meant.depth) : 0];
     if (!hit?.face) return null;
     const mesh = hit.object as Mesh;
     const position = mesh.geometry.getAttribute('position') as BufferAttribute;
@@ -117,6 +133,16 @@ export class PreviewView {
       part: mesh.geometry.hasAttribute('_part') ? partOf(mesh.geometry, best) : null,
       position: [corner.x, corner.y, corner.z],
     };
+  }
+
+  private meeting({ object, face, distance }: Intersection, { roleOf }: Meant): Meeting {
+    const { geometry } = object as Mesh;
+    const part = face && geometry.hasAttribute('_part') ? partOf(geometry, face.a) : null;
+    // The normals of the vertices, since files turn triangles as they like.
+    const outside = face
+      ? corner.fromBufferAttribute(geometry.getAttribute('normal') as BufferAttribute, face.a).dot(this.raycaster.ray.direction) < 0
+      : false;
+    return { distance, role: part === null ? null : roleOf(part), outside };
   }
 
   /** The triangles of a part, one geometry per mesh that has any; they share the preview's vertex buffers. */

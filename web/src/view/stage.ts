@@ -116,6 +116,11 @@ export class Stage {
     this.dirty = true;
   }
 
+  /** Half the size of what `frameObject` framed, model units. */
+  get headRadius(): number {
+    return this.radius;
+  }
+
   onFrame(hook: FrameHook): void {
     this.hooks.push(hook);
   }

@@ -4,6 +4,7 @@ import { formatBytes } from '../shared/format.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { pointById } from '../../face/feature_points.ts';
 import type { PointsModel } from '../points/points_model.ts';
+import { rolesOfPoint } from '../../view/pick_through.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { overlayCard } from './stage_overlay.ts';
 import type { Signal } from '../shared/signal.ts';
@@ -15,6 +16,9 @@ const views: { name: ViewName; label: string; key: string }[] = [
   { name: 'left', label: 'Left', key: '3' },
   { name: 'right', label: 'Right', key: '4' },
 ];
+
+/** How deep a click on a point goes through lashes, glasses and hair, in radii of the head. */
+const throughDepth = 0.3;
 
 /** The stage with its tools: views, wireframe, deformation path, and placing of feature points with the pointer. */
 export class StagePanel {
@@ -158,7 +162,13 @@ export class StagePanel {
 
   /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   private placeAt(x: number, y: number): void {
-    const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera);
+    const { chosen } = this.points;
+    const parts = this.studio.selected.value?.parts ?? [];
+    const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera, {
+      roles: rolesOfPoint(chosen.value ?? ''),
+      roleOf: (part) => parts.find(({ index }) => index === part)?.role ?? null,
+      depth: this.scene.stage.headRadius * throughDepth,
+    });
     if (pick) this.points.place(pick.fileVertex, pick.position);
   }
 
