@@ -13,7 +13,7 @@ constexpr std::size_t viseme_count = 15;
 constexpr std::size_t pair_count = viseme_count * (viseme_count - 1) / 2;
 constexpr std::size_t kept_pairs = 16;    ///< of a step: the best ones
 constexpr float movement_weight = 1.0F;   ///< of an error in movement, against one in place
-constexpr float change_cost = 400.0F;     ///< of a new pair, in squared units: fewer cues to read
+constexpr float change_cost = 6000.0F;    ///< of a new pair, in squared units: fewer cues to read
 constexpr double closure_lead_ms = 12.0;  ///< how far before the sound the lips are closed
 constexpr double key_tolerance = 0.02;
 /// Within speech the mouth is never all at rest: Eq. 5 gives an expression the whole mouth then, and it would jump.
@@ -69,8 +69,23 @@ struct State {
   std::uint8_t from = 0;
 };
 
+using Visemes = std::array<bool, viseme_count>;
+
+/// The visemes of the sounds around a time, and rest: a mixture names sounds that are said.
+constexpr double around_ms = 130.0;
+Visemes visemes_around(double ms, std::span<const Segment> segments) {
+  Visemes visemes{};
+  visemes[sounds::sil] = true;
+  auto at = std::lower_bound(segments.begin(), segments.end(), ms - around_ms,
+                             [](const Segment& segment, double time) { return segment.end < time; });
+  for (; at != segments.end() && at->begin <= ms + around_ms; ++at)
+    visemes[at->sound.viseme] = visemes[at->sound.other] = true;
+  return visemes;
+}
+
 struct Step {
   double time = 0.0;
+  Visemes allowed{};
   MouthVector wanted{};
   bool closed = false, speaks = false;
   std::vector<State> states;
@@ -91,6 +106,7 @@ void fill(Step& step) {
   for (std::size_t p = 0; p < pair_count; ++p) {
     State state;
     state.pair = static_cast<std::uint8_t>(p);
+    if (!step.allowed[pairs()[p].first] || !step.allowed[pairs()[p].other]) continue;
     if (step.closed) {
       if (pairs()[p].first != sounds::p_b_m && pairs()[p].other != sounds::p_b_m) continue;
       state.share = pairs()[p].first == sounds::p_b_m ? 1.0F : 0.0F;
@@ -102,6 +118,7 @@ void fill(Step& step) {
     state.error = step.closed ? 0.0F : squared(state.mouth, step.wanted);
     step.states.push_back(state);
   }
+  if (step.states.empty()) step.states.push_back({});  // only rest is near: pair 0 with nothing of its first
   if (step.states.size() <= kept_pairs) return;
   std::nth_element(step.states.begin(), step.states.begin() + kept_pairs, step.states.end(),
                    [](const State& a, const State& b) { return a.error < b.error; });
@@ -207,6 +224,7 @@ std::vector<Cue> mouth_cues(std::span<const Segment> segments) {
     step.time = static_cast<double>(i) * mouth_step_ms;
     step.wanted = mouth_at(step.time, segments);
     step.closed = is_closed(step.time, segments);
+    step.allowed = visemes_around(step.time, segments);
     step.speaks = step.time >= speech_begin && step.time <= speech_end;
     fill(step);
   }

@@ -114,6 +114,9 @@ Result<bool> filter_system_calls() {
   // The kernel's own errors instead of one that stands for all.
   if (const int code = seccomp_attr_set(filter.get(), SCMP_FLTATR_API_SYSRAWRC, 1); code != 0)
     return failed("seccomp_attr_set", code);
+  // Threads that a library has started before.
+  if (const int code = seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1); code != 0)
+    return failed("seccomp_attr_set", code);
   if (const int code = add_rules(filter.get()); code != 0) return failed("seccomp_rule_add", code);
   if (const int code = seccomp_load(filter.get()); code != 0) {
     // A container's own filter may refuse the call that loads it.

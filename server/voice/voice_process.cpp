@@ -57,7 +57,7 @@ Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request
   jobs::WorkerLimits limits;
   limits.memory_bytes = program.memory_bytes;
   limits.cpu_seconds = program.cpu_seconds;
-  limits.file_bytes = 1U << 20U;
+  limits.file_bytes = std::uint64_t{128} << 20U;  // a library of sound may map a file of 64 MiB that it never fills
   VoiceAnswer answer;
   std::optional<Error> fault;
   const auto exit = jobs::run_worker_process(

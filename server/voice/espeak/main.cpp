@@ -1,5 +1,6 @@
 // A voice: reads a request, writes sound and what is said when (server/voice/README.md), by libespeak-ng.
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <iterator>
@@ -86,7 +87,11 @@ bool choose_voice(const VoiceRequest& request) {
   return espeak_SetVoiceByName(name.substr(0, name.find('-')).c_str()) == EE_OK;
 }
 
-/// From here on this process can compute and write to its pipe, nothing else.
+/// libespeak-ng makes a connection to a sound server that it does not use: there shall be none.
+void use_no_sound_server() { ::setenv("PULSE_SERVER", "unix:/nonexistent", 1); }
+
+/// From here on this process, with the thread that the library has started, can compute and write to its pipe, nothing
+/// else.
 std::string isolate() {
   const rlimit none{0, 0};
   if (::setrlimit(RLIMIT_NOFILE, &none) != 0) return "cannot forbid itself to open files";
@@ -103,6 +108,7 @@ int run() {
 
   PhonemeTrace trace;
   if (trace.stream() == nullptr) return refuse("there is not enough memory");
+  use_no_sound_server();
   const int rate =
       espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
                         espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);

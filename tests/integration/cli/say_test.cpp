@@ -1,0 +1,66 @@
+// `semblante say`: a text to a face, its sound and its captions.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/performance/performance.h"
+#include "protocol/cpp/performance_document.h"
+#include "tests/integration/cli/program.h"
+
+namespace semblante::test {
+namespace {
+
+constexpr const char* beeps = SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py";
+
+TEST(Say, AnyVoice_GivesAPerformanceSoundAndCaptions) {
+  const Workspace work;
+  const auto done =
+      run_semblante({"say", "Mamma mia! :)", "--language", "en", "--voice-program", beeps, "--out", work.path("a.json"),
+                     "--audio", work.path("a.wav"), "--captions", work.path("a.vtt")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto script = read_performance(read_text(work.path("a.json")));
+  ASSERT_TRUE(script.ok()) << script.error().message;
+  const auto face = Performance::compile(*script);
+  ASSERT_TRUE(face.ok()) << face.error().where << face.error().message;
+  const std::string sound = read_text(work.path("a.wav"));
+  EXPECT_EQ(sound.substr(0, 4), "RIFF");
+  // One clock: the face is as long as the sound.
+  EXPECT_NEAR(face->duration(), static_cast<double>(sound.size() - 44) / 16.0, 50.0);
+  bool smiles = false;
+  for (double ms = 0; ms < face->duration(); ms += 40) smiles |= face->frame_at(ms).expression1 == 1;
+  EXPECT_TRUE(smiles);
+  EXPECT_EQ(read_text(work.path("a.vtt")), "WEBVTT\n\n00:00:00.400 --> 00:00:01.840\nMamma <00:00:01.000>mia!\n");
+}
+
+TEST(Say, WithoutAVoiceOrWithHostileText_SaysWhatIsWrong) {
+  const Workspace work;
+  const auto fails = [&](std::vector<std::string> arguments, const char* reason) {
+    arguments.insert(arguments.begin(), "say");
+    arguments.insert(arguments.end(), {"--language", "en", "--out", work.path("a.json")});
+    const auto done = run_semblante(arguments);
+    EXPECT_NE(done.exit_code, 0) << reason;
+    EXPECT_NE(done.err.find(reason), std::string::npos) << done.err;
+  };
+  fails({"a", "--voice-program", "/nonexistent"}, "cannot start");
+  fails({"a\x02", "--voice-program", beeps}, "control character");
+  fails({std::string(20'001, 'a'), "--voice-program", beeps}, "longer than");
+  fails({"[joy]a", "--voice-program", beeps}, "not closed");
+  fails({"<!DOCTYPE x>", "--ssml", "--voice-program", beeps}, "declarations");
+  fails({"a", "--rate", "9", "--voice-program", beeps}, "--rate");
+}
+
+#ifdef SEMBLANTE_VOICE_ESPEAK
+TEST(Say, InPortuguese_IsAnAnimatedHead) {
+  const Workspace work;
+  const auto done = run_semblante({"say", "Olá!", "--language", "pt-BR", "--voice-program", SEMBLANTE_VOICE_ESPEAK,
+                                   "--out", work.path("a.json"), "--seed", "7"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto again = run_semblante({"say", "Olá!", "--language", "pt-BR", "--voice-program", SEMBLANTE_VOICE_ESPEAK,
+                                    "--out", work.path("b.json"), "--seed", "7"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_text(work.path("a.json")), read_text(work.path("b.json")));
+  EXPECT_NE(read_text(work.path("a.json")).find("\"a\""), std::string::npos);
+}
+#endif
+
+}  // namespace
+}  // namespace semblante::test

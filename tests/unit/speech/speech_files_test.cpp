@@ -1,0 +1,43 @@
+// Sound and captions of an utterance as files.
+#include <gtest/gtest.h>
+
+#include "core/speech/loudness.h"
+#include "core/speech/speech.h"
+
+namespace semblante {
+namespace {
+
+TEST(WebVtt, HasEachWordWithItsTime_ASentenceACue_AndNoMarkup) {
+  Utterance said;
+  said.duration = 3000;
+  said.words = {{400, {0, 3}}, {900, {5, 5}}, {1500, {12, 1}}};
+  said.sentences = {{400, 0}, {1500, 12}};
+  EXPECT_EQ(web_vtt(said, "Olá, mundo! <a&"),
+            "WEBVTT\n\n00:00:00.400 --> 00:00:01.500\nOlá, <00:00:00.900>mundo!\n\n"
+            "00:00:01.500 --> 00:00:02.500\n&lt;a&amp;\n");
+}
+
+TEST(WebVtt, WordsOutsideTheText_DoNoHarm) {
+  Utterance said;
+  said.duration = 2000;
+  said.words = {{10, {90, 3}}, {20, {1, 20000}}};
+  EXPECT_NE(web_vtt(said, "ab").find("WEBVTT"), std::string::npos);
+}
+
+TEST(Wav, HasItsHeader_AndSilenceAround) {
+  Utterance said;
+  said.sample_rate = 1000;
+  said.samples = {1, -2};
+  said.phonemes = {{1, "a"}};
+  said = with_silence(said, 3, 4);
+  EXPECT_EQ(said.samples.size(), 9U);
+  EXPECT_EQ(said.phonemes[0].time, 4);
+  EXPECT_EQ(said.duration, 9);
+  const std::string file = wav(said);
+  EXPECT_EQ(file.size(), 44U + 18U);
+  EXPECT_EQ(file.substr(0, 4) + file.substr(8, 8), "RIFFWAVEfmt ");
+  EXPECT_EQ(file.substr(44 + 6, 4), std::string("\x01\x00\xFE\xFF", 4));
+}
+
+}  // namespace
+}  // namespace semblante
