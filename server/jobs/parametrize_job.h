@@ -27,9 +27,9 @@ struct ParametrizeJob {
   std::string metric = "edge";
   std::string weights = "paper";
   int weight_bits = 12;
-  std::vector<std::uint32_t> lods;      ///< vertex budgets of the levels of detail, decreasing
-  std::string expressions = "library";  ///< or "own": those of the head's own shapes, where it has them
-  std::optional<double> articulation;   ///< empty: that of the head's own shapes, or the usual one
+  std::vector<std::uint32_t> lods;                    ///< vertex budgets of the levels of detail, decreasing
+  std::string expressions = "library";                ///< or "own": those of the head's own shapes, where it has them
+  std::optional<double> articulation = std::nullopt;  ///< empty: that of the head's own shapes, or the usual one
 
   struct Request;
   struct Outcome;
