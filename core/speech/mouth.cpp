@@ -180,7 +180,9 @@ std::vector<CueKey> thinned(const std::vector<CueKey>& keys) {
       for (std::size_t k = from + 1; k < next && straight; ++k) {
         const double x = (keys[k].time - keys[from].time) / (keys[next].time - keys[from].time);
         const double line = keys[from].value + x * (keys[next].value - keys[from].value);
-        straight = std::abs(line - keys[k].value) <= key_tolerance;
+        // Nothing and all of a viseme stay exact: lips that are closed are closed.
+        const bool is_whole = keys[k].value <= 0.0 || keys[k].value >= 1.0;
+        straight = std::abs(line - keys[k].value) <= (is_whole ? 0.0 : key_tolerance);
       }
       if (!straight) break;
       to = next;

@@ -34,7 +34,7 @@ TEST(MarkedText, Smileys_ColourTheSentenceTheyEndOrStandIn) {
   EXPECT_EQ(after.text, "Tudo mal. Olá, mundo! ");
   expect_span(after, 0, joy, {10, 11});
   const auto within = marked("Oh no :( it rains. Fine.");
-  expect_span(within, 0, sadness, {0, 17});
+  expect_span(within, 0, sadness, {0, 16});
   const auto before = marked("😠 Go away. Please.");
   expect_span(before, 0, anger, {0, 9});
   EXPECT_TRUE(marked("At 10:D4, note (a:b) and fox:Dog.").emotions.empty());

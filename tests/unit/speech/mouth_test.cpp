@@ -54,8 +54,8 @@ TEST(Mouth, BilabialBetweenOpenVowels_ClosesWholly_ForEveryPhaseOfAFrame_AlsoAtS
           best = std::max(best, share_of(face.frame_at(ms), p_b_m));
       EXPECT_EQ(best, 1.0) << length << " ms, phase " << phase;
     }
-    EXPECT_GT(share_of(face.frame_at(450), a), 0.6);
-    EXPECT_GT(share_of(face.frame_at(640 + length / 4), a), 0.6);
+    EXPECT_GT(share_of(face.frame_at(450), a), 0.5);
+    EXPECT_GT(share_of(face.frame_at(640 + length / 4), a), 0.4);
   }
 }
 
