@@ -149,7 +149,7 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
   const auto end_it = [&](WorkerExit::Kind kind, bool gently) {
     exit.kind = kind;
     ended_by_us = true;
-    ::kill(pid, gently ? SIGTERM : SIGKILL);
+    ::kill(-pid, gently ? SIGTERM : SIGKILL);  // its group: also what it has started
     kill_at = gently ? Clock::now() + term_to_kill : Clock::time_point::max();
   };
 
@@ -173,14 +173,14 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
     if (!ended_by_us && wish == Wish::cancel) end_it(WorkerExit::Kind::cancelled, true);
     if (!ended_by_us && now - begin > wall_limit) end_it(WorkerExit::Kind::timed_out, false);
     if (now >= kill_at) {
-      ::kill(pid, SIGKILL);
+      ::kill(-pid, SIGKILL);
       kill_at = Clock::time_point::max();
     }
   }
   // Its output is closed: the worker is ending, or has closed it on purpose and must be killed.
   int status = 0;
   for (int round = 0; ::waitpid(pid, &status, WNOHANG) == 0; ++round) {
-    if (round == 100 || ended_by_us) ::kill(pid, SIGKILL);
+    if (round == 100 || ended_by_us) ::kill(-pid, SIGKILL);
     ::poll(nullptr, 0, 20);
   }
   exit.last_words = read_last_words(error_file);

@@ -70,7 +70,7 @@ TEST(SpeechOnHeads, EveryBilabialCloses_WithinAFrame_AtSpeedAndInJoy) {
     const double closed = subject.opening(bench::frame_of(p_b_m, 0));
     const double open = subject.opening(bench::frame_of(viseme_a, 0));
     for (const Language& language : languages) {
-      for (const auto& [rate, joy] : {std::pair{1.0, false}, {1.0, true}, {1.8, false}}) {
+      for (const auto& [rate, joy] : {std::pair{1.0, false}, std::pair{1.0, true}, std::pair{1.8, false}}) {
         const Utterance said = say(language, rate);
         std::vector<EmotionSpan> emotions;
         if (joy) emotions.push_back({1, 1.0, {0, 1000}});

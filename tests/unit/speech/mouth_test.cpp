@@ -1,6 +1,8 @@
 // The mouth of an utterance: closures, coarticulation, rest.
 #include "core/speech/mouth.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/performance/performance.h"
