@@ -3,9 +3,8 @@
 namespace semblante::log {
 
 /// Who gets a processor first when there is more to do than the machine can: streams are heard late if they wait, a
-/// request or a handshake is only answered later.
+/// request or a handshake is only answered later. The thread that sends batches keeps the rank of the process.
 enum class ThreadRank {
-  batches,   ///< sends batches when they are due: the usual share, in turns so short that it need not wait for others'
   live,      ///< connections of streams: the usual share, but they interrupt nobody
   requests,  ///< connections until they are accepted and secured, requests and their answers
   jobs,      ///< worker processes

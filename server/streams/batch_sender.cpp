@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "server/log/guard.h"
-#include "server/log/thread_rank.h"
 
 namespace semblante::streams {
 
@@ -17,10 +16,8 @@ constexpr std::chrono::milliseconds retry_interval{200};
 }  // namespace
 
 BatchSender::BatchSender(std::unique_ptr<http::GroupSender> group_sender)
-    : group_sender_(group_sender ? std::move(group_sender) : std::make_unique<http::GroupSender>()), thread_([this] {
-        log::set_thread_rank(log::ThreadRank::batches);
-        log::keep_running("the batch sender", [this] { run(); });
-      }) {}
+    : group_sender_(group_sender ? std::move(group_sender) : std::make_unique<http::GroupSender>()),
+      thread_([this] { log::keep_running("the batch sender", [this] { run(); }); }) {}
 
 void BatchSender::wake(std::weak_ptr<Stream> stream, Clock::time_point when) {
   bool is_next = false;

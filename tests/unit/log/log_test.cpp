@@ -1,9 +1,7 @@
 #include "server/log/log.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cstdint>
 #include <sched.h>
 #include <stdexcept>
 #include <thread>
@@ -14,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 
 #include "server/log/periodic.h"
 #include "server/log/thread_rank.h"
@@ -107,25 +104,6 @@ TEST(ThreadRank, IsOfTheThread_AndRelativeToTheProcess) {
       EXPECT_EQ(::sched_getscheduler(0), SCHED_BATCH);
     }).join();
   EXPECT_EQ(own(), before);
-}
-
-TEST(ThreadRank, OfBatches_HasTheUsualShareInShortTurns) {
-  // Length of a turn in ns, as struct sched_attr has it; 0 where the kernel has none of its own for a thread.
-  const auto turn = [] {
-    std::array<std::uint64_t, 6> attributes{};
-    ::syscall(SYS_sched_getattr, 0, attributes.data(), sizeof attributes, 0);
-    return attributes[3];
-  };
-  const int nice = ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()));
-  const int policy = ::sched_getscheduler(0);
-  const auto before = turn();
-  std::thread([&] {
-    set_thread_rank(ThreadRank::batches);
-    EXPECT_EQ(::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())), nice);
-    EXPECT_EQ(::sched_getscheduler(0), policy);
-    EXPECT_EQ(turn(), before == 0 ? 0 : 100'000U);
-  }).join();
-  EXPECT_EQ(turn(), before);
 }
 
 TEST(Periodic, WorksOncePerInterval_AFaultEndsOneTurn_AndItsEndIsPrompt) {
