@@ -43,7 +43,7 @@ afterAll(async () => {
 });
 
 /** The sample head without the materials of its eyes. */
-function withoutIrises(): Buffer {
+function withoutIrises(): Uint8Array<ArrayBuffer> {
   const file = readFileSync(sampleHead);
   const length = file.readUInt32LE(12);
   const gltf = JSON.parse(file.toString('utf8', 20, 20 + length)) as {
@@ -67,7 +67,7 @@ function withoutIrises(): Buffer {
 }
 
 async function upload(): Promise<string> {
-  const post = async (path: string, type: string, body: Buffer | string, method = 'POST'): Promise<unknown> => {
+  const post = async (path: string, type: string, body: Uint8Array<ArrayBuffer> | string, method = 'POST'): Promise<unknown> => {
     const answer = await fetch(`${server.url}/v1/${path}`, { method, headers: { 'Content-Type': type }, body });
     expect(answer.status, path).toBeLessThan(300);
     return answer.json();
