@@ -298,7 +298,7 @@ TEST_F(Sheet, BadInput_IsRefused_InOneLineThatNamesIt) {
       {"no subcommand", {}, {"subcommand"}},
       {"unknown subcommand",
        {"dance"},
-       {"parametrize, deform", "extract, play, propose, serve, doctor, token, check, backup or restore", "--help"}},
+       {"parametrize, deform", "extract, play, propose, say, serve, doctor, token, check, backup or restore", "--help"}},
       {"a port that is none", {"serve", "--port", "70000"}, {"--port", "65535"}},
       {"fewer than no models", {"serve", "--max-models", "-1"}, {"--max-models"}},
       {"fewer than no bytes", {"serve", "--max-upload-bytes=-1"}, {"--max-upload-bytes"}},
