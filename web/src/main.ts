@@ -43,8 +43,6 @@ import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
-const demo = { id: 'demo', title: 'Demo' };
-
 /** Composes the page; the only module that knows all others. */
 function main(root: HTMLElement, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
@@ -88,7 +86,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
   const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element);
-  const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab, demo });
+  const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
   const stagePanel = new StagePanel(canvas, scene, studio, points, chip, influence.on);
   stagePanel.element.append(influenceLegend(influence, scene), reader.element, reader.said);
   const panels = {
@@ -116,8 +114,9 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   routeDrops(layout, studio, performance, clip);
   startPolling({ studio, scene, live, livePanel, recordings, performance, clip });
 
-  void studio.start().then(() => {
-    if (studio.selected.value?.state === 'parametrized') live.subscribe(demo.id, demo.title);
+  void studio.start().then(async () => {
+    await live.refresh();
+    if (studio.selected.value?.state === 'parametrized' && live.demo) live.subscribe(live.demo.id, live.demo.title);
   });
   exposeInspection(scene, studio, driver);
 }

@@ -54,6 +54,11 @@ export class LiveModel {
     void this.refresh();
   }
 
+  /** The stream that shows what the server can do; null where it has none, or before the first response. */
+  get demo(): StreamInfo | null {
+    return this.streams.value?.find((stream) => stream.source === 'demo') ?? null;
+  }
+
   /** Streams that may be played into: all except the demo, which all users share. */
   get ownStreams(): readonly StreamInfo[] {
     return (this.streams.value ?? []).filter((stream) => stream.source !== 'demo');

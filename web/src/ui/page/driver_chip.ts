@@ -16,11 +16,10 @@ export interface DriverChipParts {
   scene: SceneView;
   tab: Signal<Tab>;
   /** The stream to subscribe to when no stream is followed. */
-  demo: { id: string; title: string };
 }
 
 /** The chip on the stage that names what drives the face, with a button that lets the stream take over again. */
-export function makeDriverChip({ driver, live, clip, recordings, scene, tab, demo }: DriverChipParts): HTMLElement {
+export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: DriverChipParts): HTMLElement {
   /** Description of the clip or recording that drives the face; null when the sliders drive it. */
   const shown = (): string | null => {
     if (driver.source.value === 'recording') return recordings.looksAt;
@@ -56,24 +55,28 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab, dem
       );
       return;
     }
+    const { demo } = live;
+    const following = live.following.value !== null;
     const resume = (): void => {
-      if (live.following.value === null) live.subscribe(demo.id, demo.title);
-      else driver.byStream();
+      if (following) driver.byStream();
+      else if (demo) live.subscribe(demo.id, demo.title);
     };
     const words = shown();
     replace(
       chip,
       h('span', { class: `lamp ${words === null ? 'lamp-hand' : 'lamp-open'}` }),
       h('span', { class: 'driver-text' }, words ?? 'By hand'),
-      h(
-        'button',
-        { type: 'button', class: 'quiet small', on: { click: resume } },
-        icon('play', 14),
-        live.following.value === null ? 'Play the demo' : 'Back to live',
-      ),
+      following || demo
+        ? h(
+            'button',
+            { type: 'button', class: 'quiet small', on: { click: resume } },
+            icon('play', 14),
+            following ? 'Back to live' : 'Play the demo',
+          )
+        : null,
     );
   };
-  const watched = [driver.source, live.status, live.following, clip, recordings.look, scene.performer, tab];
+  const watched = [driver.source, live.status, live.following, live.streams, clip, recordings.look, scene.performer, tab];
   for (const signal of watched) signal.watch(draw);
   return chip;
 }
