@@ -59,6 +59,8 @@ function spotOf(studio: StudioPage, id: string): Promise<Spot> {
 
 /** The colour of the stage at a place of the page, 0..255. */
 async function colourAt(studio: StudioPage, { x, y }: { x: number; y: number }): Promise<number[]> {
+  await studio.page.mouse.move(1, 1); // the read-out beside the pointer would cover it
+  await studio.page.locator('.reading').waitFor({ state: 'hidden' });
   await studio.drawn(3);
   const shot = (await studio.page.screenshot({ clip: { x: Math.round(x) - 1, y: Math.round(y) - 1, width: 3, height: 3 } })).toString('base64');
   return studio.page.evaluate(async (png) => {
