@@ -3,62 +3,62 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/tables/mpeg4.h"
 
 namespace semblante {
 namespace {
 
-/// A difference of one coordinate of two points: the length of a unit on the neutral face, times 1024.
-struct Span {
-  std::string_view from, to;
-  int axis;
+/// In the order of FapuUnit, as mpeg4::fapus: what stands still without the unit.
+constexpr std::array<std::string_view, fapu_unit_count> needed_for = {
+    "FAPs of eyelids and pupils (19-22, 29, 30)",
+    "FAPs of eyeball thrust and sideways brows (27, 28, 37-40)",
+    "FAPs of brows, cheeks, nose and ears (31-36, 41, 42, 61-68)",
+    "FAPs of mouth, jaw and tongue, vertical and forward (3-5, 8-14, 16-18, 44, 46, 51, 52, 55-60)",
+    "FAPs of mouth, jaw and tongue, sideways (6, 7, 15, 43, 45, 53, 54)",
 };
 
-constexpr int x = 0;
-constexpr int y = 1;
+/// The unit is the mean of those of its measures whose points are marked.
+std::span<const mpeg4::Measure> measures_of(std::size_t unit) {
+  const mpeg4::FapuInfo& info = mpeg4::fapus[unit];
+  return std::span(info.measures).first(info.measure_count);
+}
 
-struct Definition {
-  std::array<Span, 2> spans;  ///< the unit is their mean; the second is empty for units with one span
-  std::string_view needed_for;
-};
-
-/// In the order of FapuUnit.
-constexpr std::array<Definition, fapu_unit_count> definitions = {{
-    {{{{"3.1", "3.3", y}, {"3.2", "3.4", y}}}, "FAPs of eyelids and pupils (19-22, 29, 30)"},
-    {{{{"3.5", "3.6", x}, {}}}, "FAPs of eyeball thrust and sideways brows (27, 28, 37-40)"},
-    {{{{"3.5", "9.15", y}, {}}}, "FAPs of brows, cheeks, nose and ears (31-36, 41, 42, 61-68)"},
-    {{{{"9.15", "2.2", y}, {}}},
-     "FAPs of mouth, jaw and tongue, vertical and forward (3-5, 8-14, 16-18, 44, "
-     "46, 51, 52, 55-60)"},
-    {{{{"8.3", "8.4", x}, {}}}, "FAPs of mouth, jaw and tongue, sideways (6, 7, 15, 43, 45, 53, 54)"},
-}};
+std::string_view id_of(std::uint8_t point) { return mpeg4::feature_points[point].id; }
 
 /// A FAP value of 1024 moves a point by the whole distance (mpeg4/fapu.json, "divisor").
 constexpr double divisor = 1024.0;
 
-std::optional<double> measure(const Span& span, const FeaturePointSet& points) {
-  if (span.from.empty()) return std::nullopt;
-  const FeaturePoint* const from = find_point(points, span.from);
-  const FeaturePoint* const to = find_point(points, span.to);
+std::optional<double> measure(const mpeg4::Measure& wanted, const FeaturePointSet& points) {
+  const FeaturePoint* const from = find_point(points, id_of(wanted.from));
+  const FeaturePoint* const to = find_point(points, id_of(wanted.to));
   if (from == nullptr || to == nullptr) return std::nullopt;
-  return static_cast<double>(from->position[span.axis]) - static_cast<double>(to->position[span.axis]);
+  return static_cast<double>(to->position[wanted.axis]) - static_cast<double>(from->position[wanted.axis]);
 }
 
-constexpr std::size_t index_of(FapuUnit unit) { return static_cast<std::size_t>(unit); }
-
-std::optional<double> compute_unit(const Definition& definition, const FeaturePointSet& points) {
+/// Empty without a measure whose points are marked.
+std::optional<double> mean_length(std::size_t unit, const FeaturePointSet& points) {
   double sum = 0.0;
   int count = 0;
-  for (const Span& span : definition.spans) {
-    const std::optional<double> length = measure(span, points);
+  for (const mpeg4::Measure& one : measures_of(unit)) {
+    const std::optional<double> length = measure(one, points);
     if (!length) continue;
     sum += *length;
     ++count;
   }
-  return count > 0 && sum > 0.0 ? std::optional(sum / count / divisor) : std::nullopt;
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+constexpr std::size_t index_of(FapuUnit unit) { return static_cast<std::size_t>(unit); }
+
+std::optional<double> compute_unit(std::size_t unit, const FeaturePointSet& points) {
+  const std::optional<double> length = mean_length(unit, points);
+  return length && *length > 0.0 ? std::optional(*length / divisor) : std::nullopt;
 }
 
 /// The points with each pupil at the centre between the corners of its lids, if the lids are closed; else empty.
@@ -70,16 +70,9 @@ std::optional<FeaturePointSet> with_centres_of_closed_eyes(const FeaturePointSet
   const glm::vec3 left = centre(*corners[0], *corners[1]);
   const glm::vec3 right = centre(*corners[2], *corners[3]);
   const double separation = static_cast<double>(left.x) - static_cast<double>(right.x);
-  double sum = 0.0;
-  int count = 0;
-  for (const Span& span : definitions[index_of(FapuUnit::irisd)].spans) {
-    const std::optional<double> gap = measure(span, points);
-    if (!gap) continue;
-    sum += *gap;
-    ++count;
-  }
+  const std::optional<double> gap = mean_length(index_of(FapuUnit::irisd), points);
   // A lower lid clearly above the upper one is a fault of marking: the doctor reports it.
-  if (count == 0 || !(separation > 0.0) || std::abs(sum / count) >= closed_lids * separation) return std::nullopt;
+  if (!gap || !(separation > 0.0) || std::abs(*gap) >= closed_lids * separation) return std::nullopt;
   FeaturePointSet visible = points;
   for (const auto& [name, place] : {std::pair("3.5", left), std::pair("3.6", right)}) {
     const FeaturePointId id = *parse_feature_point(name);
@@ -99,7 +92,7 @@ Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user) {
   Fapu fapu;
   const std::optional<FeaturePointSet> visible = with_centres_of_closed_eyes(points);
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
-    fapu.value[unit] = compute_unit(definitions[unit], visible ? *visible : points);
+    fapu.value[unit] = compute_unit(unit, visible ? *visible : points);
     if (visible && (unit == index_of(FapuUnit::es) || unit == index_of(FapuUnit::ens)))
       fapu.origin[unit] = FapuOrigin::closed_eyes;
   }
@@ -137,16 +130,15 @@ std::vector<std::string> explain_missing_fapu(const Fapu& fapu, const FeaturePoi
   std::vector<std::string> sentences;
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
     if (fapu.value[unit]) continue;
-    const Definition& definition = definitions[unit];
-    const Span& first = definition.spans[0];
+    const mpeg4::Measure& first = measures_of(unit).front();
     std::string sentence(fapu_unit_names[unit]);
     sentence += " cannot be measured: ";
-    if (measure(first, points) || measure(definition.spans[1], points)) {
-      sentence += std::string(first.from) + (first.axis == x ? " is not to the left of " : " is not above ");
-      sentence += first.to;
+    if (mean_length(unit, points)) {
+      sentence += std::string(id_of(first.to)) + (first.axis == 0 ? " is not to the left of " : " is not above ");
+      sentence += id_of(first.from);
     } else {
       std::string missing;
-      for (const std::string_view id : {first.from, first.to}) {
+      for (const std::string_view id : {id_of(first.to), id_of(first.from)}) {
         if (find_point(points, id) != nullptr) continue;
         if (!missing.empty()) missing += " and ";
         missing += id;
@@ -154,7 +146,7 @@ std::vector<std::string> explain_missing_fapu(const Fapu& fapu, const FeaturePoi
       sentence += missing + (missing.find(' ') == std::string::npos ? " is not marked" : " are not marked");
     }
     sentence += "; without it these do nothing: ";
-    sentence += definition.needed_for;
+    sentence += needed_for[unit];
     sentences.push_back(std::move(sentence));
   }
   return sentences;
