@@ -30,15 +30,6 @@ Stream::~Stream() {
   while (!followers_.empty()) followers_.back()->follow(nullptr);
 }
 
-/// splitmix64, 0 to 1.
-double Stream::random() {
-  random_ += 0x9E3779B97F4A7C15U;
-  std::uint64_t z = random_;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-  return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-}
-
 void Stream::become(semblante_stream_state state) {
   if (state == state_) return;
   state_ = state;
@@ -88,7 +79,7 @@ void Stream::wait_to_retry(double now) {
   const double pause = std::min(options_.retry_longest, std::ldexp(options_.retry_first, static_cast<int>(attempts_)));
   attempts_ = std::min(attempts_ + 1, 60U);
   // Half of the pause is random, so that many clients do not reconnect at the same time.
-  retry_at_ = now + pause * (0.5 + random() / 2);
+  retry_at_ = now + pause * (0.5 + random_.next() / 2);
   become(SEMBLANTE_STREAM_WAITING);
 }
 

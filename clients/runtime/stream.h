@@ -12,6 +12,7 @@
 #include "clients/runtime/semblante.h"
 #include "clients/runtime/times.h"
 #include "core/types/result.h"
+#include "core/types/split_mix.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
@@ -103,7 +104,6 @@ class Stream {
   void take_frames(double now, bool is_keyframe);
   void take_pong(const Pong& pong, double now);
   void take_end(const End& end, double now);
-  double random();
 
   StreamOptions options_;
   semblante_stream_state state_ = SEMBLANTE_STREAM_CLOSED;
@@ -131,7 +131,7 @@ class Stream {
 
   std::uint32_t attempts_ = 0;
   double retry_at_ = never;
-  std::uint64_t random_;
+  SplitMix random_;
 
   std::optional<PackedEncoder> encoder_;  ///< of a publisher; none: a keyframe must be next
   Frames batch_;                          ///< what waits to be published

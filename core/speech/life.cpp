@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/performance/usual_times.h"
+#include "core/types/split_mix.h"
 
 namespace semblante {
 namespace {
@@ -14,25 +15,6 @@ constexpr double brow_lead_ms = 140.0, brow_ms = 420.0, brow_units = 90.0;  ///<
 constexpr double nod_lead_ms = 120.0, nod_ms = 420.0, nod_degrees = 2.6, small_nod_degrees = 1.1;
 constexpr double breath_ms = 420.0, breath_degrees = 1.2, least_breath_pause_ms = 200.0;
 constexpr double glance_ms = 650.0, least_phrase_for_glance_ms = 1'500.0;
-
-/// splitmix64: the same numbers everywhere.
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : state_(seed) {}
-  /// 0..1, without 1.
-  double next() {
-    state_ += 0x9E3779B97F4A7C15U;
-    std::uint64_t bits = state_;
-    bits = (bits ^ bits >> 30U) * 0xBF58476D1CE4E5B9U;
-    bits = (bits ^ bits >> 27U) * 0x94D049BB133111EBU;
-    bits ^= bits >> 31U;
-    return static_cast<double>(bits >> 11U) / 9007199254740992.0;
-  }
-  double between(double least, double most) { return least + next() * (most - least); }
-
- private:
-  std::uint64_t state_;
-};
 
 Cue cue_of(double time, double duration, CueTarget target) {
   Cue cue;
@@ -144,7 +126,7 @@ class Life {
   std::span<const Segment> segments_;
   const Loudness& loudness_;
   std::span<const Interval> taken_;
-  Chance chance_;
+  SplitMix chance_;
   std::optional<double> last_blink_;
   std::vector<Cue> cues_;
 };
