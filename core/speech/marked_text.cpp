@@ -5,12 +5,14 @@
 #include <charconv>
 #include <optional>
 
+#include "core/tables/mpeg4.h"
 #include "core/types/printable.h"
 
 namespace semblante {
 namespace {
 
-constexpr std::array<std::string_view, 7> names = {"none", "joy", "sadness", "anger", "fear", "disgust", "surprise"};
+constexpr std::string_view no_emotion = "neutral";
+/// Numbers of mpeg4::expressions.
 enum : std::uint8_t { joy = 1, sadness, anger, fear, disgust, surprise };
 
 struct Smiley {
@@ -37,7 +39,7 @@ constexpr auto smileys = std::to_array<Smiley>({
 /// Asks for the coloured picture of the sign before it.
 constexpr std::string_view picture_selector = "\xEF\xB8\x8F";
 
-constexpr std::array<Prosody, names.size()> prosodies = {
+constexpr std::array<Prosody, mpeg4::expressions.size()> prosodies = {
     {{1.0, 1.0}, {1.05, 1.12}, {0.88, 0.9}, {1.06, 0.95}, {1.1, 1.12}, {0.94, 0.94}, {1.03, 1.12}}};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
@@ -83,8 +85,9 @@ class Reader {
       }
     }
     if (!open_.empty())
-      return Error{ErrorCode::malformed, "text",
-                   "[" + std::string(names[marked_.emotions[open_.back()].expression]) + "] is not closed"};
+      return Error{
+          ErrorCode::malformed, "text",
+          "[" + std::string(mpeg4::expressions[marked_.emotions[open_.back()].expression].name) + "] is not closed"};
     // A smiley is about its sentence to the end, whether or not it stands there.
     for (const Pending& pending : pending_) end_at(pending, sentence_end(pending.sentence));
     std::erase_if(marked_.emotions, [](const EmotionSpan& span) { return span.range.count == 0; });
@@ -100,7 +103,7 @@ class Reader {
     const auto fail = [this](std::string message) {
       return Error{ErrorCode::malformed, "text", std::move(message) + " (byte " + std::to_string(at_) + ")"};
     };
-    const std::string name(names[tag.expression]);
+    const std::string name(mpeg4::expressions[tag.expression].name);
     if (tag.closes) {
       if (open_.empty() || marked_.emotions[open_.back()].expression != tag.expression)
         return fail("[/" + name + "] closes what is not open");
@@ -147,7 +150,7 @@ class Reader {
 
   void take_character() {
     const char c = text_[at_];
-    const std::size_t length = std::max<std::size_t>(1, utf8_length(text_.substr(at_)));
+    const std::size_t length = utf8_step(text_.substr(at_));
     marked_.text.append(text_.substr(at_, length));
     at_ += length;
     if (!is_space(c) && !ends_sentence(c)) {
@@ -189,17 +192,23 @@ class Reader {
 }  // namespace
 
 int expression_of(std::string_view name) {
-  if (name == "neutral") return 0;
-  const auto at = std::find(names.begin(), names.end(), name);
-  return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+  if (name == no_emotion) return 0;
+  const auto& all = mpeg4::expressions;
+  const auto* const at = std::find_if(all.begin(), all.end(), [name](const auto& one) { return one.name == name; });
+  return at == all.end() ? -1 : static_cast<int>(at - all.begin());
+}
+
+std::vector<std::string> emotion_names() {
+  std::vector<std::string> names = {std::string(no_emotion)};
+  for (std::size_t i = 1; i < mpeg4::expressions.size(); ++i) names.emplace_back(mpeg4::expressions[i].name);
+  return names;
 }
 
 Result<MarkedText> read_marked_text(std::string_view text) { return Reader(text).read(); }
 
 Prosody prosody_of(const MarkedText& text) {
   std::size_t characters = 0;
-  for (std::size_t at = 0; at < text.text.size(); ++characters)
-    at += std::max<std::size_t>(1, utf8_length(std::string_view(text.text).substr(at)));
+  for (std::size_t at = 0; at < text.text.size(); ++characters) at += utf8_step(std::string_view(text.text).substr(at));
   Prosody mean;
   if (characters == 0) return mean;
   for (const EmotionSpan& span : text.emotions) {

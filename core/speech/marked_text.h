@@ -25,6 +25,8 @@ struct MarkedText {
 
 /// 1..6 of "joy" and so on; 0 of "neutral" and "none"; -1 of anything else.
 int expression_of(std::string_view name);
+/// "neutral", then the expressions in the order of their numbers.
+std::vector<std::string> emotion_names();
 
 /// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", which nest; emoticons
 /// (":)", ":-(") and emoji. A smiley colours the sentence that it stands in, or ends; before the first word, the first

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t viseme_count = 15;
 constexpr std::size_t pair_count = viseme_count * (viseme_count - 1) / 2;
-constexpr std::size_t kept_pairs = 16;    ///< of a step: the best ones
+constexpr std::size_t kept_pairs = 16;    ///< the best pairs of each step are candidates for the path
 constexpr float movement_weight = 1.0F;   ///< of an error in movement, against one in place
 constexpr float change_cost = 6000.0F;    ///< of a new pair, in squared units: fewer cues to read
 constexpr double closure_lead_ms = 12.0;  ///< how far before the sound the lips are closed

@@ -44,8 +44,7 @@ std::vector<Sound> sounds_of(const SoundTable& table, std::string_view symbol) {
       if (symbol.starts_with(sound.ipa) && (longest == nullptr || sound.ipa.size() > longest->ipa.size()))
         longest = &sound;
     if (longest != nullptr) found.push_back(*longest);
-    symbol.remove_prefix(longest != nullptr ? longest->ipa.size()
-                                            : std::max<std::size_t>(1, std::min(symbol.size(), utf8_length(symbol))));
+    symbol.remove_prefix(longest != nullptr ? longest->ipa.size() : utf8_step(symbol));
   }
   if (found.empty()) found.push_back(neutral);
   return found;

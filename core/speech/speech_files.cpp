@@ -24,8 +24,7 @@ std::string time_text(double ms) {
 /// The byte at which each character begins, and the end.
 std::vector<std::size_t> character_offsets(std::string_view text) {
   std::vector<std::size_t> offsets;
-  for (std::size_t at = 0; at < text.size(); at += std::max<std::size_t>(1, utf8_length(text.substr(at))))
-    offsets.push_back(at);
+  for (std::size_t at = 0; at < text.size(); at += utf8_step(text.substr(at))) offsets.push_back(at);
   offsets.push_back(text.size());
   return offsets;
 }

@@ -1,5 +1,7 @@
 #include "core/types/printable.h"
 
+#include <algorithm>
+
 namespace semblante {
 
 std::size_t utf8_length(std::string_view text) {
@@ -21,6 +23,8 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
+std::size_t utf8_step(std::string_view text) { return std::max<std::size_t>(1, utf8_length(text)); }
+
 std::string printable(std::string_view name) {
   constexpr std::size_t max_bytes = 200;
   std::string text;
@@ -30,7 +34,7 @@ std::string printable(std::string_view name) {
     const std::string_view character = size == 0 || control ? "?" : name.substr(0, size);
     if (text.size() + character.size() > max_bytes) break;
     text.append(character);
-    name.remove_prefix(size == 0 ? 1 : size);
+    name.remove_prefix(utf8_step(name));
   }
   return text;
 }

@@ -9,6 +9,9 @@ namespace semblante {
 /// Number of bytes of the first character of `text`; 0 if it is not valid UTF-8 (overlong forms, surrogates).
 std::size_t utf8_length(std::string_view text);
 
+/// Number of bytes from one character to the next: that of the first one of `text`, or 1 where it is not valid UTF-8.
+std::size_t utf8_step(std::string_view text);
+
 /// Makes an untrusted name safe for output: valid UTF-8 (other bytes become '?'), no control characters, at most 200
 /// bytes.
 std::string printable(std::string_view name);

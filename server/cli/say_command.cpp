@@ -147,7 +147,7 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
         ->check(CLI::Range(voice::least_factor, voice::most_factor))
         ->capture_default_str();
   command->add_option("--emotion", options->emotion, "Of the whole text")
-      ->check(CLI::IsMember({"neutral", "joy", "sadness", "anger", "fear", "disgust", "surprise"}))
+      ->check(CLI::IsMember(emotion_names()))
       ->envname("SEMBLANTE_EMOTION");
   command->add_option("--intensity", options->intensity, "Of --emotion")
       ->check(CLI::Range(0.0, 1.0))
@@ -177,9 +177,7 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       if (sample_head.empty())
         throw CommandFailure(CommandFailure::bad_input, "say: --model sample: the sample head is not installed");
       head.model_path = sample_head;
-      head.feature_points_path = (std::filesystem::path(sample_head).parent_path() /
-                                  (std::filesystem::path(sample_head).stem().string() + ".fps.json"))
-                                     .string();
+      head.feature_points_path = std::filesystem::path(sample_head).replace_extension(".fps.json").string();
       // Weights of the paper close lips less well: a head that speaks has smooth ones.
       if (command->get_option("--weights")->count() == 0) head.weights = "smooth";
     }
