@@ -33,7 +33,7 @@ constexpr double spanning = 0.5;     ///< of the width of the neck: a border tha
 constexpr double joint_aside = 0.4;  ///< of a joint from the middle
 constexpr double joint_behind_chin = 0.2;      ///< at least
 constexpr double joint_far_behind_chin = 2.5;  ///< at most
-constexpr double head_joint_below_chin = 0.5;  ///< at most
+constexpr double head_joint_below_chin = 0.5;  ///< the head's joint is at most this far below the chin
 constexpr double joint_from_shoulders = 0.75;  ///< farther from the neck's joint no shoulders begin
 constexpr double full_from =
     0.98;  ///< of the way from the shoulders (0) to the head (1): from there vertices turn fully

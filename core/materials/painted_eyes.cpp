@@ -133,7 +133,8 @@ class EyePainter {
     return surface_.part_of[surface_.surface_of[corners[0]].value()];
   }
 
-  /// A part over a moving iris of which nothing moves with it. As a whole: its triangles end elsewhere than the iris.
+  /// A cornea is a part that lies over a moving iris and has no vertex that moves with it. Whole parts are marked, not
+  /// triangles, since the edges of triangles do not follow the rim of the iris.
   void find_corneas() {
     is_cornea_.assign(parts_.size(), false);
     if (!has_moving_iris_[0] && !has_moving_iris_[1]) return;

@@ -81,7 +81,7 @@ describe('influence', () => {
     const { page } = studio;
     const left = await spotOf(studio, '8.3');
     const right = await spotOf(studio, '8.4');
-    // 8.3 is chosen first: its region has colours, the other corner of the mouth is grey.
+    // Point 8.3 is chosen when the view opens: its region has colours, and the other corner of the mouth is grey.
     await page.locator('.legend').getByText('Point 8.3').waitFor();
     for (const number of ['0 %', '25 %', '50 %', '75 %', '100 %'])
       expect(await page.locator('.legend-numbers').innerText()).toContain(number);

@@ -87,7 +87,7 @@ describe('influence', () => {
     expect(pixel(paint, 0)).toEqual([...coveredColour, 0]);
     expect(pixel(paint, 2)).toEqual([...uncoveredColour, 255]);
     expect(pixel(paint, 3)).toEqual([...littleColour, 0]);
-    expect(pixel(paint, 5)).toEqual([...restColour, 0]); // no skin
+    expect(pixel(paint, 5)).toEqual([...restColour, 0]); // not skin
   });
 
   test('ColourRegions_NeighboursDifferAndMirrorPointsMatch', () => {

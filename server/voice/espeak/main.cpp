@@ -87,11 +87,11 @@ bool choose_voice(const VoiceRequest& request) {
   return espeak_SetVoiceByName(name.substr(0, name.find('-')).c_str()) == EE_OK;
 }
 
-/// libespeak-ng makes a connection to a sound server that it does not use: there shall be none.
+/// libespeak-ng connects to a sound server although it does not use it; this address keeps it from finding one.
 void use_no_sound_server() { ::setenv("PULSE_SERVER", "unix:/nonexistent", 1); }
 
-/// From here on this process, with the thread that the library has started, can compute and write to its pipe, nothing
-/// else.
+/// After this call, this process and the thread that the library has started can only compute and write to the pipe.
+/// Returns what failed; empty if nothing did.
 std::string isolate() {
   const rlimit none{0, 0};
   if (::setrlimit(RLIMIT_NOFILE, &none) != 0) return "cannot forbid itself to open files";

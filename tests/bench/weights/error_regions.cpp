@@ -80,7 +80,7 @@ struct LeastSquares {
   std::vector<double> gram;  ///< n x n
   std::vector<double> right;
 
-  /// The non-negative minimum for h - price, from `weights` on; coordinate descent.
+  /// Non-negative least squares with `price` subtracted from the right side, by coordinate descent from `weights`.
   void solve(double price, std::vector<double>& weights) const {
     const std::size_t n = right.size();
     for (int sweep = 0; sweep < 300; ++sweep) {

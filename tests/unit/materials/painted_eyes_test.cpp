@@ -1,4 +1,4 @@
-// The eyes that are painted where a file has none.
+// Eyes of files without an iris get a painted one.
 #include "core/materials/painted_eyes.h"
 
 #include <cmath>

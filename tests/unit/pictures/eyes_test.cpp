@@ -1,4 +1,4 @@
-// The eyes that are painted where a file has none, as the native renderer draws them.
+// Pictures of painted eyes (core/materials/painted_eyes.h) by the native renderer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,7 +81,8 @@ class EyeAlone {
     return *std::move(picture);
   }
 
-  /// Pixels: where a line along the gaze, `radii` of the iris beside it in a direction across, pierces the eye.
+  /// The pixel at which a line parallel to the gaze pierces the eyeball. The line is `radii` iris radii away from the
+  /// gaze axis, in this direction around it (radians).
   [[nodiscard]] glm::vec2 pierced(float radii, float direction) const {
     const glm::vec3 left = glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), painted_.axis));
     const glm::vec3 up = glm::cross(painted_.axis, left);

@@ -13,6 +13,7 @@ import {
 } from 'three';
 import { deformByCpu, deformByShader } from '@client/three/deform_material.ts';
 import type { DeformPath, FaceView } from '@client/three/face_view.ts';
+import { eyeOf } from '@protocol/weights_format.ts';
 import { makeDiscs } from './markers.ts';
 
 /** A feature point of the face: its vertex of the face's mesh, or null for a place without a vertex. */
@@ -161,10 +162,7 @@ const mixed = new Color();
 
 /** Whether all of these triangles turn with an eyeball: they keep their own look. */
 function isEye(indices: Uint32Array, rigid: Uint8Array, start: number, count: number): boolean {
-  for (let i = start; i < start + count; i += 1) {
-    const motion = rigid[indices[i]!]!;
-    if (motion < 1 || motion > 4) return false;
-  }
+  for (let i = start; i < start + count; i += 1) if (eyeOf(rigid[indices[i]!]!) < 0) return false;
   return true;
 }
 

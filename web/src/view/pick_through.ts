@@ -20,9 +20,10 @@ export function rolesOfPoint(id: string): readonly PartRole[] {
 }
 
 /**
- * Which of the surfaces along a ray, the nearest first, is meant: the first of these roles whose outside is met, through
- * lashes, shells of the eyes, glasses and hair, but not farther than `depth` behind the first surface, where the other side of
- * the head would come. None of them: the first surface. -1 without any.
+ * The index of the surface that a click means, among those that its ray meets, the nearest first. It is the first one of these
+ * `roles` whose outside is met, so that lashes, shells of the eyes, glasses and hair are clicked through. A surface farther than
+ * `depth` behind the first one is not meant, since it may be the other side of the head. If no surface qualifies, the first one
+ * is meant. The result is -1 if the ray meets nothing.
  */
 export function pickThrough(meetings: readonly Meeting[], roles: readonly PartRole[], depth: number): number {
   const first = meetings[0];
