@@ -186,7 +186,7 @@ class Session {
   /// where an exception would end the loop and not this coroutine.
   asio::awaitable<error_code> step(RequestParser& parser) {
     error_code error = beast::http::error::need_more;
-    if (buffer_.size() >= parser.least_bytes()) buffer_.consume(parser.put(buffer_.data(), error));
+    if (buffer_.size() >= parser.least_bytes()) buffer_.consume(parser.take(buffer_.data(), error));
     if (error == beast::http::error::need_more) error = co_await fill();
     co_return error;
   }

@@ -2,8 +2,12 @@
 
 // Private to net/: the layer under Beast's WebSocket.
 
+#include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <boost/asio/buffer.hpp>
@@ -12,6 +16,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/teardown.hpp>
 
+#include "server/net/frame_guard.h"
 #include "server/net/outbox.h"
 
 namespace semblante::net {
@@ -22,9 +27,15 @@ class OutboxStream {
  public:
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
 
-  /// `tls` decrypts what is read; null for a plain socket.
-  OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox)
-      : socket_(std::move(socket)), tls_(std::move(tls)), outbox_(std::move(outbox)) {}
+  /// `tls` decrypts what is read; null for a plain socket. `on_flood` gets the words of `guard`, within a read. Nothing
+  /// more is read then: a flood that is read until the connection is closed takes the thread that others need.
+  OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox,
+               FrameGuard guard, std::function<void(std::string_view)> on_flood)
+      : socket_(std::move(socket)),
+        tls_(std::move(tls)),
+        outbox_(std::move(outbox)),
+        guard_(std::move(guard)),
+        on_flood_(std::move(on_flood)) {}
 
   executor_type get_executor() { return socket_.get_executor(); }
   [[nodiscard]] boost::asio::ip::tcp::socket& socket() { return socket_; }
@@ -60,19 +71,25 @@ class OutboxStream {
   struct Read {
     OutboxStream& stream;
     Buffers buffers;
-    enum class Step { begin, plain, wait, posted } step = Step::begin;
+    enum class Step { begin, plain, wait, posted, held } step = Step::begin;
     std::size_t count = 0;
 
     template <class Self>
     void operator()(Self& self, boost::system::error_code error = {}, std::size_t plain_count = 0) {
       namespace asio = boost::asio;
+      if (step == Step::held) return self.complete(error ? error : asio::error::connection_aborted, 0);
+      if (step == Step::begin && stream.flooded_) {
+        step = Step::held;  // until the socket is closed
+        stream.socket_.async_wait(asio::socket_base::wait_error, std::move(self));
+        return;
+      }
       if (step == Step::begin && !stream.tls_) {
         step = Step::plain;
         stream.socket_.async_read_some(buffers, std::move(self));
         return;
       }
-      if (step == Step::plain) return self.complete(error, plain_count);
-      if (step == Step::posted || error) return self.complete(error ? error : result, count);
+      if (step == Step::plain) return done(self, error, plain_count);
+      if (step == Step::posted || error) return done(self, error ? error : result, count);
       const asio::mutable_buffer first = first_of(buffers);
       const auto progress = stream.tls_->read({static_cast<char*>(first.data()), first.size()});
       if (progress.step == TlsSession::Step::wants_read || progress.step == TlsSession::Step::wants_write) {
@@ -84,7 +101,7 @@ class OutboxStream {
       }
       count = progress.bytes;
       if (progress.step == TlsSession::Step::ended) result = asio::error::eof;
-      if (step == Step::wait) return self.complete(result, count);
+      if (step == Step::wait) return done(self, result, count);
       // Posted, so that it never runs before the initiating function has returned.
       step = Step::posted;
       asio::post(stream.get_executor(), std::move(self));
@@ -92,6 +109,12 @@ class OutboxStream {
     boost::system::error_code result = {};
 
    private:
+    template <class Self>
+    void done(Self& self, boost::system::error_code error, std::size_t bytes) {
+      stream.look(buffers, bytes);
+      self.complete(error, bytes);
+    }
+
     /// The first buffer that has room; an empty one if none has.
     static boost::asio::mutable_buffer first_of(const Buffers& buffers) {
       for (auto at = boost::asio::buffer_sequence_begin(buffers); at != boost::asio::buffer_sequence_end(buffers); ++at)
@@ -133,9 +156,26 @@ class OutboxStream {
     bool closed = false;
   };
 
+  /// `count`: bytes that were read into the buffers.
+  template <class Buffers>
+  void look(const Buffers& buffers, std::size_t count) {
+    for (auto at = boost::asio::buffer_sequence_begin(buffers); count > 0; ++at) {
+      const boost::asio::mutable_buffer piece(*at);
+      const auto size = std::min(count, piece.size());
+      if (const auto words = guard_.look({static_cast<const char*>(piece.data()), size})) {
+        flooded_ = true;
+        on_flood_(*words);
+      }
+      count -= size;
+    }
+  }
+
   boost::asio::ip::tcp::socket socket_;
   std::shared_ptr<TlsSession> tls_;
   std::shared_ptr<Outbox> outbox_;
+  FrameGuard guard_;
+  std::function<void(std::string_view)> on_flood_;
+  bool flooded_ = false;
 };
 
 /// Called by Beast at a timeout.

@@ -7,6 +7,7 @@
 #include <boost/beast/http/error.hpp>
 
 #include "server/http/url.h"
+#include "server/net/server.h"
 
 namespace semblante::net {
 
@@ -37,6 +38,21 @@ std::size_t RequestParser::least_bytes() const {
   // does not get fewer after the last chunk's size.
   constexpr std::size_t shortest_end = 5;
   return is_header_done() && chunked() ? shortest_end : 1;
+}
+
+std::size_t RequestParser::take(boost::asio::const_buffer bytes, ErrorCode& error) {
+  const auto body_before = body_bytes_;
+  const bool in_body = is_header_done();
+  const std::size_t parsed = put(bytes, error);
+  if (!in_body || error) return parsed;
+  framing_bytes_ += parsed - (body_bytes_ - body_before);
+  constexpr std::uint64_t most_per_byte = ServerLimits::framing_per_byte;
+  if (framing_bytes_ <= max_bytes_ + most_per_byte * body_bytes_) return parsed;
+  problem_ = http::make_problem("malformed-request", "the chunks of the body have more than " +
+                                                         std::to_string(most_per_byte) + " bytes of framing for each " +
+                                                         "byte of content, beside " + std::to_string(max_bytes_));
+  error = E::bad_chunk;
+  return parsed;
 }
 
 void RequestParser::on_request_impl(boost::beast::http::verb, View method, View target, int version, ErrorCode& error) {
@@ -101,6 +117,7 @@ std::optional<http::Problem> RequestParser::ambiguity() const {
 
 std::size_t RequestParser::on_body_impl(View piece, ErrorCode& error) {
   assert(sink_ != nullptr);
+  body_bytes_ += piece.size();
   problem_ = sink_->append(view(piece));
   if (problem_) error = E::body_limit;
   return piece.size();

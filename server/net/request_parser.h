@@ -35,6 +35,9 @@ class RequestParser : public boost::beast::http::basic_parser<true> {
   void set_sink(BodySink& sink) { sink_ = &sink; }
   /// Minimum number of bytes that can be parsed.
   [[nodiscard]] std::size_t least_bytes() const;
+  /// put(), with a limit of the bytes that frame a chunked body: sizes may begin with any number of zeros. Returns the
+  /// number of parsed bytes.
+  std::size_t take(boost::asio::const_buffer bytes, ErrorCode& error);
 
   /// The problem for bytes on which put() failed with `error`; nullopt when the connection failed. `unread`: the rest
   /// of the buffer.
@@ -64,6 +67,7 @@ class RequestParser : public boost::beast::http::basic_parser<true> {
   std::uint32_t fields_ = 0;
   std::uint32_t hosts_ = 0;  ///< number of Host fields
   std::size_t extension_bytes_ = 0;
+  std::uint64_t body_bytes_ = 0, framing_bytes_ = 0;  ///< the second: sizes, extensions and line breaks of chunks
   BodySink* sink_ = nullptr;
   std::optional<http::Problem> problem_;  ///< why a callback ended the parsing
 };

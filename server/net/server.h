@@ -25,12 +25,18 @@ struct ServerLimits {
   std::uint32_t max_files = 256;               ///< of bodies that are received or sent, open beside the connections
   std::uint32_t max_header_bytes = 16 * 1024;  ///< also of the trailers, of the line before a chunk, of all chunk
                                                ///< extensions of a body, and of the unparsed bytes of a connection
-  std::uint32_t max_header_fields = 128;       ///< and as many query parameters
-  std::chrono::seconds idle_timeout{60};       ///< between requests; a WebSocket is pinged at half of it
-  std::chrono::seconds header_timeout{10};     ///< from the first byte of a request to the end of its header, and for
-                                               ///< the handshake of TLS
-  double controls_per_second = 100;            ///< pings and pongs that one WebSocket sends, on average
+  /// Of a chunked body, for each byte of its content, beside as many as a header has: "1\r\n" before a byte, "\r\n"
+  /// after it. No honest chunk needs more.
+  static constexpr std::uint32_t framing_per_byte = 5;
+  std::uint32_t max_header_fields = 128;    ///< and as many query parameters
+  std::chrono::seconds idle_timeout{60};    ///< between requests; a WebSocket is pinged at half of it
+  std::chrono::seconds header_timeout{10};  ///< from the first byte of a request to the end of its header, and for
+                                            ///< the handshake of TLS
+  double controls_per_second = 100;         ///< pings and pongs that one WebSocket sends, on average
   double controls_burst = 1000;
+  std::uint32_t max_fragments = 1024;  ///< of one message of a WebSocket
+  double fragments_per_second = 1000;  ///< of one WebSocket, on average, without the last ones of messages
+  double fragments_burst = 2000;
   std::chrono::seconds read_timeout{30};  ///< between two pieces of a body
   std::chrono::seconds body_grace{30};    ///< for a whole body, in addition to the time of the least rate
   std::uint32_t least_body_rate = 1024;   ///< bytes per second, of a body that arrives and of a file that is sent

@@ -10,7 +10,6 @@
 #include <boost/asio/strand.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include "core/types/token_bucket.h"
 #include "server/http/request_id.h"
 #include "server/log/guard.h"
 #include "server/net/outbox.h"
@@ -28,6 +27,8 @@ using boost::system::error_code;
 
 /// Deadline of closing: for the last write and the client's own close frame.
 constexpr std::chrono::seconds closing_time{5};
+/// The same for a client that floods: its close frame is not read.
+constexpr std::chrono::seconds flood_closing_time{1};
 /// A small send buffer: bytes that wait in the kernel are stale for a face and cost memory for each slow client. The
 /// kernel doubles the value for its own bookkeeping.
 constexpr int send_buffer_bytes = 16 * 1024;
@@ -56,10 +57,7 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
 
   WebSocketConnection(std::shared_ptr<http::WebSocketPeer> peer, std::shared_ptr<SharedState> state,
                       ConnectionCount count)
-      : state_(std::move(state)),
-        peer_(std::move(peer)),
-        count_(std::move(count)),
-        controls_(state_->config.limits.controls_per_second, state_->config.limits.controls_burst) {
+      : state_(std::move(state)), peer_(std::move(peer)), count_(std::move(count)) {
     ++state_->busy;
   }
   ~WebSocketConnection() override {
@@ -102,13 +100,18 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     executor_ = socket.get_executor();
     outbox_ = std::make_shared<Outbox>(socket.native_handle(), peer_->outbox_limits(), weak_from_this(), tls);
-    ws_.emplace(std::move(socket), std::move(tls), outbox_);
+    // Posted: Beast is reading.
+    ws_.emplace(std::move(socket), std::move(tls), outbox_, FrameGuard(state_->config.limits),
+                [this](std::string_view words) {
+                  asio::post(executor_, [self = shared_from_this(), words] {
+                    self->close({websocket::close_code::policy_error, std::string(words)}, flood_closing_time);
+                  });
+                });
     websocket::stream_base::timeout clocks{};
     clocks.handshake_timeout = state_->config.limits.header_timeout;
     clocks.idle_timeout = state_->config.limits.idle_timeout;
     clocks.keep_alive_pings = true;
     ws_->set_option(clocks);
-    ws_->control_callback([this](websocket::frame_type kind, beast::string_view) { count_control(kind); });
     ws_->read_message_max(peer_->max_message_bytes());
     ws_->set_option(websocket::stream_base::decorator(
         [name = std::string(peer_->subprotocol()), id = std::string(request_id)](websocket::response_type& response) {
@@ -128,12 +131,6 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     open_ = true;
     if (!told([this] { peer_->attach(outbox_); })) return end();
     read();
-  }
-
-  /// Each ping costs a pong, and Beast answers it by itself.
-  void count_control(websocket::frame_type kind) {
-    if (kind == websocket::frame_type::close || controls_.take(1, TokenBucket::Clock::now())) return;
-    on_close({websocket::close_code::policy_error, "sends too many pings"});  // posted: Beast is reading
   }
 
   void read() {
@@ -179,10 +176,10 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     if (flushed == Outbox::Flushed::all && open_ && !told([this] { peer_->writable(); })) end();
   }
 
-  void close(const http::CloseReason& reason) {
+  void close(const http::CloseReason& reason, std::chrono::seconds time = closing_time) {
     if (ended_ || deadline_) return;
     // A client that reads nothing does not get the close frame: its socket is closed at the deadline.
-    deadline_.emplace(executor_, closing_time);
+    deadline_.emplace(executor_, time);
     deadline_->async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
       if (!error && self && !self->ended_) self->ws_->next_layer().close();
@@ -214,7 +211,6 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
   const std::shared_ptr<SharedState> state_;
   std::shared_ptr<http::WebSocketPeer> peer_;
   const ConnectionCount count_;
-  TokenBucket controls_;
   asio::any_io_executor executor_;
   std::shared_ptr<Outbox> outbox_;
   std::optional<Stream> ws_;

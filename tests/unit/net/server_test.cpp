@@ -24,39 +24,14 @@
 #include "tests/support/wait.h"
 #include "tests/unit/net/echo_application.h"
 #include "tests/unit/net/raw_client.h"
+#include "tests/unit/net/server_fixture.h"
 
 namespace semblante::net {
 namespace {
 
 using namespace std::chrono_literals;
 
-class ServerTest : public ::testing::Test {
- protected:
-  ServerTest() {
-    ServerConfig config;
-    config.listeners.front().port = 0;
-    config.worker_threads = workers;
-    config.limits.max_files = max_files;
-    config.upload_directory = std::filesystem::temp_directory_path();
-    // So long that whoever waits for one of these does not pass.
-    config.limits.header_timeout = config.limits.idle_timeout = config.limits.drain_time = 10 * testing::patience;
-    server_ = std::make_unique<Server>(config, application_);
-    port_ = server_->listen().value().front();
-    thread_ = std::thread([this] { server_->run([] {}); });
-  }
-  ~ServerTest() override {
-    EXPECT_TRUE(testing::eventually([&] { return server_->counts().connections_open == 0; }));
-    server_->stop();
-    thread_.join();
-  }
-
-  static constexpr int workers = 2;
-  static constexpr std::uint32_t max_files = 3;
-  EchoApplication application_;
-  std::unique_ptr<Server> server_;
-  std::uint16_t port_ = 0;
-  std::thread thread_;
-};
+class ServerTest : public ServerFixture {};
 
 TEST_F(ServerTest, WebSocket_SaysBack) {
   const Client client(port_);
@@ -108,46 +83,6 @@ TEST_F(ServerTest, WebSocket_WantsAKeyOf16Bytes_AndDoesNotNameItsLibrary) {
   const auto head = client.read_head();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 101 "));
   EXPECT_EQ(head.find("Beast"), std::string::npos) << head;
-}
-
-TEST_F(ServerTest, WebSocketThatPingsWithoutEnd_IsClosed_AndOthersAreNot) {
-  const ServerLimits limits;
-  const Client good(port_);
-  good.upgrade();
-  for (const char opcode : {'\x89', '\x8A'}) {  // pings, pongs
-    const Client bad(port_);
-    bad.upgrade();
-    // Read by the server in far less time than the rate gives back as many.
-    const auto number = static_cast<int>(limits.controls_burst) * 20;
-    std::thread reader([&] {
-      // Pongs, then a close frame with the reason, then nothing.
-      std::string all;
-      while (const auto piece = bad.read_piece()) all += *piece;
-      EXPECT_NE(all.find("\x03\xF0sends too many pings"), std::string::npos) << all.size();
-      EXPECT_LT(all.size(), static_cast<std::size_t>(number) * 2);
-    });
-    std::string pings;
-    for (int i = 0; i < number; ++i) pings += Client::frame(opcode, "");
-    static_cast<void>(bad.try_send(pings));
-    static_cast<void>(bad.try_send(Client::frame('\x88', "\x03\xF0")));
-    reader.join();
-    EXPECT_TRUE(testing::eventually([&] { return application_.peers == 1; }));
-  }
-  for (int i = 0; i < limits.controls_burst / 2; ++i) good.send(Client::frame('\x89', "p"));
-  for (int i = 0; i < limits.controls_burst / 2; ++i) ASSERT_EQ(good.read(3), "\x8A\x01p") << i;
-}
-
-/// RFC 6455 section 5.4 permits empty fragments, and control frames between fragments.
-TEST_F(ServerTest, WebSocket_MessageInOddPieces_IsOneMessage) {
-  const Client client(port_);
-  client.upgrade();
-  std::string pieces = Client::frame('\x01', "");
-  for (int i = 0; i < 10'000; ++i) pieces += Client::frame('\0', "");
-  pieces += Client::frame('\0', "he") + Client::frame('\x89', "p") + Client::frame('\0', "llo");
-  client.send(pieces + Client::frame('\x80', ""));
-  EXPECT_EQ(client.read(10),
-            "\x8A\x01p"
-            "\x81\x05hello");
 }
 
 TEST_F(ServerTest, BytesBehindTheUpgrade_LeaveNoPeerBehind) {
@@ -230,6 +165,26 @@ TEST_F(ServerTest, ChunkedBody_ByteByByte_IsTaken) {
     std::this_thread::sleep_for(5ms);  // so that it is read alone; passes also when it is not
   }
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
+}
+
+TEST_F(ServerTest, ChunksOfLittleContentAndMuchFraming_AreRefused) {
+  const std::string head = "GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  const auto chunks = [](const std::string& chunk, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += chunk;
+    return all;
+  };
+  const std::string zeros(2000, '0');
+  for (const std::string& body : {chunks(zeros + "1\r\nx\r\n", 10), chunks("1;" + zeros + "\r\nx\r\n", 10),
+                                  zeros + chunks(zeros, 10) + "1\r\n"}) {
+    const Client client(port_);
+    static_cast<void>(client.try_send(head + body));
+    EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 "));
+  }
+  const Client honest(port_);
+  honest.send(head + chunks("1\r\nx\r\n", 100) + "0\r\n\r\n");
+  EXPECT_TRUE(honest.read_head().starts_with("HTTP/1.1 200 "));
+  EXPECT_EQ(honest.read(100), std::string(100, 'x'));
 }
 
 TEST_F(ServerTest, UnendingTrailers_EndTheirConnectionAlone) {
