@@ -23,6 +23,8 @@ test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
 # Unpacked beside the build where it is not installed: it depends on OpenSceneGraph, 162 packages of 414 MB, for headers that
 # nothing here includes.
 openmesh=libopenmesh-dev
+# Unpacked likewise, for tests: installed, each would start a service on port 80.
+proxies=(nginx caddy)
 
 as_root() {
   if [ "$(id -u)" = 0 ]; then
@@ -97,26 +99,44 @@ install_packages() {
   rm -f "$log"
 }
 
+# unpack TREE PACKAGE...: the files of these packages, as the mirror has them now. TREE is there when all are, otherwise
+# TREE.log says why not.
+unpack() {
+  local tree=$1 work=$1.partial # renamed when it is complete: an interrupted run leaves nothing that looks like a result
+  shift
+  rm -rf "$work"
+  mkdir -p "$work"
+  # apt-get checks the signatures, as it does when it installs.
+  (cd "$work" && apt-get -qq download "$@" && for archive in *.deb; do dpkg-deb -x "$archive" . && rm "$archive" || exit; done) \
+    >"$tree.log" 2>&1 && mv -T "$work" "$tree" && rm -f "$tree.log"
+}
+
 # unpack_openmesh: its headers and libraries into build/packages, where CMakeLists.txt looks when the package is not
 # installed. Silent when there is nothing to do.
 unpack_openmesh() {
-  local tree=$root/build/packages work libraries
+  local tree=$root/build/packages libraries
   if is_installed "$openmesh" || [ -d "$tree" ]; then return; fi
   refresh_package_lists
   # The libraries are named after their version: libopenmesh1 in Debian 12, libopenmesh11.0 in 13.
   libraries=$(LC_ALL=C apt-cache depends --important "$openmesh" | sed -n 's/^ *Depends: \(libopenmesh[^ ]*\)$/\1/p')
   say "Unpacking $openmesh and $libraries into build/packages"
-  work=$tree.partial # renamed when it is complete: an interrupted run leaves nothing that looks like a result
-  rm -rf "$work"
-  mkdir -p "$work"
-  # apt-get checks the signatures, as it does when it installs.
-  (cd "$work" && apt-get -qq download "$openmesh" $libraries && for archive in *.deb; do dpkg-deb -x "$archive" . && rm "$archive" || exit; done) \
-    >"$work.log" 2>&1 || {
-    tail -n 15 "$work.log" >&2
+  unpack "$tree" "$openmesh" $libraries || {
+    tail -n 15 "$tree.log" >&2
     fail "$openmesh could not be fetched and unpacked (see above); installing it serves as well"
   }
-  mv -T "$work" "$tree"
-  rm -f "$work.log"
+}
+
+# unpack_proxies: those that are not installed into build/proxies, where tests/deploy looks. Without them one test is skipped,
+# so a failure is told and ends nothing. Silent when there is nothing to do.
+unpack_proxies() {
+  local tree=$root/build/proxies missing=() package
+  for package in "${proxies[@]}"; do is_installed "$package" || missing+=("$package"); done
+  if [ ${#missing[@]} = 0 ] || [ -d "$tree" ]; then return; fi
+  say "Unpacking ${missing[*]} into build/proxies"
+  unpack "$tree" "${missing[@]}" || { (refresh_package_lists) && unpack "$tree" "${missing[@]}"; } || {
+    tail -n 15 "$tree.log" >&2
+    printf 'Note: %s could not be fetched and unpacked (see above); their tests are skipped\n' "${missing[*]}" >&2
+  }
 }
 
 # configure DIR PRESET [cmake options]: configures once; again only if an option changed. The presets: CMakePresets.json.

@@ -1,4 +1,5 @@
-"""The examples of deploy/proxy run: REST, uploads, events and WebSockets pass through Debian's nginx and Caddy with TLS.
+"""The examples of deploy/proxy run: REST, uploads, events and WebSockets pass through Debian's nginx and Caddy with TLS, and the
+server knows the addresses of the proxy's clients.
 
 Only ports, the paths of the certificate and (Caddy) where it comes from differ from the files in the tree."""
 
@@ -36,10 +37,11 @@ def replaced(text, old, new):
 class Connection:
     """A TLS connection to the proxy by the name of the site. HTTP is written by hand, to see what really passes."""
 
-    def __init__(self, port, certificate):
+    def __init__(self, port, certificate, token=None, address="127.0.0.1"):
         context = ssl.create_default_context(cafile=certificate)
         context.minimum_version = ssl.TLSVersion.TLSv1_2
-        plain = socket.create_connection(("127.0.0.1", port), timeout=support.HANG)
+        plain = socket.create_connection(("127.0.0.1", port), timeout=support.HANG, source_address=(address, 0))
+        self.token = token
         self.socket = context.wrap_socket(plain, server_hostname=NAME)
         self.file = self.socket.makefile("rb")
         self.host = f"{NAME}:{port}"
@@ -52,7 +54,8 @@ class Connection:
         self.socket.close()
 
     def send(self, method, path, body=b"", **headers):
-        lines = {"Host": self.host, **({"Content-Length": len(body)} if body else {}), **{k.replace("_", "-"): v for k, v in headers.items()}}
+        lines = {"Host": self.host, **({"Content-Length": len(body)} if body else {}),
+                 **({"Authorization": f"Bearer {self.token}"} if self.token else {}), **{k.replace("_", "-"): v for k, v in headers.items()}}
         head = f"{method} {path} HTTP/1.1\r\n" + "".join(f"{name}: {value}\r\n" for name, value in lines.items()) + "\r\n"
         self.socket.sendall(head.encode() + body)
 
@@ -105,10 +108,14 @@ class Proxies(unittest.TestCase):
         self.http, self.https = free_ports(2)
 
     def serve(self):
-        return support.Server(self.folder / "data", "--demo", "--allow-host", NAME, "--allow-origin", f"https://{NAME}:{self.https}")
+        made = support.run(support.PROGRAM, "token", "create", "--data", self.folder / "data", "--scope", "admin")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.token = made.stdout.split()[0]
+        return support.Server(self.folder / "data", "--demo", "--allow-host", NAME, "--allow-origin", f"https://{NAME}:{self.https}",
+                              "--trusted-proxy", "127.0.0.1", "--client-failures", 3)
 
-    def connect(self):
-        return Connection(self.https, self.certificate)
+    def connect(self, **options):
+        return Connection(self.https, self.certificate, **{"token": self.token, **options})
 
     def run_proxy(self, *command):
         log = open(self.folder / "proxy.log", "w+", encoding="utf-8")
@@ -145,7 +152,7 @@ class Proxies(unittest.TestCase):
             config.write_text(f"daemon off; pid {self.folder}/pid; error_log stderr; worker_processes 1;\n"
                               + (f"user root;\n" if os.geteuid() == 0 else "") +
                               f"events {{}} http {{ access_log off; {temporary}\n{text}}}\n")
-            self.run_proxy("nginx", "-e", "stderr", "-p", self.folder, "-c", config)
+            self.run_proxy(support.find_program("nginx"), "-e", "stderr", "-p", self.folder, "-c", config)
             self.check_site(server)
 
     def test_caddy(self):
@@ -156,7 +163,7 @@ class Proxies(unittest.TestCase):
             text = replaced(text, "\n{$SEMBLANTE_SITE:faces.example} {\n", f"\n{{$SEMBLANTE_SITE:faces.example}} {{\n\tbind 127.0.0.1\n\ttls {self.certificate} {self.key}\n")
             config = self.folder / "Caddyfile"
             config.write_text(f"{{\n\tadmin off\n\thttp_port {self.http}\n\thttps_port {self.https}\n}}\n" + text)
-            self.run_proxy("caddy", "run", "--adapter", "caddyfile", "--config", config)
+            self.run_proxy(support.find_program("caddy"), "run", "--adapter", "caddyfile", "--config", config)
             self.check_site(server)
 
     def check_site(self, server):
@@ -175,6 +182,7 @@ class Proxies(unittest.TestCase):
             self.assertEqual(status, 403, body)
         self.check_upload_and_events()
         self.check_websocket()
+        self.check_addresses()
         # The server was reached through the proxy only: its own address answers to its own names only.
         self.assertEqual(support.get(server.url + "/healthz", headers={"Host": "evil.example"})[0], 421)
 
@@ -214,6 +222,30 @@ class Proxies(unittest.TestCase):
                 kinds.append(json.loads(data)["type"])
                 self.assertLess(len(kinds), 100, kinds)
             self.assertEqual(kinds[0], "header")
+
+
+    def check_addresses(self):
+        """Tokens that are not accepted count for the client, not for the proxy, whatever the client says that it is."""
+        def refusal(address, **headers):
+            with self.connect(token="sem_wrong", address=address) as connection:
+                return connection.request("GET", "/v1/models", **headers)[0]
+
+        for number in range(20):
+            status = refusal("127.0.0.2", X_Forwarded_For=f"192.0.2.{number}", Forwarded=f"for=192.0.2.{number}", X_Real_IP=f"192.0.2.{number}")
+            if status != 401:
+                break
+        self.assertEqual(status, 429)
+        self.assertEqual(refusal("127.0.0.3"), 401)
+        with self.connect() as connection:
+            self.assertEqual(connection.request("GET", "/v1/models")[0], 200)
+        with self.connect(token=None) as connection:
+            self.assertEqual(connection.request("GET", "/v1/models")[0], 401)
+        # The scheme that the client used: only with TLS may a token stay in a cookie.
+        with self.connect() as connection:
+            status, headers, body = connection.request("POST", "/v1/session", json.dumps({"token": self.token}).encode(), Content_Type="application/json",
+                                                       Origin=f"https://{NAME}:{self.https}")
+            self.assertLess(status, 300, body)
+            self.assertIn("; Secure", headers["set-cookie"])
 
 
 support.main()

@@ -98,9 +98,15 @@ def get_json(url, **options):
     return json.loads(get(url, **options)[2])
 
 
+def find_program(name):
+    """Where a program is installed, or unpacked by tests/run; None if it is neither."""
+    folders = [os.environ["PATH"], "/usr/sbin", "/sbin", str(BUILD / "proxies/usr/sbin"), str(BUILD / "proxies/usr/bin")]
+    return shutil.which(name, path=":".join(folders))
+
+
 def need(*programs):
-    """Skips the test unless the programs are installed."""
-    missing = [program for program in programs if shutil.which(program, path=os.environ["PATH"] + ":/usr/sbin:/sbin") is None]
+    """Skips the test unless the programs are there."""
+    missing = [program for program in programs if find_program(program) is None]
     if missing:
         raise unittest.SkipTest("not installed: " + ", ".join(missing))
 

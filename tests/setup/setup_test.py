@@ -25,7 +25,7 @@ esac""",
 [ "$BROKEN" != "$1" ] || { echo "E: no mirror"; exit 100; }
 case $* in
   *--assume-no*) echo "$PLAN"; exit 1 ;;
-  *download*libopenmesh*) shift 2; for name; do echo "$name" >"$name.deb"; done ;;
+  *download*) shift 2; for name; do echo "$name" >"$name.deb"; done ;;
 esac""",
     "dpkg-deb": """[ "$BROKEN" != "$2" ] || { echo "broken archive"; exit 2; }
 mkdir -p "$3/usr" && cp "$2" "$3/usr/$(cat "$2")" """,
@@ -33,7 +33,8 @@ mkdir -p "$3/usr" && cp "$2" "$3/usr/$(cat "$2")" """,
 UPDATE = "apt-get -qq update"
 PLANNED = "apt-get install --no-install-recommends --assume-no --download-only "
 INSTALLED = "apt-get install -qq -y --no-install-recommends "
-DOWNLOADED = "apt-get -qq download libopenmesh-dev libopenmesh7.5"
+DOWNLOADED = "apt-get -qq download "
+OPENMESH = DOWNLOADED + "libopenmesh-dev libopenmesh7.5"
 
 failures = 0
 
@@ -101,7 +102,7 @@ def unpacks_openmesh_once(system):
     expect("OpenMesh installed", system.run("unpack_openmesh", INSTALLED="libopenmesh-dev"), (0, "", []))
     expect("OpenMesh installed: nothing unpacked", tree.exists(), False)
     status, _, calls = system.run("install_packages one; unpack_openmesh", OFFERED="one")
-    expect("one update for both", (status, calls), (0, [UPDATE, PLANNED + "one", INSTALLED + "one", DOWNLOADED]))
+    expect("one update for both", (status, calls), (0, [UPDATE, PLANNED + "one", INSTALLED + "one", OPENMESH]))
     expect("what is unpacked", sorted(str(file.relative_to(tree)) for file in tree.rglob("*") if file.is_file()),
            ["usr/libopenmesh-dev", "usr/libopenmesh7.5"])
     expect("the second time", system.run("unpack_openmesh"), (0, "", []))
@@ -117,8 +118,29 @@ def unpacks_openmesh_whole_or_not(system):
     expect("after failures: what is in build", [path.name for path in build.iterdir()], ["packages"])
 
 
+def unpacks_proxies_once(system):
+    tree = system.root / "build/proxies"
+    (system.root / "build").mkdir()
+    expect("proxies installed", system.run("unpack_proxies", INSTALLED="nginx caddy"), (0, "", []))
+    status, _, calls = system.run("unpack_proxies", INSTALLED="nginx")
+    expect("one missing", (status, calls, (tree / "usr/caddy").exists()), (0, [DOWNLOADED + "caddy"], True))
+    expect("the second time", system.run("unpack_proxies"), (0, "", []))
+
+
+def goes_on_without_proxies(system):
+    build = system.root / "build"
+    build.mkdir()
+    for broken in ("-qq", "caddy.deb"):  # apt-get's download and update; the first archive
+        status, output, calls = system.run("unpack_proxies; echo on", BROKEN=broken)
+        expect(f"{broken} fails", (status, (build / "proxies").exists(), calls[:2]), (0, False, [DOWNLOADED + "nginx caddy", UPDATE]))
+        expect(f"{broken} fails: the message", "nginx caddy could not be fetched and unpacked (see above); their tests are skipped" in output, True)
+        expect(f"{broken} fails: the rest goes on", "\non\n" in output, True)
+    expect("after failures", system.run("unpack_proxies")[2], [DOWNLOADED + "nginx caddy"])
+    expect("after failures: what is in build", [path.name for path in build.iterdir()], ["proxies"])
+
+
 def readme_gives_every_reason(system):
-    _, output, _ = system.run('printf "%s\\n" "${product_packages[@]}" "${test_packages[@]}" nodejs npm "$openmesh"')
+    _, output, _ = system.run('printf "%s\\n" "${product_packages[@]}" "${test_packages[@]}" nodejs npm "$openmesh" "${proxies[@]}"')
     listed = {name.split("|")[0] for name in output.split()}
     rows = re.findall(r"^\| ((?:`[^`]+`,? ?)+)\|", (TOP / "deploy/README.md").read_text(encoding="utf-8"), re.MULTILINE)
     told = {name for row in rows for name in re.findall(r"`([^`]+)`", row) if not name.endswith("/")}
@@ -127,7 +149,7 @@ def readme_gives_every_reason(system):
 
 
 checks = [installs_what_is_missing, removes_nothing, names_what_failed, unpacks_openmesh_once, unpacks_openmesh_whole_or_not,
-          readme_gives_every_reason]
+          unpacks_proxies_once, goes_on_without_proxies, readme_gives_every_reason]
 for check in checks:
     each(check)
 print(f"{len(checks)} checks, {failures} failures")
