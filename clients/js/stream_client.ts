@@ -362,41 +362,43 @@ export class StreamClient extends Emitter<StreamEvents> {
   private handle(memory: StreamMemory): void {
     const { runtime, event } = memory;
     const { view } = runtime;
-    const uint = (member: number): number => view.getUint32(event + member, true);
-    const real = (member: number): number => view.getFloat64(event + member, true);
-    switch (uint(eventLayout.type)) {
+    const type = view.getUint32(event + eventLayout.type, true);
+    switch (type) {
       case eventType.state:
-        return this.become(states[uint(eventLayout.state)]!);
+        return this.become(states[view.getUint32(event + eventLayout.state, true)]!);
       case eventType.connect:
         return this.open();
       case eventType.close: {
         const { socket } = this;
         this.socket = null;
-        return socket?.close(uint(eventLayout.code));
+        return socket?.close(view.getUint32(event + eventLayout.code, true));
       }
       case eventType.header:
         return this.takeHeader(memory);
       case eventType.keyframe:
       case eventType.frames:
-        return this.takeFrames(memory, uint(eventLayout.type) === eventType.keyframe);
+        return this.takeFrames(memory, type === eventType.keyframe);
       case eventType.clock:
         return this.emit('clock', {
-          roundTrip: real(eventLayout.round_trip),
-          offset: real(eventLayout.server_offset),
-          mediaTime: real(eventLayout.media_time),
+          roundTrip: view.getFloat64(event + eventLayout.round_trip, true),
+          offset: view.getFloat64(event + eventLayout.server_offset, true),
+          mediaTime: view.getFloat64(event + eventLayout.media_time, true),
         });
       case eventType.refused:
       case eventType.fault: {
-        const code = uint(eventLayout.code);
+        const code = view.getUint32(event + eventLayout.code, true);
         const where = runtime.text(event + eventLayout.error + errorLayout.where);
         const message = runtime.text(event + eventLayout.error + errorLayout.message);
-        if (uint(eventLayout.type) === eventType.fault) {
+        if (type === eventType.fault) {
           return this.emit('fault', new ProtocolError(faults[code] ?? 'other', where, message));
         }
         return this.emit('error', { type: 'error', code: refusals[code] ?? 'other', where, message });
       }
       case eventType.end:
-        return this.emit('end', { type: 'end', reason: endReasons[uint(eventLayout.code)] ?? 'other' });
+        return this.emit('end', {
+          type: 'end',
+          reason: endReasons[view.getUint32(event + eventLayout.code, true)] ?? 'other',
+        });
     }
   }
 
