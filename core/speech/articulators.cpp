@@ -69,8 +69,46 @@ constexpr Dominances dominances_of(SoundKind kind) {
 
 /// Where a sound is reached: the middle of a vowel, all of a consonant.
 constexpr double vowel_edge = 0.25;
+/// Lips that close leave a vowel beside them, however short: in its middle their dominance of jaw and lips has fallen
+/// by e to this power. So a vowel between two closures opens to nine tenths of its own opening.
+constexpr double vowel_escape = 3.0;
+/// In a pause the mouth is moved only by a sound that is nearer than this, and ever less with the way to it.
+constexpr double anticipation_ms = 120.0, relaxation_ms = 220.0;
 constexpr double far_ms = 400.0;  ///< beyond, the slowest dominance is below a twentieth
 constexpr double tiny = 1e-9;
+
+/// The falls of a closure's dominance into the vowels before and after it.
+struct Falls {
+  double before = 0.0, after = 0.0;
+};
+
+double into(const Segment& vowel) {
+  return vowel.is_vowel() ? vowel_escape / (0.5 * std::max(1.0, vowel.end - vowel.begin)) : 0.0;
+}
+
+Falls closure_falls(std::span<const Segment> segments, std::size_t i) {
+  Falls falls;
+  if (segments[i].sound.kind != SoundKind::both_lips) return falls;
+  if (i > 0) falls.before = into(segments[i - 1]);
+  if (i + 1 < segments.size()) falls.after = into(segments[i + 1]);
+  return falls;
+}
+
+/// How much sounds before and after a pause move the mouth at a time within it; 1 outside pauses.
+struct PauseShares {
+  double sounds_before = 1.0, sounds_after = 1.0;
+};
+
+PauseShares pause_shares(double ms, std::span<const Segment> segments) {
+  const auto at = std::lower_bound(segments.begin(), segments.end(), ms,
+                                   [](const Segment& segment, double time) { return segment.end < time; });
+  if (at == segments.end() || !at->is_silence()) return {};
+  const auto share = [](double way, double reach) {
+    const double x = std::clamp(1.0 - way / reach, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
+  };
+  return {share(ms - at->begin, relaxation_ms), share(at->end - ms, anticipation_ms)};
+}
 
 std::array<MouthVector, 15> measure_visemes() {
   std::array<MouthVector, 15> mouths{};
@@ -97,15 +135,24 @@ MouthVector mouth_at(double ms, std::span<const Segment> segments) {
   std::array<double, articulator_count> weights{};
   auto at = std::lower_bound(segments.begin(), segments.end(), ms - far_ms,
                              [](const Segment& segment, double time) { return segment.end < time; });
+  const PauseShares pause = pause_shares(ms, segments);
   for (; at != segments.end() && at->begin <= ms + far_ms; ++at) {
     const double edge = at->is_vowel() ? vowel_edge * (at->end - at->begin) : 0.0;
     const double before = std::max(0.0, at->begin + edge - ms);
     const double after = std::max(0.0, ms - (at->end - edge));
     const Dominances dominances = dominances_of(at->sound.kind);
+    const Falls least = closure_falls(segments, static_cast<std::size_t>(at - segments.begin()));
+    const double seen = at->is_silence() ? 1.0
+                        : at->begin > ms ? pause.sounds_after
+                        : at->end < ms   ? pause.sounds_before
+                                         : 1.0;
     std::array<double, articulator_count> here{};
     for (std::size_t k = 0; k < articulator_count; ++k) {
       const Dominance& dominance = dominances[k];
-      here[k] = dominance.strength * std::exp(-dominance.before * before - dominance.after * after);
+      const bool opens = k == static_cast<std::size_t>(jaw) || k == static_cast<std::size_t>(lips);
+      const double rise = opens ? std::max(dominance.before, least.before) : dominance.before;
+      const double fall = opens ? std::max(dominance.after, least.after) : dominance.after;
+      here[k] = seen * dominance.strength * std::exp(-rise * before - fall * after);
       weights[k] += here[k];
     }
     const MouthVector& first = viseme_mouths()[at->sound.viseme];

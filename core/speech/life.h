@@ -10,11 +10,6 @@
 
 namespace semblante {
 
-/// A time over which an expression has the brows.
-struct Interval {
-  double begin = 0.0, end = 0.0;
-};
-
 /// What a face does while it speaks, beside the mouth: it blinks when a phrase ends and now and then within a long one;
 /// at the loudest stressed vowel of a phrase the brows rise (not where an expression moves them) and the head nods; the
 /// head lifts with the breath before a phrase; the eyes look aside as a sentence begins, and back. A function of the

@@ -16,7 +16,7 @@ constexpr float movement_weight = 1.0F;   ///< of an error in movement, against 
 constexpr float change_cost = 6000.0F;    ///< of a new pair, in squared units: fewer cues to read
 constexpr double closure_lead_ms = 12.0;  ///< how far before the sound the lips are closed
 constexpr double key_tolerance = 0.02;
-/// Within speech the mouth is never all at rest: Eq. 5 gives an expression the whole mouth then, and it would jump.
+/// Within speech and under an expression the mouth is never all at rest.
 constexpr float least_viseme = 1.0F / 63.0F;
 
 struct Pair {
@@ -213,7 +213,7 @@ Cue cue_of(std::span<const Shown> path, std::size_t begin, std::size_t end) {
 
 }  // namespace
 
-std::vector<Cue> mouth_cues(std::span<const Segment> segments) {
+std::vector<Cue> mouth_cues(std::span<const Segment> segments, std::span<const Interval> expressive) {
   if (segments.empty()) return {};
   const auto count = static_cast<std::size_t>(segments.back().end / mouth_step_ms) + 1;
   const auto phrases = phrases_of(segments);
@@ -224,10 +224,13 @@ std::vector<Cue> mouth_cues(std::span<const Segment> segments) {
   for (std::size_t i = 0; i < count; ++i) {
     Step& step = steps[i];
     step.time = static_cast<double>(i) * mouth_step_ms;
-    step.wanted = mouth_at(step.time, segments);
     step.closed = is_closed(step.time, segments);
+    step.wanted = step.closed ? viseme_mouths()[sounds::p_b_m] : mouth_at(step.time, segments);
     step.allowed = visemes_around(step.time, segments);
-    step.speaks = step.time >= speech_begin && step.time <= speech_end;
+    const bool has_expression = std::any_of(expressive.begin(), expressive.end(),
+                                            [&](const Interval& span) { return span.contains(step.time); });
+    step.speaks = has_expression || (step.time >= speech_begin && step.time <= speech_end);
+    if (has_expression) step.allowed[sounds::a] = true;  // it moves all that an expression moves
     fill(step);
   }
   const auto path = best_path(steps);

@@ -18,7 +18,10 @@ namespace semblante {
 ///
 /// A frame has two visemes (FAP 1). The pairs over time are those whose mixtures follow the trajectory of the mouth
 /// best, in place and in movement: the shortest path through all pairs at steps of `mouth_step_ms`.
-std::vector<Cue> mouth_cues(std::span<const Segment> segments);
+///
+/// `expressive`: when the face has an expression. Eq. 5 gives an expression the whole mouth as soon as no viseme moves
+/// it; until the expression has gone, a trace of a viseme stays, so that the mouth does not jump.
+std::vector<Cue> mouth_cues(std::span<const Segment> segments, std::span<const Interval> expressive = {});
 inline constexpr double mouth_step_ms = 20.0;
 inline constexpr double least_closure_ms = 60.0;
 

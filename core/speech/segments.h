@@ -21,6 +21,12 @@ struct Segment {
   [[nodiscard]] double middle() const { return 0.5 * (begin + end); }
 };
 
+/// ms.
+struct Interval {
+  double begin = 0.0, end = 0.0;
+  [[nodiscard]] bool contains(double ms) const { return begin <= ms && ms <= end; }
+};
+
 /// The sounds of an utterance without gaps from 0 to its end; neighbouring pauses are one.
 std::vector<Segment> segments_of(const Utterance& utterance, const SoundTable& table, const Loudness& loudness);
 

@@ -2,9 +2,13 @@
 #include "core/speech/mouth.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
+#include "core/expressions/library.h"
 #include "core/performance/performance.h"
 #include "core/speech/speech.h"
 
@@ -61,6 +65,50 @@ TEST(Mouth, BilabialBetweenOpenVowels_ClosesWholly_ForEveryPhaseOfAFrame_AlsoAtS
   }
 }
 
+TEST(Mouth, ShortVowelBetweenBilabials_Opens_AndTheLipsStillClose) {
+  for (const double length : {55.0, 65.0, 80.0}) {
+    const double end = 500 + length;
+    const auto said = utterance({{400, "m"},
+                                 {500, "a"},
+                                 {end, "m"},
+                                 {end + 70, "a"},
+                                 {end + 70 + length, "p"},
+                                 {end + 140 + length, "a"},
+                                 {900, ""}},
+                                1400);
+    const auto face = performance(said, "pt-BR");
+    for (const double begin : {500.0, end + 70}) {
+      double most = 0.0;
+      for (double ms = begin; ms < begin + length; ms += 1.0) most = std::max(most, share_of(face.frame_at(ms), a));
+      EXPECT_GE(most, 0.75) << length << " ms, vowel at " << begin;
+    }
+    for (const double begin : {400.0, end, end + 70 + length}) {
+      double most = 0.0;
+      for (double ms = begin; ms < begin + 60; ms += 1.0) most = std::max(most, share_of(face.frame_at(ms), p_b_m));
+      EXPECT_EQ(most, 1.0) << length << " ms, closure at " << begin;
+    }
+  }
+}
+
+TEST(Mouth, WeakVowelBetweenBilabials_Opens) {
+  const auto said = utterance({{400, "a"}, {500, "p"}, {535, "ə"}, {590, "b"}, {650, "a"}, {900, ""}}, 1400);
+  const auto face = performance(said, "en");
+  double most = 0.0;
+  for (double ms = 535; ms < 590; ms += 1.0)
+    most = std::max(most, share_of(face.frame_at(ms), e) + share_of(face.frame_at(ms), a));
+  EXPECT_GE(most, 0.3);
+}
+
+TEST(Mouth, MovesJustBeforeTheFirstSound_AndRestsSoonAfterTheLast) {
+  for (const char* vowel : {"a", "u", "i"}) {
+    const auto face = performance(utterance({{600, vowel}, {800, ""}}, 1600), "pt-BR");
+    for (double ms = 0; ms <= 600 - 140; ms += 5) EXPECT_EQ(share_of(face.frame_at(ms), sil), 1.0) << vowel << ms;
+    EXPECT_LT(share_of(face.frame_at(600 - 30), sil), 0.95) << vowel;
+    for (double ms = 800 + 250; ms < 1600; ms += 5) EXPECT_EQ(share_of(face.frame_at(ms), sil), 1.0) << vowel << ms;
+    EXPECT_LT(share_of(face.frame_at(800 + 60), sil), 0.95) << vowel;
+  }
+}
+
 TEST(Mouth, LipsAreRoundBeforeU_ThroughConsonants) {
   const auto rounding = [](const char* vowel) {
     const auto said = utterance({{400, "s"}, {480, "t"}, {540, vowel}, {700, ""}}, 1100);
@@ -98,6 +146,45 @@ TEST(Speech, Emotion_BeginsBeforeItsWord_AndDiesAway) {
   EXPECT_LT(joy(1150), 40);
   EXPECT_EQ(joy(1400), 0);
   EXPECT_EQ(performance(said, "en").frame_at(600).expression1, 0);
+}
+
+/// The mouth by Eq. 5 and its corners' FAPs in FAP units: heights of 2.4 and 8.3, and the height of 2.2.
+std::array<double, 3> heights(const semblante_frame& frame) {
+  const auto y = [](const DisplacementSet& set, std::string_view point) {
+    for (const Displacement& part : set.displacements)
+      if (to_string(part.point) == point) return static_cast<double>(part.value.y);
+    return 0.0;
+  };
+  std::array<double, 3> found{};
+  const char* const points[] = {"2.4", "8.3", "2.2"};
+  const int faps[] = {12, 59, 0};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double share = frame.viseme_blend / 63.0;
+    const double viseme = share * y(viseme_library()[frame.viseme1], points[i]) +
+                          (1 - share) * y(viseme_library()[frame.viseme2], points[i]);
+    const double expression = frame.intensity1 / 63.0 * y(expression_library()[frame.expression1], points[i]);
+    found[i] = viseme != 0.0 && expression != 0.0 ? 0.85 * viseme + 0.15 * expression : viseme + expression;
+    if (faps[i] != 0 && frame.fap[faps[i]] != 0.0F) found[i] = frame.fap[faps[i]];
+  }
+  return found;
+}
+
+TEST(Speech, ExpressionNeverJumps_AndTheSmileIsKeptWhileSpeaking) {
+  const auto said = utterance({{600, "a"}, {700, "m"}, {800, "a"}, {900, ""}}, 1800);
+  const auto face = performance(said, "en", {{1, 1.0, {0, 3}}});
+  auto last = heights(face.frame_at(0));
+  for (double ms = 0; ms <= 1800; ms += 10) {
+    const auto now = heights(face.frame_at(ms));
+    const bool speaks = ms > 480 && ms < 1120;
+    for (std::size_t i = 0; i < now.size() && !speaks; ++i)
+      EXPECT_LE(std::abs(now[i] - last[i]), 20.0) << i << " at " << ms;  // a jump is 85 % of 340
+    last = now;
+    if (ms >= 620 && ms <= 880) {
+      EXPECT_GE(now[0], 150.0) << ms;
+      EXPECT_GE(now[1], 150.0) << ms;
+    }
+  }
+  EXPECT_EQ(heights(face.frame_at(1790)), (std::array<double, 3>{}));
 }
 
 TEST(Speech, IsTheSameForTheSameSeed_AndBlinksAtTheEndOfAPhrase) {
