@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "clients/native/client/live_stream.h"
-#include "clients/native/client/stream_client.h"
+#include "tests/support/stream_speaker.h"
 #include "tests/support/wait.h"
 
 namespace semblante::testing {
@@ -14,7 +14,7 @@ struct RoundTrip {
   std::uint64_t media_time = 0;
 };
 
-std::optional<RoundTrip> ping(client::StreamClient& stream, std::uint32_t id) {
+std::optional<RoundTrip> ping(StreamSpeaker& stream, std::uint32_t id) {
   Ping ping;
   ping.id = id;
   ping.client_time = client::LiveStream::now();
@@ -31,9 +31,7 @@ std::optional<RoundTrip> ping(client::StreamClient& stream, std::uint32_t id) {
 }  // namespace
 
 std::optional<TrueClock> measure_true_clock(const client::Url& server, const std::string& stream) {
-  client::StreamOptions options;
-  options.timeout = patience;
-  auto direct = client::StreamClient::connect(server, stream, options);
+  auto direct = StreamSpeaker::connect(server, stream, packed_hello(), patience);
   if (!direct) return std::nullopt;
   // The shortest of some round trips says most. A busy machine answers late: then more of them are waited for.
   constexpr std::uint32_t least = 20;

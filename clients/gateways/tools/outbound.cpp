@@ -54,8 +54,8 @@ class Outbound {
 
   [[nodiscard]] client::LiveStreamOptions wanted() const {
     client::LiveStreamOptions options;
-    options.stream.timeout = connect_time;
-    options.stream.resume = resume_;
+    options.socket.timeout = connect_time;
+    options.resume = resume_;
     options.first_pause = first_retry;
     options.longest_pause = last_retry;
     return options;
@@ -69,14 +69,15 @@ class Outbound {
       const double left = waiting_.empty() ? static_cast<double>(longest_wait.count()) : waiting_.front().first - now();
       const milliseconds patience(
           std::clamp<long long>(static_cast<long long>(left), 1, static_cast<long long>(longest_wait.count())));
-      auto message = stream.next(patience);
-      if (!message) return std::move(message).error();
+      auto event = stream.next(patience);
+      if (!event) return std::move(event).error();
       const bool is_waiting = stream.machine().state() == SEMBLANTE_STREAM_WAITING;
       if (is_waiting && !was_waiting) {
         std::cerr << options_.program << ": no connection to " << options_.stream << '\n';
       }
       was_waiting = is_waiting;
-      if (*message && !take(**message, stream.machine().steps())) {
+      take(*event, stream.machine());
+      if (event->type == SEMBLANTE_EVENT_END && event->is_final) {
         resume_ = stream.resume();
         break;
       }
@@ -86,23 +87,21 @@ class Outbound {
     return Unit{};
   }
 
-  /// False at the stream's end.
-  bool take(const Message& message, const QuantizerSteps& steps) {
-    steps_ = steps;
-    if (const auto* key = std::get_if<Keyframe>(&message)) {
+  void take(const runtime::Event& event, const runtime::Stream& machine) {
+    const Frames& newest = machine.newest();
+    if (event.type == SEMBLANTE_EVENT_KEYFRAME) {
       // The current state, however old, replaces all waiting frames.
+      steps_ = machine.steps();
       waiting_.clear();
-      waiting_.emplace_back(now(), key->state);
-    } else if (const auto* batch = std::get_if<Frames>(&message)) {
-      const auto base = static_cast<double>(batch->media_time);
-      pacer_.arrived(base + batch->frames.front().time, now());
-      for (const TimedFrame& frame : batch->frames) waiting_.emplace_back(pacer_.due(base + frame.time), frame.state);
+      waiting_.emplace_back(now(), newest.frames.front().state);
+    } else if (event.type == SEMBLANTE_EVENT_FRAMES) {
+      const auto base = static_cast<double>(newest.media_time);
+      pacer_.arrived(base + newest.frames.front().time, now());
+      for (const TimedFrame& frame : newest.frames) waiting_.emplace_back(pacer_.due(base + frame.time), frame.state);
       while (waiting_.size() > most_waiting) waiting_.pop_front();
-    } else if (const auto* error = std::get_if<StreamError>(&message)) {
-      std::cerr << options_.program << ": error of the server: " << error->message << '\n';
+    } else if (event.type == SEMBLANTE_EVENT_REFUSED) {
+      std::cerr << options_.program << ": error of the server: " << event.error->message << '\n';
     }
-    const auto* end = std::get_if<End>(&message);
-    return end == nullptr || end->reason == EndReason::shutdown || end->reason == EndReason::slow;
   }
 
   void send_due() {

@@ -2,51 +2,72 @@
 
 #include <utility>
 
-#include "clients/native/client/kernel_frame.h"
-
 namespace semblante::client {
 
-void FramePlayer::take(std::uint64_t sequence, double media_time, const FaceFrame& state) {
-  received_.push_back({sequence, media_time, to_kernel_frame(state, steps_)});
+DisplayedFrame displayed(const runtime::Player& player) {
+  const runtime::Moment& moment = player.moment();
+  return {{moment.from_sequence, moment.from_time, moment.frames[1]},
+          {moment.to_sequence, moment.to_time, moment.frames[2]},
+          moment.t,
+          player.playout().playhead()};
+}
+
+FramePlayer::FramePlayer(LiveStream& stream, std::chrono::milliseconds patience)
+    : stream_(stream), patience_(patience), player_(runtime::PlayerOptions{}) {
+  player_.follow(&stream.machine());
+}
+
+void FramePlayer::take() {
+  if (header()->epoch != epoch_) newest_.reset();
+  epoch_ = header()->epoch;
+  std::uint64_t sequence = stream_.machine().newest().sequence;
+  for (const semblante_timed_frame& each : stream_.machine().frames()) {
+    const PlayedFrame frame{sequence++, each.time, each.frame};
+    if (newest_ && frame.sequence <= newest_->sequence) continue;  // sent again after a lost connection
+    newest_ = frame;
+    received_.push_back(frame);
+  }
 }
 
 Result<bool> FramePlayer::pump() {
-  auto received = stream_.next(patience_);
-  if (!received) {
-    return std::move(received).error();
-  }
-  if (!*received) {
-    return Error{ErrorCode::io, "stream", "no message for " + std::to_string(patience_.count()) + " ms"};
-  }
-  const Message& message = **received;
-  if (const auto* header = std::get_if<Header>(&message)) {
-    header_ = *header;
-    steps_ = quantizers_of(*header);
-  } else if (const auto* keyframe = std::get_if<Keyframe>(&message)) {
-    take(keyframe->sequence, static_cast<double>(keyframe->media_time), keyframe->state);
-  } else if (const auto* frames = std::get_if<Frames>(&message)) {
-    for (std::size_t i = 0; i < frames->frames.size(); ++i) {
-      take(frames->sequence + i, static_cast<double>(frames->media_time) + frames->frames[i].time,
-           frames->frames[i].state);
+  const auto deadline = LiveStream::Clock::now() + patience_;
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - LiveStream::Clock::now());
+    auto event = stream_.next(std::max(left, std::chrono::milliseconds(0)));
+    if (!event) return std::move(event).error();
+    switch (event->type) {
+      case SEMBLANTE_EVENT_KEYFRAME:
+      case SEMBLANTE_EVENT_FRAMES:
+        take();
+        return true;
+      case SEMBLANTE_EVENT_HEADER:
+        return true;
+      case SEMBLANTE_EVENT_REFUSED:
+        return Error{
+            event->code == static_cast<std::uint32_t>(StreamErrorCode::not_found) ? ErrorCode::missing : ErrorCode::io,
+            "stream" + event->error->where, "error of the server: " + event->error->message};
+      case SEMBLANTE_EVENT_FAULT:
+        return std::move(*event->error);
+      case SEMBLANTE_EVENT_END:
+        return false;
+      default:
+        break;
     }
-  } else if (const auto* error = std::get_if<StreamError>(&message)) {
-    return Error{error->code == StreamErrorCode::not_found ? ErrorCode::missing : ErrorCode::io,
-                 "stream" + error->where, "error of the server: " + error->message};
-  } else if (std::holds_alternative<End>(message)) {
-    return false;
+    // A lost connection comes back; one that was never there is a mistake of the caller's.
+    if (!header() && stream_.loss()) return *stream_.loss();
+    if (event->type == SEMBLANTE_EVENT_NONE) {
+      return Error{ErrorCode::io, "stream",
+                   "no message for " + std::to_string(patience_.count()) + " ms" +
+                       (stream_.loss() ? ": " + stream_.loss()->message : "")};
+    }
   }
-  return true;
 }
 
 Status FramePlayer::wait_for_header() {
-  while (!header_) {
+  while (!header()) {
     auto more = pump();
-    if (!more) {
-      return std::move(more).error();
-    }
-    if (!*more) {
-      return Error{ErrorCode::io, "stream", "the stream ended before its header"};
-    }
+    if (!more) return std::move(more).error();
+    if (!*more) return Error{ErrorCode::io, "stream", "the stream ended before its header"};
   }
   return Unit{};
 }
@@ -54,12 +75,8 @@ Status FramePlayer::wait_for_header() {
 Result<std::optional<PlayedFrame>> FramePlayer::next_received() {
   while (received_.empty()) {
     auto more = pump();
-    if (!more) {
-      return std::move(more).error();
-    }
-    if (!*more) {
-      return std::optional<PlayedFrame>();
-    }
+    if (!more) return std::move(more).error();
+    if (!*more) return std::optional<PlayedFrame>();
   }
   const PlayedFrame frame = received_.front();
   received_.pop_front();
@@ -67,26 +84,14 @@ Result<std::optional<PlayedFrame>> FramePlayer::next_received() {
 }
 
 Result<std::optional<DisplayedFrame>> FramePlayer::at(double media_time) {
-  while (true) {
-    while (!received_.empty() && received_.front().media_time <= media_time) {
-      before_ = received_.front();
-      received_.pop_front();
-    }
-    if (!received_.empty()) {
-      const PlayedFrame& after = received_.front();
-      const PlayedFrame& from = before_ ? *before_ : after;
-      const double span = after.media_time - from.media_time;
-      const double t = span > 0 ? (media_time - from.media_time) / span : 1.0;
-      return std::optional(DisplayedFrame{from, after, static_cast<float>(t), media_time});
-    }
+  while (!newest_ || newest_->media_time < media_time) {
     auto more = pump();
-    if (!more) {
-      return std::move(more).error();
-    }
-    if (!*more) {
-      return std::optional<DisplayedFrame>();
-    }
+    if (!more) return std::move(more).error();
+    if (!*more) return std::optional<DisplayedFrame>();
+    received_.clear();  // the player holds them
   }
+  player_.move_to(media_time);
+  return std::optional(displayed(player_));
 }
 
 }  // namespace semblante::client

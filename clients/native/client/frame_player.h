@@ -5,11 +5,11 @@
 #include <deque>
 #include <optional>
 
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/live_stream.h"
+#include "clients/runtime/player.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/types/result.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/cpp/quantizers.h"
 
 namespace semblante::client {
 
@@ -27,14 +27,19 @@ struct DisplayedFrame {
   double media_time = 0;  ///< ms
 };
 
-/// Converts a subscriber's messages to frames, one by one or at a display's own rate. Reads the stream as needed.
+/// What a player shows now.
+DisplayedFrame displayed(const runtime::Player& player);
+
+/// The frames of a subscription, one by one or at a display's own rate, for programs that wait for them. Reads the
+/// stream as needed.
 class FramePlayer {
  public:
   /// `stream` must outlive the player. `patience`: timeout of a frame.
-  FramePlayer(StreamClient& stream, std::chrono::milliseconds patience) : stream_(stream), patience_(patience) {}
+  FramePlayer(LiveStream& stream, std::chrono::milliseconds patience);
 
-  /// The next frame the stream sends (a keyframe counts as one); nullopt when the stream has ended.
-  /// Errors: io (late or closed), mismatch and the like from the server's own error messages.
+  /// The next frame the stream sends (a keyframe counts as one); nullopt when the stream has ended. Of each frame, and
+  /// of each time, there is one, also after a lost connection.
+  /// Errors: io (late, or no connection to begin with), mismatch and the like from the server's own error messages.
   Result<std::optional<PlayedFrame>> next_received();
 
   /// The face at `media_time`, which must not decrease from call to call; before the first frame it is the first frame.
@@ -42,21 +47,22 @@ class FramePlayer {
   Result<std::optional<DisplayedFrame>> at(double media_time);
 
   /// Of the stream; empty before the first message.
-  [[nodiscard]] const std::optional<Header>& header() const { return header_; }
+  [[nodiscard]] const std::optional<Header>& header() const { return stream_.header(); }
   /// Reads until the header has been received.
   Status wait_for_header();
 
  private:
-  /// Reads one message. False when the stream has ended.
+  /// Reads until an event of the stream that is not only about clocks and states. False when the stream has ended.
   Result<bool> pump();
-  void take(std::uint64_t sequence, double media_time, const FaceFrame& state);
+  /// The newest frames of the stream.
+  void take();
 
-  StreamClient& stream_;
+  LiveStream& stream_;
   std::chrono::milliseconds patience_;
-  std::optional<Header> header_;
-  QuantizerSteps steps_ = standard_quantizers();
+  runtime::Player player_;
   std::deque<PlayedFrame> received_;
-  std::optional<PlayedFrame> before_;  ///< of at(): the newest frame not after the requested time
+  std::optional<PlayedFrame> newest_;
+  std::uint64_t epoch_ = 0;  ///< of `newest_`
 };
 
 }  // namespace semblante::client

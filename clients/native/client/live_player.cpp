@@ -15,11 +15,11 @@ Status LivePlayer::receive(std::chrono::milliseconds time) {
   const auto deadline = LiveStream::Clock::now() + time;
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - LiveStream::Clock::now());
-    auto message = stream_.next(std::max(left, std::chrono::milliseconds(0)));
-    if (!message) {
-      return std::move(message).error();
+    auto event = stream_.next(std::max(left, std::chrono::milliseconds(0)));
+    if (!event) {
+      return std::move(event).error();
     }
-    if (!*message) {
+    if (event->type == SEMBLANTE_EVENT_NONE) {
       return Unit{};
     }
   }
@@ -30,11 +30,7 @@ std::optional<DisplayedFrame> LivePlayer::show() {
   if (!player_.advance(LiveStream::now(), by_the_clock)) {
     return std::nullopt;
   }
-  const runtime::Moment& moment = player_.moment();
-  return DisplayedFrame{{moment.from_sequence, moment.from_time, moment.frames[1]},
-                        {moment.to_sequence, moment.to_time, moment.frames[2]},
-                        moment.t,
-                        player_.playout().playhead()};
+  return displayed(player_);
 }
 
 }  // namespace semblante::client

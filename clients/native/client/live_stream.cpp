@@ -12,6 +12,7 @@ namespace semblante::client {
 namespace {
 
 using Clock = LiveStream::Clock;
+using runtime::Event;
 
 double to_ms(std::chrono::milliseconds time) { return static_cast<double>(time.count()); }
 
@@ -30,14 +31,14 @@ void append_json(const Message& message, const QuantizerSteps& steps, std::vecto
 
 runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
   runtime::StreamOptions options;
-  options.role = from.stream.role;
-  options.take_over = from.stream.take_over;
-  options.resume = from.stream.resume;
-  options.coding = from.stream.json ? StreamCoding::plain : from.stream.coding;
+  options.role = from.role;
+  options.take_over = from.take_over;
+  options.resume = from.resume;
+  options.coding = from.socket.json ? StreamCoding::plain : from.coding;
   options.retry_first = to_ms(from.first_pause);
   options.retry_longest = to_ms(from.longest_pause);
   options.seed = from.seed;
-  if (from.stream.json) options.encode = append_json;
+  if (from.socket.json) options.encode = append_json;
   return options;
 }
 
@@ -46,7 +47,7 @@ runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
 LiveStream::LiveStream(ServerAddress server, std::string stream, LiveStreamOptions options)
     : server_(std::move(server)),
       stream_(std::move(stream)),
-      options_(options.stream),
+      options_(options.socket),
       machine_(machine_options(options)) {
   machine_.start(now());
 }
@@ -55,77 +56,74 @@ double LiveStream::now() { return std::chrono::duration<double, std::milli>(Cloc
 
 void LiveStream::close() {
   machine_.stop();
-  if (client_) client_->close();
-  client_.reset();
+  if (socket_) socket_->close();
+  socket_.reset();
+}
+
+void LiveStream::lose(Error why) {
+  loss_ = std::move(why);
+  socket_.reset();
+  machine_.closed(now());
 }
 
 Status LiveStream::connect() {
   ++connections_;
-  decoder_.reset();
-  auto client = StreamClient::open(server_, stream_, options_);
-  if (!client) {
-    machine_.closed(now());
-    const ErrorCode code = client.error().code;
+  auto socket = StreamSocket::open(server_, stream_, options_);
+  if (!socket) {
+    const ErrorCode code = socket.error().code;
+    lose(std::move(socket).error());
     const bool is_final =
         code == ErrorCode::missing || code == ErrorCode::mismatch || code == ErrorCode::invalid_argument;
-    return is_final ? Status(std::move(client).error()) : Unit{};
+    return is_final ? Status(*loss_) : Unit{};
   }
-  client_.emplace(*std::move(client));
+  socket_.emplace(*std::move(socket));
+  loss_.reset();
   machine_.opened(now());
   return Unit{};
 }
 
-Status LiveStream::obey() {
+Result<Event> LiveStream::obey() {
   machine_.tick(now());
   while (!machine_.events().empty()) {
-    const runtime::Event event = machine_.events().take();
-    if (event.type == SEMBLANTE_EVENT_CLOSE) client_.reset();
-    if (event.type != SEMBLANTE_EVENT_CONNECT) continue;
-    if (auto connected = connect(); !connected) return connected;
+    Event event = machine_.events().take();
+    if (event.type == SEMBLANTE_EVENT_CLOSE) {
+      socket_.reset();
+    } else if (event.type == SEMBLANTE_EVENT_CONNECT) {
+      if (auto connected = connect(); !connected) return std::move(connected).error();
+    } else {
+      return event;
+    }
   }
   // If something cannot be sent, the next read reports the error.
-  if (client_) static_cast<void>(send_all(machine_, *client_, options_.json));
-  return Unit{};
+  if (socket_) static_cast<void>(send_all(machine_, *socket_));
+  return Event{};
 }
 
-std::optional<Message> LiveStream::receive(Clock::time_point until) {
+void LiveStream::receive(Clock::time_point until) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-  auto bytes = client_->read(std::max(left, std::chrono::milliseconds(0)));
-  if (!bytes) {
-    client_.reset();
-    machine_.closed(now());
-    return std::nullopt;
-  }
-  if (!*bytes) return std::nullopt;
+  auto bytes = socket_->read(std::max(left, std::chrono::milliseconds(0)));
+  if (!bytes) return lose(std::move(bytes).error());
+  if (!*bytes) return;
   const double received = now();
   const std::span<const std::uint8_t> data = **bytes;
-  auto message = options_.json
-                     ? decode_json({reinterpret_cast<const char*>(data.data()), data.size()}, machine_.steps())
-                     : decoder_.decode(data);
-  if (message) {
-    machine_.take(*message, received);
-    return *std::move(message);
-  }
+  if (!options_.json) return machine_.receive(data, received);
+  auto message = decode_json({reinterpret_cast<const char*>(data.data()), data.size()}, machine_.steps());
+  if (message) return machine_.take(*message, received);
+  // A message of a later version is skipped.
   if (message.error().code != ErrorCode::unsupported) machine_.fail(std::move(message).error(), received);
-  return std::nullopt;
 }
 
-Result<std::optional<Message>> LiveStream::next(std::chrono::milliseconds timeout) {
+Result<Event> LiveStream::next(std::chrono::milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
-  while (true) {
-    if (auto done = obey(); !done) return std::move(done).error();
+  for (bool is_last = false;; is_last = Clock::now() >= deadline) {
+    auto event = obey();
+    if (!event || event->type != SEMBLANTE_EVENT_NONE || is_last) return event;
     const auto until = earlier(deadline, machine_.wake_time());
-    std::optional<Message> message;
-    if (client_) {
-      message = receive(until);
+    if (socket_) {
+      receive(until);
     } else {
       std::this_thread::sleep_until(until);
     }
-    if (message) {
-      if (auto done = obey(); !done) return std::move(done).error();
-      return message;
-    }
-    if (Clock::now() >= deadline) return std::optional<Message>();
   }
 }
 

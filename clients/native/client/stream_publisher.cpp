@@ -42,7 +42,7 @@ Status StreamPublisher::look_after() {
   }
   if (auto done = obey(); !done) return done;
   // The connection's handlers run only while it is polled for messages.
-  if (client_) listen(std::chrono::milliseconds(1));
+  if (socket_) listen(std::chrono::milliseconds(1));
   return obey();
 }
 
@@ -55,7 +55,7 @@ Status StreamPublisher::obey() {
         if (auto connected = connect(); !connected) return connected;
         break;
       case SEMBLANTE_EVENT_CLOSE:
-        client_.reset();
+        socket_.reset();
         break;
       case SEMBLANTE_EVENT_REFUSED:
         trouble("error of the server: ", event.error->message);
@@ -71,34 +71,33 @@ Status StreamPublisher::obey() {
         break;
     }
   }
-  if (client_) {
-    if (auto sent = send_all(machine_, *client_, false); !sent) lose(sent.error().message);
+  if (socket_) {
+    if (auto sent = send_all(machine_, *socket_); !sent) lose(sent.error().message);
   }
   return Unit{};
 }
 
 Status StreamPublisher::connect() {
-  StreamOptions wanted;
-  wanted.timeout = options_.timeout;
-  auto client = StreamClient::open(server_, stream_, wanted);
-  if (!client && client.error().code == ErrorCode::missing) {
-    if (!options_.create) return std::move(client).error();
+  const SocketOptions wanted{.timeout = options_.timeout};
+  auto socket = StreamSocket::open(server_, stream_, wanted);
+  if (!socket && socket.error().code == ErrorCode::missing) {
+    if (!options_.create) return std::move(socket).error();
     if (auto made = make_stream(); !made) return made;
-    client = StreamClient::open(server_, stream_, wanted);
+    socket = StreamSocket::open(server_, stream_, wanted);
   }
-  if (!client) {
-    if (client.error().code == ErrorCode::invalid_argument) return std::move(client).error();
-    lose(client.error().message);
+  if (!socket) {
+    if (socket.error().code == ErrorCode::invalid_argument) return std::move(socket).error();
+    lose(socket.error().message);
     return Unit{};
   }
-  client_ = *std::move(client);
+  socket_ = *std::move(socket);
   machine_.opened(now());
-  if (auto sent = send_all(machine_, *client_, false); !sent) lose(sent.error().message);
+  if (auto sent = send_all(machine_, *socket_); !sent) lose(sent.error().message);
   const Clock::time_point deadline = Clock::now() + options_.timeout;
-  while (client_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING && Clock::now() < deadline) {
+  while (socket_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING && Clock::now() < deadline) {
     listen(std::chrono::milliseconds(50));
   }
-  if (client_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING) lose("the server sends no header");
+  if (socket_ && machine_.state() == SEMBLANTE_STREAM_CONNECTING) lose("the server sends no header");
   if (connected()) {
     last_trouble_.clear();
     news_ = "publishing to " + stream_;
@@ -124,9 +123,9 @@ Status StreamPublisher::make_stream() {
 }
 
 void StreamPublisher::listen(std::chrono::milliseconds patience) {
-  auto bytes = client_->read(patience);
+  auto bytes = socket_->read(patience);
   if (!bytes) {
-    const std::string reason = client_->close_reason();
+    const std::string reason = socket_->close_reason();
     return lose(reason.empty() ? bytes.error().message : reason);
   }
   if (*bytes) machine_.receive(**bytes, now());
@@ -137,7 +136,7 @@ bool StreamPublisher::publish(const semblante_frame& frame, std::uint64_t media_
   const semblante_timed_frame timed{0, frame};
   const auto published = machine_.publish({&timed, 1}, static_cast<double>(media_time), now());
   if (published != runtime::Stream::Published::sent) return false;
-  if (auto sent = send_all(machine_, *client_, false); !sent) {
+  if (auto sent = send_all(machine_, *socket_); !sent) {
     lose(sent.error().message);
     return false;
   }
@@ -145,7 +144,7 @@ bool StreamPublisher::publish(const semblante_frame& frame, std::uint64_t media_
 }
 
 void StreamPublisher::lose(const std::string& why) {
-  client_.reset();
+  socket_.reset();
   machine_.closed(now());
   trouble("no connection to " + stream_ + ": ", why);
 }
@@ -160,8 +159,8 @@ std::optional<std::string> StreamPublisher::take_news() { return std::exchange(n
 void StreamPublisher::close() {
   machine_.stop();
   start_at_.reset();
-  if (client_) client_->close();
-  client_.reset();
+  if (socket_) socket_->close();
+  socket_.reset();
 }
 
 }  // namespace semblante::client

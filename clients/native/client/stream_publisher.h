@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/stream_socket.h"
 #include "clients/runtime/stream.h"
 #include "core/kernel/semblante_kernel.h"
 #include "core/types/result.h"
@@ -32,7 +32,7 @@ class StreamPublisher {
   /// invalid_argument (the token is not accepted) and the server's error on creating one; other errors are retried.
   Status look_after();
 
-  [[nodiscard]] bool connected() const { return client_ && machine_.state() == SEMBLANTE_STREAM_OPEN; }
+  [[nodiscard]] bool connected() const { return socket_ && machine_.state() == SEMBLANTE_STREAM_OPEN; }
   /// Sends the state of the face. `media_time`: ms of a monotonic clock of the caller, more than 0; the server keeps
   /// its spacing. The FAPs must be finite. False when there is no connection: the frame is lost.
   bool publish(const semblante_frame& frame, std::uint64_t media_time);
@@ -57,7 +57,7 @@ class StreamPublisher {
   ServerAddress server_;
   std::string stream_;
   PublisherOptions options_;
-  std::optional<StreamClient> client_;
+  std::optional<StreamSocket> socket_;
   runtime::Stream machine_;
   /// When to go on after an end for good: the stream may be there again, or free.
   std::optional<double> start_at_;

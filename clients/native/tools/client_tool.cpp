@@ -34,12 +34,15 @@ struct Arguments {
   OutputOptions output;
 };
 
-client::StreamOptions stream_options(const Arguments& arguments, StreamRole role) {
-  client::StreamOptions options;
-  options.json = arguments.json;
+std::chrono::milliseconds patience(const Arguments& arguments) {
+  return std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
+}
+
+client::LiveStream open_stream(const client::ServerAddress& server, const Arguments& arguments, StreamRole role) {
+  client::LiveStreamOptions options;
+  options.socket = {.json = arguments.json, .timeout = patience(arguments)};
   options.role = role;
-  options.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
-  return options;
+  return {server, arguments.stream, options};
 }
 
 Status publish(const client::ServerAddress& server, const Arguments& arguments) {
@@ -47,12 +50,10 @@ Status publish(const client::ServerAddress& server, const Arguments& arguments) 
   if (!bytes) {
     return bytes.error();
   }
-  auto stream = client::StreamClient::connect(server, arguments.stream, stream_options(arguments, StreamRole::publish));
-  if (!stream) {
-    return std::move(stream).error();
-  }
-  const auto sent = publish_frames(*stream, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-  stream->close();
+  client::LiveStream stream = open_stream(server, arguments, StreamRole::publish);
+  const auto sent =
+      publish_frames(stream, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, patience(arguments));
+  stream.close();
   if (!sent) {
     return sent.error();
   }
@@ -108,7 +109,7 @@ Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face
 }
 
 /// Writes the stream as the JSON accepted for publishing: the first frame is at 0.
-Status record(client::StreamClient& stream, client::FramePlayer& player, const Arguments& arguments) {
+Status record(client::LiveStream& stream, client::FramePlayer& player, const Arguments& arguments) {
   std::vector<TimedValues> frames;
   double begin = 0;
   while (frames.size() < arguments.frames) {
@@ -137,19 +138,15 @@ Status record(client::StreamClient& stream, client::FramePlayer& player, const A
 
 Status subscribe(const client::ServerAddress& server, const Arguments& arguments) {
   client::HttpLimits limits;
-  limits.timeout = std::chrono::milliseconds(static_cast<long long>(arguments.timeout * 1000));
+  limits.timeout = patience(arguments);
   const client::HttpClient http(server, limits);
-  auto stream =
-      client::StreamClient::connect(server, arguments.stream, stream_options(arguments, StreamRole::subscribe));
-  if (!stream) {
-    return std::move(stream).error();
-  }
-  client::FramePlayer player(*stream, limits.timeout);
+  client::LiveStream stream = open_stream(server, arguments, StreamRole::subscribe);
+  client::FramePlayer player(stream, limits.timeout);
   if (auto header = player.wait_for_header(); !header) {
     return header;
   }
   if (!arguments.record.empty()) {
-    return record(*stream, player, arguments);
+    return record(stream, player, arguments);
   }
   const std::string model = arguments.model.empty() ? player.header()->model : arguments.model;
   if (model.empty()) {
@@ -174,7 +171,7 @@ Status subscribe(const client::ServerAddress& server, const Arguments& arguments
   if (!frames) {
     return frames.error();
   }
-  stream->close();
+  stream.close();
   if (auto written = write_all(*frames, *face, *output); !written) {
     return written;
   }

@@ -1,57 +1,72 @@
 #include "clients/native/tools/publish.h"
 
-#include <thread>
+#include <algorithm>
 #include <utility>
 
+#include "clients/native/client/kernel_frame.h"
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/quantizers.h"
 
 namespace semblante::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using client::LiveStream;
+using Clock = LiveStream::Clock;
 
-/// Reads messages of the server until `until`; it sends only errors and the end.
-Status listen(client::StreamClient& stream, Clock::time_point until) {
-  while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
-    auto message = stream.next(std::max(left, std::chrono::milliseconds(0)));
-    if (!message) {
-      return std::move(message).error();
-    }
-    if (!*message) {
-      return Unit{};
-    }
-    if (const auto* error = std::get_if<StreamError>(&**message)) {
-      return Error{ErrorCode::invalid_argument, "stream" + error->where, "error of the server: " + error->message};
-    }
-    if (std::holds_alternative<End>(**message)) {
-      return Error{ErrorCode::io, "stream", "the server ended the stream"};
+Error lost(const LiveStream& stream) {
+  return {ErrorCode::io, "stream",
+          "no connection: " + (stream.loss() ? stream.loss()->message : "the server ended it")};
+}
+
+/// Reads what the server says until `until`, or until `done`; it sends only errors and the end.
+template <class Done>
+Status listen(LiveStream& stream, Clock::time_point until, Done done) {
+  while (!done()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+    auto event = stream.next(std::max(left, std::chrono::milliseconds(0)));
+    if (!event) return std::move(event).error();
+    switch (event->type) {
+      case SEMBLANTE_EVENT_NONE:
+        return Unit{};
+      case SEMBLANTE_EVENT_REFUSED:
+        return Error{ErrorCode::invalid_argument, "stream" + event->error->where,
+                     "error of the server: " + event->error->message};
+      case SEMBLANTE_EVENT_FAULT:
+        return std::move(*event->error);
+      case SEMBLANTE_EVENT_END:
+        return Error{ErrorCode::io, "stream", "the server ended the stream"};
+      default:
+        if (stream.machine().state() == SEMBLANTE_STREAM_WAITING) return lost(stream);
     }
   }
+  return Unit{};
+}
+
+Status listen(LiveStream& stream, Clock::time_point until) {
+  return listen(stream, until, [] { return false; });
 }
 
 }  // namespace
 
-Result<std::size_t> publish_frames(client::StreamClient& stream, std::string_view json) {
+Result<std::size_t> publish_frames(LiveStream& stream, std::string_view json, std::chrono::milliseconds patience) {
   const auto frames = decode_json_frames(json);
-  if (!frames) {
-    return frames.error();
+  if (!frames) return frames.error();
+  if (auto fine = listen(stream, Clock::now() + patience, [&] { return stream.connected(); }); !fine) {
+    return std::move(fine).error();
   }
   const Clock::time_point start = Clock::now();
-  std::uint64_t sequence = 0;
   for (const TimedFrame& frame : *frames) {
     if (auto fine = listen(stream, start + std::chrono::milliseconds(frame.time)); !fine) {
       return std::move(fine).error();
     }
-    ++sequence;
-    // The first frame is complete; each later one is a difference to the one before it.
-    const Message message = sequence == 1 ? Message(Keyframe{sequence, frame.time, frame.state})
-                                          : Message(Frames{sequence, frame.time, {TimedFrame{0, frame.state}}});
-    if (auto sent = stream.send(message); !sent) {
-      return std::move(sent).error();
+    const semblante_timed_frame timed{0, client::to_kernel_frame(frame.state, standard_quantizers())};
+    // 0 would mean the moment at which the server receives the frame.
+    const double media_time = 1.0 + frame.time;
+    if (stream.machine().publish({&timed, 1}, media_time, LiveStream::now()) != runtime::Stream::Published::sent) {
+      return lost(stream);
     }
   }
-  // Waits for a possible error about the last frame.
+  // Sends the last frame, and waits for a possible error about it.
   if (auto fine = listen(stream, Clock::now() + std::chrono::milliseconds(200)); !fine) {
     return std::move(fine).error();
   }

@@ -226,9 +226,8 @@ TEST(NativeClient, PublishingAPerformance_ReachesASubscriber) {
   server.create_stream("stage");
   const std::filesystem::path performance = server.folder() / "performance.json";
   ASSERT_TRUE(tools::write_file(performance, R"({"frames":[{"time":0,"faps":{"3":40}},{"time":60,"faps":{"3":80}}]})"));
-  auto stream = client::StreamClient::connect(server.http().server(), "stage");
-  ASSERT_TRUE(stream) << stream.error().message;
-  client::FramePlayer player(*stream, patience);
+  client::LiveStream stream(server.http().server(), "stage");
+  client::FramePlayer player(stream, patience);
   ASSERT_TRUE(player.wait_for_header());
   EXPECT_EQ(player.header()->model, "sample");
   ChildProcess publisher({SEMBLANTE_CLIENT, server.url(), "--stream", "stage", "--role", "publish", "--frames-file",
@@ -281,7 +280,7 @@ TEST(NativeClient, WrongIdsAndMixedPackages_AreRefusedWithTheReason) {
   const auto no_model = client::load_face(server.http(), "nobody");
   ASSERT_FALSE(no_model);
   EXPECT_EQ(no_model.error().code, ErrorCode::missing) << no_model.error().message;
-  const auto no_stream = client::StreamClient::connect(server.http().server(), "nothing");
+  const auto no_stream = client::StreamSocket::open(server.http().server(), "nothing");
   ASSERT_FALSE(no_stream);
   EXPECT_EQ(no_stream.error().code, ErrorCode::missing) << no_stream.error().message;
 

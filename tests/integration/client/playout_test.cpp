@@ -11,9 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/native/client/kernel_frame.h"
 #include "clients/native/client/live_player.h"
-#include "protocol/cpp/quantizers.h"
 #include "tests/integration/client/sample_server.h"
 #include "tests/support/tcp_proxy.h"
 #include "tests/support/true_clock.h"
@@ -54,18 +52,13 @@ class Reference {
 
  private:
   bool pump() {
-    const auto message = stream_.next(milliseconds(50));
-    if (!message) return false;
-    if (!*message || !stream_.header()) return true;
-    const auto take = [&](std::uint64_t sequence, std::uint64_t media_time, const FaceFrame& state) {
-      const auto frame = client::to_kernel_frame(state, quantizers_of(*stream_.header()));
-      frames_[sequence] = {sequence, static_cast<double>(media_time), frame};
-    };
-    if (const auto* keyframe = std::get_if<Keyframe>(&**message)) {
-      take(keyframe->sequence, keyframe->media_time, keyframe->state);
-    } else if (const auto* batch = std::get_if<Frames>(&**message)) {
-      for (std::size_t i = 0; i < batch->frames.size(); ++i)
-        take(batch->sequence + i, batch->media_time + batch->frames[i].time, batch->frames[i].state);
+    const auto event = stream_.next(milliseconds(50));
+    if (!event) return false;
+    if (event->type != SEMBLANTE_EVENT_KEYFRAME && event->type != SEMBLANTE_EVENT_FRAMES) return true;
+    std::uint64_t sequence = stream_.machine().newest().sequence;
+    for (const semblante_timed_frame& each : stream_.machine().frames()) {
+      frames_[sequence] = {sequence, each.time, each.frame};
+      ++sequence;
     }
     return true;
   }

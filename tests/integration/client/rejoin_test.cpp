@@ -18,6 +18,7 @@
 #include "clients/native/client/kernel_frame.h"
 #include "clients/native/client/live_stream.h"
 #include "tests/integration/client/sample_server.h"
+#include "tests/support/stream_speaker.h"
 #include "tests/support/tcp_proxy.h"
 #include "tests/support/wait.h"
 
@@ -68,30 +69,31 @@ class Told {
   [[nodiscard]] std::uint64_t epoch() const { return joins.empty() ? 0 : joins.back().header.epoch; }
   [[nodiscard]] std::uint64_t last() const { return last_; }
 
-  void take(const Message& message, const LiveStream& stream) {
-    if (const auto* header = std::get_if<Header>(&message)) {
-      joins.push_back({stream.sent_resume(), *header, {}, {}});
-    } else if (const auto* keyframe = std::get_if<Keyframe>(&message)) {
+  void take(const runtime::Event& event, LiveStream& stream) {
+    const Frames& newest = stream.machine().newest();
+    if (event.type == SEMBLANTE_EVENT_HEADER) {
+      joins.push_back({stream.sent_resume(), *stream.header(), {}, {}});
+    } else if (event.type == SEMBLANTE_EVENT_KEYFRAME) {
       if (!joins.back().keyframe) {
-        joins.back().keyframe = keyframe->sequence;
+        joins.back().keyframe = newest.sequence;
       }
-      know(keyframe->sequence, keyframe->media_time, keyframe->state);
-      last_ = keyframe->sequence;
+      know(newest.sequence, newest.media_time, newest.frames.front().state);
+      last_ = newest.sequence;
       ++messages;
-    } else if (const auto* batch = std::get_if<Frames>(&message)) {
+    } else if (event.type == SEMBLANTE_EVENT_FRAMES) {
       if (!joins.back().next) {
-        joins.back().next = batch->sequence;
+        joins.back().next = newest.sequence;
       }
-      if (batch->sequence != last_ + 1) {
-        fault("after " + std::to_string(last_) + " came " + std::to_string(batch->sequence));
+      if (newest.sequence != last_ + 1) {
+        fault("after " + std::to_string(last_) + " came " + std::to_string(newest.sequence));
       }
-      for (std::size_t i = 0; i < batch->frames.size(); ++i) {
-        know(batch->sequence + i, batch->media_time + batch->frames[i].time, batch->frames[i].state);
+      for (std::size_t i = 0; i < newest.frames.size(); ++i) {
+        know(newest.sequence + i, newest.media_time + newest.frames[i].time, newest.frames[i].state);
       }
-      last_ = batch->sequence + batch->frames.size() - 1;
+      last_ = newest.sequence + newest.frames.size() - 1;
       ++messages;
-    } else if (const auto* error = std::get_if<StreamError>(&message)) {
-      fault("the server says: " + error->message);
+    } else if (event.type == SEMBLANTE_EVENT_REFUSED) {
+      fault("the server says: " + event.error->message);
     }
   }
 
@@ -119,13 +121,13 @@ class Watcher {
     const auto deadline = Clock::now() + time;
     while (Clock::now() < deadline) {
       const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
-      auto message = stream_->next(std::min(left, milliseconds(50)));
-      if (!message) {  // no such stream just now
+      auto event = stream_->next(std::min(left, milliseconds(50)));
+      if (!event) {  // no such stream just now
         std::this_thread::sleep_for(milliseconds(5));
         begin();
-      } else if (*message) {
-        told.take(**message, *stream_);
-        if (std::holds_alternative<End>(**message)) begin();
+      } else if (event->type != SEMBLANTE_EVENT_NONE) {
+        told.take(*event, *stream_);
+        if (event->type == SEMBLANTE_EVENT_END) begin();
         return;
       }
     }
@@ -144,7 +146,7 @@ class Watcher {
 
  private:
   void begin() {
-    if (stream_) options_.stream.resume = stream_->resume();
+    if (stream_) options_.resume = stream_->resume();
     stream_.emplace(url_, stream_name, options_);
   }
   client::Url url_;
@@ -154,7 +156,7 @@ class Watcher {
 
 LiveStreamOptions quick(bool json, std::uint64_t seed) {
   LiveStreamOptions options;
-  options.stream.json = json;
+  options.socket.json = json;
   options.first_pause = milliseconds(2);
   options.longest_pause = milliseconds(40);
   options.seed = seed;
@@ -169,9 +171,7 @@ void publish(const client::Url& url, const std::atomic<std::uint64_t>& watched_e
   std::uint64_t clock = 1000;
   auto next = Clock::now();
   while (!stop) {
-    client::StreamOptions options;
-    options.role = StreamRole::publish;
-    auto stream = client::StreamClient::connect(url, stream_name, options);
+    auto stream = StreamSpeaker::connect(url, stream_name, packed_hello(StreamRole::publish));
     bool first = true;
     while (stream && !stop) {
       const auto message = stream->next(milliseconds(0));
@@ -335,7 +335,7 @@ TEST(Rejoin, TwoHundredKills_EachFormShowsWhatAnUninterruptedClientShows) {
   };
   std::array<Victim, 3> victims = {Victim{"packed", quick(false, 11), {}}, Victim{"plain", quick(false, 12), {}},
                                    Victim{"JSON", quick(true, 13), {}}};
-  victims[1].options.stream.coding = StreamCoding::plain;
+  victims[1].options.coding = StreamCoding::plain;
   // Three times all of them wait for another epoch: the stream goes, and another of its name comes.
   constexpr int epochs = 3;
   std::array<std::atomic<std::size_t>, epochs> waiting{};

@@ -11,12 +11,12 @@
 
 #include "clients/gateways/net/udp_socket.h"
 #include "clients/gateways/vmc/values.h"
-#include "clients/native/client/stream_client.h"
 #include "core/bridges/head_turn.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/quantizers.h"
 #include "protocol/http/http_client.h"
 #include "tests/integration/client/child_process.h"
+#include "tests/support/stream_speaker.h"
 #include "tests/support/wait.h"
 #include "tests/unit/gateways/golden_packets.h"
 
@@ -113,7 +113,7 @@ class Gateways : public ::testing::Test {
                   const std::function<bool(const FaceFrame&)>& wanted) {
     auto socket = UdpSocket::send_to({"127.0.0.1", in_port}, false);
     ASSERT_TRUE(socket);
-    auto subscriber = client::StreamClient::connect(server.url(), stream);
+    auto subscriber = StreamSpeaker::connect(server.url(), stream);
     ASSERT_TRUE(subscriber) << subscriber.error().message;
     ASSERT_TRUE(eventually([&] {
       for (const Bytes& packet : packets) socket->send(packet);

@@ -1,4 +1,4 @@
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/live_stream.h"
 
 #include <array>
 #include <functional>
@@ -24,8 +24,9 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using client::FramePlayer;
-using client::StreamClient;
-using client::StreamOptions;
+using client::LiveStream;
+using client::LiveStreamOptions;
+using client::StreamSocket;
 using Socket = websocket::stream<asio::ip::tcp::socket>;
 
 /// A server for one connection that says what a test wants it to say.
@@ -79,6 +80,9 @@ FaceFrame with_jaw(std::int16_t level) {
   return frame;
 }
 
+/// The script of a server begins when anything was said to it.
+constexpr std::array<std::uint8_t, 1> hello_bytes = {0};
+
 Header named_header() {
   Header header;
   header.stream = "show";
@@ -88,43 +92,42 @@ Header named_header() {
   return header;
 }
 
-TEST(StreamClient, HostileServer_IsAnError) {
+/// The first event of this type; NONE when it does not come.
+runtime::Event event_of(LiveStream& stream, semblante_event_type type) {
+  const auto deadline = LiveStream::Clock::now() + patience;
+  while (LiveStream::Clock::now() < deadline) {
+    auto event = stream.next(std::chrono::milliseconds(50));
+    if (event && event->type == type) return *std::move(event);
+  }
+  return {};
+}
+
+TEST(StreamSocket, HostileServer_IsAnError) {
   {  // Nobody there.
-    const auto stream = StreamClient::connect(client::Url{"127.0.0.1", "1", ""}, "s");
-    ASSERT_FALSE(stream);
-    EXPECT_EQ(stream.error().code, ErrorCode::io);
+    const auto socket = StreamSocket::open(client::Url{"127.0.0.1", "1", ""}, "s");
+    ASSERT_FALSE(socket);
+    EXPECT_EQ(socket.error().code, ErrorCode::io);
   }
   {  // No such stream.
     const CannedServer server("HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n");
-    const auto stream = StreamClient::connect(*client::parse_url(server.url()), "s");
-    ASSERT_FALSE(stream);
-    EXPECT_EQ(stream.error().code, ErrorCode::missing);
+    const auto socket = StreamSocket::open(*client::parse_url(server.url()), "s");
+    ASSERT_FALSE(socket);
+    EXPECT_EQ(socket.error().code, ErrorCode::missing);
   }
   {  // Silence.
     const CannedServer server("");
-    StreamOptions options;
-    options.timeout = std::chrono::milliseconds(100);
-    const auto stream = StreamClient::connect(*client::parse_url(server.url()), "s", options);
-    ASSERT_FALSE(stream);
-    EXPECT_EQ(stream.error().code, ErrorCode::io);
+    const auto socket = StreamSocket::open(*client::parse_url(server.url()), "s",
+                                           {.json = false, .timeout = std::chrono::milliseconds(100)});
+    ASSERT_FALSE(socket);
+    EXPECT_EQ(socket.error().code, ErrorCode::io);
   }
   {  // Another subprotocol, and none.
     for (const char* protocol : {"semblante.v9", ""}) {
       const ScriptedServer server(protocol, [](Socket&) {});
-      const auto stream = StreamClient::connect(server.url(), "s");
-      ASSERT_FALSE(stream);
-      EXPECT_EQ(stream.error().code, ErrorCode::mismatch);
+      const auto socket = StreamSocket::open(server.url(), "s");
+      ASSERT_FALSE(socket);
+      EXPECT_EQ(socket.error().code, ErrorCode::mismatch);
     }
-  }
-  {  // A message that is none.
-    const ScriptedServer server("semblante.v1", [](Socket& socket) {
-      beast::error_code problem;
-      socket.binary(true);
-      socket.write(asio::buffer("\x03\xFF\xFF\xFF", 4), problem);
-    });
-    auto stream = StreamClient::connect(server.url(), "s");
-    ASSERT_TRUE(stream) << stream.error().message;
-    EXPECT_FALSE(stream->next(patience));
   }
   {  // A message larger than any.
     const ScriptedServer server("semblante.v1", [](Socket& socket) {
@@ -132,52 +135,64 @@ TEST(StreamClient, HostileServer_IsAnError) {
       socket.binary(true);
       socket.write(asio::buffer(std::string(max_binary_message_bytes + 1, 'x')), problem);
     });
-    auto stream = StreamClient::connect(server.url(), "s");
-    ASSERT_TRUE(stream);
-    const auto message = stream->next(patience);
+    auto socket = StreamSocket::open(server.url(), "s");
+    ASSERT_TRUE(socket);
+    ASSERT_TRUE(socket->send(hello_bytes));
+    const auto message = socket->read(patience);
     ASSERT_FALSE(message);
     EXPECT_EQ(message.error().code, ErrorCode::too_large);
   }
 }
 
-TEST(StreamClient, Next_WaitsNoLongerThanAsked) {
-  const ScriptedServer server("semblante.v1", [](Socket&) {});
-  auto stream = StreamClient::connect(server.url(), "s");
-  ASSERT_TRUE(stream);
-  for (int i = 0; i < 2; ++i) {
-    const auto message = stream->next(std::chrono::milliseconds(30));
-    ASSERT_TRUE(message);
-    EXPECT_FALSE(message->has_value());
-  }
-}
-
-TEST(StreamClient, Close_TellsTheReason) {
+TEST(StreamSocket, Close_TellsTheReason) {
   const ScriptedServer server("semblante.v1", [](Socket& socket) {
     beast::error_code problem;
     socket.close({websocket::close_code::try_again_later, "slow"}, problem);
   });
-  auto stream = StreamClient::connect(server.url(), "s");
-  ASSERT_TRUE(stream);
-  EXPECT_FALSE(stream->next(patience));
-  EXPECT_EQ(stream->close_code(), 1013);
-  EXPECT_EQ(stream->close_reason(), "slow");
+  auto socket = StreamSocket::open(server.url(), "s");
+  ASSERT_TRUE(socket);
+  ASSERT_TRUE(socket->send(hello_bytes));
+  EXPECT_FALSE(socket->read(patience));
+  EXPECT_EQ(socket->close_code(), 1013);
+  EXPECT_EQ(socket->close_reason(), "slow");
 }
 
-TEST(StreamClient, JsonSubprotocol_SpeaksText) {
+TEST(LiveStream, MessageThatIsNone_IsAFault) {
+  const ScriptedServer server("semblante.v1", [](Socket& socket) {
+    beast::error_code problem;
+    socket.binary(true);
+    socket.write(asio::buffer("\x03\xFF\xFF\xFF", 4), problem);
+  });
+  LiveStream stream(server.url(), "s");
+  const runtime::Event fault = event_of(stream, SEMBLANTE_EVENT_FAULT);
+  ASSERT_EQ(fault.type, SEMBLANTE_EVENT_FAULT);
+  EXPECT_FALSE(fault.error->message.empty());
+}
+
+TEST(LiveStream, Next_WaitsNoLongerThanAsked) {
+  const ScriptedServer server("semblante.v1", [](Socket&) {});
+  LiveStream stream(server.url(), "s");
+  ASSERT_EQ(event_of(stream, SEMBLANTE_EVENT_STATE).state, std::uint32_t{SEMBLANTE_STREAM_CONNECTING});
+  for (int i = 0; i < 2; ++i) {
+    const auto event = stream.next(std::chrono::milliseconds(30));
+    ASSERT_TRUE(event);
+    EXPECT_EQ(event->type, SEMBLANTE_EVENT_NONE);
+  }
+}
+
+TEST(LiveStream, JsonSubprotocol_SpeaksText) {
   const ScriptedServer server("semblante.v1.json", [](Socket& socket) {
+    EXPECT_TRUE(socket.got_text());
     beast::error_code problem;
     socket.text(true);
     socket.write(asio::buffer(encode_json(Message(named_header()))), problem);
   });
-  StreamOptions options;
-  options.json = true;
+  LiveStreamOptions options;
+  options.socket.json = true;
   options.role = StreamRole::publish;
-  auto stream = StreamClient::connect(server.url(), "s", options);
-  ASSERT_TRUE(stream);
-  const auto message = stream->next(patience);
-  ASSERT_TRUE(message) << message.error().message;
-  ASSERT_TRUE(message->has_value());
-  EXPECT_EQ(std::get<Header>(**message).model, "sample");
+  LiveStream stream(server.url(), "s", options);
+  ASSERT_EQ(event_of(stream, SEMBLANTE_EVENT_HEADER).type, SEMBLANTE_EVENT_HEADER);
+  EXPECT_EQ(stream.header()->model, "sample");
   EXPECT_NE(server.hello().find("publish"), std::string::npos) << server.hello();
 }
 
@@ -192,9 +207,8 @@ void three_frames(Socket& socket) {
 
 TEST(FramePlayer, NextReceived_GivesEachFrameInFapUnits) {
   const ScriptedServer server("semblante.v1", three_frames);
-  auto stream = StreamClient::connect(server.url(), "s");
-  ASSERT_TRUE(stream);
-  FramePlayer player(*stream, patience);
+  LiveStream stream(server.url(), "s");
+  FramePlayer player(stream, patience);
   const std::array<float, 3> jaws = {0, 40, 80};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto frame = player.next_received();
@@ -211,9 +225,8 @@ TEST(FramePlayer, NextReceived_GivesEachFrameInFapUnits) {
 
 TEST(FramePlayer, At_GivesTheTwoFramesAroundAndTheShare) {
   const ScriptedServer server("semblante.v1", three_frames);
-  auto stream = StreamClient::connect(server.url(), "s");
-  ASSERT_TRUE(stream);
-  FramePlayer player(*stream, patience);
+  LiveStream stream(server.url(), "s");
+  FramePlayer player(stream, patience);
   {
     const auto before = player.at(50);
     ASSERT_TRUE(before && before->has_value());
@@ -244,13 +257,42 @@ TEST(FramePlayer, ServersError_IsPassedOn) {
     FrameEncoder encoder;
     say(socket, encoder, StreamError{StreamErrorCode::not_found, "/role", "nothing here"});
   });
-  auto stream = StreamClient::connect(server.url(), "s");
-  ASSERT_TRUE(stream);
-  FramePlayer player(*stream, patience);
+  LiveStream stream(server.url(), "s");
+  FramePlayer player(stream, patience);
   const Status header = player.wait_for_header();
   ASSERT_FALSE(header);
   EXPECT_EQ(header.error().code, ErrorCode::missing);
   EXPECT_EQ(header.error().where, "stream/role");
+}
+
+/// As a server that lost the connection and starts from a keyframe that the client has.
+TEST(FramePlayer, FrameThatIsSentAgain_ComesOnce) {
+  const ScriptedServer server("semblante.v1", [](Socket& socket) {
+    FrameEncoder encoder;
+    say(socket, encoder, named_header());
+    say(socket, encoder, Keyframe{1, 100, with_jaw(0)});
+    say(socket, encoder, Frames{2, 200, {{0, with_jaw(10)}}});
+    say(socket, encoder, Keyframe{2, 200, with_jaw(10)});
+    say(socket, encoder, Frames{3, 300, {{0, with_jaw(20)}}});
+    say(socket, encoder, End{EndReason::finished});
+  });
+  LiveStream stream(server.url(), "s");
+  FramePlayer player(stream, patience);
+  for (std::uint64_t sequence = 1; sequence <= 3; ++sequence) {
+    const auto frame = player.next_received();
+    ASSERT_TRUE(frame && frame->has_value());
+    EXPECT_EQ((*frame)->sequence, sequence);
+  }
+}
+
+TEST(FramePlayer, NobodyThere_IsSaidAtOnce) {
+  LiveStream stream(client::Url{"127.0.0.1", "1", ""}, "s");
+  FramePlayer player(stream, patience);
+  const auto begun = LiveStream::Clock::now();
+  const Status header = player.wait_for_header();
+  ASSERT_FALSE(header);
+  EXPECT_EQ(header.error().code, ErrorCode::io);
+  EXPECT_LT(LiveStream::Clock::now() - begun, patience);
 }
 
 }  // namespace

@@ -1,18 +1,14 @@
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/stream_socket.h"
 
-#include <algorithm>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "protocol/cpp/frame_codec.h"
-#include "protocol/cpp/json_codec.h"
-#include "protocol/cpp/quantizers.h"
+#include "protocol/cpp/messages.h"
 #include "protocol/http/connection.h"
 
 namespace semblante::client {
@@ -28,15 +24,12 @@ using Clock = std::chrono::steady_clock;
 }  // namespace
 
 /// Everything runs inside run_until, on the caller's thread; a read stays pending between calls.
-struct StreamClient::Impl {
+struct StreamSocket::Impl {
   asio::io_context io{1};
   websocket::stream<Connection, false> socket{io.get_executor()};  ///< no compression: it is not offered
   beast::flat_buffer buffer;
   std::string where;
-  StreamOptions options;
-  FrameEncoder encoder;
-  FrameDecoder decoder;
-  QuantizerSteps steps = standard_quantizers();
+  SocketOptions options;
   bool reading = false;
   std::optional<error_code> read_result;
   std::string fault;  ///< an exception that ended an operation and the connection
@@ -129,33 +122,15 @@ struct StreamClient::Impl {
     }
     return Unit{};
   }
-
-  Status write(std::span<const std::uint8_t> bytes, bool as_text) {
-    socket.text(as_text);
-    return wait("cannot send",
-                [&](auto done) { socket.async_write(asio::buffer(bytes.data(), bytes.size()), std::move(done)); });
-  }
-
-  Result<Message> decode(std::span<const std::uint8_t> bytes) {
-    // The kind of each message is used, not the subprotocol: the decoder reports a server that mixes them.
-    auto message = socket.got_text() ? decode_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, steps)
-                                     : decoder.decode(bytes);
-    if (message) {
-      if (const auto* header = std::get_if<Header>(&*message)) {
-        steps = quantizers_of(*header);
-      }
-    }
-    return message;
-  }
 };
 
-StreamClient::StreamClient(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-StreamClient::~StreamClient() = default;
-StreamClient::StreamClient(StreamClient&&) noexcept = default;
-StreamClient& StreamClient::operator=(StreamClient&&) noexcept = default;
+StreamSocket::StreamSocket(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+StreamSocket::~StreamSocket() = default;
+StreamSocket::StreamSocket(StreamSocket&&) noexcept = default;
+StreamSocket& StreamSocket::operator=(StreamSocket&&) noexcept = default;
 
-Result<StreamClient> StreamClient::open(const ServerAddress& server, std::string_view stream,
-                                        const StreamOptions& options) {
+Result<StreamSocket> StreamSocket::open(const ServerAddress& server, std::string_view stream,
+                                        const SocketOptions& options) {
   auto impl = std::make_unique<Impl>();
   const Url& url = server.url;
   const std::string target = url.path + "/v1/streams/" + escape_segment(stream);
@@ -164,27 +139,10 @@ Result<StreamClient> StreamClient::open(const ServerAddress& server, std::string
   if (auto opened = impl->open(server, target); !opened) {
     return std::move(opened).error();
   }
-  return StreamClient(std::move(impl));
+  return StreamSocket(std::move(impl));
 }
 
-Result<StreamClient> StreamClient::connect(const ServerAddress& server, std::string_view stream,
-                                           const StreamOptions& options) {
-  auto client = open(server, stream, options);
-  if (!client) {
-    return client;
-  }
-  Hello hello;
-  hello.role = options.role;
-  hello.resume = options.resume;
-  hello.coding = options.json ? StreamCoding::plain : options.coding;
-  hello.take_over = options.take_over;
-  if (auto said = client->send(hello); !said) {
-    return std::move(said).error();
-  }
-  return client;
-}
-
-Result<std::optional<std::span<const std::uint8_t>>> StreamClient::read(std::chrono::milliseconds timeout) {
+Result<std::optional<std::span<const std::uint8_t>>> StreamSocket::read(std::chrono::milliseconds timeout) {
   using Bytes = std::optional<std::span<const std::uint8_t>>;
   Impl& impl = *impl_;
   if (!impl.reading) {
@@ -211,40 +169,15 @@ Result<std::optional<std::span<const std::uint8_t>>> StreamClient::read(std::chr
   return Bytes(std::span(static_cast<const std::uint8_t*>(data.data()), data.size()));
 }
 
-Result<std::optional<Message>> StreamClient::next(std::chrono::milliseconds timeout) {
-  const Clock::time_point deadline = Clock::now() + timeout;
-  while (true) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    auto bytes = read(std::max(left, std::chrono::milliseconds(0)));
-    if (!bytes) {
-      return std::move(bytes).error();
-    }
-    if (!*bytes) {
-      return std::optional<Message>();
-    }
-    auto message = impl_->decode(**bytes);
-    if (message) {
-      return std::optional<Message>(*std::move(message));
-    }
-    if (message.error().code != ErrorCode::unsupported) {
-      return std::move(message).error();
-    }
-  }
+Status StreamSocket::send(std::span<const std::uint8_t> bytes) {
+  Impl& impl = *impl_;
+  impl.socket.text(impl.options.json);
+  return impl.wait("cannot send", [&](auto done) {
+    impl.socket.async_write(asio::buffer(bytes.data(), bytes.size()), std::move(done));
+  });
 }
 
-Status StreamClient::send(const Message& message) {
-  if (impl_->options.json) {
-    return send_raw(encode_json(message, impl_->steps), true);
-  }
-  const std::vector<std::uint8_t> bytes = impl_->encoder.encode(message);
-  return impl_->write(bytes, false);
-}
-
-Status StreamClient::send_raw(std::string_view bytes, bool as_text) {
-  return impl_->write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, as_text);
-}
-
-void StreamClient::close() {
+void StreamSocket::close() {
   if (!impl_->socket.is_open()) {
     return;
   }
@@ -253,9 +186,9 @@ void StreamClient::close() {
       "cannot close", [&](auto done) { impl_->socket.async_close(websocket::close_code::normal, std::move(done)); }));
 }
 
-std::uint16_t StreamClient::close_code() const { return impl_->socket.reason().code; }
+std::uint16_t StreamSocket::close_code() const { return impl_->socket.reason().code; }
 
-std::string StreamClient::close_reason() const {
+std::string StreamSocket::close_reason() const {
   const auto& reason = impl_->socket.reason().reason;
   return {reason.data(), reason.size()};
 }
