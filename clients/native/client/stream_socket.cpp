@@ -37,11 +37,14 @@ struct StreamSocket::Impl {
   /// Runs handlers until `done` or the deadline.
   template <class Done>
   bool run_until(Clock::time_point deadline, Done done) {
+    // Ready handlers run even after the deadline, so that callers with a zero timeout make progress too; not without
+    // end, since a server that sends nothing but pings or empty fragments always makes one ready.
+    constexpr int most_after_deadline = 64;
+    int after_deadline = 0;
     io.restart();
     while (!done() && fault.empty()) {
       try {
-        // Ready handlers run even after the deadline, so that callers with a zero timeout make progress too.
-        if (io.run_one_until(deadline) == 0 && io.poll_one() == 0) {
+        if (io.run_one_until(deadline) == 0 && (++after_deadline > most_after_deadline || io.poll_one() == 0)) {
           break;
         }
       } catch (const std::exception& thrown) {

@@ -3,9 +3,11 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
@@ -141,6 +143,25 @@ TEST(StreamSocket, HostileServer_IsAnError) {
     const auto message = socket->read(patience);
     ASSERT_FALSE(message);
     EXPECT_EQ(message.error().code, ErrorCode::too_large);
+  }
+}
+
+TEST(StreamSocket, Read_WaitsNoLongerThanAsked_ForAServerThatFloods) {
+  for (const char* flood : {"\x8A\x00", "\x00\x00"}) {  // pongs; fragments of a message that never ends
+    SCOPED_TRACE(static_cast<int>(flood[0]));
+    const ScriptedServer server("semblante.v1", [flood](Socket& socket) {
+      std::string frames("\x02\x00", 2);  // the message begins
+      for (int i = 0; i < 10'000; ++i) frames.append(flood, 2);
+      beast::error_code problem;
+      asio::write(socket.next_layer(), asio::buffer(frames), problem);
+      while (!problem) asio::write(socket.next_layer(), asio::buffer(frames.data() + 2, frames.size() - 2), problem);
+    });
+    auto socket = StreamSocket::open(server.url(), "s");
+    ASSERT_TRUE(socket);
+    ASSERT_TRUE(socket->send(hello_bytes));
+    const auto bytes = socket->read(std::chrono::milliseconds(30));
+    ASSERT_TRUE(bytes);
+    EXPECT_FALSE(bytes->has_value());
   }
 }
 
