@@ -6,7 +6,9 @@ import { loadStageFace } from './face/package.ts';
 import { Api } from './net/api.ts';
 import type { Session } from './net/types.ts';
 import { AnimatePanel } from './ui/animate/animate_panel.ts';
+import { Address } from './ui/page/address.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
+import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
 import { h } from './ui/shared/dom.ts';
 import { makeDriverChip } from './ui/page/driver_chip.ts';
 import { FaceDriver } from './ui/stage/face_driver.ts';
@@ -51,7 +53,9 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);
-  const points = new PointsModel(studio);
+  const drafts = new DraftStore(browserStorage());
+  const points = new PointsModel(studio, drafts);
+  studio.onRemoved = (id) => drafts.forget(id);
   const fit = new FitModel(studio);
   const parametrizer = new Parametrizer(studio, points);
   const frame = neutralFrame();
@@ -114,11 +118,9 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   routeDrops(layout, studio, performance, clip);
   startPolling({ studio, scene, live, livePanel, recordings, performance, clip });
 
-  void studio.start().then(async () => {
-    await live.refresh();
-    if (studio.selected.value?.state === 'parametrized' && live.demo) live.subscribe(live.demo.id, live.demo.title);
-  });
-  exposeInspection(scene, studio, driver);
+  const address = new Address(studio, points, live);
+  void Promise.all([studio.start(), live.refresh()]).then(() => address.start());
+  exposeInspection(scene, studio, driver, live);
 }
 
 function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {

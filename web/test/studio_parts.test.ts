@@ -1,11 +1,8 @@
-import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import type { Api } from '../src/net/api.ts';
 import type { Model } from '../src/net/types.ts';
 import { Studio } from '../src/ui/shared/studio.ts';
 import type { Toasts } from '../src/ui/shared/toast.ts';
-
-beforeEach(() => void vi.stubGlobal('history', { replaceState: () => undefined }));
-afterEach(() => void vi.unstubAllGlobals());
 
 /** A model of `count` parts of which the answer has `listed`. */
 const modelOf = (id: string, count: number, listed: number): Model =>

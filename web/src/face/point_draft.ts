@@ -48,6 +48,22 @@ export class PointDraft {
     this.current = new Map(this.saved);
   }
 
+  /** Takes changes of an earlier visit, null for a removed point, as one step that can be undone. */
+  restore(changes: ReadonlyMap<string, PlacedPoint | null>): void {
+    if ([...changes].every(([id, point]) => same(this.current.get(id), point ?? undefined))) return;
+    this.step();
+    for (const [id, point] of changes) {
+      if (point) this.current.set(id, point);
+      else this.current.delete(id);
+    }
+  }
+
+  /** Takes other points as one step that can be undone. */
+  replace(points: PointsById): void {
+    this.step();
+    this.current = new Map(points);
+  }
+
   place(id: string, point: PlacedPoint): void {
     if (pointById(id) === undefined) throw new RangeError(`no feature point ${id}`);
     this.step();
@@ -115,11 +131,15 @@ export class PointDraft {
     return !same(this.saved.get(id), this.current.get(id));
   }
 
+  /** The points that differ from the server's; null for a removed one. */
+  get changed(): Map<string, PlacedPoint | null> {
+    const ids = [...new Set([...this.saved.keys(), ...this.current.keys()])].filter((id) => this.isChanged(id));
+    return new Map(ids.map((id) => [id, this.current.get(id) ?? null]));
+  }
+
   /** Number of points that differ from the server's. */
   get changes(): number {
-    let count = 0;
-    for (const id of new Set([...this.saved.keys(), ...this.current.keys()])) if (this.isChanged(id)) count += 1;
-    return count;
+    return this.changed.size;
   }
 
   /**

@@ -5,6 +5,7 @@ import { joinSeams, smoothNormals } from '@client/gpu/drawable_mesh.ts';
 import { makeTangentTable } from '@client/gpu/tangent_table.ts';
 import { readDeformed } from '../../view/deform_probe.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
+import type { LiveModel } from '../live/live_model.ts';
 import type { SceneView } from '../stage/scene.ts';
 import type { Studio } from '../shared/studio.ts';
 
@@ -16,9 +17,9 @@ interface Edit {
 }
 
 /** Exposes the page's state as `window.semblante` to tests and the developer console. The page does not use it. */
-export function exposeInspection(scene: SceneView, studio: Studio, driver: FaceDriver): void {
+export function exposeInspection(scene: SceneView, studio: Studio, driver: FaceDriver, live: LiveModel): void {
   Object.assign(window, {
-    semblante: { scene, studio, driver, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
+    semblante: { scene, studio, driver, live, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
   });
 }
 

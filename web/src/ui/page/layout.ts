@@ -19,6 +19,9 @@ const tabs: { tab: Tab; title: string; icon: IconName }[] = [
   { tab: 'live', title: 'Live', icon: 'live' },
 ];
 
+/** Whether the shelf is a tab of its own. */
+export const isNarrow = (): MediaQueryList => matchMedia('(max-width: 1080px)');
+
 /** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
 export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, extras: HTMLElement): HTMLElement {
   const buttons = new Map<Tab, HTMLButtonElement>();
@@ -62,7 +65,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
   }
 
   // The one shelf element moves between the side column and its tab with the width of the page.
-  const narrow = matchMedia('(max-width: 1080px)');
+  const narrow = isNarrow();
   const seat = (): void => {
     panels.heads.id = 'panel-heads';
     (narrow.matches ? inspector : shelfHome).append(panels.heads);

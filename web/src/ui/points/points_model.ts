@@ -4,6 +4,7 @@ import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/problem.ts';
 import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
 import { Signal } from '../shared/signal.ts';
+import type { DraftStore } from './draft_store.ts';
 import type { Studio } from '../shared/studio.ts';
 
 /** The feature points of the open head: the draft, the selected point, and the server's errors by point. */
@@ -24,12 +25,19 @@ export class PointsModel {
   private guidedByUser = false;
   private etag: string | null = null;
   private model: Model | null = null;
+  /** The axes of the open head, in one word. */
+  private axes = '';
+  /** Whether the draft is the open head's, so that its changes are worth keeping. */
+  private opened = false;
   /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
   /** Called when a proposed point is to be shown for review. */
   onReview: (point: PlacedPoint) => void = () => {};
 
-  constructor(private readonly studio: Studio) {}
+  constructor(
+    private readonly studio: Studio,
+    private readonly drafts: DraftStore,
+  ) {}
 
   get total(): number {
     return featurePoints.length;
@@ -37,6 +45,8 @@ export class PointsModel {
 
   async open(model: Model | null): Promise<void> {
     this.model = model;
+    this.axes = JSON.stringify(model?.frame?.axes ?? null);
+    this.opened = false;
     this.chosen.set(null);
     this.clearProblems();
     this.draft.reset([]);
@@ -48,8 +58,35 @@ export class PointsModel {
     if (!model || model.state === 'importing' || model.state === 'failed') return;
     await this.studio.attempt('The feature points could not be read', async () => {
       const answer = await this.studio.api.getFeaturePoints(model.id);
-      if (this.model?.id === model.id) this.take(answer.value, answer.etag, true);
+      if (this.model === model) this.take(answer.value, answer.etag, true);
     });
+    // Without the server's points the kept ones are shown all the same.
+    if (this.model === model) this.bringBack(model.id);
+  }
+
+  /** Takes the unsaved changes of an earlier visit into the draft, as a step that can be undone. */
+  private bringBack(head: string): void {
+    const back = this.wayBack();
+    this.draft.restore(this.drafts.read(head, this.axes));
+    this.opened = true;
+    this.touch();
+    const { changes } = this.draft;
+    if (changes === 0) return;
+    this.studio.toasts.say(changes === 1 ? 'Your unsaved point is back.' : `Your ${changes} unsaved points are back.`, {
+      label: 'Discard',
+      act: back,
+    });
+  }
+
+  /** What puts the points of now back, whatever is done until then; in itself a step that can be undone. */
+  private wayBack(): () => void {
+    const { model } = this;
+    const before = new Map(this.draft.points);
+    return () => {
+      if (this.model !== model) return;
+      this.draft.replace(before);
+      this.touch();
+    };
   }
 
   place(vertex: number, position: readonly [number, number, number]): void {
@@ -198,8 +235,13 @@ export class PointsModel {
       this.setProblems({ '': [`${file.name} is not JSON: ${error instanceof Error ? error.message : ''}`] });
       return false;
     }
+    const back = this.wayBack();
     const done = await this.put(body, `The points of ${file.name} were not accepted`, { mirror: false, guarded: true });
-    if (done) this.studio.toasts.say(`${this.draft.points.size} feature points read from ${file.name}.`);
+    if (done)
+      this.studio.toasts.say(`${this.draft.points.size} feature points read from ${file.name}.`, {
+        label: 'Undo',
+        act: back,
+      });
     return done;
   }
 
@@ -304,6 +346,7 @@ export class PointsModel {
   }
 
   private touch(): void {
+    if (this.opened && this.model) this.drafts.keep(this.model.id, this.axes, this.draft.changed);
     this.changed.set(this.changed.value + 1);
   }
 }

@@ -25,6 +25,8 @@ export class Studio {
   readonly tab = new Signal<Tab>('animate');
   /** Running operations by model id; an upload has a temporary id until the server has assigned one. */
   readonly activities = new Signal<ReadonlyMap<string, Activity>>(new Map());
+  /** Called when a head was deleted. */
+  onRemoved: (id: string) => void = () => {};
   private uploads = 0;
 
   constructor(
@@ -32,18 +34,10 @@ export class Studio {
     readonly toasts: Toasts,
   ) {}
 
-  /** Loads the shelf and opens the head in the page's address, else the sample, else the first parametrized one. */
+  /** Loads the shelf. */
   async start(): Promise<void> {
     if (!(await this.refresh())) return;
-    const wanted = decodeURIComponent(location.hash.slice(1));
-    const { value: models } = this.models;
-    const first =
-      models.find((m) => m.id === wanted) ??
-      models.find((m) => m.id === 'sample') ??
-      models.find((m) => m.state === 'parametrized') ??
-      models[0];
-    if (first) this.select(first.id);
-    for (const model of models) if (model.state === 'importing') void this.waitForImport(model.id);
+    for (const model of this.models.value) if (model.state === 'importing') void this.waitForImport(model.id);
   }
 
   async refresh(): Promise<boolean> {
@@ -62,7 +56,6 @@ export class Studio {
     const model = this.models.value.find((m) => m.id === id) ?? null;
     this.selected.set(model);
     if (!model) return;
-    history.replaceState(null, '', `#${encodeURIComponent(id)}`);
     // A list has only the largest parts of each model.
     if (model.parts.length < model.counts.parts) void this.reload(id);
     // Open the tab of the next step: placing points, or animating the face.
@@ -125,6 +118,7 @@ export class Studio {
   async remove(model: Model): Promise<void> {
     await this.attempt('The head was not deleted', async () => {
       await this.api.deleteModel(model.id);
+      this.onRemoved(model.id);
       this.models.set(this.models.value.filter((m) => m.id !== model.id));
       if (this.selected.value?.id === model.id) {
         const next = this.models.value[0];

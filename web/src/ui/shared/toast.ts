@@ -3,13 +3,26 @@ import type { Problem } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { icon } from './icons.ts';
 
+export interface ToastAction {
+  label: string;
+  act: () => void;
+}
+
 /** Temporary messages at the bottom of the page. Errors stay until closed. */
 export class Toasts {
   readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': 'Messages', 'aria-live': 'polite' });
 
-  say(text: string): void {
+  /** `action`: what a button beside the text does; there is more time for it. */
+  say(text: string, action?: ToastAction): void {
     const toast = this.show('note', icon('check'), h('p', {}, text));
-    setTimeout(() => toast.remove(), 4000);
+    if (action) {
+      const click = (): void => {
+        toast.remove();
+        action.act();
+      };
+      toast.append(h('button', { type: 'button', class: 'small', on: { click } }, action.label));
+    }
+    setTimeout(() => toast.remove(), action ? 10_000 : 4000);
   }
 
   problem(what: string, problem: Problem): void {

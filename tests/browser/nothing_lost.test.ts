@@ -1,0 +1,119 @@
+import { readFileSync } from 'node:fs';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { sampleHead, samplePoints } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+const known = (
+  JSON.parse(readFileSync(samplePoints, 'utf8')) as { points: Record<string, { position: [number, number, number] }> }
+).points;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const selected = (studio: StudioPage): Promise<string> =>
+  studio.page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
+
+async function mark(studio: StudioPage, ids: readonly string[]): Promise<void> {
+  for (const id of ids) {
+    const spot = await studio.project(known[id]!.position);
+    await studio.page.mouse.click(spot.x, spot.y);
+  }
+}
+
+describe('nothing is lost', () => {
+  test('Draft_ReloadAnotherHeadAndADeadServer_IsBackUntilItIsDiscarded', async () => {
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, allowed: /ERR_|WebSocket|50[0-9]/ });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'draft.glb');
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    await page.locator('#tab-points').click();
+    const head = await selected(studio);
+    await page.getByRole('button', { name: 'Start' }).click();
+    await mark(studio, ['9.3', '9.15']);
+    await page.getByText('2 of 84 placed').waitFor();
+
+    await page.reload();
+    await page.getByText('Your 2 unsaved points are back.').waitFor();
+    expect(await selected(studio)).toBe(head);
+    await page.getByText('2 of 84 placed').waitFor();
+    await page.getByRole('button', { name: 'Save 2 changes' }).waitFor();
+
+    // Another head and back.
+    await page.locator('[data-model=sample] button').first().click();
+    await page.getByText('84 of 84 placed').waitFor();
+    await page.goBack();
+    await page.getByText('2 of 84 placed').waitFor();
+    expect(await selected(studio)).toBe(head);
+
+    // Discarding is a step that can be undone.
+    await page.getByRole('button', { name: 'Discard' }).last().click();
+    await page.getByText('0 of 84 placed').waitFor();
+    await page.keyboard.press('Control+z');
+    await page.getByText('2 of 84 placed').waitFor();
+
+    // What is saved is no draft any more.
+    await page.getByRole('button', { name: 'Save 2 changes' }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    expect(await page.evaluate((id) => localStorage.getItem(`semblante.draft.${id}`), head)).toBeNull();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Address_HeadTabPointAndStream_AreNamedAndComeBack', async () => {
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const hash = (): Promise<string> => page.evaluate(() => location.hash);
+    await page.waitForFunction(() => location.hash === '#sample/animate');
+    expect(await page.title()).toContain('Semblante');
+
+    await page.locator('#tab-points').click();
+    await page.getByRole('button', { name: 'All 84' }).click();
+    await page.locator('[data-point="8.1"]').click();
+    await page.waitForFunction(() => location.hash === '#sample/points?point=8.1');
+    await page.locator('[data-point="2.1"]').click();
+    await page.waitForFunction(() => location.hash === '#sample/points?point=2.1');
+    await page.locator('#tab-fit').click();
+    await page.waitForFunction(() => location.hash === '#sample/fit');
+
+    await page.goBack();
+    await page.waitForFunction(() => location.hash === '#sample/points?point=2.1');
+    expect(await page.locator('[data-point="2.1"]').getAttribute('aria-pressed')).toBe('true');
+    await page.goBack();
+    await page.locator('#tab-animate[aria-selected=true]').waitFor();
+    await page.goForward();
+    await page.locator('[data-point="2.1"][aria-pressed=true]').waitFor();
+
+    // A link that is sent, with a stream.
+    const stream = (await (
+      await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ title: 'mine' }) })
+    ).json()) as { id: string };
+    const other = await StudioPage.open(browser, `${server.url}/#sample/live?stream=${stream.id}`, { width: 1280, height: 720 });
+    await other.waitForStage('ready');
+    await other.page.locator('#tab-live[aria-selected=true]').waitFor();
+    await other.page.waitForFunction((id) => (window as unknown as Inside).semblante.live.following.value === id, stream.id);
+    expect(await other.page.evaluate(() => location.hash)).toBe(`#sample/live?stream=${stream.id}`);
+    expect(await hash()).toBe('#sample/points?point=2.1');
+    expect([...studio.errors, ...other.errors]).toEqual([]);
+    await studio.close();
+    await other.close();
+
+    const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720 });
+    await lost.page.getByText('The head of this address is not on the server.').waitFor();
+    await lost.waitForStage('ready');
+    expect(lost.errors).toEqual([]);
+    await lost.close();
+  });
+});

@@ -1,0 +1,77 @@
+import type { PlacedPoint } from '../../face/point_draft.ts';
+import { pointById } from '../../face/feature_points.ts';
+
+/** Unsaved changes by point id; null: the point was removed. */
+export type PointChanges = ReadonlyMap<string, PlacedPoint | null>;
+
+const prefix = 'semblante.draft.';
+
+/**
+ * Keeps the unsaved points of each head in the browser, so that they survive a reload, a change of head and a lost network.
+ * Only what differs from the server's points is kept: what others save in the meantime stays theirs.
+ */
+export class DraftStore {
+  constructor(private readonly storage: Storage | null) {}
+
+  /** `axes`: the axes of the head; positions of other axes are of no use. */
+  keep(head: string, axes: string, changes: PointChanges): void {
+    const key = prefix + head;
+    try {
+      if (changes.size === 0) this.storage?.removeItem(key);
+      else this.storage?.setItem(key, JSON.stringify({ axes, points: Object.fromEntries(changes) }));
+    } catch {
+      return; // storage is full or forbidden: the draft lasts as long as the page
+    }
+  }
+
+  forget(head: string): void {
+    this.keep(head, '', new Map());
+  }
+
+  /** What was kept of a head; what is not understood is left out. */
+  read(head: string, axes: string): PointChanges {
+    const changes = new Map<string, PlacedPoint | null>();
+    try {
+      const kept = JSON.parse(this.storage?.getItem(prefix + head) ?? 'null') as unknown;
+      if (!isRecord(kept) || kept['axes'] !== axes || !isRecord(kept['points'])) return changes;
+      for (const [id, value] of Object.entries(kept['points'])) {
+        const point = value === null ? null : pointOf(value);
+        if (pointById(id) !== undefined && point !== undefined) changes.set(id, point);
+      }
+    } catch {
+      return changes;
+    }
+    return changes;
+  }
+}
+
+/** The browser's storage, or null where it is forbidden. */
+export function browserStorage(): Storage | null {
+  try {
+    return localStorage;
+  } catch {
+    return null;
+  }
+}
+
+function pointOf(value: unknown): PlacedPoint | undefined {
+  if (!isRecord(value)) return undefined;
+  const { vertex, position, proposal } = value;
+  if (vertex !== null && !(Number.isSafeInteger(vertex) && (vertex as number) >= 0)) return undefined;
+  if (!Array.isArray(position) || position.length !== 3 || !position.every((part) => Number.isFinite(part))) return undefined;
+  const point = { vertex: vertex as number | null, position: position as [number, number, number] };
+  if (!isRecord(proposal)) return point;
+  const { method, confidence, expectedError, remark } = proposal;
+  return {
+    ...point,
+    proposal: {
+      method: typeof method === 'string' ? method : null,
+      confidence: confidence === 'high' || confidence === 'medium' || confidence === 'low' ? confidence : null,
+      expectedError: typeof expectedError === 'number' ? expectedError : null,
+      ...(typeof remark === 'string' ? { remark } : {}),
+    },
+  };
+}
+
+const isRecord = (value: unknown): value is Record<string, unknown> =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
