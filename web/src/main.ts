@@ -22,6 +22,7 @@ import { InfluencePanel } from './ui/influence/influence_panel.ts';
 import { InfluenceReader } from './ui/influence/influence_reader.ts';
 import { exposeInspection } from './ui/page/inspect.ts';
 import { makeLayout } from './ui/page/layout.ts';
+import { languageSelect } from './ui/page/language.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
 import { LiveModel } from './ui/live/live_model.ts';
 import { LivePanel } from './ui/live/live_panel.ts';
@@ -43,13 +44,14 @@ import { Studio } from './ui/shared/studio.ts';
 import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
+import { language } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */
 function main(root: HTMLElement, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
   const api = new Api();
-  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), theme);
+  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), languageSelect(), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);
@@ -154,6 +156,7 @@ function showSelected(studio: Studio, points: PointsModel, scene: SceneView): vo
 }
 
 const root = document.querySelector<HTMLElement>('#studio');
+document.documentElement.lang = language;
 if (root) {
   const theme = themeButton(); // the sign-in has its colours too
   letIn('', root)

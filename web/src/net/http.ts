@@ -1,4 +1,5 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
+import { t } from '../words/words.ts';
 
 export interface Answer<T> {
   value: T;
@@ -31,7 +32,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
     response = await fetch(path, init);
   } catch (error) {
     if (error instanceof DOMException && error.name === 'AbortError') throw error;
-    throw new ApiError(unreachable(`${init.method} ${path} got no answer.`));
+    throw new ApiError(unreachable(t('{method} {path} got no answer.', { method: init.method ?? 'GET', path })));
   }
   if (!response.ok) {
     const body = await response.text().catch(() => '');
@@ -54,7 +55,7 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
   } catch {
     throw new ApiError({
       type: 'about:blank',
-      title: 'The server sent an answer that is not JSON',
+      title: t('The server sent an answer that is not JSON'),
       status: response.status,
       detail: path,
     });

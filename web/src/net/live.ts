@@ -1,5 +1,6 @@
 import { StreamClient, type FaceFrame } from '@client/index.ts';
 import type { EndReason } from '@protocol/messages.ts';
+import { t } from '../words/words.ts';
 
 export interface LinkStatus {
   kind: 'off' | 'connecting' | 'open' | 'waiting' | 'ended';
@@ -17,12 +18,12 @@ export interface LiveStats {
 }
 
 const endings: Record<EndReason, string> = {
-  other: 'The stream ended.',
-  finished: 'The performance has ended.',
-  deleted: 'The stream was deleted.',
-  shutdown: 'The server is shutting down.',
-  replaced: 'Another connection took over.',
-  slow: 'This connection was too slow for the stream.',
+  other: t('The stream ended.'),
+  finished: t('The performance has ended.'),
+  deleted: t('The stream was deleted.'),
+  shutdown: t('The server is shutting down.'),
+  replaced: t('Another connection took over.'),
+  slow: t('This connection was too slow for the stream.'),
 };
 
 /** Converts a client's events into one status for display. */
@@ -37,7 +38,7 @@ function report(client: StreamClient, title: string, onStatus: (status: LinkStat
   client.on('state', (state) => {
     if (state === 'closed') onStatus(ended === null ? { kind: 'off' } : { kind: 'ended', title: named, reason: ended });
     else if (state === 'waiting')
-      onStatus({ kind: 'waiting', title: named, reason: ended ?? 'The connection was lost; reconnecting.' });
+      onStatus({ kind: 'waiting', title: named, reason: ended ?? t('The connection was lost; reconnecting.') });
     else {
       ended = null;
       onStatus({ kind: state, title: named });

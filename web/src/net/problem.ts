@@ -1,5 +1,6 @@
 import { anyFormat, formatList } from './model_formats.ts';
 import type { Problem } from './types.ts';
+import { t } from '../words/words.ts';
 
 /** One error of a problem document; without a pointer it concerns the whole request. */
 export interface FieldProblem {
@@ -17,7 +18,7 @@ export class ApiError extends Error {
 
 export const unreachable = (detail: string): Problem => ({
   type: '/problems/unreachable',
-  title: 'The server does not respond',
+  title: t('The server does not respond'),
   status: 0,
   detail,
 });
@@ -58,26 +59,26 @@ export function featurePointOf(pointer: string | undefined): string | null {
 /** Advice for the user in one sentence, or null when there is none better than "try again". */
 export function adviceFor(problem: Problem): string | null {
   const slug = problem.type.split('/').pop() ?? '';
-  if (problem.status === 0) return 'Check that the server is running, then try again.';
-  if (slug === 'malformed-model') return `Export the head again as ${anyFormat}.`;
-  if (slug === 'unsupported-media-type') return `Use a file in one of these formats: ${formatList}.`;
-  if (slug === 'unauthorized') return 'Reload the page and sign in again.';
-  if (slug === 'forbidden') return 'Ask whoever runs the server for a token that allows it.';
+  if (problem.status === 0) return t('Check that the server is running, then try again.');
+  if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
+  if (slug === 'unsupported-media-type') return t('Use a file in one of these formats: {formatList}.', { formatList });
+  if (slug === 'unauthorized') return t('Reload the page and sign in again.');
+  if (slug === 'forbidden') return t('Ask whoever runs the server for a token that allows it.');
   if (problem.status === 413 || slug === 'limit-exceeded')
-    return 'Reduce the mesh or its textures and upload it again.';
+    return t('Reduce the mesh or its textures and upload it again.');
   if (slug === 'quota-exceeded')
-    return 'Delete what is no longer needed, or ask whoever runs the server for a higher limit.';
-  if (slug === 'insufficient-storage') return "The server's disk is full: free some space on it, then try again.";
+    return t('Delete what is no longer needed, or ask whoever runs the server for a higher limit.');
+  if (slug === 'insufficient-storage') return t("The server's disk is full: free some space on it, then try again.");
   if (problem.status === 412 || problem.status === 428)
-    return 'Someone else changed it meanwhile: reload, then make the change again.';
-  if (slug === 'invalid-feature-point') return 'Move or remove the points marked in red, then save again.';
-  if (problem.status === 404) return 'It may have been deleted: reload the page.';
-  if (problem.status === 429 || problem.status === 503) return 'The server is busy: wait a moment and try again.';
+    return t('Someone else changed it meanwhile: reload, then make the change again.');
+  if (slug === 'invalid-feature-point') return t('Move or remove the points marked in red, then save again.');
+  if (problem.status === 404) return t('It may have been deleted: reload the page.');
+  if (problem.status === 429 || problem.status === 503) return t('The server is busy: wait a moment and try again.');
   return null;
 }
 
 export function problemOf(error: unknown): Problem {
   if (error instanceof ApiError) return error.problem;
   const detail = error instanceof Error ? error.message : String(error);
-  return { type: 'about:blank', title: 'Something went wrong on this page', status: -1, detail };
+  return { type: 'about:blank', title: t('Something went wrong on this page'), status: -1, detail };
 }

@@ -1,4 +1,5 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
+import { t } from '../words/words.ts';
 
 /** Uploads a file with XMLHttpRequest, which, unlike fetch, reports the progress (0..1). */
 export function upload<T>(
@@ -28,14 +29,14 @@ export function upload<T>(
         reject(
           new ApiError({
             type: 'about:blank',
-            title: 'The server sent an answer that is not JSON',
+            title: t('The server sent an answer that is not JSON'),
             status: request.status,
           }),
         );
       }
     };
-    request.onerror = () => reject(new ApiError(unreachable('The connection was lost during the upload.')));
-    request.onabort = () => reject(new DOMException('Upload cancelled', 'AbortError'));
+    request.onerror = () => reject(new ApiError(unreachable(t('The connection was lost during the upload.'))));
+    request.onabort = () => reject(new DOMException(t('Upload cancelled'), 'AbortError'));
     signal?.addEventListener('abort', () => request.abort(), { once: true });
     request.send(file);
   });

@@ -1,3 +1,5 @@
+import { t } from '../words/words.ts';
+
 /** Render settings for the graphics card. */
 export interface Quality {
   antialias: boolean;
@@ -17,7 +19,7 @@ export function chooseQuality(): Quality {
   const context = document.createElement('canvas').getContext('webgl2');
   if (!context)
     throw new Error(
-      'This browser has no WebGL 2, which the studio needs. Enable hardware acceleration, or try another browser.',
+      t('This browser has no WebGL 2, which the studio needs. Enable hardware acceleration, or try another browser.'),
     );
   const facts = context.getExtension('WEBGL_debug_renderer_info');
   const name = facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : '';

@@ -18,8 +18,9 @@ import { messageOf } from '../shared/message_of.ts';
 import { capital } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
 import { VisemeGrid } from './viseme_grid.ts';
+import { nameOf, t } from '../../words/words.ts';
 
-const idleNote = 'Blinks and glances under what you set, on this page.';
+const idleNote = t('Blinks and glances under what you set, on this page.');
 
 export interface AnimatePanelOptions {
   frame: FaceFrame;
@@ -53,7 +54,7 @@ export class AnimatePanel {
   constructor(private readonly options: AnimatePanelOptions) {
     this.grid = new VisemeGrid({ onChoose: (viseme) => this.chooseViseme(viseme) });
     this.strength = new Slider({
-      label: 'Strength',
+      label: t('Strength'),
       note: '%',
       min: 0,
       max: 100,
@@ -67,7 +68,7 @@ export class AnimatePanel {
         h(
           'option',
           { value: number },
-          number === 0 ? 'Silence' : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`,
+          number === 0 ? t('Silence') : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`,
         ),
       ),
     );
@@ -81,7 +82,7 @@ export class AnimatePanel {
       'button',
       { type: 'button', class: 'quiet', on: { click: () => this.reset() } },
       icon('reset', 16),
-      'Neutral face',
+      t('Neutral face'),
     );
     const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
@@ -90,9 +91,9 @@ export class AnimatePanel {
       { class: 'panel animate' },
       h(
         'div',
-        { class: 'row wrap quick-acts', role: 'group', 'aria-label': 'Whole face' },
-        act('Blink', 'blink', 'Close the eyes for a moment', () => this.blink()),
-        act('Mirror', 'mirror', 'Exchange left and right', () => this.mirror()),
+        { class: 'row wrap quick-acts', role: 'group', 'aria-label': t('Whole face') },
+        act(t('Blink'), 'blink', t('Close the eyes for a moment'), () => this.blink()),
+        act(t('Mirror'), 'mirror', t('Exchange left and right'), () => this.mirror()),
         h('span', { class: 'grow' }),
         this.resetAll,
       ),
@@ -101,13 +102,13 @@ export class AnimatePanel {
       h(
         'section',
         {},
-        h('header', { class: 'section-head' }, h('h2', {}, 'Visemes')),
+        h('header', { class: 'section-head' }, h('h2', {}, t('Visemes'))),
         this.grid.element,
         h(
           'div',
           { class: 'blend' },
           this.strength.element,
-          h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, 'Blend with'), this.second),
+          h('label', { for: 'second-viseme', class: 'field-row' }, h('span', {}, t('Blend with')), this.second),
         ),
       ),
       h(
@@ -116,12 +117,12 @@ export class AnimatePanel {
         h(
           'header',
           { class: 'section-head' },
-          h('h2', {}, 'Expressions'),
-          h('span', { class: 'muted small' }, 'two at a time'),
+          h('h2', {}, t('Expressions')),
+          h('span', { class: 'muted small' }, t('two at a time')),
         ),
         h('div', { class: 'feelings' }, ...this.makeFeelings()),
       ),
-      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Face parameters')), this.faps.element),
+      h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, t('Face parameters'))), this.faps.element),
     );
     this.refresh();
   }
@@ -162,7 +163,7 @@ export class AnimatePanel {
       setText(note, idleNote);
       this.options.onIdle(box.checked).catch((error: unknown) => {
         box.checked = false;
-        setText(note, `Could not be loaded: ${messageOf(error)}`);
+        setText(note, t('Could not be loaded: {error}', { error: messageOf(error) }));
       });
     });
     return h(
@@ -171,7 +172,7 @@ export class AnimatePanel {
       h(
         'span',
         { class: 'grow' },
-        h('strong', {}, 'Idle life'),
+        h('strong', {}, t('Idle life')),
         note,
       ),
       box,
@@ -209,9 +210,9 @@ export class AnimatePanel {
     return expressions.slice(1).map((expression, i) => {
       const number = i + 1;
       const slider = new Slider({
-        label: capital(expression.name),
+        label: nameOf(capital(expression.name)),
         note: '%',
-        title: expression.description,
+        title: nameOf(expression.description),
         min: 0,
         max: 100,
         onInput: (value) => this.setFeeling(number, value),
@@ -223,8 +224,8 @@ export class AnimatePanel {
           class: 'feeling-button',
           'data-expression': number,
           'aria-pressed': 'false',
-          'aria-label': `${capital(expression.name)} on or off`,
-          title: expression.description,
+          'aria-label': t('{name} on or off', { name: nameOf(capital(expression.name)) }),
+          title: nameOf(expression.description),
           on: { click: () => this.setFeeling(number, expressionIntensity(this.options.frame, number) > 0 ? 0 : 100) },
         },
         expressionFace(number),

@@ -15,6 +15,7 @@ import { messageOf } from '../shared/message_of.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
+import { t } from '../../words/words.ts';
 
 /** Plays a performance document or .fap file on this page only, without the server. */
 export class ClipPanel {
@@ -23,7 +24,7 @@ export class ClipPanel {
   readonly shown = new Signal<string | null>(null);
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
-  private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': 'Position' });
+  private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': t('Position') });
   private file: { name: string; content: ClipFile; library: Library } | null = null;
   private newest = 0;
   private absent: Absent = 'zero';
@@ -47,13 +48,13 @@ export class ClipPanel {
     this.element = h(
       'section',
       { class: 'clip' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Play a file'), h('span', { class: 'muted small' }, 'on this page only')),
+      h('header', { class: 'section-head' }, h('h2', {}, t('Play a file')), h('span', { class: 'muted small' }, t('on this page only'))),
       h(
         'div',
         { class: 'script-source' },
         chooseFile({
-          label: 'Choose a .json or .fap file',
-          note: 'or drop it',
+          label: t('Choose a .json or .fap file'),
+          note: t('or drop it'),
           accept: '.json,.fap,application/json',
           take: (file) => void this.takeFile(file),
         }),
@@ -122,7 +123,7 @@ export class ClipPanel {
 
   private tell(): void {
     const { file, player, driver } = this;
-    const words = player.playing ? `Playing ${file?.name ?? ''}` : `${file?.name ?? ''}, paused`;
+    const words = player.playing ? t('Playing {name}', { name: file?.name ?? '' }) : t('{name}, paused', { name: file?.name ?? '' });
     this.shown.set(file && driver.source.value === 'clip' ? words : null);
   }
 
@@ -153,9 +154,9 @@ export class ClipPanel {
             on: { click: () => this.toggle() },
           },
           icon(player.playing ? 'pause' : 'play', 15),
-          player.playing ? 'Pause' : 'Play',
+          player.playing ? t('Pause') : t('Play'),
         ),
-        player.clip?.duration === Infinity ? null : h('label', { class: 'check' }, loop, 'Loop'),
+        player.clip?.duration === Infinity ? null : h('label', { class: 'check' }, loop, t('Loop')),
         h('span', { class: 'grow' }),
         h('span', { class: 'muted small' }, sizeOf(file.content)),
       ),
@@ -205,16 +206,16 @@ export class ClipPanel {
 function sizeOf(content: ClipFile): string {
   if (content.kind === 'fap') {
     const { frameRate, frames } = content.take;
-    return `${formatCount(frames.length)} frames, ${frameRate} a second`;
+    return t('{count} frames, {frameRate} a second', { count: formatCount(frames.length), frameRate });
   }
   const { cues, hasIdle } = content;
   const count = `${formatCount(cues)} ${cues === 1 ? 'cue' : 'cues'}`;
   if (!hasIdle) return count;
-  return cues > 0 ? `${count}, idle life` : 'Idle life';
+  return cues > 0 ? t('{count}, idle life', { count }) : t('Idle life');
 }
 
 /** The place of an error: a JSON pointer as code, "line 3, word 2" as text. */
 function placeOf(where: string): HTMLElement | null {
   if (where === '') return null;
-  return where.startsWith('/') ? h('p', {}, 'At ', h('code', {}, where)) : h('p', {}, capital(where));
+  return where.startsWith('/') ? h('p', {}, t('At '), h('code', {}, where)) : h('p', {}, capital(where));
 }

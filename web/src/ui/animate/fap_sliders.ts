@@ -5,6 +5,7 @@ import { h, setText } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { fapGroupTitles, fapTitle } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
+import { language, t } from '../../words/words.ts';
 
 export interface FapSlidersOptions {
   frame: FaceFrame;
@@ -34,14 +35,14 @@ export class FapSliders {
 
   constructor(private readonly options: FapSlidersOptions) {
     const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
-    this.element.append(h('label', { class: 'check' }, both, icon('link', 16), 'Move left and right together'));
+    this.element.append(h('label', { class: 'check' }, both, icon('link', 16), t('Move left and right together')));
     const lip = h('input', {
       type: 'checkbox',
       id: 'jaw-takes-lip',
       on: { change: () => options.onJawTakesLip(lip.checked) },
     });
-    const hint = 'FAP 3 alone does not part the lips in the standard. Sliders of the lip itself win in both cases.';
-    this.element.append(h('label', { class: 'check', title: hint }, lip, 'The jaw takes the lower lip along'));
+    const hint = t('FAP 3 alone does not part the lips in the standard. Sliders of the lip itself win in both cases.');
+    this.element.append(h('label', { class: 'check', title: hint }, lip, t('The jaw takes the lower lip along')));
     for (const group of fapGroups)
       if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
   }
@@ -57,21 +58,21 @@ export class FapSliders {
     for (const [number, slider] of this.sliders) slider.set(fapValue(this.options.frame, number));
     for (const [group, count] of this.counts) {
       const moved = faps.filter((fap) => fap.group === group && this.options.frame.levels[fap.number] !== 0).length;
-      setText(count, moved === 0 ? '' : `${moved} moved`);
+      setText(count, moved === 0 ? '' : t('{moved} moved', { moved }));
     }
   }
 
   private makeGroup(group: number, list: readonly Fap[]): HTMLElement {
     const count = h('span', { class: 'badge quiet-badge' });
     this.counts.set(group, count);
-    const title = fapGroupTitles[group] ?? `Group ${group}`;
+    const title = fapGroupTitles[group] ?? t('Group {group}', { group });
     const reset = h(
       'button',
       {
         type: 'button',
         class: 'quiet square small',
-        'aria-label': `Reset ${title}`,
-        title: `Reset ${title}`,
+        'aria-label': t('Reset {title}', { title }),
+        title: t('Reset {title}', { title }),
         on: {
           click: (event) => {
             event.preventDefault();
@@ -109,10 +110,13 @@ export class FapSliders {
   }
 
   private makeSlider(fap: Fap): Slider {
+    const label = fapTitle(fap.name, fap.group);
+    // The standard's descriptions are in English only.
+    const description = language === 'en' ? fap.description : label;
     const slider = new Slider({
-      label: fapTitle(fap.name, fap.group),
-      note: `FAP ${fap.number}`,
-      title: `${fap.description}. ${fap.name}, unit ${fap.unit ?? ''}`,
+      label,
+      note: t('FAP {number}', { number: fap.number }),
+      title: t('{description}. {name}, unit {unit}', { description, name: fap.name, unit: fap.unit ?? '' }),
       min: fap.usualMin,
       max: fap.usualMax,
       onInput: (value) => {

@@ -4,6 +4,7 @@ import type { FitModel } from '../fit/fit_model.ts';
 import { formatBytes, formatCount } from '../shared/format.ts';
 import type { SceneView } from '../stage/scene.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The levels of detail of the open face: size and error of each, and which one is on the stage. */
 export class LevelsPanel {
@@ -21,8 +22,8 @@ export class LevelsPanel {
       h(
         'header',
         { class: 'section-head' },
-        h('h2', {}, 'Levels of detail'),
-        h('span', { class: 'muted small' }, 'for slow devices'),
+        h('h2', {}, t('Levels of detail')),
+        h('span', { class: 'muted small' }, t('for slow devices')),
       ),
       this.body,
     );
@@ -46,7 +47,7 @@ export class LevelsPanel {
             { class: 'levels' },
             levels.map((level) => this.row(level, told)),
           )
-        : h('p', { class: 'muted small' }, 'Only the full mesh: it is small already, or no levels were requested.'),
+        : h('p', { class: 'muted small' }, t('Only the full mesh: it is small already, or no levels were requested.')),
       told?.missed.map(({ words }) =>
         h('p', { class: 'muted small' }, `${words.charAt(0).toUpperCase()}${words.slice(1)}.`),
       ),
@@ -69,15 +70,15 @@ export class LevelsPanel {
           'aria-pressed': String(this.scene.level.value === level.lod),
           on: { click: () => this.scene.showLevel(level.lod) },
         },
-        h('strong', { class: 'grow' }, level.lod === 0 ? 'Full mesh' : `Level ${level.lod}`),
-        h('span', { class: 'number' }, `${formatCount(level.vertices)} vertices · ${formatBytes(bytes)}`),
+        h('strong', { class: 'grow' }, level.lod === 0 ? t('Full mesh') : t('Level {lod}', { lod: level.lod })),
+        h('span', { class: 'number' }, t('{vertices} vertices · {bytes}', { vertices: formatCount(level.vertices), bytes: formatBytes(bytes) })),
         error ? h('small', { class: 'muted' }, errorWords(error)) : null,
       ),
     );
   }
 }
 
-/** "Error at most 0.4 % of the eye distance, in expressions 0.9 %". */
+/** "Error at most 0.4 % of the eye distance, in expressions 0.9 % of the eye distance". */
 function errorWords({
   neutral,
   expressions,
@@ -86,10 +87,11 @@ function errorWords({
   expressions: Record<string, LevelError>;
 }): string {
   const worst = (error: LevelError): number => error.of_es0?.max ?? error.max;
-  const unit = neutral.of_es0 ? ' of the eye distance' : ' units';
   const word = (value: number): string =>
-    neutral.of_es0 ? `${Number((value * 100).toPrecision(2))} %` : String(Number(value.toPrecision(2)));
+    neutral.of_es0 ? t('{number} % of the eye distance', { number: Number((value * 100).toPrecision(2)) }) : t('{number} units', { number: Number(value.toPrecision(2)) });
   const faces = Object.values(expressions).map(worst);
-  const moved = faces.length > 0 ? `, in expressions ${word(Math.max(...faces))}` : '';
-  return `Error at most ${word(worst(neutral))}${unit}${moved}`;
+  const still = word(worst(neutral));
+  return faces.length > 0
+    ? t('Error at most {still}, in expressions {faces}', { still, faces: word(Math.max(...faces)) })
+    : t('Error at most {still}', { still });
 }

@@ -1,5 +1,6 @@
 import { visemes } from '@protocol/generated/mpeg4.ts';
 import { h } from '../shared/dom.ts';
+import { t } from '../../words/words.ts';
 
 export interface VisemeGridOptions {
   onChoose: (viseme: number) => void;
@@ -7,13 +8,13 @@ export interface VisemeGridOptions {
 
 /** 15 buttons, each with its sounds and an example word. */
 export class VisemeGrid {
-  readonly element = h('div', { class: 'visemes', role: 'group', 'aria-label': 'Visemes' });
+  readonly element = h('div', { class: 'visemes', role: 'group', 'aria-label': t('Visemes') });
   private readonly buttons: HTMLButtonElement[] = [];
 
   constructor(options: VisemeGridOptions) {
     visemes.forEach((viseme, number) => {
       const sounds = number === 0 ? 'rest' : viseme.phonemes.join(' ');
-      const word = viseme.examples[0] ?? 'silence';
+      const word = viseme.examples[0] ?? t('silence');
       const button = h(
         'button',
         {
@@ -21,7 +22,7 @@ export class VisemeGrid {
           class: 'viseme',
           'data-viseme': number,
           'aria-pressed': 'false',
-          'aria-label': `Viseme ${number}: ${number === 0 ? 'silence' : `${sounds}, as in ${viseme.examples.join(', ')}`}`,
+          'aria-label': number === 0 ? t('Viseme 0: silence') : t('Viseme {number}: {sounds}, as in {list}', { number, sounds, list: viseme.examples.join(', ') }),
           title: viseme.examples.join(', '),
           on: { click: () => options.onChoose(number) },
         },

@@ -1,4 +1,5 @@
 import { h } from '../shared/dom.ts';
+import { t } from '../../words/words.ts';
 
 export type Absent = 'zero' | 'keep';
 
@@ -18,10 +19,10 @@ export function absentChoice(chosen: Absent, choose: (absent: Absent) => void): 
   return h(
     'div',
     { class: 'row' },
-    h('span', { class: 'muted grow', title: 'The value of a FAP in a frame that omits it' }, 'Omitted FAPs'),
-    h('div', { class: 'segments', role: 'group', 'aria-label': 'FAPs that a frame omits' }, [
-      button('zero', 'Are zero'),
-      button('keep', 'Stay'),
+    h('span', { class: 'muted grow', title: t('The value of a FAP in a frame that omits it') }, t('Omitted FAPs')),
+    h('div', { class: 'segments', role: 'group', 'aria-label': t('FAPs that a frame omits') }, [
+      button('zero', t('Are zero')),
+      button('keep', t('Stay')),
     ]),
   );
 }

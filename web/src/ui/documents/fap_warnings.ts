@@ -1,4 +1,5 @@
 import { h } from '../shared/dom.ts';
+import { t } from '../../words/words.ts';
 
 /** A collapsed list of a .fap file's deviations from the usual form; null when there are none. */
 export function fapWarnings(sentences: readonly string[]): HTMLElement | null {
@@ -6,7 +7,7 @@ export function fapWarnings(sentences: readonly string[]): HTMLElement | null {
   return h(
     'details',
     { class: 'notice clip-warnings' },
-    h('summary', {}, `${sentences.length} ${sentences.length === 1 ? 'deviation' : 'deviations'} from the usual form`),
+    h('summary', {}, sentences.length === 1 ? t('One deviation from the usual form') : t('{count} deviations from the usual form', { count: sentences.length })),
     h(
       'ul',
       {},

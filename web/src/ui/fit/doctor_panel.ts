@@ -2,11 +2,12 @@ import { adviceFor } from '../../net/problem.ts';
 import type { Finding, FitReport, Model, Severity } from '../../net/types.ts';
 import { h, replace } from '../shared/dom.ts';
 import { actionFor, type FindingAction } from './finding_actions.ts';
-import { countWords, findingTitle, sentence, severities, severityMeanings } from '../shared/finding_words.ts';
+import { countWords, findingTitle, sentence, severities, severityCount, severityMeanings } from '../shared/finding_words.ts';
 import type { FitModel } from './fit_model.ts';
 import { formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
+import { language, t } from '../../words/words.ts';
 
 export interface DoctorOptions {
   /** Whether enough points are placed for the server to make proposals. */
@@ -27,7 +28,7 @@ export class DoctorPanel {
     private readonly fit: FitModel,
     private readonly options: DoctorOptions,
   ) {
-    this.element = h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, 'Fit doctor')), this.body);
+    this.element = h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, t('Fit doctor'))), this.body);
     fit.report.watch(() => this.draw());
     fit.chosen.watch(() => this.mark());
     let shown = '';
@@ -58,24 +59,24 @@ export class DoctorPanel {
     }
     const words =
       model === null
-        ? 'Choose a head to check it.'
+        ? t('Choose a head to check it.')
         : state.kind === 'loading' || model.state === 'importing'
-          ? 'Checking the head…'
+          ? t('Checking the head…')
           : model.state === 'failed'
-            ? 'The file could not be read, so there is nothing to check.'
-            : 'This head was imported by a version without the fit doctor. Parametrize it again to check it.';
+            ? t('The file could not be read, so there is nothing to check.')
+            : t('This head was imported by a version without the fit doctor. Parametrize it again to check it.');
     replace(this.body, h('p', { class: 'empty' }, words));
   }
 
   private drawReport(report: FitReport, model: Model): void {
     const whole = model.state === 'parametrized';
     const looked = whole
-      ? 'Mesh, points, parts and weights were checked when the head was last parametrized.'
-      : 'Only the mesh has been checked so far. Points, parts and weights follow when the head is parametrized.';
+      ? t('Mesh, points, parts and weights were checked when the head was last parametrized.')
+      : t('Only the mesh has been checked so far. Points, parts and weights follow when the head is parametrized.');
     if (report.findings.length === 0) {
       replace(
         this.body,
-        h('p', { class: 'healthy' }, icon('check', 20), h('span', {}, h('strong', {}, 'Nothing found. '), looked)),
+        h('p', { class: 'healthy' }, icon('check', 20), h('span', {}, h('strong', {}, t('Nothing found. ')), looked)),
         remarks(model),
       );
       return;
@@ -83,7 +84,7 @@ export class DoctorPanel {
     replace(
       this.body,
       h('p', { class: 'muted small' }, h('strong', {}, `${countWords(report.summary)}. `), looked),
-      severities.map(({ severity, one, many }) => {
+      severities.map((severity) => {
         const findings = report.findings.filter((finding) => finding.severity === severity);
         if (findings.length === 0) return null;
         const worse = report.findings.length > findings.length && severity === 'note';
@@ -95,7 +96,7 @@ export class DoctorPanel {
             {},
             icon('chevron', 14),
             h('span', { class: `lamp lamp-${severity}`, 'aria-hidden': 'true' }),
-            h('h3', {}, `${findings.length} ${findings.length === 1 ? one : many}`),
+            h('h3', {}, severityCount(severity, findings.length)),
             h('span', { class: 'muted small grow' }, severityMeanings[severity]),
           ),
           h(
@@ -123,7 +124,7 @@ export class DoctorPanel {
         type: 'button',
         class: 'finding-show',
         'aria-pressed': 'false',
-        title: placed ? 'Show where' : null,
+        title: placed ? t('Show where') : null,
         on: { click: () => this.fit.choose(this.fit.chosen.value === finding ? null : finding) },
       },
       h('strong', {}, findingTitle(finding)),
@@ -131,9 +132,9 @@ export class DoctorPanel {
     );
     const facts = [
       place.vertices.count > 0
-        ? `${formatCount(place.vertices.count)} ${place.vertices.count === 1 ? 'vertex' : 'vertices'}`
+        ? place.vertices.count === 1 ? t('1 vertex') : t('{count} vertices', { count: formatCount(place.vertices.count) })
         : '',
-      measured ? `${measured.what}: ${figure(measured.value)}, a finding from ${figure(measured.threshold)}` : '',
+      measured ? t('{what}: {value}, a finding from {threshold}', { what: measured.what, value: figure(measured.value), threshold: figure(measured.threshold) }) : '',
     ].filter((text) => text !== '');
     const element = h(
       'li',
@@ -168,7 +169,7 @@ function remarks({ warnings = [] }: Model): HTMLElement | null {
   return h(
     'div',
     { class: 'remarks small' },
-    h('h3', {}, 'Warnings of the file and its points'),
+    h('h3', {}, t('Warnings of the file and its points')),
     h(
       'ul',
       {},
@@ -177,4 +178,4 @@ function remarks({ warnings = [] }: Model): HTMLElement | null {
   );
 }
 
-const figure = (value: number): string => String(Number(value.toPrecision(3)));
+const figure = (value: number): string => value.toLocaleString(language, { maximumSignificantDigits: 3 });

@@ -1,4 +1,5 @@
 import type { Finding } from '../../net/types.ts';
+import { t } from '../../words/words.ts';
 
 /** An action of the studio that may resolve a finding. */
 export type FindingAction =
@@ -22,21 +23,21 @@ const neverProposed = new Set(['11.5']);
  */
 export function actionFor(finding: Finding, enough: boolean): FindingAction | null {
   const { code, place, move } = finding;
-  if (move) return { kind: 'move', move, label: `Move point ${move.point}` };
-  if (aboutAxes.has(code)) return { kind: 'axes', label: 'Correct the axes' };
+  if (move) return { kind: 'move', move, label: t('Move point {point}', { point: move.point }) };
+  if (aboutAxes.has(code)) return { kind: 'axes', label: t('Correct the axes') };
   if (code === 'missing-points' || code === 'no-points') {
     if (enough && (code === 'no-points' || place.points.some((id) => !neverProposed.has(id))))
-      return { kind: 'propose', label: 'Propose the missing points' };
+      return { kind: 'propose', label: t('Propose the missing points') };
     // A note means that nothing depends on the missing points, so no action is suggested.
-    return enough || finding.severity === 'note' ? null : { kind: 'mark', label: 'Mark the first points' };
+    return enough || finding.severity === 'note' ? null : { kind: 'mark', label: t('Mark the first points') };
   }
-  if (code === 'left-right-swapped') return { kind: 'exchange', label: 'Exchange left and right' };
+  if (code === 'left-right-swapped') return { kind: 'exchange', label: t('Exchange left and right') };
   if (aboutRoles.has(code))
     return place.part === null
-      ? { kind: 'role', part: null, label: 'Set the roles of parts' }
-      : { kind: 'role', part: place.part, label: 'Set the role of this part' };
+      ? { kind: 'role', part: null, label: t('Set the roles of parts') }
+      : { kind: 'role', part: place.part, label: t('Set the role of this part') };
   const point = place.points[0];
   if ((code.startsWith('point') || code.startsWith('unit')) && point !== undefined)
-    return { kind: 'point', point, label: `Show point ${point}` };
+    return { kind: 'point', point, label: t('Show point {point}', { point }) };
   return null;
 }

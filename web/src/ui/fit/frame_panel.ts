@@ -2,13 +2,14 @@ import type { Direction, FrameWish, LengthUnit, Model, ModelFrame } from '../../
 import { h, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const units: readonly { unit: LengthUnit; name: string }[] = [
-  { unit: 'm', name: 'metres' },
-  { unit: 'dm', name: 'decimetres' },
-  { unit: 'cm', name: 'centimetres' },
-  { unit: 'mm', name: 'millimetres' },
-  { unit: 'in', name: 'inches' },
+  { unit: 'm', name: t('metres') },
+  { unit: 'dm', name: t('decimetres') },
+  { unit: 'cm', name: t('centimetres') },
+  { unit: 'mm', name: t('millimetres') },
+  { unit: 'in', name: t('inches') },
 ];
 const directions: readonly Direction[] = ['+X', '-X', '+Y', '-Y', '+Z', '-Z'];
 
@@ -18,20 +19,20 @@ export class FramePanel {
   private readonly said = h('div', { class: 'frame-said', 'aria-live': 'polite' });
   private readonly unit = choice(
     'frame-unit',
-    'Unit',
+    t('Unit'),
     units.map(({ unit, name }) => [unit, `${unit} (${name})`]),
   );
   private readonly up = choice(
     'frame-up',
-    'Top of the head',
+    t('Top of the head'),
     directions.map((one) => [one, one]),
   );
   private readonly front = choice(
     'frame-front',
-    'Front of the face',
+    t('Front of the face'),
     directions.map((one) => [one, one]),
   );
-  private readonly apply = h('button', { type: 'submit', class: 'primary small' }, 'Apply');
+  private readonly apply = h('button', { type: 'submit', class: 'primary small' }, t('Apply'));
   private readonly guess = h(
     'button',
     {
@@ -39,7 +40,7 @@ export class FramePanel {
       class: 'quiet small',
       on: { click: () => void this.send({ unit: null, up: null, front: null }) },
     },
-    'Guess again',
+    t('Guess again'),
   );
   private drawn = '';
 
@@ -60,12 +61,12 @@ export class FramePanel {
     this.element = h(
       'section',
       { class: 'frame-section' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Unit and axes')),
+      h('header', { class: 'section-head' }, h('h2', {}, t('Unit and axes'))),
       this.said,
       h(
         'p',
         { class: 'muted small' },
-        'Directions are axes of the file. A change of axes rotates the head on the stage.',
+        t('Directions are axes of the file. A change of axes rotates the head on the stage.'),
       ),
       form,
     );
@@ -95,22 +96,22 @@ export class FramePanel {
       h(
         'dl',
         { class: 'frame-facts' },
-        h('dt', {}, 'One unit'),
+        h('dt', {}, t('One unit')),
         h('dd', {}, `1 ${frame.unit}`, origin(frame.by_user.unit, frame.sure.unit)),
-        h('dt', {}, 'Axes'),
+        h('dt', {}, t('Axes')),
         h(
           'dd',
           {},
-          `${frame.axes.up} up, ${frame.axes.front} to the front`,
+          t('{up} up, {front} to the front', { up: frame.axes.up, front: frame.axes.front }),
           origin(frame.by_user.axes, frame.sure.axes),
         ),
-        size === '' ? null : [h('dt', {}, 'Resulting size'), h('dd', { class: 'number' }, size)],
+        size === '' ? null : [h('dt', {}, t('Resulting size')), h('dd', { class: 'number' }, size)],
       ),
       frame.reasons.length > 0
         ? h(
             'details',
             { class: 'reasons', open: !frame.sure.unit || !frame.sure.axes },
-            h('summary', { class: 'small' }, icon('chevron', 14), 'Why'),
+            h('summary', { class: 'small' }, icon('chevron', 14), t('Why')),
             h(
               'ul',
               {},
@@ -169,7 +170,7 @@ function choice(
 }
 
 function origin(byUser: boolean, sure: boolean): HTMLElement {
-  const words = byUser ? 'yours' : sure ? 'guessed, sure' : 'guessed, not sure';
+  const words = byUser ? t('yours') : sure ? t('guessed, sure') : t('guessed, not sure');
   return h('span', { class: `tag ${byUser ? 'by-hand' : sure ? '' : 'unsure'}` }, words);
 }
 

@@ -5,6 +5,7 @@ import { formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { roleTitles } from '../shared/names.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const roles = Object.keys(roleTitles) as PartRole[];
 
@@ -22,7 +23,7 @@ export class PartsPanel {
     this.element = h(
       'section',
       { class: 'parts-section' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Parts and roles')),
+      h('header', { class: 'section-head' }, h('h2', {}, t('Parts and roles'))),
       this.note,
       this.list,
     );
@@ -59,8 +60,8 @@ export class PartsPanel {
     const byHand = parts.filter((part) => part.role_by_user).length;
     replace(
       this.note,
-      'A part is a connected piece of the mesh. Correct wrongly guessed roles, then parametrize.',
-      byHand > 0 ? ` ${byHand} ${byHand === 1 ? 'is' : 'are'} yours.` : '',
+      t('A part is a connected piece of the mesh. Correct wrongly guessed roles, then parametrize.'),
+      byHand > 0 ? byHand === 1 ? t(' One is yours.') : t(' {byHand} are yours.', { byHand }) : '',
     );
     // Teeth may be thirty parts: many parts of one role form a collapsed group.
     const groups = new Map<PartRole, ModelPart[]>();
@@ -81,7 +82,7 @@ export class PartsPanel {
                   {},
                   icon('chevron', 14),
                   h('span', { class: 'grow' }, roleTitles[role] ?? role),
-                  h('small', { class: 'muted number' }, `${members.length} parts`),
+                  h('small', { class: 'muted number' }, t('{count} parts', { count: members.length })),
                 ),
                 h(
                   'ul',
@@ -97,12 +98,12 @@ export class PartsPanel {
   }
 
   private row(part: ModelPart): HTMLElement {
-    const name = part.name === '' ? `Part ${part.index}` : part.name;
+    const name = part.name === '' ? t('Part {index}', { index: part.index }) : part.name;
     const select = h(
       'select',
-      { 'aria-label': `Role of ${name} (part ${part.index})` },
+      { 'aria-label': t('Role of {name} (part {index})', { name, index: part.index }) },
       roles.map((role) => h('option', { value: role }, roleTitles[role] ?? role)),
-      part.role_by_user ? h('option', { value: '' }, 'Guess again') : null,
+      part.role_by_user ? h('option', { value: '' }, t('Guess again')) : null,
     );
     select.value = part.role;
     select.addEventListener('change', () => void this.change(part, select));
@@ -114,7 +115,7 @@ export class PartsPanel {
         {
           type: 'button',
           class: 'quiet part-show',
-          title: 'Show this part',
+          title: t('Show this part'),
           on: { click: () => this.fit.choosePart(this.fit.part.value === part.index ? null : part.index) },
         },
         h('span', { class: `role-dot role-${part.role}`, 'aria-hidden': 'true' }),
@@ -130,7 +131,7 @@ export class PartsPanel {
           h(
             'small',
             { class: 'muted number' },
-            `${formatCount(part.vertices)} ${part.triangles === 0 ? 'loose vertices' : 'vertices'} · `,
+            `${formatCount(part.vertices)} ${part.triangles === 0 ? t('loose vertices') : 'vertices'} · `,
             part.role_by_user ? 'yours' : 'guessed',
           ),
         ),

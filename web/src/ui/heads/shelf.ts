@@ -8,18 +8,19 @@ import { headSize } from './head_size.ts';
 import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const stateWords: Record<Model['state'], string> = {
-  importing: 'Importing',
-  ready: 'Needs points',
-  parametrized: 'Ready to animate',
-  failed: 'Failed',
+  importing: t('Importing'),
+  ready: t('Needs points'),
+  parametrized: t('Ready to animate'),
+  failed: t('Failed'),
 };
 
 /** The list of heads: upload, choose, rename, delete. */
 export class Shelf {
   readonly element: HTMLElement;
-  private readonly list = h('ul', { class: 'heads', 'aria-label': 'Heads' });
+  private readonly list = h('ul', { class: 'heads', 'aria-label': t('Heads') });
   private readonly input = h('input', {
     type: 'file',
     accept: acceptedFiles,
@@ -27,7 +28,7 @@ export class Shelf {
     class: 'visually-hidden',
     id: 'file',
     tabindex: -1,
-    'aria-label': 'Model files',
+    'aria-label': t('Model files'),
   });
 
   /** Thumbnails as data URLs, by model id. */
@@ -45,14 +46,14 @@ export class Shelf {
       h(
         'header',
         { class: 'section-head' },
-        h('h2', {}, 'Heads'),
+        h('h2', {}, t('Heads')),
         h(
           'button',
           {
             type: 'button',
             class: 'quiet square',
-            'aria-label': 'Upload a head',
-            title: 'Upload a head',
+            'aria-label': t('Upload a head'),
+            title: t('Upload a head'),
             on: { click: choose },
           },
           icon('plus'),
@@ -63,7 +64,7 @@ export class Shelf {
         'button',
         { type: 'button', class: 'drop', on: { click: choose } },
         icon('upload', 22),
-        h('span', {}, h('strong', {}, 'Choose a head'), ' or drop it here'),
+        h('span', {}, h('strong', {}, t('Choose a head')), t(' or drop it here')),
         h('small', {}, formatList),
       ),
       this.input,
@@ -96,7 +97,7 @@ export class Shelf {
             {},
             h('strong', {}, state.problem.title),
             advice ? h('p', {}, advice) : null,
-            h('button', { type: 'button', on: { click: () => void studio.start() } }, 'Try again'),
+            h('button', { type: 'button', on: { click: () => void studio.start() } }, t('Try again')),
           ),
         ),
       );
@@ -106,7 +107,7 @@ export class Shelf {
     for (const [key, activity] of studio.activities.value)
       if (key.startsWith('upload-')) items.push(this.uploadItem(activity));
     for (const model of studio.models.value) items.push(this.item(model, studio.activities.value.get(model.id)));
-    if (items.length === 0) items.push(h('li', { class: 'empty' }, 'No heads yet.'));
+    if (items.length === 0) items.push(h('li', { class: 'empty' }, t('No heads yet.')));
     replace(this.list, ...items);
     if (focused) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
   }
@@ -139,7 +140,7 @@ export class Shelf {
         h(
           'span',
           { class: 'head-text' },
-          h('strong', {}, model.name || 'Unnamed'),
+          h('strong', {}, model.name || t('Unnamed')),
           activity
             ? h('span', { class: 'muted small' }, activity.title)
             : h(
@@ -158,8 +159,8 @@ export class Shelf {
           {
             type: 'button',
             class: 'quiet square small',
-            'aria-label': `Rename ${model.name}`,
-            title: 'Rename',
+            'aria-label': t('Rename {name}', { name: model.name }),
+            title: t('Rename'),
             on: { click: () => void this.rename(model) },
           },
           icon('edit', 16),
@@ -169,8 +170,8 @@ export class Shelf {
           {
             type: 'button',
             class: 'quiet square small',
-            'aria-label': `Delete ${model.name}`,
-            title: 'Delete',
+            'aria-label': t('Delete {name}', { name: model.name }),
+            title: t('Delete'),
             on: { click: () => void this.remove(model) },
           },
           icon('trash', 16),
@@ -204,7 +205,7 @@ export class Shelf {
             {
               type: 'button',
               class: 'quiet square small',
-              'aria-label': 'Cancel upload',
+              'aria-label': t('Cancel upload'),
               on: { click: activity.cancel },
             },
             icon('close', 16),
@@ -215,15 +216,15 @@ export class Shelf {
   }
 
   private async rename(model: Model): Promise<void> {
-    const name = await ask({ title: 'Rename head', accept: 'Rename', value: model.name });
+    const name = await ask({ title: t('Rename head'), accept: t('Rename'), value: model.name });
     if (name !== null && name !== '' && name !== model.name) await this.studio.rename(model, name);
   }
 
   private async remove(model: Model): Promise<void> {
     const yes = await ask({
-      title: `Delete ${model.name}?`,
-      text: 'Its feature points and its face package are deleted too. This cannot be undone.',
-      accept: 'Delete',
+      title: t('Delete {name}?', { name: model.name }),
+      text: t('Its feature points and its face package are deleted too. This cannot be undone.'),
+      accept: t('Delete'),
       danger: true,
     });
     if (yes !== null) await this.studio.remove(model);

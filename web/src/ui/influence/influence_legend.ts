@@ -15,10 +15,11 @@ import type { Signal } from '../shared/signal.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { swatch } from './swatch.ts';
 import { percent, pointName, type InfluenceModel } from './influence_model.ts';
+import { t } from '../../words/words.ts';
 
 /** What the colours on the stage mean, at the edge of the stage. */
 export function influenceLegend(model: InfluenceModel, scene: SceneView): HTMLElement {
-  const element = h('div', { class: 'legend', role: 'group', 'aria-label': 'Legend of the influence view' });
+  const element = h('div', { class: 'legend', role: 'group', 'aria-label': t('Legend of the influence view') });
   const draw = (): void => {
     element.hidden = !model.on.value || !scene.faceShown.value;
     if (element.hidden) return;
@@ -33,29 +34,29 @@ export function influenceLegend(model: InfluenceModel, scene: SceneView): HTMLEl
 function content(model: InfluenceModel): Child[] {
   switch (model.mode.value) {
     case 'heat':
-      return [h('strong', {}, heatTitle(model)), scale(), row(restColour, 'None')];
+      return [h('strong', {}, heatTitle(model)), scale(), row(restColour, t('None'))];
     case 'regions':
       return [
-        h('strong', {}, 'Regions'),
+        h('strong', {}, t('Regions')),
         model.chosen.value.map((id, i) => row(regionColours[i % regionColours.length]!, id, pointName(id))),
-        row(restColour, 'Others'),
+        row(restColour, t('Others')),
       ];
     case 'strongest':
       return [
-        h('strong', {}, 'Strongest point'),
-        h('p', {}, 'A colour is the region where one point counts most.'),
-        row(restColour, 'No point'),
+        h('strong', {}, t('Strongest point')),
+        h('p', {}, t('A colour is the region where one point counts most.')),
+        row(restColour, t('No point')),
       ];
     case 'uncovered':
-      return [h('strong', {}, 'Uncovered'), coverageRows(model.coverage.value)];
+      return [h('strong', {}, t('Uncovered')), coverageRows(model.coverage.value)];
   }
 }
 
 function heatTitle({ fap, chosen }: InfluenceModel): string {
-  if (fap.value !== null) return `FAP ${fap.value}`;
+  if (fap.value !== null) return t('FAP {value}', { value: fap.value });
   const ids = chosen.value;
-  if (ids.length === 0) return 'Choose a point';
-  return ids.length === 1 ? `Point ${pointById(ids[0]!)?.id ?? ''}` : `${ids.length} points together`;
+  if (ids.length === 0) return t('Choose a point');
+  return ids.length === 1 ? t('Point {id}', { id: pointById(ids[0]!)?.id ?? '' }) : t('{count} points together', { count: ids.length });
 }
 
 /** The scale of weights with its numbers, from 100 % at the top. */
@@ -64,7 +65,7 @@ function scale(): HTMLElement {
   ramp.style.backgroundImage = heatGradient('to top');
   return h(
     'div',
-    { class: 'legend-scale', role: 'img', 'aria-label': 'Weight, from 0 % dark violet to 100 % yellow' },
+    { class: 'legend-scale', role: 'img', 'aria-label': t('Weight, from 0 % dark violet to 100 % yellow') },
     ramp,
     h(
       'span',
@@ -80,10 +81,10 @@ function coverageRows(coverage: Coverage | null): Child {
   const covered = vertices - none - little;
   const share = (count: number): string => `${formatCount(count)} · ${percent(count / Math.max(vertices, 1))}`;
   return [
-    row(uncoveredColour, 'No point', share(none), true),
+    row(uncoveredColour, t('No point'), share(none), true),
     row(littleColour, `< ${percent(littleWeight)}`, share(little)),
-    row(coveredColour, 'Covered', share(covered)),
-    row(restColour, 'Not skin'),
+    row(coveredColour, t('Covered'), share(covered)),
+    row(restColour, t('Not skin')),
   ];
 }
 

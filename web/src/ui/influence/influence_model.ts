@@ -18,6 +18,7 @@ import { InfluenceView, type Disc } from '../../view/influence_view.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
 import type { SceneView } from '../stage/scene.ts';
+import { t } from '../../words/words.ts';
 
 /**
  * - `heat`: the weights of the chosen points, added up.
@@ -180,8 +181,8 @@ export const percent = (weight: number): string => (weight > 0 && weight < 0.01 
 
 /** "Vertex 812 follows 8.3 Left corner of outer lip by 62 % and 2.4 Left corner of inner lip by 38 %." */
 export function readingWords({ vertex, points }: Reading): string {
-  if (points.length === 0) return `Vertex ${vertex} follows no feature point.`;
-  const parts = points.map(({ id, name, weight }) => `${id} ${name} by ${percent(weight)}`);
+  if (points.length === 0) return t('Vertex {vertex} follows no feature point.', { vertex });
+  const parts = points.map(({ id, name, weight }) => t('{id} {name} by {weight}', { id, name, weight: percent(weight) }));
   const last = parts.pop()!;
-  return `Vertex ${vertex} follows ${parts.length > 0 ? `${parts.join(', ')} and ${last}` : last}.`;
+  return t('Vertex {vertex} follows {last}.', { vertex, last: parts.length > 0 ? t('{list} and {last}', { list: parts.join(', '), last }) : last });
 }

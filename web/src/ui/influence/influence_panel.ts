@@ -7,12 +7,13 @@ import type { SceneView } from '../stage/scene.ts';
 import { faps } from '@protocol/generated/mpeg4.ts';
 import { swatch } from './swatch.ts';
 import { pointName, type InfluenceMode, type InfluenceModel } from './influence_model.ts';
+import { t } from '../../words/words.ts';
 
 const modes: { mode: InfluenceMode; title: string; words: string }[] = [
-  { mode: 'heat', title: 'Heat', words: 'How strongly the skin follows the chosen points. Moving a face parameter lights its points.' },
-  { mode: 'regions', title: 'Regions', words: 'Each chosen point in its own colour. Where regions overlap, the colours mix.' },
-  { mode: 'strongest', title: 'Strongest', words: 'Every part of the skin in the colour of the point that it follows most.' },
-  { mode: 'uncovered', title: 'Uncovered', words: 'Skin that no point moves. On the back of the head that is usual; on the face it is a gap.' },
+  { mode: 'heat', title: t('Heat'), words: t('How strongly the skin follows the chosen points. Moving a face parameter lights its points.') },
+  { mode: 'regions', title: t('Regions'), words: t('Each chosen point in its own colour. Where regions overlap, the colours mix.') },
+  { mode: 'strongest', title: t('Strongest'), words: t('Every part of the skin in the colour of the point that it follows most.') },
+  { mode: 'uncovered', title: t('Uncovered'), words: t('Skin that no point moves. On the back of the head that is usual; on the face it is a gap.') },
 ];
 
 /** Switches the influence view on and chooses what it shows. */
@@ -20,8 +21,8 @@ export class InfluencePanel {
   readonly element: HTMLElement;
   private readonly body = h('div', { class: 'influence-body' });
   private readonly words = h('p', { class: 'muted small' });
-  private readonly chips = h('div', { class: 'chips', role: 'list', 'aria-label': 'Chosen points' });
-  private readonly select = h('select', { id: 'influence-point', 'aria-label': 'Add a feature point' });
+  private readonly chips = h('div', { class: 'chips', role: 'list', 'aria-label': t('Chosen points') });
+  private readonly select = h('select', { id: 'influence-point', 'aria-label': t('Add a feature point') });
   private readonly chooser: HTMLElement;
   private readonly buttons = new Map<InfluenceMode, HTMLButtonElement>();
 
@@ -35,11 +36,11 @@ export class InfluencePanel {
       if (this.select.value !== '') model.choose(this.select.value, true);
     });
     this.chooser = h('div', { class: 'influence-chooser' }, this.chips, this.select);
-    const help = 'Point at the skin, or press and hold, to read its weights. Click a dot to choose it, with Shift to add it.';
+    const help = t('Point at the skin, or press and hold, to read its weights. Click a dot to choose it, with Shift to add it.');
     this.body.append(
       h(
         'div',
-        { class: 'segments', role: 'group', 'aria-label': 'What the colours show' },
+        { class: 'segments', role: 'group', 'aria-label': t('What the colours show') },
         modes.map(({ mode, title }) => this.modeButton(mode, title)),
       ),
       this.words,
@@ -55,8 +56,8 @@ export class InfluencePanel {
         h(
           'span',
           { class: 'grow' },
-          h('strong', {}, 'Influence'),
-          h('small', { class: 'muted' }, 'Colours the skin by the points that move it.'),
+          h('strong', {}, t('Influence')),
+          h('small', { class: 'muted' }, t('Colours the skin by the points that move it.')),
         ),
         box,
       ),
@@ -84,7 +85,7 @@ export class InfluencePanel {
     const { moving } = this.model;
     replace(
       this.select,
-      h('option', { value: '' }, 'Add a point…'),
+      h('option', { value: '' }, t('Add a point…')),
       pointGroups.map(({ name, points }) => {
         const some = points.filter(({ id }) => moving.has(id));
         return some.length > 0
@@ -107,7 +108,7 @@ export class InfluencePanel {
         this.fapChip(),
         model.chosen.value.map((id) => this.chip(id)),
         model.chosen.value.length > 1
-          ? h('button', { type: 'button', class: 'quiet small', on: { click: () => model.clear() } }, 'Clear')
+          ? h('button', { type: 'button', class: 'quiet small', on: { click: () => model.clear() } }, t('Clear'))
           : null,
       ),
     );
@@ -122,9 +123,9 @@ export class InfluencePanel {
     return h(
       'p',
       { class: 'influence-fap', role: 'status' },
-      h('strong', {}, `FAP ${fap.number}`),
+      h('strong', {}, t('FAP {number}', { number: fap.number })),
       ` ${fapTitle(fap.name, fap.group)}`,
-      h('small', { class: 'muted' }, reach ? group : `${group}: it turns a part as a whole, without weights`),
+      h('small', { class: 'muted' }, reach ? group : t('{group}: it turns a part as a whole, without weights', { group })),
     );
   }
 
@@ -141,7 +142,7 @@ export class InfluencePanel {
         {
           type: 'button',
           class: 'quiet square',
-          'aria-label': `Leave out ${id} ${pointName(id)}`,
+          'aria-label': t('Leave out {id} {id2}', { id, id2: pointName(id) }),
           'data-focus': `chip-${id}`,
           on: { click: () => this.model.choose(id, true) },
         },

@@ -5,6 +5,7 @@ import { formatCount } from '../shared/format.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { swatch } from './swatch.ts';
 import { percent, readingWords, type InfluenceModel, type Reading } from './influence_model.ts';
+import { t } from '../../words/words.ts';
 
 /** How long a finger rests until the place under it is read, ms; and how far it may slip, pixels. */
 const pressTime = 450;
@@ -101,7 +102,7 @@ export class InfluenceReader {
     this.pointer.y = this.canvas.clientHeight / 2;
     this.read(false);
     const reading = this.model.read(this.vertex);
-    setText(this.said, reading ? readingWords(reading) : 'There is no face under the cross.');
+    setText(this.said, reading ? readingWords(reading) : t('There is no face under the cross.'));
   }
 
   /** Once per displayed frame; allocates only when another vertex comes under the pointer. */
@@ -187,8 +188,8 @@ export class InfluenceReader {
     const rest = points.slice(mostLines);
     replace(
       this.element,
-      h('strong', {}, `Vertex ${formatCount(vertex)}`),
-      points.length === 0 ? h('p', {}, 'Follows no feature point.') : null,
+      h('strong', {}, t('Vertex {vertex}', { vertex: formatCount(vertex) })),
+      points.length === 0 ? h('p', {}, t('Follows no feature point.')) : null,
       points.slice(0, mostLines).map(({ id, name, weight }) => {
         const colour = this.model.colourOf(id);
         return h(
@@ -199,7 +200,7 @@ export class InfluenceReader {
           h('span', {}, `${id} ${name}`),
         );
       }),
-      rest.length > 0 ? h('p', {}, `and ${rest.length} more: ${percent(rest.reduce((sum, one) => sum + one.weight, 0))}`) : null,
+      rest.length > 0 ? h('p', {}, t('and {count} more: {weight}', { count: rest.length, weight: percent(rest.reduce((sum, one) => sum + one.weight, 0)) })) : null,
     );
   }
 

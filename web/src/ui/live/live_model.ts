@@ -5,6 +5,7 @@ import type { FaceFrame } from '@client/index.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const off: LinkStatus = { kind: 'off' };
 const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
@@ -73,7 +74,7 @@ export class LiveModel {
     let id: string | null = target;
     if (id === '') {
       // A free stream of an earlier visit is reused, so that streams do not accumulate.
-      const title = `${this.studio.selected.value?.name ?? 'Head'}, performing`;
+      const title = t('{name}, performing', { name: this.studio.selected.value?.name ?? t('Head') });
       const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
       id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
       if (id === null) return null;
@@ -102,7 +103,7 @@ export class LiveModel {
 
   async create(title: string, options: NewStream = {}): Promise<string | null> {
     let id: string | null = null;
-    await this.studio.attempt('The stream was not created', async () => {
+    await this.studio.attempt(t('The stream was not created'), async () => {
       id = (await this.studio.api.createStream(title, this.studio.selected.value?.id ?? null, options)).id;
       await this.refresh();
     });
@@ -112,7 +113,7 @@ export class LiveModel {
   async remove(id: string): Promise<void> {
     if (this.following.value === id) this.unsubscribe();
     if (this.sending.value === id) this.send(null);
-    await this.studio.attempt('The stream was not deleted', () => this.studio.api.deleteStream(id));
+    await this.studio.attempt(t('The stream was not deleted'), () => this.studio.api.deleteStream(id));
     await this.refresh();
   }
 

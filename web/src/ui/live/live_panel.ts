@@ -2,7 +2,7 @@ import type { Player } from '@client/index.ts';
 import type { StreamInfo } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
 import { h, replace, setText } from '../shared/dom.ts';
-import { formatBytes } from '../shared/format.ts';
+import { formatBytes, formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { LiveModel } from './live_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
@@ -10,13 +10,14 @@ import { PhoneDialog } from './phone_dialog.ts';
 import { askForStream } from './stream_dialog.ts';
 import { StreamFacts } from './stream_facts.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const stateWords = {
-  off: 'Not connected',
-  connecting: 'Connecting',
-  open: 'Live',
-  waiting: 'Connecting again',
-  ended: 'Ended',
+  off: t('Not connected'),
+  connecting: t('Connecting'),
+  open: t('Live'),
+  waiting: t('Connecting again'),
+  ended: t('Ended'),
 } as const;
 
 /** Larger differences between stream and playhead, ms, are not a delay: the player never lags that far. */
@@ -26,18 +27,18 @@ const longestDelay = 2000;
 function networkWords({ clock, jitter, starved }: Player['stats']): string {
   if (clock === null || Number.isNaN(clock.uncertainty)) return '';
   const words = [
-    `Round trip ${clock.roundTrip.toFixed(0)} ms`,
-    `jitter ${jitter.toFixed(0)} ms`,
-    `clock within ${Math.max(1, clock.uncertainty).toFixed(0)} ms`,
+    t('Round trip {number} ms', { number: clock.roundTrip.toFixed(0) }),
+    t('jitter {number} ms', { number: jitter.toFixed(0) }),
+    t('clock within {number} ms', { number: Math.max(1, clock.uncertainty).toFixed(0) }),
   ];
-  if (starved > 0) words.push(`frames late ${starved === 1 ? 'once' : `${starved} times`}`);
+  if (starved > 0) words.push(starved === 1 ? t('frames late once') : t('frames late {starved} times', { starved }));
   return words.join(' · ');
 }
 
 /** The list of streams, the state of the subscription, and publishing of the sliders. */
 export class LivePanel {
   readonly element: HTMLElement;
-  private readonly list = h('ul', { class: 'streams', 'aria-label': 'Streams' });
+  private readonly list = h('ul', { class: 'streams', 'aria-label': t('Streams') });
   private readonly status = h('div', { class: 'live-status' });
   private readonly figures: Record<'rate' | 'bytes' | 'latency' | 'frames', HTMLElement> = {
     rate: h('dd'),
@@ -45,9 +46,9 @@ export class LivePanel {
     latency: h('dd'),
     frames: h('dd'),
   };
-  private readonly network = h('p', { class: 'muted small', 'aria-label': 'Network' });
+  private readonly network = h('p', { class: 'muted small', 'aria-label': t('Network') });
   private readonly publishBox = h('input', { type: 'checkbox', id: 'publish', role: 'switch' });
-  private readonly target = h('select', { 'aria-label': 'Stream to send to' });
+  private readonly target = h('select', { 'aria-label': t('Stream to send to') });
   private readonly publishNote = h('p', { class: 'muted small' });
 
   constructor(
@@ -67,15 +68,15 @@ export class LivePanel {
       h(
         'section',
         {},
-        h('header', { class: 'section-head' }, h('h2', {}, 'Now')),
+        h('header', { class: 'section-head' }, h('h2', {}, t('Now'))),
         this.status,
         h(
           'dl',
           { class: 'figures-grid' },
-          figure('Frames per second', this.figures.rate),
-          figure('Data rate', this.figures.bytes),
-          figure('Delay', this.figures.latency),
-          figure('Frame', this.figures.frames),
+          figure(t('Frames per second'), this.figures.rate),
+          figure(t('Data rate'), this.figures.bytes),
+          figure(t('Delay'), this.figures.latency),
+          figure(t('Frame'), this.figures.frames),
         ),
         this.network,
         new StreamFacts(live).element,
@@ -86,14 +87,14 @@ export class LivePanel {
         h(
           'header',
           { class: 'section-head' },
-          h('h2', {}, 'Streams'),
+          h('h2', {}, t('Streams')),
           h(
             'button',
             {
               type: 'button',
               class: 'quiet square',
-              'aria-label': 'New stream',
-              title: 'New stream',
+              'aria-label': t('New stream'),
+              title: t('New stream'),
               on: { click: () => void this.create() },
             },
             icon('plus'),
@@ -106,19 +107,19 @@ export class LivePanel {
       h(
         'section',
         {},
-        h('header', { class: 'section-head' }, h('h2', {}, 'Send')),
+        h('header', { class: 'section-head' }, h('h2', {}, t('Send'))),
         h(
           'label',
           { class: 'switch-row', for: 'publish' },
           h(
             'span',
             { class: 'grow' },
-            h('strong', {}, 'Publish my sliders'),
-            h('small', { class: 'muted' }, 'All subscribers see your changes.'),
+            h('strong', {}, t('Publish my sliders')),
+            h('small', { class: 'muted' }, t('All subscribers see your changes.')),
           ),
           this.publishBox,
         ),
-        h('label', { class: 'field-row' }, h('span', {}, 'To'), this.target),
+        h('label', { class: 'field-row' }, h('span', {}, t('To')), this.target),
         this.publishNote,
       ),
     );
@@ -139,8 +140,8 @@ export class LivePanel {
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
     // While another source drives the face the playhead stands still, so its distance to the stream is meaningless.
     const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
-    setText(this.figures.latency, delay !== null && delay < longestDelay ? `${Math.max(0, delay)} ms` : '–');
-    setText(this.figures.frames, open ? stats.sequence.toLocaleString('en-US') : '–');
+    setText(this.figures.latency, delay !== null && delay < longestDelay ? t('{delay} ms', { delay: Math.max(0, delay) }) : '–');
+    setText(this.figures.frames, open ? formatCount(stats.sequence) : '–');
     setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
   }
 
@@ -154,7 +155,7 @@ export class LivePanel {
         h('span', { class: `lamp lamp-${status.kind}` }),
         h('strong', { class: 'grow' }, stateWords[status.kind], status.title ? `: ${status.title}` : ''),
         status.kind !== 'off'
-          ? h('button', { type: 'button', class: 'small', on: { click: () => this.live.unsubscribe() } }, 'Disconnect')
+          ? h('button', { type: 'button', class: 'small', on: { click: () => this.live.unsubscribe() } }, t('Disconnect'))
           : null,
       ),
       status.reason
@@ -179,19 +180,19 @@ export class LivePanel {
           'li',
           { class: 'notice error', role: 'alert' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, problem.title), h('p', {}, 'Retrying every few seconds.')),
+          h('div', {}, h('strong', {}, problem.title), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;
     }
     if (streams === null) {
-      replace(this.list, h('li', {}, progressBar({ title: 'Loading streams', progress: null })));
+      replace(this.list, h('li', {}, progressBar({ title: t('Loading streams'), progress: null })));
       return;
     }
     replace(
       this.list,
       streams.length === 0
-        ? h('li', { class: 'empty' }, 'No streams yet. Create one with the plus button.')
+        ? h('li', { class: 'empty' }, t('No streams yet. Create one with the plus button.'))
         : streams.map((stream) => this.item(stream)),
     );
     const kept = this.target.value;
@@ -199,7 +200,7 @@ export class LivePanel {
     replace(
       this.target,
       own.length === 0
-        ? h('option', { value: '' }, 'Create a new stream')
+        ? h('option', { value: '' }, t('Create a new stream'))
         : own.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
     );
     if (own.some((stream) => stream.id === kept)) this.target.value = kept;
@@ -208,14 +209,14 @@ export class LivePanel {
 
   private item(stream: StreamInfo): HTMLElement {
     const on = this.live.following.value === stream.id;
-    const viewers = `${stream.subscribers} ${stream.subscribers === 1 ? 'subscriber' : 'subscribers'}`;
+    const viewers = stream.subscribers === 1 ? t('1 subscriber') : t('{subscribers} subscribers', { subscribers: stream.subscribers });
     const senders = stream.playing
-      ? `plays ${stream.playing.name || 'an unnamed performance'}`
+      ? t('plays {performance}', { performance: stream.playing.name || t('an unnamed performance') })
       : stream.source === 'demo'
-        ? 'plays on the server'
+        ? t('plays on the server')
         : stream.publishers === 0
-          ? 'no publisher'
-          : `${stream.publishers} ${stream.publishers === 1 ? 'publisher' : 'publishers'}`;
+          ? t('no publisher')
+          : stream.publishers === 1 ? t('1 publisher') : t('{publishers} publishers', { publishers: stream.publishers });
     return h(
       'li',
       { class: `stream${on ? ' selected' : ''}`, 'data-stream': stream.id },
@@ -230,8 +231,8 @@ export class LivePanel {
         {
           type: 'button',
           class: 'quiet square small',
-          'aria-label': `Show ${stream.title || stream.id} on a phone`,
-          title: 'On a phone',
+          'aria-label': t('Show {id} on a phone', { id: stream.title || stream.id }),
+          title: t('On a phone'),
           on: { click: () => void new PhoneDialog(this.studio, stream).open() },
         },
         icon('phone', 16),
@@ -243,8 +244,8 @@ export class LivePanel {
             {
               type: 'button',
               class: 'quiet square small',
-              'aria-label': `Delete stream ${stream.title || stream.id}`,
-              title: 'Delete',
+              'aria-label': t('Delete stream {id}', { id: stream.title || stream.id }),
+              title: t('Delete'),
               on: { click: () => void this.remove(stream) },
             },
             icon('trash', 16),
@@ -259,7 +260,7 @@ export class LivePanel {
             click: () => (on ? this.live.unsubscribe() : this.live.subscribe(stream.id, stream.title || stream.id)),
           },
         },
-        on ? 'Stop' : 'Watch',
+        on ? t('Stop') : t('Watch'),
       ),
     );
   }
@@ -271,8 +272,8 @@ export class LivePanel {
       this.live.sending.value === null
         ? (reason ?? '')
         : kind === 'open'
-          ? 'Publishing: move a slider in Animate.'
-          : (reason ?? 'Connecting…');
+          ? t('Publishing: move a slider in Animate.')
+          : (reason ?? t('Connecting…'));
     setText(this.publishNote, text);
     this.publishNote.classList.toggle('error', kind === 'ended' || reason !== undefined);
   }
@@ -284,9 +285,9 @@ export class LivePanel {
 
   private async remove(stream: StreamInfo): Promise<void> {
     const yes = await ask({
-      title: `Delete ${stream.title || stream.id}?`,
-      text: 'All subscribers are disconnected.',
-      accept: 'Delete',
+      title: t('Delete {id}?', { id: stream.title || stream.id }),
+      text: t('All subscribers are disconnected.'),
+      accept: t('Delete'),
       danger: true,
     });
     if (yes !== null) await this.live.remove(stream.id);
@@ -295,7 +296,7 @@ export class LivePanel {
   private async togglePublish(): Promise<void> {
     if (!this.publishBox.checked) return this.live.send(null);
     let target: string | null = this.target.value;
-    if (target === '') target = await this.live.create(`${this.studio.selected.value?.name ?? 'Head'}, by hand`);
+    if (target === '') target = await this.live.create(t('{name}, by hand', { name: this.studio.selected.value?.name ?? t('Head') }));
     this.live.send(target);
     this.drawSending();
   }

@@ -4,6 +4,7 @@ import { excerptAt, type ExcerptLine } from '../documents/document_place.ts';
 import type { LiveModel } from './live_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The text of a document or file to play. */
 export interface Script {
@@ -118,7 +119,7 @@ export class PerformanceModel {
   async stop(): Promise<void> {
     const playing = this.playing.value;
     if (!playing) return;
-    await this.studio.attempt('The performance was not stopped', () =>
+    await this.studio.attempt(t('The performance was not stopped'), () =>
     this.studio.api.stopPlaying(this.target.value, playing.id),
     );
     await this.live.refresh();
@@ -151,8 +152,8 @@ export class PerformanceModel {
 
   private holder(): string {
     const id = this.target.value;
-    if (this.playing.value) return `“${this.playing.value.name || 'A performance'}” plays into this stream.`;
-    if (this.live.sending.value === id) return 'You publish your sliders to this stream.';
-    return 'Another client publishes to this stream.';
+    if (this.playing.value) return t('“{performance}” plays into this stream.', { performance: this.playing.value.name || t('A performance') });
+    if (this.live.sending.value === id) return t('You publish your sliders to this stream.');
+    return t('Another client publishes to this stream.');
   }
 }

@@ -11,6 +11,7 @@ import { icon } from '../shared/icons.ts';
 import type { LiveModel } from './live_model.ts';
 import { capital } from '../shared/names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
+import { t } from '../../words/words.ts';
 
 /** Plays a performance document or a .fap file into a stream, for this page and all other subscribers. */
 export class PerformancePanel {
@@ -18,7 +19,7 @@ export class PerformancePanel {
   private readonly script = h('div', { class: 'script' });
   private readonly transport = h('div', { class: 'transport' });
   private readonly trouble = h('div', { class: 'script-trouble' });
-  private readonly target = h('select', { 'aria-label': 'Stream to play into' });
+  private readonly target = h('select', { 'aria-label': t('Stream to play into') });
   private readonly from = h('input', {
     type: 'number',
     id: 'play-from',
@@ -26,7 +27,7 @@ export class PerformancePanel {
     min: 0,
     step: 0.1,
     value: '0',
-    'aria-label': 'Begin at, seconds',
+    'aria-label': t('Begin at, seconds'),
   });
   private readonly loop = h('input', { type: 'checkbox', id: 'play-loop' });
   private readonly clock = h('span', { class: 'number' });
@@ -36,7 +37,7 @@ export class PerformancePanel {
     min: 0,
     max: 1000,
     step: 1,
-    'aria-label': 'Position',
+    'aria-label': t('Position'),
   });
   private held = false;
 
@@ -62,25 +63,25 @@ export class PerformancePanel {
     this.element = h(
       'section',
       { class: 'performance' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Performance')),
+      h('header', { class: 'section-head' }, h('h2', {}, t('Performance'))),
       h(
         'div',
         { class: 'script-source' },
         chooseFile({
-          label: 'Choose a .json or .fap file',
-          note: 'or drop it',
+          label: t('Choose a .json or .fap file'),
+          note: t('or drop it'),
           accept: '.json,.fap,application/json',
           take: (file) => void this.takeFile(file),
         }),
         example,
       ),
       this.script,
-      h('label', { class: 'field-row' }, h('span', {}, 'Into'), this.target),
+      h('label', { class: 'field-row' }, h('span', {}, t('Into')), this.target),
       h(
         'div',
         { class: 'play-options' },
-        h('label', { class: 'field-row', for: 'play-from' }, h('span', {}, 'Begin at'), this.from, h('span', {}, 's')),
-        h('label', { class: 'check', for: 'play-loop' }, this.loop, 'Loop'),
+        h('label', { class: 'field-row', for: 'play-from' }, h('span', {}, t('Begin at')), this.from, h('span', {}, 's')),
+        h('label', { class: 'check', for: 'play-loop' }, this.loop, t('Loop')),
       ),
       this.transport,
       this.trouble,
@@ -129,7 +130,7 @@ export class PerformancePanel {
       this.script,
       script
         ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
-        : h('p', { class: 'muted small' }, 'A timeline of visemes, expressions, gaze and blinks, for all subscribers.'),
+        : h('p', { class: 'muted small' }, t('A timeline of visemes, expressions, gaze and blinks, for all subscribers.')),
       script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
       fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
     );
@@ -138,7 +139,7 @@ export class PerformancePanel {
   private drawTargets(): void {
     replace(
       this.target,
-      h('option', { value: '' }, 'Create a new stream'),
+      h('option', { value: '' }, t('Create a new stream')),
       this.model.ownStreams.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
     );
     this.target.value = this.model.target.value;
@@ -155,7 +156,7 @@ export class PerformancePanel {
             'div',
             { class: 'row' },
             h('span', { class: 'lamp lamp-open' }),
-            h('strong', { class: 'grow' }, playing.name || 'Playing'),
+            h('strong', { class: 'grow' }, playing.name || t('Playing')),
             this.clock,
           )
         : null,
@@ -173,14 +174,14 @@ export class PerformancePanel {
             on: { click: () => void model.play() },
           },
           icon(restart ? 'reset' : 'play', 15),
-          restart ? 'Play again' : 'Play',
+          restart ? t('Play again') : t('Play'),
         ),
         playing
           ? h(
               'button',
               { type: 'button', 'data-focus': 'stop', on: { click: () => void model.stop() } },
               icon('stop', 15),
-              'Stop',
+              t('Stop'),
             )
           : null,
       ),
@@ -204,14 +205,14 @@ export class PerformancePanel {
           'div',
           { class: 'grow' },
           h('strong', {}, holder ?? capital(problem.detail ?? problem.title)),
-          problem.pointer ? h('p', {}, 'At ', h('code', {}, problem.pointer)) : null,
+          problem.pointer ? h('p', {}, t('At '), h('code', {}, problem.pointer)) : null,
           excerptBox(excerpt),
           advice ? h('p', {}, advice) : null,
           holder
             ? h(
                 'button',
                 { type: 'button', on: { click: () => void this.model.play({ take_over: true }) } },
-                'Take over',
+                t('Take over'),
               )
             : null,
         ),

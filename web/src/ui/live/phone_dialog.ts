@@ -6,6 +6,7 @@ import type { Session, StreamInfo } from '../../net/types.ts';
 import { showDialog } from '../shared/dialog.ts';
 import { h, replace, setText, svg } from '../shared/dom.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** How long an invitation is accepted, s. */
 const invitationLife = 12 * 3600;
@@ -18,7 +19,7 @@ function qrPicture(text: string): SVGElement {
   const dark = data.flatMap((row, y) => row.map((on, x) => (on ? `M${x} ${y}h1v1h-1z` : ''))).join('');
   return svg(
     'svg',
-    { viewBox: `0 0 ${size} ${size}`, class: 'qr', role: 'img', 'aria-label': 'QR code of the address', 'shape-rendering': 'crispEdges' },
+    { viewBox: `0 0 ${size} ${size}`, class: 'qr', role: 'img', 'aria-label': t('QR code of the address'), 'shape-rendering': 'crispEdges' },
     svg('rect', { width: size, height: size, fill: '#fff' }),
     svg('path', { d: dark, fill: '#000' }),
   );
@@ -28,8 +29,8 @@ function qrPicture(text: string): SVGElement {
 function privacyWords(session: Session, stream: StreamInfo): string {
   if (!session.asks_for_tokens || stream.is_public) return '';
   return session.scope === 'admin'
-    ? 'The stream is private. An invitation opens this stream, and nothing else, for 12 hours.'
-    : 'The stream is private: the phone needs a token. Somebody with the scope admin can make an invitation here.';
+    ? t('The stream is private. An invitation opens this stream, and nothing else, for 12 hours.')
+    : t('The stream is private: the phone needs a token. Somebody with the scope admin can make an invitation here.');
 }
 
 /** Shows how a phone opens a stream: a QR code, the address, and an invitation where the server asks for tokens. */
@@ -41,7 +42,7 @@ export class PhoneDialog {
   private readonly invite = h(
     'button',
     { type: 'button', hidden: true, on: { click: () => void this.makeInvitation() } },
-    'Make an invitation',
+    t('Make an invitation'),
   );
   private readonly base: string;
 
@@ -55,12 +56,12 @@ export class PhoneDialog {
   async open(): Promise<void> {
     this.draw(phoneLink(this.base, this.stream.id));
     showDialog(
-      `${this.stream.title || this.stream.id} on a phone`,
-      [this.place, this.note, this.privacy, h('label', { for: 'phone-address' }, 'Address'), this.address],
+      t('{id} on a phone', { id: this.stream.title || this.stream.id }),
+      [this.place, this.note, this.privacy, h('label', { for: 'phone-address' }, t('Address')), this.address],
       [
         this.invite,
-        h('button', { type: 'button', on: { click: () => void this.copy() } }, 'Copy'),
-        h('button', { type: 'submit', class: 'primary' }, 'Close'),
+        h('button', { type: 'button', on: { click: () => void this.copy() } }, t('Copy')),
+        h('button', { type: 'submit', class: 'primary' }, t('Close')),
       ],
     );
     try {
@@ -80,8 +81,8 @@ export class PhoneDialog {
     setText(
       this.note,
       reachable
-        ? 'Point the phone’s camera at the code.'
-        : 'This address exists on this machine only. Start the server with “semblante serve --lan” and open the studio by the address that it prints.',
+        ? t('Point the phone’s camera at the code.')
+        : t('This address exists on this machine only. Start the server with “semblante serve --lan” and open the studio by the address that it prints.'),
     );
   }
 
@@ -91,7 +92,7 @@ export class PhoneDialog {
       const secret = await this.studio.api.inviteTo(this.stream.id, invitationLife);
       this.draw(phoneLink(this.base, this.stream.id, secret));
       this.invite.hidden = true;
-      setText(this.privacy, 'Whoever has this address sees the stream, for 12 hours.');
+      setText(this.privacy, t('Whoever has this address sees the stream, for 12 hours.'));
     } catch (error) {
       setText(this.privacy, problemOf(error).title);
     }
@@ -102,9 +103,9 @@ export class PhoneDialog {
     this.address.select();
     try {
       await navigator.clipboard.writeText(this.address.value);
-      setText(this.note, 'Copied.');
+      setText(this.note, t('Copied.'));
     } catch {
-      setText(this.note, 'The browser does not let this page copy; the address is selected.');
+      setText(this.note, t('The browser does not let this page copy; the address is selected.'));
     }
   }
 }

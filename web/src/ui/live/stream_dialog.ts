@@ -1,6 +1,7 @@
 import type { NewStream } from '../../net/types.ts';
 import { openDialog } from '../shared/dialog.ts';
 import { h } from '../shared/dom.ts';
+import { t } from '../../words/words.ts';
 
 /** The server's default and maximum batch interval, ms. */
 const usualBatch = 100;
@@ -9,7 +10,7 @@ const mostBatch = 1000;
 /** Asks the user for title and options of a new stream; null when cancelled. */
 export async function askForStream(): Promise<{ title: string; options: NewStream } | null> {
   const title = h('input', { type: 'text', id: 'stream-title', maxlength: 120, required: true, autocomplete: 'off' });
-  title.value = 'My stream';
+  title.value = t('My stream');
   const batch = h('input', {
     type: 'number',
     id: 'stream-batch',
@@ -26,19 +27,19 @@ export async function askForStream(): Promise<{ title: string; options: NewStrea
     min: 0,
     max: 100,
     step: 1,
-    placeholder: 'default of the head',
+    placeholder: t('default of the head'),
     'aria-describedby': 'stream-share-note',
   });
   const accepted = await openDialog(
-    { title: 'New stream', accept: 'Create' },
-    h('label', { for: 'stream-title' }, 'Title'),
+    { title: t('New stream'), accept: t('Create') },
+    h('label', { for: 'stream-title' }, t('Title')),
     title,
-    h('label', { for: 'stream-batch' }, 'Batch interval, ms'),
+    h('label', { for: 'stream-batch' }, t('Batch interval, ms')),
     batch,
-    h('p', { class: 'small', id: 'stream-batch-note' }, '0 sends each frame at once; longer saves bytes, adds latency.'),
-    h('label', { for: 'stream-share' }, 'Viseme share, %'),
+    h('p', { class: 'small', id: 'stream-batch-note' }, t('0 sends each frame at once; longer saves bytes, adds latency.')),
+    h('label', { for: 'stream-share' }, t('Viseme share, %')),
     share,
-    h('p', { class: 'small', id: 'stream-share-note' }, 'Its weight where an expression moves the same point.'),
+    h('p', { class: 'small', id: 'stream-share-note' }, t('Its weight where an expression moves the same point.')),
   );
   if (!accepted) return null;
   const options: NewStream = { batch_interval: batch.valueAsNumber };

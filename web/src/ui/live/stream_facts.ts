@@ -1,29 +1,30 @@
 import type { StreamInfo } from '../../net/types.ts';
 import { h, setText } from '../shared/dom.ts';
 import type { LiveModel } from './live_model.ts';
+import { t } from '../../words/words.ts';
 
 const sourceWords: Record<NonNullable<StreamInfo['active_source']>, string> = {
-  connection: 'A publisher',
-  request: 'Frames by REST',
-  performance: 'A performance',
-  fap: 'A .fap file',
-  recording: 'A recording',
-  demo: 'The server’s demo',
+  connection: t('A publisher'),
+  request: t('Frames by REST'),
+  performance: t('A performance'),
+  fap: t('A .fap file'),
+  recording: t('A recording'),
+  demo: t('The server’s demo'),
 };
 
 /** The active source of a stream as text. */
 export function fedBy({ active_source: source, playing }: StreamInfo): string {
-  if (source === null) return 'No source';
+  if (source === null) return t('No source');
   return playing?.name ? `${sourceWords[source]}: ${playing.name}` : sourceWords[source];
 }
 
 /** Facts about the subscribed stream. */
 export class StreamFacts {
-  readonly element = h('dl', { class: 'facts', 'aria-label': 'About the stream' });
-  private readonly fed = this.fact('Source');
-  private readonly watching = this.fact('Subscribers');
-  private readonly batch = this.fact('Batch interval');
-  private readonly share = this.fact('Viseme share');
+  readonly element = h('dl', { class: 'facts', 'aria-label': t('About the stream') });
+  private readonly fed = this.fact(t('Source'));
+  private readonly watching = this.fact(t('Subscribers'));
+  private readonly batch = this.fact(t('Batch interval'));
+  private readonly share = this.fact(t('Viseme share'));
 
   constructor(private readonly live: LiveModel) {
     for (const signal of [live.streams, live.following, live.status]) signal.watch(() => this.draw());
@@ -42,7 +43,7 @@ export class StreamFacts {
     setText(this.fed, fedBy(stream));
     setText(this.watching, String(stream.subscribers));
     const { batch_interval: batch, viseme_share: share } = stream;
-    setText(this.batch, batch === 0 ? 'None' : `${batch} ms`);
-    setText(this.share, share === null ? 'Default of the head' : `${Math.round(share * 100)} %`);
+    setText(this.batch, batch === 0 ? t('None') : t('{batch} ms', { batch }));
+    setText(this.share, share === null ? t('Default of the head') : `${Math.round(share * 100)} %`);
   }
 }

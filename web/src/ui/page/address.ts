@@ -4,6 +4,7 @@ import type { PointsModel } from '../points/points_model.ts';
 import type { Studio } from '../shared/studio.ts';
 import { isNarrow } from './layout.ts';
 import { formatRoute, isStep, parseRoute, type Route } from './route.ts';
+import { t } from '../../words/words.ts';
 
 /** Keeps the page's address and its contents equal: a change of the page is a step that Back takes back. */
 export class Address {
@@ -29,7 +30,7 @@ export class Address {
       heads.find((head) => head.state === 'parametrized') ??
       heads[0];
     if (route.head !== null && !wanted && studio.shelf.value.kind === 'ready')
-      studio.toasts.say('The head of this address is not on the server.');
+      studio.toasts.say(t('The head of this address is not on the server.'));
     if (first) studio.select(first.id);
     if (wanted) this.enter(route);
     if (live.following.value === null && studio.selected.value?.state === 'parametrized' && live.demo)
@@ -49,7 +50,7 @@ export class Address {
     this.route = route;
     if (route.head !== null && route.head !== studio.selected.value?.id) {
       if (studio.models.value.some(({ id }) => id === route.head)) studio.select(route.head);
-      else studio.toasts.say('The head of this address is not on the server.');
+      else studio.toasts.say(t('The head of this address is not on the server.'));
     }
     if (route.stream === null && this.namedStream() !== null) live.unsubscribe();
     this.enter(route);
@@ -62,7 +63,7 @@ export class Address {
     points.chosen.set(point !== null && pointById(point) ? point : null);
     if (stream === null || stream === live.following.value) return;
     if (live.streams.value?.some(({ id }) => id === stream)) live.subscribe(stream, live.titleOf(stream));
-    else studio.toasts.say('The stream of this address has ended.');
+    else studio.toasts.say(t('The stream of this address has ended.'));
   }
 
   /** The followed stream, unless it is the demo, which every visitor follows anyway. */

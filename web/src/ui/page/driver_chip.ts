@@ -6,6 +6,7 @@ import type { RecordingsModel } from '../recordings/recordings_model.ts';
 import type { SceneView } from '../stage/scene.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { Tab } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 export interface DriverChipParts {
   driver: FaceDriver;
@@ -33,10 +34,10 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
     if (driver.source.value === 'stream' && status.kind !== 'off') {
       const words =
         status.kind === 'open'
-          ? `Live: ${status.title ?? ''}`
+          ? t('Live: {title}', { title: status.title ?? '' })
           : status.kind === 'ended'
-            ? (status.reason ?? 'The stream ended')
-            : 'Connecting…';
+            ? (status.reason ?? t('The stream ended'))
+            : t('Connecting…');
       replace(
         chip,
         h('span', { class: `lamp lamp-${status.kind}` }),
@@ -46,8 +47,8 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
           {
             type: 'button',
             class: 'quiet square small',
-            'aria-label': 'Pause the stream',
-            title: 'Pause',
+            'aria-label': t('Pause the stream'),
+            title: t('Pause'),
             on: { click: () => driver.release('stream') },
           },
           icon('pause', 15),
@@ -65,13 +66,13 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
     replace(
       chip,
       h('span', { class: `lamp ${words === null ? 'lamp-hand' : 'lamp-open'}` }),
-      h('span', { class: 'driver-text' }, words ?? 'By hand'),
+      h('span', { class: 'driver-text' }, words ?? t('By hand')),
       following || demo
         ? h(
             'button',
             { type: 'button', class: 'quiet small', on: { click: resume } },
             icon('play', 14),
-            following ? 'Back to live' : 'Play the demo',
+            following ? t('Back to live') : t('Play the demo'),
           )
         : null,
     );

@@ -2,6 +2,7 @@ import { h, replace } from '../shared/dom.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import type { Studio, Tab } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 export interface Panels {
   heads: HTMLElement;
@@ -12,11 +13,11 @@ export interface Panels {
 }
 
 const tabs: { tab: Tab; title: string; icon: IconName }[] = [
-  { tab: 'heads', title: 'Heads', icon: 'head' },
-  { tab: 'fit', title: 'Fit', icon: 'fit' },
-  { tab: 'points', title: 'Points', icon: 'point' },
-  { tab: 'animate', title: 'Animate', icon: 'sliders' },
-  { tab: 'live', title: 'Live', icon: 'live' },
+  { tab: 'heads', title: t('Heads'), icon: 'head' },
+  { tab: 'fit', title: t('Fit'), icon: 'fit' },
+  { tab: 'points', title: t('Points'), icon: 'point' },
+  { tab: 'animate', title: t('Animate'), icon: 'sliders' },
+  { tab: 'live', title: t('Live'), icon: 'live' },
 ];
 
 /** Whether the shelf is a tab of its own. */
@@ -25,7 +26,7 @@ export const isNarrow = (): MediaQueryList => matchMedia('(max-width: 1080px)');
 /** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
 export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, extras: HTMLElement): HTMLElement {
   const buttons = new Map<Tab, HTMLButtonElement>();
-  const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': 'Work on the head' });
+  const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': t('Work on the head') });
   for (const { tab, title, icon: name } of tabs) {
     const button = h(
       'button',
@@ -54,8 +55,8 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
     buttons.get(next.tab)!.focus();
   });
 
-  const shelfHome = h('aside', { class: 'shelf', 'aria-label': 'Heads' });
-  const inspector = h('section', { class: 'inspector', 'aria-label': 'Inspector' }, tabList);
+  const shelfHome = h('aside', { class: 'shelf', 'aria-label': t('Heads') });
+  const inspector = h('section', { class: 'inspector', 'aria-label': t('Inspector') }, tabList);
   for (const { tab } of tabs) {
     if (tab === 'heads') continue;
     panels[tab].setAttribute('role', 'tabpanel');
@@ -109,7 +110,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
     h(
       'div',
       { class: 'drop-veil', 'aria-hidden': 'true' },
-      h('div', {}, icon('upload', 40), h('p', {}, 'Drop a head or a performance here')),
+      h('div', {}, icon('upload', 40), h('p', {}, t('Drop a head or a performance here'))),
     ),
   );
 }

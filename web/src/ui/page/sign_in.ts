@@ -2,6 +2,7 @@ import { problemOf } from '../../net/problem.ts';
 import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
 import type { Session } from '../../net/types.ts';
 import { h } from '../shared/dom.ts';
+import { t } from '../../words/words.ts';
 
 /**
  * Lets a visitor in before the studio starts: takes the token of an invitation out of the address, and asks for one
@@ -30,7 +31,7 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
 export function signOutButton(base: string, session: Session | null): HTMLElement | null {
   if (!session?.asks_for_tokens) return null;
   const leave = () => void signOut(base).finally(() => location.reload());
-  return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, 'Sign out');
+  return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, t('Sign out'));
 }
 
 function askForToken(base: string, root: HTMLElement, reason: string): Promise<Session> {
@@ -46,7 +47,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
       'aria-describedby': 'token-fault',
     });
     const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, reason);
-    const button = h('button', { type: 'submit', class: 'primary' }, 'Sign in');
+    const button = h('button', { type: 'submit', class: 'primary' }, t('Sign in'));
     const form = h(
       'form',
       {
@@ -68,15 +69,15 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
         },
       },
       h('h1', {}, 'Semblante'),
-      h('label', { for: 'token' }, 'Token'),
+      h('label', { for: 'token' }, t('Token')),
       input,
       fault,
       h(
         'p',
         { class: 'hint' },
-        'Whoever runs this server makes tokens with ',
+        t('Whoever runs this server makes tokens with '),
         h('code', {}, 'semblante token create'),
-        '. This browser keeps it until you sign out.',
+        t('. This browser keeps it until you sign out.'),
       ),
       h('div', { class: 'row end' }, button),
     );

@@ -4,6 +4,7 @@ import { h } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import type { SceneState } from '../stage/scene.ts';
 import type { Activity } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The card over the stage while no head is shown. */
 export function overlayCard(
@@ -19,8 +20,8 @@ export function overlayCard(
         'div',
         { class: 'stage-card' },
         icon('head', 40),
-        h('h2', {}, 'No head on the stage'),
-        h('p', {}, `Choose one from the list, or drop a file (${formatList}) anywhere on this page.`),
+        h('h2', {}, t('No head on the stage')),
+        h('p', {}, t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })),
       );
     case 'loading': {
       const progress = activity?.progress ?? null;
@@ -43,7 +44,7 @@ export function overlayCard(
         problem.detail ? h('p', {}, problem.detail) : null,
         problem.pointer ? h('code', {}, problem.pointer) : null,
         advice ? h('p', { class: 'advice' }, advice) : null,
-        again ? h('button', { type: 'button', on: { click: again } }, 'Try again') : null,
+        again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
       );
     }
   }

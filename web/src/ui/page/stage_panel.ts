@@ -9,12 +9,13 @@ import type { SceneView } from '../stage/scene.ts';
 import { overlayCard } from './stage_overlay.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 const views: { name: ViewName; label: string; key: string }[] = [
-  { name: 'front', label: 'Front', key: '1' },
-  { name: 'three-quarter', label: 'Three-quarter', key: '2' },
-  { name: 'left', label: 'Left', key: '3' },
-  { name: 'right', label: 'Right', key: '4' },
+  { name: 'front', label: t('Front'), key: '1' },
+  { name: 'three-quarter', label: t('Three-quarter'), key: '2' },
+  { name: 'left', label: t('Left'), key: '3' },
+  { name: 'right', label: t('Right'), key: '4' },
 ];
 
 /** How deep a click on a point goes through lashes, glasses and hair, in radii of the head. */
@@ -26,7 +27,7 @@ export class StagePanel {
   private readonly overlay = h('div', { class: 'stage-overlay' });
   private readonly label = h('div', { class: 'marker-label', hidden: true });
   private readonly hint = h('div', { class: 'stage-hint', hidden: true });
-  private readonly figures = h('output', { class: 'figures', 'aria-label': 'Display rate' });
+  private readonly figures = h('output', { class: 'figures', 'aria-label': t('Display rate') });
   private down: { x: number; y: number; time: number } | null = null;
   private lastFigures = 0;
   /** Called when a part is clicked while parts can be selected. */
@@ -44,9 +45,9 @@ export class StagePanel {
     canvas.setAttribute('role', 'application');
     canvas.setAttribute(
       'aria-label',
-      'The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view, F shows the whole face. ' +
-        'Space places the chosen feature point at the cross, Enter confirms it, N goes to the next. ' +
-        'With the influence view I reads the weights at the cross.',
+      t('The head. Arrow keys turn it, with Shift they move it, plus and minus zoom, 1 to 4 choose a view, F shows the whole face. ') +
+        t('Space places the chosen feature point at the cross, Enter confirms it, N goes to the next. ') +
+        t('With the influence view I reads the weights at the cross.'),
     );
     this.element = h(
       'div',
@@ -81,8 +82,8 @@ export class StagePanel {
   }
 
   private makeTools(): HTMLElement {
-    const wire = toggle('Wireframe', 'wire', (on) => (this.scene.wireframe = on));
-    const influence = toggle('Influence of the points', 'influence', (on) => this.influence.set(on));
+    const wire = toggle(t('Wireframe'), 'wire', (on) => (this.scene.wireframe = on));
+    const influence = toggle(t('Influence of the points'), 'influence', (on) => this.influence.set(on));
     this.influence.watch((on) => influence.setAttribute('aria-pressed', String(on)));
     this.scene.faceShown.watch((face) => (influence.hidden = !face));
     const path = h(
@@ -90,8 +91,8 @@ export class StagePanel {
       {
         type: 'button',
         class: 'tool path',
-        title: 'Where the vertices are deformed: on the graphics card or by the WebAssembly kernel',
-        'aria-label': 'Deform on the GPU',
+        title: t('Where the vertices are deformed: on the graphics card or by the WebAssembly kernel'),
+        'aria-label': t('Deform on the GPU'),
         on: {},
       },
       'GPU',
@@ -100,18 +101,18 @@ export class StagePanel {
       this.scene.deformPath = this.scene.deformPath === 'gpu' ? 'wasm' : 'gpu';
       const gpu = this.scene.deformPath === 'gpu';
       path.textContent = gpu ? 'GPU' : 'WASM';
-      path.setAttribute('aria-label', gpu ? 'Deform on the GPU' : 'Deform with WebAssembly');
+      path.setAttribute('aria-label', gpu ? t('Deform on the GPU') : t('Deform with WebAssembly'));
     });
     return h(
       'div',
-      { class: 'tools', role: 'toolbar', 'aria-label': 'View' },
+      { class: 'tools', role: 'toolbar', 'aria-label': t('View') },
       views.map(({ name, label, key }) =>
         h(
           'button',
           {
             type: 'button',
             class: 'tool',
-            title: `${label} view (${key})`,
+            title: t('{label} view ({key})', { label, key }),
             on: { click: () => this.scene.stage.look(name) },
           },
           name === 'three-quarter' ? '3/4' : label,
@@ -232,10 +233,10 @@ export class StagePanel {
     const name = id === null ? '' : (pointById(id)?.name ?? '');
     const words =
       id === null
-        ? 'Choose a point, then click on the head.'
+        ? t('Choose a point, then click on the head.')
         : this.points.draft.points.has(id)
-          ? `Click elsewhere to move ${id}: ${name}`
-          : `Click where ${id} lies: ${name}`;
+          ? t('Click elsewhere to move {id}: {name}', { id, name })
+          : t('Click where {id} lies: {name}', { id, name });
     replace(this.hint, icon('point', 16), h('span', {}, words));
   }
 
@@ -256,7 +257,7 @@ export class StagePanel {
     const rate = this.scene.stage.framesPerSecond;
     const bytes = this.scene.packageBytes.value;
     // A stage at rest draws only on demand, so its frame rate is meaningless.
-    const words = [bytes > 0 ? `${formatBytes(bytes)} face` : '', rate > 4 ? `${rate} fps` : ''];
+    const words = [bytes > 0 ? t('{bytes} face', { bytes: formatBytes(bytes) }) : '', rate > 4 ? t('{rate} fps', { rate }) : ''];
     setText(this.figures, words.filter((word) => word !== '').join(' · '));
   }
 }

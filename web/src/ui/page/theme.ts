@@ -1,5 +1,6 @@
 import { h, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
+import { t } from '../../words/words.ts';
 
 type Theme = 'light' | 'dark';
 const key = 'semblante.theme';
@@ -14,7 +15,7 @@ export function themeButton(): HTMLElement {
   });
   const apply = (theme: Theme): void => {
     document.documentElement.dataset['theme'] = theme;
-    const label = theme === 'dark' ? 'Use light colours' : 'Use dark colours';
+    const label = theme === 'dark' ? t('Use light colours') : t('Use dark colours');
     button.setAttribute('aria-label', label);
     button.title = label;
     replace(button, icon(theme === 'dark' ? 'sun' : 'moon'));

@@ -1,6 +1,8 @@
-import { featurePoints } from '@protocol/generated/mpeg4.ts';
+import { pointById } from '../../face/feature_points.ts';
+import { pointStateWords } from './proposal_words.ts';
 import { h, replace, svg } from '../shared/dom.ts';
 import { bestView, drawings, type GuideView } from './guide_data.ts';
+import { t } from '../../words/words.ts';
 
 export interface GuideOptions {
   onSelect: (id: string) => void;
@@ -10,7 +12,7 @@ export interface GuideOptions {
 export class Guide {
   readonly element: HTMLElement;
   private readonly picture = h('div', { class: 'guide-picture' });
-  private readonly switcher = h('div', { class: 'segments small', role: 'group', 'aria-label': 'Drawing' });
+  private readonly switcher = h('div', { class: 'segments small', role: 'group', 'aria-label': t('Drawing') });
   private view: GuideView = 'front';
   private selected: string | null = null;
   private placed: ReadonlySet<string> = new Set();
@@ -52,7 +54,7 @@ export class Guide {
       viewBox: drawing.viewBox,
       class: 'guide-drawing',
       role: 'group',
-      'aria-label': `${drawing.title}: feature points`,
+      'aria-label': t('{title}: feature points', { title: drawing.title }),
     });
     for (const stroke of drawing.strokes) {
       root.append(
@@ -81,13 +83,13 @@ export class Guide {
           ? 'placed'
           : 'open';
     const selected = id === this.selected;
-    const label = `${id} ${featurePoints.find((point) => point.id === id)?.name ?? ''}`;
+    const label = `${id} ${pointById(id)?.name ?? ''}`;
     const group = svg(
       'g',
       {
         class: `spot ${state}${selected ? ' selected' : ''}`,
         role: 'button',
-        'aria-label': `${label} (${state === 'open' ? 'not placed' : state})`,
+        'aria-label': `${label} (${pointStateWords[state]})`,
       },
       svg('title', {}, label),
     );

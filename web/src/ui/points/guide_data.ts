@@ -1,3 +1,5 @@
+import { t } from '../../words/words.ts';
+
 /**
  * Places of the 84 feature points in three line drawings. The face's left is on the right of the front view, as on the
  * stage. Coordinates are in each drawing's viewBox.
@@ -24,7 +26,7 @@ function pairs(list: [string, string, number, number][]): Record<string, [number
 }
 
 const front: Drawing = {
-  title: 'Face',
+  title: t('Face'),
   viewBox: '16 0 208 276',
   strokes: [
     {
@@ -94,7 +96,7 @@ const front: Drawing = {
 };
 
 const mouth: Drawing = {
-  title: 'Mouth',
+  title: t('Mouth'),
   viewBox: '10 30 220 156',
   strokes: [
     {
@@ -132,7 +134,7 @@ const mouth: Drawing = {
 };
 
 const side: Drawing = {
-  title: 'Left side',
+  title: t('Left side'),
   viewBox: '16 0 224 276',
   strokes: [
     {

@@ -4,6 +4,7 @@ import type { Parametrizer } from './parametrizer.ts';
 import type { PointsModel } from './points_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The footer of a panel: options, Save, Parametrize and its progress. */
 export class ParametrizeBox {
@@ -19,7 +20,7 @@ export class ParametrizeBox {
     parametrizer: Parametrizer,
     { withSave }: { withSave: boolean },
   ) {
-    this.save = withSave ? h('button', { type: 'button', on: { click: () => void points.save() } }, 'Save') : null;
+    this.save = withSave ? h('button', { type: 'button', on: { click: () => void points.save() } }, t('Save')) : null;
     this.go = h('button', { type: 'button', class: 'primary', on: { click: () => void parametrizer.run() } });
     this.element = h(
       'footer',
@@ -42,20 +43,21 @@ export class ParametrizeBox {
     const busy = this.points.busy.value || activity !== undefined;
     const fapu = Object.entries(this.points.fapu);
     this.fapu.hidden = fapu.length === 0;
+    const lengths = fapu.map(([unit, length]) => `${unit} = ${Number(length.toPrecision(5))}`).join(', ');
     setText(
       this.fapu,
-      `Units set by hand: ${fapu.map(([unit, length]) => `${unit} = ${Number(length.toPrecision(5))}`).join(', ')}`,
+      t('Units set by hand: {lengths}', { lengths }),
     );
     const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');
     if (this.save) {
       this.save.disabled = busy || !usable || draft.changes === 0;
       setText(
         this.save,
-        draft.changes === 0 ? 'Saved' : `Save ${draft.changes} ${draft.changes === 1 ? 'change' : 'changes'}`,
+        draft.changes === 0 ? t('Saved') : draft.changes === 1 ? t('Save 1 change') : t('Save {changes} changes', { changes: draft.changes }),
       );
     }
     this.go.disabled = busy || !usable || draft.points.size === 0;
-    setText(this.go, model?.state === 'parametrized' ? 'Parametrize again' : 'Parametrize');
+    setText(this.go, model?.state === 'parametrized' ? t('Parametrize again') : t('Parametrize'));
     replace(
       this.progress,
       activity
@@ -67,7 +69,7 @@ export class ParametrizeBox {
               ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`)
               : null,
             activity.cancel
-              ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, 'Cancel')
+              ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, t('Cancel'))
               : null,
           )
         : null,

@@ -1,5 +1,6 @@
 import { h, setText } from '../shared/dom.ts';
 import type { ChosenOptions, Parametrizer } from './parametrizer.ts';
+import { t } from '../../words/words.ts';
 
 interface Choice {
   value: string;
@@ -8,42 +9,42 @@ interface Choice {
 }
 
 const weightChoices: readonly Choice[] = [
-  { value: 'smooth', title: 'Smooth skin', note: 'Weights fade out smoothly: looks best.' },
+  { value: 'smooth', title: t('Smooth skin'), note: t('Weights fade out smoothly: looks best.') },
   {
     value: 'fitted',
-    title: 'Fitted to its own shapes',
-    note: 'Smooth weights, fitted to the morph targets of the model; a model without any is refused.',
+    title: t('Fitted to its own shapes'),
+    note: t('Smooth weights, fitted to the morph targets of the model; a model without any is refused.'),
   },
-  { value: 'paper', title: 'As in the paper', note: 'Weights exactly as published, Eq. 1 to 4.' },
+  { value: 'paper', title: t('As in the paper'), note: t('Weights exactly as published, Eq. 1 to 4.') },
 ];
 const metricChoices: readonly Choice[] = [
-  { value: 'edge', title: 'Along edges', note: 'As in the paper; fastest.' },
-  { value: 'unfolded', title: 'Across triangles', note: 'Closer to the true distance over the skin.' },
+  { value: 'edge', title: t('Along edges'), note: t('As in the paper; fastest.') },
+  { value: 'unfolded', title: t('Across triangles'), note: t('Closer to the true distance over the skin.') },
 ];
 const ownArticulation = 'own';
 const articulationChoices: readonly Choice[] = [
   {
     value: ownArticulation,
-    title: 'Automatic',
-    note: 'The jaw opens as far as in the shapes (morph targets) of the model; as usual if it has none.',
+    title: t('Automatic'),
+    note: t('The jaw opens as far as in the shapes (morph targets) of the model; as usual if it has none.'),
   },
-  { value: '0.5', title: 'Quiet', note: 'The jaw opens half as far in speech.' },
-  { value: '1', title: 'Usual', note: 'The jaw opens as far as that of an adult who talks.' },
-  { value: '1.5', title: 'Clear', note: 'The jaw opens half as far again.' },
-  { value: '2.5', title: 'Cartoon', note: 'The jaw opens two and a half times as far.' },
+  { value: '0.5', title: t('Quiet'), note: t('The jaw opens half as far in speech.') },
+  { value: '1', title: t('Usual'), note: t('The jaw opens as far as that of an adult who talks.') },
+  { value: '1.5', title: t('Clear'), note: t('The jaw opens half as far again.') },
+  { value: '2.5', title: t('Cartoon'), note: t('The jaw opens two and a half times as far.') },
 ];
 const expressionChoices: readonly Choice[] = [
-  { value: 'library', title: 'Of the library', note: 'Visemes and expressions that fit every head.' },
+  { value: 'library', title: t('Of the library'), note: t('Visemes and expressions that fit every head.') },
   {
     value: 'own',
-    title: 'Its own',
-    note: 'Visemes and expressions of the model (its morph targets), where it has them.',
+    title: t('Its own'),
+    note: t('Visemes and expressions of the model (its morph targets), where it has them.'),
   },
 ];
 const levelChoices: readonly Choice[] = [
-  { value: 'auto', title: 'Automatic', note: 'Several levels with fewer vertices, for phones and crowds.' },
-  { value: 'none', title: 'None', note: 'Only the full mesh.' },
-  { value: 'own', title: 'Custom', note: 'The maximum number of vertices of each level, in descending order.' },
+  { value: 'auto', title: t('Automatic'), note: t('Several levels with fewer vertices, for phones and crowds.') },
+  { value: 'none', title: t('None'), note: t('Only the full mesh.') },
+  { value: 'own', title: t('Custom'), note: t('The maximum number of vertices of each level, in descending order.') },
 ];
 
 let boxes = 0;
@@ -58,29 +59,29 @@ export class ParametrizeOptions {
     class: 'budgets',
     inputmode: 'numeric',
     value: '20000, 8000, 3000',
-    'aria-label': 'Maximum number of vertices of each level',
+    'aria-label': t('Maximum number of vertices of each level'),
     pattern: '\\s*\\d+(\\s*[,;\\s]\\s*\\d+)*\\s*',
     on: { change: () => this.setLevels('own') },
   });
-  private readonly weights = this.field('Weights', weightChoices, (value) =>
+  private readonly weights = this.field(t('Weights'), weightChoices, (value) =>
     this.parametrizer.set({ weights: value as ChosenOptions['weights'] }),
   );
-  private readonly metric = this.field('Distances', metricChoices, (value) =>
+  private readonly metric = this.field(t('Distances'), metricChoices, (value) =>
     this.parametrizer.set({ metric: value as ChosenOptions['metric'] }),
   );
-  private readonly articulation = this.field('Articulation', articulationChoices, (value) =>
+  private readonly articulation = this.field(t('Articulation'), articulationChoices, (value) =>
     this.parametrizer.setArticulation(value === ownArticulation ? null : Number(value)),
   );
-  private readonly expressions = this.field('Expressions', expressionChoices, (value) =>
+  private readonly expressions = this.field(t('Expressions'), expressionChoices, (value) =>
     this.parametrizer.set({ expressions: value as ChosenOptions['expressions'] }),
   );
-  private readonly levels = this.field('Levels', levelChoices, (value) => this.setLevels(value));
+  private readonly levels = this.field(t('Levels'), levelChoices, (value) => this.setLevels(value));
 
   constructor(private readonly parametrizer: Parametrizer) {
     this.element = h(
       'details',
       { class: 'options' },
-      h('summary', { class: 'small' }, h('span', {}, 'Options'), this.summary),
+      h('summary', { class: 'small' }, h('span', {}, t('Options')), this.summary),
       this.weights.element,
       this.metric.element,
       this.articulation.element,

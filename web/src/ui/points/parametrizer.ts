@@ -4,6 +4,7 @@ import { countWords } from '../shared/finding_words.ts';
 import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
 import { needsCare, type Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /**
  * These options are always sent: the server's defaults follow the paper and make no levels of detail. Without an
@@ -45,13 +46,13 @@ export class Parametrizer {
       if (!(await studio.parametrize(model, this.options.value))) return;
       const now = studio.models.value.find((one) => one.id === model.id) ?? model;
       const found = now.findings ? countWords(now.findings) : '';
-      studio.toasts.say(`${now.name} is ready to animate.${found === '' ? '' : ` The fit doctor found ${found}.`}`);
+      studio.toasts.say(t('{name} is ready to animate.', { name: now.name }) + (found === '' ? '' : t(' The fit doctor found {found}.', { found })));
       if (studio.selected.value?.id === now.id)
         studio.tab.set(needsCare(now) && (now.findings?.errors ?? 0) > 0 ? 'fit' : 'animate');
     } catch (error) {
       points.show(error);
       if (points.problems.size > 0) studio.tab.set('points');
-      studio.toasts.problem('The head was not parametrized', problemOf(error));
+      studio.toasts.problem(t('The head was not parametrized'), problemOf(error));
     }
   }
 }

@@ -5,6 +5,7 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
 import { proposalWords } from './proposal_words.ts';
+import { t } from '../../words/words.ts';
 
 /** The selected point: name, place and actions. In guided mode it leads through the quick set. */
 export class PointCard {
@@ -29,7 +30,7 @@ export class PointCard {
     const step = this.points.guided.value ? quickSet.findIndex((one) => one.id === point.id) : -1;
     replace(
       this.element,
-      step >= 0 ? h('p', { class: 'step small' }, `Point ${step + 1} of ${quickSet.length}`) : null,
+      step >= 0 ? h('p', { class: 'step small' }, t('Point {step} of {count}', { step: step + 1, count: quickSet.length })) : null,
       h(
         'div',
         { class: 'row' },
@@ -40,7 +41,7 @@ export class PointCard {
       step >= 0 ? h('p', { class: 'hint' }, quickSet[step]!.hint) : null,
       place?.proposal ? h('p', { class: 'small' }, proposalWords(place.proposal)) : null,
       !place && notProposed.has(point.id)
-        ? h('p', { class: 'small' }, `Not proposed: ${notProposed.get(point.id) ?? ''}.`)
+        ? h('p', { class: 'small' }, t('Not proposed: {id}.', { id: notProposed.get(point.id) ?? '' }))
         : null,
       h(
         'div',
@@ -53,14 +54,14 @@ export class PointCard {
                 type: 'button',
                 class: 'small',
                 'data-focus': 'confirm',
-                title: 'Confirm (Enter on the stage)',
+                title: t('Confirm (Enter on the stage)'),
                 on: { click: () => this.points.confirmAndNext(point.id) },
               },
               icon('check', 15),
-              'Confirm',
+              t('Confirm'),
             )
           : null,
-        this.nextButton(step >= 0 && !place ? 'Skip' : 'Next'),
+        this.nextButton(step >= 0 && !place ? t('Skip') : t('Next')),
       ),
       (problems.get(point.id) ?? []).map((text) =>
         h('p', { class: 'reason', role: 'alert' }, icon('warning', 15), text),
@@ -70,9 +71,9 @@ export class PointCard {
 
   private where(id: string): string {
     const place = this.points.draft.points.get(id);
-    if (!place) return 'Click on the head to place it.';
-    if (place.vertex === null) return `At ${place.position.map((value) => value.toPrecision(4)).join(', ')}`;
-    return `On vertex ${place.vertex}. Click elsewhere to move it.`;
+    if (!place) return t('Click on the head to place it.');
+    if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => value.toPrecision(4)).join(', ') });
+    return t('On vertex {vertex}. Click elsewhere to move it.', { vertex: place.vertex });
   }
 
   private removeButton(id: string): HTMLElement {
@@ -81,8 +82,8 @@ export class PointCard {
       {
         type: 'button',
         class: 'quiet square small',
-        'aria-label': `Remove point ${id}`,
-        title: 'Remove (Delete)',
+        'aria-label': t('Remove point {id}', { id }),
+        title: t('Remove (Delete)'),
         on: { click: () => this.points.remove(id) },
       },
       icon('trash', 16),
@@ -108,20 +109,20 @@ export class PointCard {
     return h(
       'p',
       { class: 'muted' },
-      'Choose a point in the drawing or the list, then click its place on the head.',
+      t('Choose a point in the drawing or the list, then click its place on the head.'),
     );
   }
 
   private invitation(): Child {
     const left = this.points.quickLeft;
     if (left === 0)
-      return h('p', {}, h('strong', {}, 'All twenty are placed. '), 'Propose the missing points, then review them.');
+      return h('p', {}, h('strong', {}, t('All twenty are placed. ')), t('Propose the missing points, then review them.'));
     return [
       h(
         'p',
         {},
-        `${quickSet.length} points are enough for a talking face. For each one, read its place and click there. `,
-        `From ${leastKnownPoints} placed points on, the others can be proposed.`,
+        t('{count} points are enough for a talking face. For each one, read its place and click there. ', { count: quickSet.length }),
+        t('From {leastKnownPoints} placed points on, the others can be proposed.', { leastKnownPoints }),
       ),
       h(
         'div',
@@ -134,7 +135,7 @@ export class PointCard {
             'data-focus': 'next',
             on: { click: () => this.points.chooseNext() },
           },
-          left === quickSet.length ? 'Start' : `Go on: ${left} left`,
+          left === quickSet.length ? t('Start') : t('Go on: {left} left', { left }),
         ),
       ),
     ];

@@ -5,7 +5,8 @@ import { h, redraw, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
-import { confidenceWords } from './proposal_words.ts';
+import { confidenceWords, pointStateWords } from './proposal_words.ts';
+import { t } from '../../words/words.ts';
 
 type Filter = 'all' | 'open' | 'proposed';
 
@@ -15,8 +16,8 @@ export class PointList {
   readonly element = h('div', { class: 'point-groups' });
   private readonly words = h('input', {
     type: 'search',
-    placeholder: 'Search: 2.1, chin, left…',
-    'aria-label': 'Search feature points',
+    placeholder: t('Search: 2.1, chin, left…'),
+    'aria-label': t('Search feature points'),
     on: { input: () => this.draw() },
   });
   private readonly filter: HTMLSelectElement;
@@ -24,10 +25,10 @@ export class PointList {
   constructor(private readonly points: PointsModel) {
     this.filter = h(
       'select',
-      { 'aria-label': 'Which points', on: { change: () => this.draw() } },
-      h('option', { value: 'all' }, 'All'),
-      h('option', { value: 'open' }, 'Not placed'),
-      h('option', { value: 'proposed' }, 'Proposed'),
+      { 'aria-label': t('Which points'), on: { change: () => this.draw() } },
+      h('option', { value: 'all' }, t('All')),
+      h('option', { value: 'open' }, t('Not placed')),
+      h('option', { value: 'proposed' }, t('Proposed')),
     );
     this.search = h('div', { class: 'search' }, icon('search', 16), this.words, this.filter);
     points.changed.watch(() => this.draw());
@@ -98,9 +99,9 @@ export class PointList {
       );
     });
     const empty: Record<Filter, string> = {
-      all: 'No point matches.',
-      open: words === '' ? 'All points are placed.' : 'No point matches.',
-      proposed: words === '' ? 'No point is proposed.' : 'No point matches.',
+      all: t('No point matches.'),
+      open: words === '' ? t('All points are placed.') : t('No point matches.'),
+      proposed: words === '' ? t('No point is proposed.') : t('No point matches.'),
     };
     replace(this.element, groups.some((group) => group !== null) ? groups : h('p', { class: 'empty' }, empty[filter]));
   }
@@ -128,9 +129,9 @@ export class PointList {
         h('code', { class: 'id' }, point.id),
         h('span', { class: 'grow name' }, capital(point.name)),
         state === 'proposed'
-          ? h('small', { class: 'tag' }, confidence ? confidenceWords[confidence] : 'proposed')
+          ? h('small', { class: 'tag' }, confidence ? confidenceWords[confidence] : pointStateWords.proposed)
           : null,
-        h('span', { class: 'visually-hidden' }, state === 'open' ? 'not placed' : state),
+        h('span', { class: 'visually-hidden' }, pointStateWords[state]),
       ),
       reasons ? reasons.map((text) => h('p', { class: 'reason' }, text)) : null,
     );

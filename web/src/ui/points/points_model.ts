@@ -6,6 +6,7 @@ import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.
 import { Signal } from '../shared/signal.ts';
 import type { DraftStore } from './draft_store.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The feature points of the open head: the draft, the selected point, and the server's errors by point. */
 export class PointsModel {
@@ -56,7 +57,7 @@ export class PointsModel {
     this.etag = null;
     this.touch();
     if (!model || model.state === 'importing' || model.state === 'failed') return;
-    await this.studio.attempt('The feature points could not be read', async () => {
+    await this.studio.attempt(t('The feature points could not be read'), async () => {
       const answer = await this.studio.api.getFeaturePoints(model.id);
       if (this.model === model) this.take(answer.value, answer.etag, true);
     });
@@ -72,8 +73,8 @@ export class PointsModel {
     this.touch();
     const { changes } = this.draft;
     if (changes === 0) return;
-    this.studio.toasts.say(changes === 1 ? 'Your unsaved point is back.' : `Your ${changes} unsaved points are back.`, {
-      label: 'Discard',
+    this.studio.toasts.say(changes === 1 ? t('Your unsaved point is back.') : t('Your {changes} unsaved points are back.', { changes }), {
+      label: t('Discard'),
       act: back,
     });
   }
@@ -186,7 +187,7 @@ export class PointsModel {
     const { model, studio } = this;
     if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
     this.busy.set(true);
-    await studio.attempt('No points were proposed', async () => {
+    await studio.attempt(t('No points were proposed'), async () => {
       const result = await studio.propose(model, this.etag);
       if (result === null || this.model?.id !== model.id) return;
       const answer = await studio.api.getFeaturePoints(model.id);
@@ -195,7 +196,7 @@ export class PointsModel {
       this.take(answer.value, answer.etag);
       await studio.reload(model.id);
       const { length } = this.draft.proposed;
-      studio.toasts.say(length > 0 ? `${length} points are proposed: review them.` : 'No point could be proposed.');
+      studio.toasts.say(length > 0 ? t('{count} points are proposed: review them.', { count: length }) : t('No point could be proposed.'));
     });
     this.busy.set(false);
     this.touch();
@@ -204,7 +205,7 @@ export class PointsModel {
   save(mirror = false): Promise<boolean> {
     return this.put(
       this.draft.toBody(),
-      mirror ? 'The missing sides were not filled in' : 'The feature points were not saved',
+      mirror ? t('The missing sides were not filled in') : t('The feature points were not saved'),
       { mirror, guarded: true },
     );
   }
@@ -214,7 +215,7 @@ export class PointsModel {
     const { model } = this;
     if (!model) return false;
     this.busy.set(true);
-    const done = await this.studio.attempt('The unit was not changed', async () => {
+    const done = await this.studio.attempt(t('The unit was not changed'), async () => {
       const body = { points: {}, fapu: { [unit]: length } };
       const answer = await this.studio.api.patchFeaturePoints(model.id, body, this.etag);
       if (this.model?.id !== model.id) return;
@@ -232,14 +233,14 @@ export class PointsModel {
     try {
       body = JSON.parse(await file.text()) as FeaturePointsBody;
     } catch (error) {
-      this.setProblems({ '': [`${file.name} is not JSON: ${error instanceof Error ? error.message : ''}`] });
+      this.setProblems({ '': [t('{name} is not JSON: {message}', { name: file.name, message: error instanceof Error ? error.message : '' })] });
       return false;
     }
     const back = this.wayBack();
-    const done = await this.put(body, `The points of ${file.name} were not accepted`, { mirror: false, guarded: true });
+    const done = await this.put(body, t('The points of {name} were not accepted', { name: file.name }), { mirror: false, guarded: true });
     if (done)
-      this.studio.toasts.say(`${this.draft.points.size} feature points read from ${file.name}.`, {
-        label: 'Undo',
+      this.studio.toasts.say(t('{count} feature points read from {name}.', { count: this.draft.points.size, name: file.name }), {
+        label: t('Undo'),
         act: back,
       });
     return done;

@@ -9,6 +9,7 @@ import { PointList } from './point_list.ts';
 import type { PointsModel } from './points_model.ts';
 import { ProposalsBox } from './proposals_box.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** The Points tab: placing the 84 feature points on the open head. */
 export class PointsPanel {
@@ -17,10 +18,10 @@ export class PointsPanel {
   private readonly count = h('span', { class: 'count', 'aria-live': 'polite' });
   private readonly meter = h('div', { class: 'bar', 'aria-hidden': 'true' }, h('span', {}));
   private readonly notices = h('div', { class: 'notices' });
-  private readonly undo = this.tool('Undo (Ctrl+Z)', 'undo', () => this.points.undo());
-  private readonly redo = this.tool('Redo (Ctrl+Shift+Z)', 'redo', () => this.points.redo());
+  private readonly undo = this.tool(t('Undo (Ctrl+Z)'), 'undo', () => this.points.undo());
+  private readonly redo = this.tool(t('Redo (Ctrl+Shift+Z)'), 'redo', () => this.points.redo());
   private readonly mirror = this.tool(
-    'Fill the missing side by mirroring',
+    t('Fill the missing side by mirroring'),
     'mirror',
     () => void this.points.save(true),
   );
@@ -39,7 +40,7 @@ export class PointsPanel {
       class: 'visually-hidden',
       id: 'points-file',
       tabindex: -1,
-      'aria-label': 'Feature point file',
+      'aria-label': t('Feature point file'),
     });
     file.addEventListener('change', () => {
       const chosen = file.files?.[0];
@@ -59,8 +60,8 @@ export class PointsPanel {
           this.undo,
           this.redo,
           this.mirror,
-          this.tool('Import points from a file', 'upload', () => file.click()),
-          this.tool('Export points to a file', 'download', () => points.exportFile()),
+          this.tool(t('Import points from a file'), 'upload', () => file.click()),
+          this.tool(t('Export points to a file'), 'download', () => points.exportFile()),
           file,
         ),
       ),
@@ -102,15 +103,15 @@ export class PointsPanel {
   private modes(): HTMLElement {
     const first = h(
       'button',
-      { type: 'button', on: { click: () => this.points.guide(true) }, title: 'The twenty points to begin with' },
-      'First 20',
+      { type: 'button', on: { click: () => this.points.guide(true) }, title: t('The twenty points to begin with') },
+      t('First 20'),
     );
-    const all = h('button', { type: 'button', on: { click: () => this.points.guide(false) } }, 'All 84');
+    const all = h('button', { type: 'button', on: { click: () => this.points.guide(false) } }, t('All 84'));
     this.points.guided.watch((guided) => {
       first.setAttribute('aria-pressed', String(guided));
       all.setAttribute('aria-pressed', String(!guided));
     });
-    return h('div', { class: 'segments', role: 'group', 'aria-label': 'Feature points to mark' }, first, all);
+    return h('div', { class: 'segments', role: 'group', 'aria-label': t('Feature points to mark') }, first, all);
   }
 
   private draw(): void {
@@ -119,7 +120,9 @@ export class PointsPanel {
     const proposed = draft.proposed.length;
     setText(
       this.count,
-      `${size - proposed} of ${this.points.total} placed${proposed > 0 ? `, ${proposed} proposed` : ''}`,
+      proposed > 0
+        ? t('{proposed} of {total} placed, {proposed2} proposed', { proposed: size - proposed, total: this.points.total, proposed2: proposed })
+        : t('{count} of {total} placed', { count: size, total: this.points.total }),
     );
     this.meter.querySelector('span')!.style.width = `${((size - proposed) / this.points.total) * 100}%`;
     this.guide.mark(
@@ -150,11 +153,11 @@ export class PointsPanel {
       h(
         'span',
         {},
-        `Refused: ${wrong.length === 1 ? 'point' : 'points'} `,
+        wrong.length === 1 ? t('Refused: point ') : t('Refused: points '),
         wrong.map((id) =>
           h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id),
         ),
-        '. Move or remove, then save again.',
+        t('. Move or remove, then save again.'),
       ),
     );
   }
@@ -162,9 +165,9 @@ export class PointsPanel {
   private async importFile(file: File): Promise<void> {
     if (this.points.draft.points.size > 0) {
       const yes = await ask({
-        title: 'Replace the feature points?',
-        text: `${file.name} replaces the ${this.points.draft.points.size} points of this head.`,
-        accept: 'Replace',
+        title: t('Replace the feature points?'),
+        text: t('{name} replaces the {count} points of this head.', { name: file.name, count: this.points.draft.points.size }),
+        accept: t('Replace'),
       });
       if (yes === null) return;
     }

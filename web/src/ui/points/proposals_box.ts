@@ -4,6 +4,7 @@ import { icon } from '../shared/icons.ts';
 import type { PointsModel } from './points_model.ts';
 import { confidenceWords } from './proposal_words.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** Starts the proposal of missing points, and leads the user through the proposed points. */
 export class ProposalsBox {
@@ -34,7 +35,7 @@ export class ProposalsBox {
       const first = points.guided.value && points.quickLeft === 0;
       replace(
         this.element,
-        h('p', { class: 'grow' }, `${missing} of ${points.total} are not placed.`),
+        h('p', { class: 'grow' }, t('{missing} of {total} are not placed.', { missing, total: points.total })),
         h(
           'button',
           {
@@ -43,7 +44,7 @@ export class ProposalsBox {
             disabled: busy,
             on: { click: () => void points.propose() },
           },
-          'Propose missing points',
+          t('Propose missing points'),
         ),
       );
       return;
@@ -54,7 +55,7 @@ export class ProposalsBox {
         'p',
         { class: 'grow' },
         h('span', { class: 'dot', 'aria-hidden': 'true' }),
-        h('strong', {}, `${proposed.length} proposed`),
+        h('strong', {}, t('{count} proposed', { count: proposed.length })),
         h('span', { class: 'muted small' }, ` ${this.sureness(proposed)}`),
       ),
       h(
@@ -63,19 +64,19 @@ export class ProposalsBox {
         h(
           'button',
           { type: 'button', class: 'small', on: { click: () => points.chooseNextProposed() } },
-          'Review',
+          t('Review'),
           icon('chevron', 14),
         ),
         h(
           'button',
           { type: 'button', class: 'small', disabled: busy, on: { click: () => points.confirmAll() } },
           icon('check', 15),
-          'Confirm all',
+          t('Confirm all'),
         ),
         h(
           'button',
           { type: 'button', class: 'quiet small', disabled: busy, on: { click: () => points.discardProposals() } },
-          'Discard',
+          t('Discard'),
         ),
       ),
     );

@@ -2,26 +2,27 @@ import type { Recording, RecordingFormat } from '../../net/types.ts';
 import { h, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount, formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
+import { language, t } from '../../words/words.ts';
 
 const formats: readonly [RecordingFormat, string, string][] = [
-  ['performance', 'Performance', 'A performance document, JSON'],
-  ['fap', '.fap', 'A .fap file, in whole FAP units'],
-  ['arkit-csv', 'ARKit CSV', 'A take in the format of Live Link Face'],
-  ['glb', 'GLB clip', 'The open head with its skin and one animation'],
-  ['frames-json', 'Frames', 'Every frame, JSON'],
+  ['performance', t('Performance'), t('A performance document, JSON')],
+  ['fap', '.fap', t('A .fap file, in whole FAP units')],
+  ['arkit-csv', t('ARKit CSV'), t('A take in the format of Live Link Face')],
+  ['glb', t('GLB clip'), t('The open head with its skin and one animation')],
+  ['frames-json', t('Frames'), t('Every frame, JSON')],
 ];
 
 /** Why a recording ended, when no client stopped it. */
 const endingWords: Record<string, string> = {
-  'stream-ended': 'ended with its stream',
-  'max-duration': 'ended at the maximum duration',
-  'max-bytes': 'ended at the maximum size of a recording',
-  'max-total-bytes': 'ended at the maximum size of all recordings',
-  'max-token-bytes': 'ended at the maximum of what its token may store',
-  'disk-full': 'ended: the disk is full',
-  'server-stopped': 'ended with the server',
-  'server-killed': 'cut off when the server was killed',
-  damaged: 'its file is damaged',
+  'stream-ended': t('ended with its stream'),
+  'max-duration': t('ended at the maximum duration'),
+  'max-bytes': t('ended at the maximum size of a recording'),
+  'max-total-bytes': t('ended at the maximum size of all recordings'),
+  'max-token-bytes': t('ended at the maximum of what its token may store'),
+  'disk-full': t('ended: the disk is full'),
+  'server-stopped': t('ended with the server'),
+  'server-killed': t('cut off when the server was killed'),
+  damaged: t('its file is damaged'),
 };
 
 export interface RecordingActs {
@@ -45,10 +46,10 @@ export interface RecordingSight {
 
 /** The facts of a recording in one line. */
 export function recordingWords({ created, duration, bytes, frames, lost, ended }: Recording, stream: string | null): string {
-  const date = new Date(created).toLocaleString('en-US', { dateStyle: 'medium', timeStyle: 'short' });
-  const words = [date, formatTime(duration), `${formatCount(frames)} frames`, formatBytes(bytes)];
+  const date = new Date(created).toLocaleString(language, { dateStyle: 'medium', timeStyle: 'short' });
+  const words = [date, formatTime(duration), t('{frames} frames', { frames: formatCount(frames) }), formatBytes(bytes)];
   if (stream !== null) words.unshift(stream);
-  if (lost > 0) words.push(`${formatCount(lost)} lost`);
+  if (lost > 0) words.push(t('{lost} lost', { lost: formatCount(lost) }));
   const ending = endingWords[ended ?? ''];
   if (ending) words.push(ending);
   return words.join(' · ');
@@ -76,8 +77,8 @@ export function recordingItem(recording: Recording, sight: RecordingSight, acts:
           type: 'button',
           class: 'quiet square small',
           'data-focus': `more-${id}`,
-          'aria-label': `More of ${name}`,
-          title: 'Look, download, delete',
+          'aria-label': t('More of {name}', { name }),
+          title: t('Look, download, delete'),
           'aria-expanded': String(sight.open),
           on: { click: acts.toggle },
         },
@@ -89,12 +90,12 @@ export function recordingItem(recording: Recording, sight: RecordingSight, acts:
           type: 'button',
           class: 'small',
           'data-focus': `play-${id}`,
-          'aria-label': `Play ${name}`,
+          'aria-label': t('Play {name}', { name }),
           disabled: empty || sight.busy,
           on: { click: acts.play },
         },
         icon('play', 14),
-        'Play',
+        t('Play'),
       ),
     ),
     sight.open ? details(recording, sight, acts, empty) : null,
@@ -112,8 +113,8 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
     step: 1,
     value: sight.at ?? 0,
     'data-focus': `seek-${id}`,
-    'aria-label': `Moment of ${name}`,
-    title: 'Show this moment on the head, on this page only',
+    'aria-label': t('Moment of {name}', { name }),
+    title: t('Show this moment on the head, on this page only'),
   });
   const tell = (): void => {
     const at = Number(seek.value);
@@ -132,7 +133,7 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
     empty ? null : h('div', { class: 'row' }, seek, clock),
     h(
       'div',
-      { class: 'row wrap', role: 'group', 'aria-label': `Download ${name} as` },
+      { class: 'row wrap', role: 'group', 'aria-label': t('Download {name} as', { name }) },
       formats.map(([format, title, meaning]) =>
         h(
           'button',
@@ -140,7 +141,7 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
             type: 'button',
             class: 'small',
             'data-focus': `${format}-${id}`,
-            title: format === 'glb' && !sight.clip ? 'Open a head that is parametrized' : meaning,
+            title: format === 'glb' && !sight.clip ? t('Open a head that is parametrized') : meaning,
             disabled: empty || sight.busy || (format === 'glb' && !sight.clip),
             on: { click: () => acts.download(format) },
           },
@@ -155,12 +156,12 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
         type: 'button',
         class: 'quiet small',
         'data-focus': `delete-${id}`,
-        'aria-label': `Delete ${name}`,
+        'aria-label': t('Delete {name}', { name }),
         disabled: sight.busy,
         on: { click: acts.remove },
       },
       icon('trash', 14),
-      'Delete',
+      t('Delete'),
     ),
   );
 }

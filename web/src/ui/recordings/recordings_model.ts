@@ -5,6 +5,7 @@ import { formatTime } from '../shared/format.ts';
 import type { LiveModel } from '../live/live_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
+import { t } from '../../words/words.ts';
 
 /** A moment of a recording that is displayed. */
 export interface ShownMoment {
@@ -77,19 +78,19 @@ export class RecordingsModel {
   }
 
   async record(): Promise<void> {
-    await this.work('record', 'The recording was not started', async () => {
+    await this.work('record', t('The recording was not started'), async () => {
       await this.studio.api.startRecording(this.stream.value);
     });
   }
 
   async stop(recording: Recording): Promise<void> {
-    await this.work('record', 'The recording was not stopped', async () => {
+    await this.work('record', t('The recording was not stopped'), async () => {
       await this.studio.api.stopRecording(recording.id);
     });
   }
 
   async remove(recording: Recording): Promise<void> {
-    await this.work(recording.id, `${recording.name} was not deleted`, () =>
+    await this.work(recording.id, t('{name} was not deleted', { name: recording.name }), () =>
       this.studio.api.deleteRecording(recording.id),
     );
   }
@@ -97,7 +98,7 @@ export class RecordingsModel {
   /** Plays a recording into the target. Resolves with the reason when another source holds the stream, else null. */
   async play(recording: Recording, takeOver: boolean): Promise<string | null> {
     let held: string | null = null;
-    await this.work(recording.id, `${recording.name} was not played`, async () => {
+    await this.work(recording.id, t('{name} was not played', { name: recording.name }), async () => {
       const stream = await this.live.openFor(this.target.value);
       if (stream === null) return;
       this.target.set(stream);
@@ -120,13 +121,13 @@ export class RecordingsModel {
     const stream = this.live.streams.value?.find(({ id }) => id === this.target.value);
     const playing = stream?.playing;
     if (!playing) return;
-    await this.studio.attempt('The playback was not stopped', () => this.studio.api.stopPlaying(stream.id, playing.id));
+    await this.studio.attempt(t('The playback was not stopped'), () => this.studio.api.stopPlaying(stream.id, playing.id));
     await this.live.refresh();
   }
 
   async download(recording: Recording, format: RecordingFormat): Promise<void> {
     const model = this.studio.selected.value?.id ?? null;
-    await this.work(recording.id, `${recording.name} was not downloaded`, async () => {
+    await this.work(recording.id, t('{name} was not downloaded', { name: recording.name }), async () => {
       const content = await this.studio.api.recordingContent(recording.id, format, model);
       this.save(content, `${fileName(recording.name)}${endings[format]}`);
     });
@@ -137,7 +138,7 @@ export class RecordingsModel {
     this.look.set({ id: recording.id, at });
     if (this.looking) return;
     this.looking = true;
-    await this.studio.attempt('That moment cannot be shown', async () => {
+    await this.studio.attempt(t('That moment cannot be shown'), async () => {
       for (let shown: ShownMoment | null = null; this.look.value && shown !== this.look.value; ) {
         shown = this.look.value;
         const frame = await this.studio.api.recordedFrame(shown.id, shown.at);
@@ -151,9 +152,9 @@ export class RecordingsModel {
   get looksAt(): string | null {
     const look = this.look.value;
     if (!look) return null;
-    const name = this.recordings.value?.find(({ id }) => id === look.id)?.name ?? 'Recording';
+    const name = this.recordings.value?.find(({ id }) => id === look.id)?.name ?? t('Recording');
     // The time comes first, because a long name is truncated.
-    return `${formatTime(look.at)} of ${name}`;
+    return t('{at} of {name}', { at: formatTime(look.at), name });
   }
 
   private taken(id: string): boolean {

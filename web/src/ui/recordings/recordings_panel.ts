@@ -9,15 +9,16 @@ import { recordingItem } from './recording_item.ts';
 import type { RecordingsModel } from './recordings_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Studio } from '../shared/studio.ts';
+import { language, t } from '../../words/words.ts';
 
 /** Starts recordings of streams and lists the recordings with their actions. */
 export class RecordingsPanel {
   readonly element: HTMLElement;
-  private readonly source = h('select', { 'aria-label': 'Stream to record' });
-  private readonly target = h('select', { 'aria-label': 'Stream to play recordings into' });
+  private readonly source = h('select', { 'aria-label': t('Stream to record') });
+  private readonly target = h('select', { 'aria-label': t('Stream to play recordings into') });
   private readonly recorder = h('div', { class: 'recorder' });
   private readonly player = h('div', { class: 'recorder' });
-  private readonly list = h('ul', { class: 'streams', 'aria-label': 'Recordings' });
+  private readonly list = h('ul', { class: 'streams', 'aria-label': t('Recordings') });
   /** The elements that change every second, by id of a running recording. */
   private readonly running = new Map<string, HTMLElement>();
   private open: string | null = null;
@@ -33,11 +34,11 @@ export class RecordingsPanel {
     this.element = h(
       'section',
       { class: 'recordings' },
-      h('header', { class: 'section-head' }, h('h2', {}, 'Recordings')),
-      h('label', { class: 'field-row' }, h('span', {}, 'Of'), this.source),
+      h('header', { class: 'section-head' }, h('h2', {}, t('Recordings'))),
+      h('label', { class: 'field-row' }, h('span', {}, t('Of')), this.source),
       this.recorder,
       this.list,
-      h('label', { class: 'field-row' }, h('span', {}, 'Play into'), this.target),
+      h('label', { class: 'field-row' }, h('span', {}, t('Play into')), this.target),
       this.player,
     );
     for (const signal of [live.streams, model.stream, model.target]) signal.watch(() => this.drawStreams());
@@ -48,12 +49,12 @@ export class RecordingsPanel {
 
   private drawStreams(): void {
     const option = ({ id, title }: { id: string; title: string }): HTMLElement => h('option', { value: id }, title || id);
-    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, 'All streams, including deleted ones'));
+    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, t('All streams, including deleted ones')));
     this.source.value = this.model.stream.value;
-    replace(this.target, h('option', { value: '' }, 'Create a new stream'), this.live.ownStreams.map(option));
+    replace(this.target, h('option', { value: '' }, t('Create a new stream')), this.live.ownStreams.map(option));
     this.target.value = this.model.target.value;
     const into = this.live.ownStreams.find(({ id }) => id === this.model.target.value);
-    const name = into?.playing?.kind === 'recording' ? into.playing.name || 'A recording' : null;
+    const name = into?.playing?.kind === 'recording' ? into.playing.name || t('A recording') : null;
     redraw(this.player, () =>
       replace(
         this.player,
@@ -63,18 +64,18 @@ export class RecordingsPanel {
               'div',
               { class: 'row' },
               h('span', { class: 'lamp lamp-open' }),
-              h('strong', { class: 'grow' }, `${name} plays`),
+              h('strong', { class: 'grow' }, t('{name} plays', { name })),
               h(
                 'button',
                 {
                   type: 'button',
                   class: 'small',
                   'data-focus': 'stop-playing',
-                  'aria-label': `Stop ${name}`,
+                  'aria-label': t('Stop {name}', { name }),
                   on: { click: () => void this.model.stopPlaying() },
                 },
                 icon('stop', 14),
-                'Stop',
+                t('Stop'),
               ),
             ),
       ),
@@ -101,9 +102,9 @@ export class RecordingsPanel {
   private count({ id, created, duration, frames, bytes, lost }: Recording): void {
     const line = this.running.get(id);
     if (!line) return;
-    const since = new Date(created).toLocaleTimeString('en-US', { timeStyle: 'short' });
-    const words = [`since ${since}`, `${(duration / 1000).toFixed(0)} s`, `${formatCount(frames)} frames`, formatBytes(bytes)];
-    if (lost > 0) words.push(`${formatCount(lost)} lost`);
+    const since = new Date(created).toLocaleTimeString(language, { timeStyle: 'short' });
+    const words = [t('since {since}', { since }), `${(duration / 1000).toFixed(0)} s`, t('{frames} frames', { frames: formatCount(frames) }), formatBytes(bytes)];
+    if (lost > 0) words.push(t('{lost} lost', { lost: formatCount(lost) }));
     setText(line, words.join(' · '));
   }
 
@@ -120,7 +121,7 @@ export class RecordingsPanel {
         h(
           'div',
           { class: 'grow recording-words' },
-          h('strong', {}, `Recording ${this.live.titleOf(recording.stream)}`),
+          h('strong', {}, t('Recording {stream}', { stream: this.live.titleOf(recording.stream) })),
           facts,
         ),
         h(
@@ -128,12 +129,12 @@ export class RecordingsPanel {
           {
             type: 'button',
             'data-focus': 'record',
-            'aria-label': `Stop recording ${this.live.titleOf(recording.stream)}`,
+            'aria-label': t('Stop recording {stream}', { stream: this.live.titleOf(recording.stream) }),
             disabled: busy,
             on: { click: () => void this.model.stop(recording) },
           },
           icon('stop', 15),
-          'Stop',
+          t('Stop'),
         ),
       );
     };
@@ -153,10 +154,10 @@ export class RecordingsPanel {
               on: { click: () => void this.model.record() },
             },
             h('span', { class: 'lamp lamp-record' }),
-            'Record',
+            t('Record'),
           ),
       running.length === 0 && this.model.stream.value === ''
-        ? h('p', { class: 'muted small' }, 'Choose one stream to record it.')
+        ? h('p', { class: 'muted small' }, t('Choose one stream to record it.'))
         : null,
     );
   }
@@ -171,13 +172,13 @@ export class RecordingsPanel {
           'li',
           { class: 'notice error', role: 'alert' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, 'Retrying every few seconds.')),
+          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;
     }
-    if (model.recordings.value === null) return replace(this.list, h('li', {}, progressBar({ title: 'Loading recordings', progress: null })));
-    if (recordings.length === 0) return replace(this.list, h('li', { class: 'empty' }, 'Nothing recorded yet.'));
+    if (model.recordings.value === null) return replace(this.list, h('li', {}, progressBar({ title: t('Loading recordings'), progress: null })));
+    if (recordings.length === 0) return replace(this.list, h('li', { class: 'empty' }, t('Nothing recorded yet.')));
     const look = model.look.value;
     replace(
       this.list,
@@ -210,9 +211,9 @@ export class RecordingsPanel {
     const held = await this.model.play(recording, false);
     if (held === null) return;
     const yes = await ask({
-      title: `Take ${this.live.titleOf(this.model.target.value)} over?`,
+      title: t('Take {value} over?', { value: this.live.titleOf(this.model.target.value) }),
       text: `${capital(held)}.`,
-      accept: 'Take over',
+      accept: t('Take over'),
       danger: true,
     });
     if (yes !== null) await this.model.play(recording, true);
@@ -220,9 +221,9 @@ export class RecordingsPanel {
 
   private async remove(recording: Recording): Promise<void> {
     const yes = await ask({
-      title: `Delete ${recording.name}?`,
-      text: 'It is permanently removed from the server.',
-      accept: 'Delete',
+      title: t('Delete {name}?', { name: recording.name }),
+      text: t('It is permanently removed from the server.'),
+      accept: t('Delete'),
       danger: true,
     });
     if (yes !== null) await this.model.remove(recording);

@@ -1,4 +1,5 @@
 import { h, type Child } from './dom.ts';
+import { t } from '../../words/words.ts';
 
 interface Question {
   title: string;
@@ -20,7 +21,7 @@ export async function ask(question: Question): Promise<string | null> {
   const accepted = await openDialog(
     question,
     question.text ? h('p', {}, question.text) : null,
-    input ? [h('label', { for: 'dialog-value' }, question.label ?? 'Name'), input] : null,
+    input ? [h('label', { for: 'dialog-value' }, question.label ?? t('Name')), input] : null,
   );
   return accepted ? (input?.value.trim() ?? '') : null;
 }
@@ -30,7 +31,7 @@ export async function openDialog(
   words: Pick<Question, 'title' | 'accept' | 'danger'>,
   ...content: Child[]
 ): Promise<boolean> {
-  const cancel = h('button', { type: 'button', on: { click: () => dialog.close('') } }, 'Cancel');
+  const cancel = h('button', { type: 'button', on: { click: () => dialog.close('') } }, t('Cancel'));
   const accept = h('button', { type: 'submit', value: 'yes', class: words.danger ? 'danger' : 'primary' }, words.accept);
   const dialog = showDialog(words.title, content, [cancel, accept]);
   dialog.querySelector<HTMLInputElement>('input[type="text"]')?.select();

@@ -1,6 +1,7 @@
 import type { FindingCounts } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { badgeOf, countWords } from './finding_words.ts';
+import { t } from '../../words/words.ts';
 
 /** The number of findings in the colour of the worst one; null when there are none. */
 export function findingBadge(counts: FindingCounts | null | undefined): HTMLElement | null {
@@ -11,6 +12,6 @@ export function findingBadge(counts: FindingCounts | null | undefined): HTMLElem
     'span',
     { class: `finding-badge ${badge.severity}`, title: words },
     h('span', { 'aria-hidden': 'true' }, badge.count),
-    h('span', { class: 'visually-hidden' }, `fit doctor: ${words}`),
+    h('span', { class: 'visually-hidden' }, t('fit doctor: {words}', { words })),
   );
 }

@@ -1,32 +1,36 @@
 import type { Finding, FindingCounts, Severity } from '../../net/types.ts';
 import { capital } from './names.ts';
+import { nameOf, t } from '../../words/words.ts';
 
-export const severities: readonly { severity: Severity; one: string; many: string }[] = [
-  { severity: 'error', one: 'error', many: 'errors' },
-  { severity: 'warning', one: 'warning', many: 'warnings' },
-  { severity: 'note', one: 'note', many: 'notes' },
-];
+export const severities: readonly Severity[] = ['error', 'warning', 'note'];
+
+/** "2 errors". */
+export function severityCount(severity: Severity, count: number): string {
+  if (severity === 'error') return count === 1 ? t('1 error') : t('{count} errors', { count });
+  if (severity === 'warning') return count === 1 ? t('1 warning') : t('{count} warnings', { count });
+  return count === 1 ? t('1 note') : t('{count} notes', { count });
+}
 
 /** The meaning of each severity, as shown in the panel. */
 export const severityMeanings: Record<Severity, string> = {
-  error: 'moves wrongly, or not at all',
-  warning: 'looks worse than it could',
-  note: 'worth knowing',
+  error: t('moves wrongly, or not at all'),
+  warning: t('looks worse than it could'),
+  note: t('worth knowing'),
 };
 
 const titles: Record<string, string> = {
-  'non-manifold-edges': 'Edges of more than two triangles',
-  'no-points': 'No points yet',
-  'left-right-swapped': 'Left and right exchanged',
-  'unit-not-positive': 'A unit of zero',
-  'unit-implausible': 'An implausible unit',
-  'unit-by-hand': 'A unit set by hand',
-  'point-on-other-rim': 'A point on the other lip or lid',
+  'non-manifold-edges': t('Edges of more than two triangles'),
+  'no-points': t('No points yet'),
+  'left-right-swapped': t('Left and right exchanged'),
+  'unit-not-positive': t('A unit of zero'),
+  'unit-implausible': t('An implausible unit'),
+  'unit-by-hand': t('A unit set by hand'),
+  'point-on-other-rim': t('A point on the other lip or lid'),
 };
 
 /** "lips-joined" -> "Lips joined". */
 export const findingTitle = (finding: Finding): string =>
-  titles[finding.code] ?? capital(finding.code.replaceAll('-', ' '));
+  titles[finding.code] ?? nameOf(capital(finding.code.replaceAll('-', ' ')));
 
 /** Adds capital and full stop; the report's sentences have neither, so that they can be joined. */
 export const sentence = (text: string): string => (text === '' ? '' : capital(text) + (/[.!?]$/.test(text) ? '' : '.'));
@@ -35,8 +39,8 @@ export const sentence = (text: string): string => (text === '' ? '' : capital(te
 export function countWords(counts: FindingCounts): string {
   const numbers = { error: counts.errors, warning: counts.warnings, note: counts.notes };
   return severities
-    .filter(({ severity }) => numbers[severity] > 0)
-    .map(({ severity, one, many }) => `${numbers[severity]} ${numbers[severity] === 1 ? one : many}`)
+    .filter((severity) => numbers[severity] > 0)
+    .map((severity) => severityCount(severity, numbers[severity]))
     .join(', ');
 }
 

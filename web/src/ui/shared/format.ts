@@ -1,3 +1,5 @@
+import { language } from '../../words/words.ts';
+
 /** 1234567 -> "1.2 MB"; decimal units, as file managers show them. */
 export function formatBytes(bytes: number): string {
   if (bytes < 1000) return `${Math.round(bytes)} B`;
@@ -8,17 +10,17 @@ export function formatBytes(bytes: number): string {
     value /= 1000;
     unit += 1;
   }
-  return `${value < 9.95 ? value.toFixed(1) : Math.round(value)} ${units[unit]}`;
+  return `${value < 9.95 ? value.toLocaleString(language, { minimumFractionDigits: 1, maximumFractionDigits: 1 }) : Math.round(value)} ${units[unit]}`;
 }
 
 export function formatCount(count: number): string {
-  return count.toLocaleString('en-US');
+  return count.toLocaleString(language);
 }
 
 /** 83400 ms -> "1:23.4". */
 export function formatTime(ms: number): string {
   const tenths = Math.max(0, Math.floor(ms / 100));
   const minutes = Math.floor(tenths / 600);
-  const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
-  return `${minutes}:${rest}`;
+  const tenth = { minimumIntegerDigits: 2, minimumFractionDigits: 1, maximumFractionDigits: 1 };
+  return `${minutes}:${((tenths % 600) / 10).toLocaleString(language, tenth)}`;
 }

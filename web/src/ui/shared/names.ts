@@ -1,3 +1,5 @@
+import { nameOf, t } from '../../words/words.ts';
+
 /** The standard's names as readable titles. */
 
 const words: Record<string, string> = {
@@ -13,51 +15,51 @@ const words: Record<string, string> = {
 };
 const joined: Record<string, string> = { midlip: 'lip middle', cornerlip: 'lip corner', cornerlips: 'lip corners' };
 
-/** "stretch_l_cornerlip_o" -> "Stretch left lip corner"; the title of the group names the outer contour. */
+/** "stretch_l_cornerlip_o" -> "Stretch left lip corner", in the language of the page; the title of the group names the outer contour. */
 export function fapTitle(name: string, group: number): string {
   const parts = name.split('_').filter((part, i, all) => !(part === 'o' && group === 8 && i === all.length - 1));
   const text = parts.map((part) => words[part] ?? joined[part] ?? part).join(' ');
-  return capital(text);
+  return nameOf(capital(text));
 }
 
 export const fapGroupTitles: Record<number, string> = {
-  2: 'Jaw and inner lips',
-  3: 'Eyes',
-  4: 'Eyebrows',
-  5: 'Cheeks',
-  6: 'Tongue',
-  7: 'Head',
-  8: 'Outer lips',
-  9: 'Nose',
-  10: 'Ears',
+  2: t('Jaw and inner lips'),
+  3: t('Eyes'),
+  4: t('Eyebrows'),
+  5: t('Cheeks'),
+  6: t('Tongue'),
+  7: t('Head'),
+  8: t('Outer lips'),
+  9: t('Nose'),
+  10: t('Ears'),
 };
 
 export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 export const roleTitles: Record<string, string> = {
-  skin: 'Skin',
-  left_eye: 'Left eye',
-  right_eye: 'Right eye',
-  upper_teeth: 'Upper teeth',
-  lower_teeth: 'Lower teeth',
-  tongue: 'Tongue',
-  attached: 'Attached',
-  rest: 'Rest',
-  body: 'Body',
+  skin: t('Skin'),
+  left_eye: t('Left eye'),
+  right_eye: t('Right eye'),
+  upper_teeth: t('Upper teeth'),
+  lower_teeth: t('Lower teeth'),
+  tongue: t('Tongue'),
+  attached: t('Attached'),
+  rest: t('Rest'),
+  body: t('Body'),
 };
 
 export const stageTitles: Record<string, string> = {
-  read: 'Reading the file',
-  import: 'Reading the file',
-  surface: 'Joining seams',
-  proposals: 'Proposing points',
-  report: 'Checking the fit',
-  distances: 'Measuring distances',
-  regions: 'Finding regions',
-  weights: 'Computing weights',
-  encode: 'Packing the face',
-  package: 'Packing the face',
-  store: 'Saving',
+  read: t('Reading the file'),
+  import: t('Reading the file'),
+  surface: t('Joining seams'),
+  proposals: t('Proposing points'),
+  report: t('Checking the fit'),
+  distances: t('Measuring distances'),
+  regions: t('Finding regions'),
+  weights: t('Computing weights'),
+  encode: t('Packing the face'),
+  package: t('Packing the face'),
+  store: t('Saving'),
 };
 
 export const stageTitle = (stage: string): string => stageTitles[stage] ?? capital(stage.replaceAll(/[_-]/g, ' '));

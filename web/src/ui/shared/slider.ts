@@ -1,4 +1,5 @@
 import { h } from './dom.ts';
+import { t } from '../../words/words.ts';
 
 export interface SliderOptions {
   label: string;
@@ -33,7 +34,7 @@ export class Slider {
       min,
       max,
       step,
-      'aria-label': `${label}, value`,
+      'aria-label': t('{label}, value', { label }),
       on: { change: () => this.take(Number(this.number.value) || 0) },
     });
     this.element = h(

@@ -5,6 +5,7 @@ import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, 
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
+import { t } from '../../words/words.ts';
 
 export type Tab = 'heads' | 'fit' | 'points' | 'animate' | 'live';
 
@@ -73,50 +74,50 @@ export class Studio {
     const key = `upload-${this.uploads}`;
     const abort = new AbortController();
     const show = (fraction: number): void =>
-      this.setActivity(key, { title: `Sending ${file.name}`, progress: fraction, cancel: () => abort.abort() });
+      this.setActivity(key, { title: t('Sending {name}', { name: file.name }), progress: fraction, cancel: () => abort.abort() });
     show(0);
     try {
       const { model, job } = await this.api.uploadModel(file, show, abort.signal);
       this.replaceModel(model);
       this.setActivity(key, null);
       this.select(model.id);
-      await this.follow(model.id, job, 'Reading the file');
+      await this.follow(model.id, job, t('Reading the file'));
       const finished = await this.reload(model.id);
       if (finished?.state === 'failed' && finished.problem)
-        this.toasts.problem(`${file.name} could not be read`, finished.problem);
+        this.toasts.problem(t('{name} could not be read', { name: file.name }), finished.problem);
     } catch (error) {
       if (!(error instanceof DOMException && error.name === 'AbortError'))
-        this.toasts.problem(`${file.name} was not accepted`, problemOf(error));
+        this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error));
     } finally {
       this.setActivity(key, null);
     }
   }
 
   async rename(model: Model, name: string): Promise<void> {
-    await this.attempt('The head was not renamed', async () =>
+    await this.attempt(t('The head was not renamed'), async () =>
       this.replaceModel(await this.api.renameModel(model.id, name)),
     );
   }
 
   async setRole(model: Model, part: number, role: PartRole | null): Promise<boolean> {
-    return this.attempt('The role was not changed', async () =>
+    return this.attempt(t('The role was not changed'), async () =>
       this.replaceModel(await this.api.setRoles(model.id, { [part]: role })),
     );
   }
 
   /** Sets the unit or the axes of a head; a change of axes imports its file again. */
   async setFrame(model: Model, wish: FrameWish): Promise<void> {
-    await this.attempt('Unit and axes were not changed', async () => {
+    await this.attempt(t('Unit and axes were not changed'), async () => {
       const { model: now, job } = await this.api.setFrame(model.id, wish);
       this.replaceModel(now);
       if (!job) return;
-      await this.follow(model.id, job, 'Rotating the head');
+      await this.follow(model.id, job, t('Rotating the head'));
       await this.reload(model.id);
     });
   }
 
   async remove(model: Model): Promise<void> {
-    await this.attempt('The head was not deleted', async () => {
+    await this.attempt(t('The head was not deleted'), async () => {
       await this.api.deleteModel(model.id);
       this.onRemoved(model.id);
       this.models.set(this.models.value.filter((m) => m.id !== model.id));
@@ -125,26 +126,26 @@ export class Studio {
         if (next) this.select(next.id);
         else this.selected.set(null);
       }
-      this.toasts.say(`${model.name} was deleted.`);
+      this.toasts.say(t('{name} was deleted.', { name: model.name }));
     });
   }
 
   /** Computes weights and package. Resolves with whether the job succeeded; throws ApiError when points are refused. */
   async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
     const job = await this.api.parametrize(model.id, options);
-    const last = await this.follow(model.id, job, 'Parametrizing');
+    const last = await this.follow(model.id, job, t('Parametrizing'));
     await this.reload(model.id);
     if (last.state === 'failed')
-      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The parametrization failed', status: 500 });
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The parametrization failed'), status: 500 });
     return last.state === 'done';
   }
 
   /** Proposes missing feature points. Resolves with the result, or null when cancelled; throws ApiError. */
   async propose(model: Model, etag: string | null): Promise<ProposalsResult | null> {
     const job = await this.api.proposePoints(model.id, etag);
-    const last = await this.follow(model.id, job, 'Proposing points');
+    const last = await this.follow(model.id, job, t('Proposing points'));
     if (last.state === 'failed')
-      throw new ApiError(last.problem ?? { type: 'about:blank', title: 'The proposals failed', status: 500 });
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The proposals failed'), status: 500 });
     return last.state === 'done' && last.result !== null && 'proposed' in last.result ? last.result : null;
   }
 
@@ -154,7 +155,7 @@ export class Studio {
       this.replaceModel(model);
       return model;
     } catch (error) {
-      this.toasts.problem('The head could not be read again', problemOf(error));
+      this.toasts.problem(t('The head could not be read again'), problemOf(error));
       return null;
     }
   }
@@ -172,7 +173,7 @@ export class Studio {
 
   /** Follows a job of a model to its end and shows it as the model's activity. */
   private async follow(model: string, job: Job, title: string): Promise<Job> {
-    const cancel = (): void => void this.attempt('The job was not cancelled', () => this.api.cancelJob(job.id));
+    const cancel = (): void => void this.attempt(t('The job was not cancelled'), () => this.api.cancelJob(job.id));
     try {
       return await followJob(this.api, job, (now) =>
         this.setActivity(model, {
@@ -187,7 +188,7 @@ export class Studio {
   }
 
   private async waitForImport(id: string): Promise<void> {
-    this.setActivity(id, { title: 'Reading the file', progress: null });
+    this.setActivity(id, { title: t('Reading the file'), progress: null });
     for (;;) {
       await new Promise((wake) => setTimeout(wake, 700));
       const model = await this.reload(id);

@@ -2,6 +2,7 @@ import { adviceFor } from '../../net/problem.ts';
 import type { Problem } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { icon } from './icons.ts';
+import { t } from '../../words/words.ts';
 
 export interface ToastAction {
   label: string;
@@ -10,7 +11,7 @@ export interface ToastAction {
 
 /** Temporary messages at the bottom of the page. Errors stay until closed. */
 export class Toasts {
-  readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': 'Messages', 'aria-live': 'polite' });
+  readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': t('Messages'), 'aria-live': 'polite' });
 
   /** `action`: what a button beside the text does; there is more time for it. */
   say(text: string, action?: ToastAction): void {
@@ -52,7 +53,7 @@ export class Toasts {
       toast.append(
         h(
           'button',
-          { class: 'quiet square', 'aria-label': 'Close message', on: { click: () => toast.remove() } },
+          { class: 'quiet square', 'aria-label': t('Close message'), on: { click: () => toast.remove() } },
           icon('close', 16),
         ),
       );

@@ -14,6 +14,7 @@ import { PreviewView } from '../../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../../view/quality.ts';
 import { Stage } from '../../view/stage.ts';
 import { Signal } from '../shared/signal.ts';
+import { t } from '../../words/words.ts';
 
 export type SceneState =
   { kind: 'empty' } | { kind: 'loading'; title: string } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
@@ -89,18 +90,18 @@ export class SceneView {
     }
     if (model.state === 'importing') {
       if (!sameModel) this.clear();
-      this.state.set({ kind: 'loading', title: 'Reading the file' });
+      this.state.set({ kind: 'loading', title: t('Reading the file') });
       return;
     }
     if (model.state === 'failed') {
       this.clear();
       this.state.set({
         kind: 'failed',
-        problem: model.problem ?? { type: 'about:blank', title: 'The file could not be read', status: 422 },
+        problem: model.problem ?? { type: 'about:blank', title: t('The file could not be read'), status: 422 },
       });
       return;
     }
-    this.state.set({ kind: 'loading', title: 'Opening the head' });
+    this.state.set({ kind: 'loading', title: t('Opening the head') });
     try {
       const parts = {
         preview: this.openPreview(model, opening.signal),

@@ -7,6 +7,7 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
+import { t } from '../../words/words.ts';
 
 /** Thickness of the lines, as a share of the longest unit. */
 const thickness = 0.014;
@@ -47,8 +48,8 @@ export class UnitsPanel {
         h(
           'span',
           { class: 'grow' },
-          h('strong', {}, 'Units'),
-          h('small', { class: 'muted' }, 'The lengths (FAPU) by which this face scales all motion.'),
+          h('strong', {}, t('Units')),
+          h('small', { class: 'muted' }, t('The lengths (FAPU) by which this face scales all motion.')),
         ),
         box,
       ),
@@ -96,7 +97,7 @@ export class UnitsPanel {
           ? h(
               'div',
               { class: 'row units-note', role: 'status' },
-              h('span', { class: 'grow small' }, 'The face moves by the old units until it is parametrized again.'),
+              h('span', { class: 'grow small' }, t('The face moves by the old units until it is parametrized again.')),
               h(
                 'button',
                 {
@@ -106,7 +107,7 @@ export class UnitsPanel {
                   'data-focus': 'units-go',
                   on: { click: () => void this.parametrizer.run() },
                 },
-                'Parametrize again',
+                t('Parametrize again'),
               ),
             )
           : null,
@@ -124,7 +125,7 @@ export class UnitsPanel {
       min: 0,
       id: `unit-${unit}`,
       value: value === null ? '' : lengthWords(value),
-      placeholder: 'not measured',
+      placeholder: t('not measured'),
       disabled: busy,
       'data-focus': `unit-${unit}`,
       on: { change: () => this.set(unit, input) },
@@ -142,12 +143,12 @@ export class UnitsPanel {
               type: 'button',
               class: 'quiet small unit-origin',
               disabled: busy,
-              title: `Measure ${unit} between its points again`,
+              title: t('Measure {unit} between its points again', { unit }),
               'data-focus': `reset-${unit}`,
               on: { click: () => void this.release(unit) },
             },
             icon('reset', 14),
-            'by hand',
+            t('by hand'),
           ),
     );
   }
@@ -155,7 +156,7 @@ export class UnitsPanel {
   private set(unit: UnitLine['unit'], input: HTMLInputElement): void {
     const length = Number(input.value);
     if (input.value.trim() === '' || !(length > 0)) {
-      this.studio.toasts.say(`${unit} is a length: a number above zero, in the units of the model.`);
+      this.studio.toasts.say(t('{unit} is a length: a number above zero, in the units of the model.', { unit }));
       this.draw();
       return;
     }
@@ -182,9 +183,9 @@ export class UnitsPanel {
 }
 
 const shortMeanings: Record<UnitLine['unit'], string> = {
-  IRISD: 'iris, or lid to lid',
-  ES: 'eye to eye',
-  ENS: 'eyes to nose',
-  MNS: 'nose to mouth',
-  MW: 'mouth width',
+  IRISD: t('iris, or lid to lid'),
+  ES: t('eye to eye'),
+  ENS: t('eyes to nose'),
+  MNS: t('nose to mouth'),
+  MW: t('mouth width'),
 };

@@ -1,0 +1,57 @@
+import type { portuguese } from './portuguese.ts';
+
+/** Every text of the studio, in English, as the tables of the other languages list them. */
+export type Text = keyof typeof portuguese;
+
+export const languages = { en: 'English', 'pt-BR': 'Português' } as const;
+export type Language = keyof typeof languages;
+
+const key = 'semblante.language';
+
+/** The language of the page, for texts, numbers and dates; it changes only with the page. */
+export const language = chosenLanguage() ?? languageOf(globalThis.navigator?.languages ?? []);
+
+// A table is loaded only for its language.
+const table: Readonly<Record<Text, string>> | null =
+  language === 'pt-BR' ? (await import('./portuguese.ts')).portuguese : null;
+const names = language === 'pt-BR' ? (await import('./portuguese_names.ts')).portugueseNames : null;
+
+/** A text in the language of the page, with its `{names}` replaced by values. */
+export function t(text: Text, values: Readonly<Record<string, string | number>> = {}): string {
+  return (table?.[text] ?? text).replace(/\{(\w+)\}/g, (whole, name: string) => shown(values[name] ?? whole));
+}
+
+/** Numbers with the language's decimal sign; who wants digits in groups says so (`formatCount`). */
+const shown = (value: string | number): string =>
+  typeof value === 'number' ? value.toLocaleString(language, { useGrouping: false, maximumFractionDigits: 20 }) : value;
+
+/** A name of the standard's tables, or the title of a finding, in the language of the page. */
+export const nameOf = (english: string): string => names?.[english] ?? english;
+
+/** The first language of a browser's list that the studio has, else English. */
+export function languageOf(wanted: readonly string[]): Language {
+  for (const name of wanted) {
+    if (/^pt\b/i.test(name)) return 'pt-BR';
+    if (/^en\b/i.test(name)) return 'en';
+  }
+  return 'en';
+}
+
+/** Stores a language for this browser and opens the page again in it. */
+export function changeLanguage(to: Language): void {
+  try {
+    localStorage.setItem(key, to);
+  } catch {
+    return; // storage is forbidden, and the page would forget the choice
+  }
+  location.reload();
+}
+
+function chosenLanguage(): Language | null {
+  try {
+    const kept = globalThis.localStorage?.getItem(key) ?? '';
+    return kept in languages ? (kept as Language) : null;
+  } catch {
+    return null;
+  }
+}

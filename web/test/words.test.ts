@@ -1,0 +1,108 @@
+import { readdirSync, readFileSync } from 'node:fs';
+import { join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import ts from 'typescript';
+import { expressions, faps, featurePoints } from '@protocol/generated/mpeg4.ts';
+import { expect, test } from 'vitest';
+import { capital, fapTitle } from '../src/ui/shared/names.ts';
+import { portuguese } from '../src/words/portuguese.ts';
+import { portugueseNames } from '../src/words/portuguese_names.ts';
+import { languageOf, t } from '../src/words/words.ts';
+
+const source = fileURLToPath(new URL('../src', import.meta.url));
+const files = (readdirSync(source, { recursive: true, encoding: 'utf8' }) as string[])
+  .filter((name) => name.endsWith('.ts') && !/generated|^words/.test(name))
+  .map((name) => join(source, name));
+
+/** Folders whose strings are addresses, methods, drawings and programs for the graphics card. */
+const withoutTexts = /^(face\/(?!feature_points|quick_set)|net\/(?!live|problem|http|upload)|view\/|main\.ts|ui\/(page\/inspect|shared\/icons|animate\/expression_face))/;
+/** Parts of the standard's names, commands and names of protocols, which are the same in every language. */
+const notTexts = new Set(['Semblante', 'left of middle', 'right of middle', 'lip middle', 'lip corner', 'lip corners', 'semblante token create', 'ApiError', 'Content-Type']);
+const silentProperties = new Set(['class', 'type', 'role', 'id', 'method', 'autocomplete']);
+const silentCalls = /(querySelector(All)?|closest|addEventListener|classList\.\w+|getAttribute|includes|replaceAll|split|join|matchMedia|heatGradient|svg|Error|DOMException)$/;
+
+const looksLikeText = (text: string): boolean =>
+  /\p{L}{3}/u.test(text) && (/^[“"(]?[A-Z][a-z ]/.test(text) || /[a-z,:.] [a-z{]/.test(text));
+
+/** The English of a literal, with `{}` for what is filled in; null for other nodes. */
+function literal(node: ts.Node): string | null {
+  if (ts.isStringLiteral(node) || ts.isNoSubstitutionTemplateLiteral(node)) return node.text;
+  if (!ts.isTemplateExpression(node)) return null;
+  return node.head.text + node.templateSpans.map((span) => `{}${span.literal.text}`).join('');
+}
+
+/** Whether a literal is no text because of where it stands. */
+function isSilent(node: ts.Node): boolean {
+  const { parent } = node;
+  if (ts.isLiteralTypeNode(parent) || ts.isImportDeclaration(parent) || ts.isExportDeclaration(parent)) return true;
+  if (ts.isElementAccessExpression(parent) || ts.isCaseClause(parent)) return true;
+  if (ts.isPropertyAssignment(parent) && parent.name === node) return true;
+  if (ts.isBinaryExpression(parent) && /^[!=]==$/.test(parent.operatorToken.getText())) return true;
+  for (let at = node; at.parent; at = at.parent) {
+    const above = at.parent;
+    if (ts.isPropertyAssignment(above)) {
+      const name = above.name.getText().replaceAll("'", '');
+      return silentProperties.has(name) || name.startsWith('data-') || /^[A-Z]/.test(name);
+    }
+    if ((ts.isCallExpression(above) || ts.isNewExpression(above)) && above.arguments?.includes(at as ts.Expression)) {
+      const name = above.expression.getText();
+      return name === 't' || name === 'nameOf' || silentCalls.test(name) || (name.endsWith('headers.get') || name.endsWith('setRequestHeader') || name.endsWith('getResponseHeader'));
+    }
+    if (ts.isBlock(above)) return false;
+  }
+  return false;
+}
+
+function findings(): { outside: string[]; used: Set<string> } {
+  const outside: string[] = [];
+  const used = new Set<string>();
+  for (const file of files) {
+    const code = ts.createSourceFile(file, readFileSync(file, 'utf8'), ts.ScriptTarget.Latest, true);
+    const name = relative(source, file);
+    const visit = (node: ts.Node): void => {
+      const text = literal(node);
+      if (text !== null && ts.isCallExpression(node.parent) && node.parent.expression.getText() === 't') used.add(text);
+      else if (text !== null && !withoutTexts.test(name) && looksLikeText(text) && !notTexts.has(text) && !isSilent(node))
+        outside.push(`${name}:${code.getLineAndCharacterOfPosition(node.getStart()).line + 1}: ${text}`);
+      if (text === null || ts.isTemplateExpression(node)) ts.forEachChild(node, visit);
+    };
+    visit(code);
+  }
+  return { outside, used };
+}
+
+const found = findings();
+
+test('Words_StringsOfThePage_AreAllInTheTables', () => expect(found.outside).toEqual([]));
+
+test('Words_TextsOfTheTables_AreAllUsed', () =>
+  expect(Object.keys(portuguese).filter((text) => !found.used.has(text))).toEqual([]));
+
+test('Words_Translation_FillsInTheSameValues', () => {
+  const values = (text: string): string[] => (text.match(/\{\w+\}/g) ?? []).sort();
+  for (const [english, text] of Object.entries(portuguese)) {
+    expect(values(text), english).toEqual(values(english));
+    expect([text.startsWith(' '), text.endsWith(' ')], english).toEqual([english.startsWith(' '), english.endsWith(' ')]);
+  }
+});
+
+test('Words_NamesOfTheStandard_AllHaveATranslation', () => {
+  const names = [
+    ...featurePoints.map(({ name }) => name),
+    ...faps.map(({ name, group }) => fapTitle(name, group)),
+    ...expressions.slice(1).flatMap(({ name, description }) => [capital(name), description]),
+  ];
+  expect(names.filter((name) => portugueseNames[name] === undefined)).toEqual([]);
+});
+
+test('Words_Values_AreFilledIn', () => {
+  expect(t('Point {step} of {count}', { step: 3, count: 20 })).toBe('Point 3 of 20');
+  expect(t('{name} was deleted.', { name: '{name} $&' })).toBe('{name} $& was deleted.');
+});
+
+test('Words_LanguagesOfABrowser_FirstKnownOneIsTaken', () => {
+  expect(languageOf(['de-DE', 'pt-PT', 'en'])).toBe('pt-BR');
+  expect(languageOf(['en-GB', 'pt-BR'])).toBe('en');
+  expect(languageOf(['fr', 'ptx'])).toBe('en');
+  expect(languageOf([])).toBe('en');
+});
