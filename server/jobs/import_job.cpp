@@ -12,6 +12,7 @@
 #include "server/jobs/result_files.h"
 #include "server/store/frame_json.h"
 #include "server/store/record_json.h"
+#include "server/store/whole_number.h"
 
 namespace semblante::jobs {
 
@@ -104,8 +105,8 @@ void to_json(nlohmann::json& json, const ImportJob::Outcome& outcome) {
 
 void from_json(const nlohmann::json& json, ImportJob::Outcome& outcome) {
   json.at("format").get_to(outcome.format);
-  json.at("vertices").get_to(outcome.vertices);
-  json.at("triangles").get_to(outcome.triangles);
+  store::get_whole(json.at("vertices"), outcome.vertices);
+  store::get_whole(json.at("triangles"), outcome.triangles);
   json.at("min").get_to(outcome.box_min);
   json.at("max").get_to(outcome.box_max);
   json.at("parts").get_to(outcome.parts);
@@ -113,7 +114,7 @@ void from_json(const nlohmann::json& json, ImportJob::Outcome& outcome) {
   json.at("findings").get_to(outcome.findings);
   outcome.frame = store::frame_from_json(json.at("frame"));
   json.at("morph_targets").get_to(outcome.morph_targets);
-  json.at("part_count").get_to(outcome.part_count);
+  store::get_whole(json.at("part_count"), outcome.part_count);
   if (json.contains("turn")) outcome.turn = json["turn"].get<store::Turn>();
 }
 

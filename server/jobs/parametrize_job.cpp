@@ -18,6 +18,7 @@
 #include "server/report/levels_json.h"
 #include "server/store/frame_json.h"
 #include "server/store/record_json.h"
+#include "server/store/whole_number.h"
 
 namespace semblante::jobs {
 namespace {
@@ -134,9 +135,10 @@ void to_json(nlohmann::json& json, const ParametrizeJob& job) {
 void from_json(const nlohmann::json& json, ParametrizeJob& job) {
   json.at("metric").get_to(job.metric);
   json.at("weights").get_to(job.weights);
-  json.at("weight_bits").get_to(job.weight_bits);
+  store::get_whole(json.at("weight_bits"), job.weight_bits);
   if (json.contains("articulation")) job.articulation = json["articulation"].get<double>();
-  json.at("lods").get_to(job.lods);
+  job.lods.clear();
+  for (const auto& budget : json.at("lods")) job.lods.push_back(store::whole_number<std::uint32_t>(budget));
   job.expressions = json.value("expressions", "library");
 }
 

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/whole_number.h"
+
 namespace semblante::store {
 
 void to_json(nlohmann::json& json, const PartRecord& part) {
@@ -14,11 +16,11 @@ void from_json(const nlohmann::json& json, PartRecord& part) {
   json.at("name").get_to(part.name);
   json.at("role").get_to(part.role);
   json.at("by_user").get_to(part.role_by_user);
-  json.at("vertices").get_to(part.vertices);
-  json.at("triangles").get_to(part.triangles);
+  get_whole(json.at("vertices"), part.vertices);
+  get_whole(json.at("triangles"), part.triangles);
   json.at("min").get_to(part.box_min);
   json.at("max").get_to(part.box_max);
-  part.index = json.value("index", part.index);
+  if (json.contains("index")) get_whole(json["index"], part.index);
 }
 
 void to_json(nlohmann::json& json, const MorphTargetRecord& target) {
@@ -26,7 +28,7 @@ void to_json(nlohmann::json& json, const MorphTargetRecord& target) {
 }
 
 void from_json(const nlohmann::json& json, MorphTargetRecord& target) {
-  target = {json.at("name"), json.at("vertices")};
+  target = {json.at("name"), whole_number<std::uint32_t>(json.at("vertices"))};
 }
 
 void to_json(nlohmann::json& json, const FindingCounts& counts) {
@@ -34,9 +36,9 @@ void to_json(nlohmann::json& json, const FindingCounts& counts) {
 }
 
 void from_json(const nlohmann::json& json, FindingCounts& counts) {
-  json.at("errors").get_to(counts.errors);
-  json.at("warnings").get_to(counts.warnings);
-  json.at("notes").get_to(counts.notes);
+  get_whole(json.at("errors"), counts.errors);
+  get_whole(json.at("warnings"), counts.warnings);
+  get_whole(json.at("notes"), counts.notes);
 }
 
 void to_json(nlohmann::json& json, const LevelRecord& level) {
@@ -44,8 +46,8 @@ void to_json(nlohmann::json& json, const LevelRecord& level) {
 }
 
 void from_json(const nlohmann::json& json, LevelRecord& level) {
-  json.at("vertices").get_to(level.vertices);
-  json.at("triangles").get_to(level.triangles);
+  get_whole(json.at("vertices"), level.vertices);
+  get_whole(json.at("triangles"), level.triangles);
 }
 
 void to_json(nlohmann::json& json, const ProposalRecord& proposal) {
@@ -70,7 +72,7 @@ void to_json(nlohmann::json& json, const FeaturePointRecord& point) {
 
 void from_json(const nlohmann::json& json, FeaturePointRecord& point) {
   json.at("id").get_to(point.id);
-  if (json.contains("vertex")) point.vertex = json["vertex"].get<std::uint32_t>();
+  if (json.contains("vertex")) point.vertex = whole_number<std::uint32_t>(json["vertex"]);
   if (json.contains("position")) point.position = json["position"].get<std::array<double, 3>>();
   if (json.contains("proposal")) point.proposal = json["proposal"].get<ProposalRecord>();
 }

@@ -209,6 +209,25 @@ TEST(WorkerProtocol, ProgressAndProblem_ComeBackAsTheyWere) {
   EXPECT_EQ(problem.detail, "too long");
 }
 
+/// nlohmann's own conversion of these is undefined, and the program may do anything.
+TEST(WorkerProtocol, NumbersThatTheMemberHasNot_AreRefused) {
+  const auto with = [](std::string text, const std::string& member, const std::string& number) {
+    const auto at = text.find('"' + member + "\":") + member.size() + 3;
+    return text.replace(at, text.find_first_of(",}]", at) - at, number);
+  };
+  const auto line = to_json_line(WorkerResult{example<ImportJob::Outcome>(), {}});
+  for (const char* member : {"vertices", "triangles", "part_count", "errors", "index"}) {
+    EXPECT_TRUE(worker_line_from_json(with(line, member, "4294967295"))) << member;
+    for (const char* number : {"4294967296", "1e40", "-1.5", "-1", "2.5", "null", "\"7\""})
+      EXPECT_FALSE(worker_line_from_json(with(line, member, number))) << member << number;
+  }
+  const auto request = to_json(WorkerRequest{"/out", example<ParametrizeJob::Request>()});
+  for (const char* number : {"2147483648", "1e40", "-1.5"})
+    EXPECT_FALSE(worker_request_from_json(with(request, "weight_bits", number))) << number;
+  for (const char* number : {"[4294967296", "[1e40", "[-1"})
+    EXPECT_FALSE(worker_request_from_json(with(request, "lods", number))) << number;
+}
+
 TEST(WorkerProtocol, BrokenLines_AreRefused) {
   for (const auto* line : {"", "x", "[]", "{}", R"({"progress":"half","stage":""})", R"({"done":{}})", R"({"done":7})",
                            R"({"done":{"kind":"absent","artefacts":[],"outcome":{}}})",
