@@ -5,6 +5,7 @@
 // What is read is bounded and in order, and reads the same when it is written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace semblante;
+  static_cast<void>(parse_set_displacements({reinterpret_cast<const char*>(data), size}));
   const auto set = parse_displacement_set({reinterpret_cast<const char*>(data), size});
   if (!set) return 0;
   for (std::size_t i = 0; i < set->displacements.size(); ++i) {

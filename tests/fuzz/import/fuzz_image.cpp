@@ -1,0 +1,38 @@
+// Textures of heads. The input is images, each after its length in three bytes, big-endian: one reader has them all, as
+// that of a file does.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/import/image_reader.h"
+#include "core/import/image_size.h"
+#include "core/import/image_type.h"
+
+using namespace semblante;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ImportLimits limits;
+  limits.max_image_bytes = std::size_t{1} << 16U;
+  limits.max_image_side = 256;
+  limits.max_image_pixels = std::size_t{64} * 64;
+  limits.max_decoded_pixels = 2 * limits.max_image_pixels;
+  import::ImageReader reader(limits);
+  constexpr std::size_t length_bytes = 3;
+  while (size >= length_bytes) {
+    const std::size_t length = std::min<std::size_t>(data[0] << 16U | data[1] << 8U | data[2], size - length_bytes);
+    const auto image = reader.read({data + length_bytes, data + length_bytes + length});
+    data += length_bytes + length;
+    size -= length_bytes + length;
+    if (!image) {
+      if (image.error().message.empty()) std::abort();
+      continue;
+    }
+    // Whatever it was, it is now of a type that every client shows, and within the limits as far as it says.
+    if (import::image_type(image->bytes) != image->mime_type) std::abort();
+    if (image->mime_type != "image/png" && image->mime_type != "image/jpeg") std::abort();
+    const auto declared = import::declared_size(image->bytes);
+    if (declared && std::max(declared->width, declared->height) > limits.max_image_side) std::abort();
+  }
+  return 0;
+}
