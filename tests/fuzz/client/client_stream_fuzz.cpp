@@ -10,7 +10,7 @@
 #include <openssl/evp.h>
 #include <openssl/sha.h>
 
-#include "clients/native/client/stream_client.h"
+#include "clients/native/client/live_stream.h"
 #include "tests/fuzz/client/hostile_server.h"
 
 using namespace semblante;
@@ -44,22 +44,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string said(reinterpret_cast<const char*>(data) + 1, size - 1);
   server.answer_with([&](std::string_view head) { return how == 'h' ? said : agreeing(head) + said; });
 
-  client::StreamOptions options;
-  options.json = how == 'j';
-  options.timeout = std::chrono::seconds(3);
+  client::LiveStreamOptions options;
+  options.socket.json = how == 'j';
+  options.socket.timeout = std::chrono::seconds(3);
+  options.first_pause = options.longest_pause = std::chrono::minutes(1);  // one connection
   const auto begin = std::chrono::steady_clock::now();
-  auto stream = client::StreamClient::connect(client::Url{"127.0.0.1", server.port(), ""}, "s", options);
-  if (!stream) {
-    if (stream.error().message.empty()) std::abort();
-  } else {
-    while (true) {
-      const auto message = stream->next(options.timeout);
-      if (!message && message.error().message.empty()) std::abort();
-      if (!message || !*message) break;
-    }
-    stream->close();
+  client::LiveStream stream(client::Url{"127.0.0.1", server.port(), ""}, "s", options);
+  while (!stream.loss()) {
+    const auto event = stream.next(options.socket.timeout);
+    if (!event && event.error().message.empty()) std::abort();
+    if (!event || event->type == SEMBLANTE_EVENT_NONE) break;
   }
+  if (stream.loss() && stream.loss()->message.empty()) std::abort();
+  stream.close();
   // The server closes after its last byte, so nothing is left to wait for.
-  if (std::chrono::steady_clock::now() - begin >= options.timeout) std::abort();
+  if (std::chrono::steady_clock::now() - begin >= options.socket.timeout) std::abort();
   return 0;
 }
