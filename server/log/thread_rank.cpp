@@ -19,6 +19,8 @@ int behind(ThreadRank rank) {
       return 10;
     case ThreadRank::jobs:
       return 15;
+    case ThreadRank::handshakes:
+      return 19;
   }
   return 0;
 }

@@ -86,9 +86,6 @@ class Session {
         buffer_(state_->config.limits.max_header_bytes) {}
 
   asio::awaitable<void> run() {
-    transport_.expires_after(state_->config.limits.header_timeout);
-    if (co_await transport_.handshake()) co_return;
-    count_.handshake_done();
     while (!state_->stopping) {
       const auto next = co_await serve_one();
       if (next == Next::again) continue;
@@ -277,15 +274,12 @@ class Session {
 
 }  // namespace
 
-asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<const TlsContext> tls,
+asio::awaitable<void> serve_connection(asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls,
                                        std::shared_ptr<SharedState> state, ConnectionCount count) {
   // Sends small answers and stream frames without delay.
   boost::system::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-  socket.native_non_blocking(true, ignored);  // OpenSSL uses the descriptor itself
-  auto session_tls = tls ? tls->session(socket.native_handle()) : nullptr;
-  tls.reset();  // a connection lives longer than a certificate is valid for new ones
-  Session session(std::move(socket), std::move(session_tls), std::move(state), std::move(count));
+  Session session(std::move(socket), std::move(tls), std::move(state), std::move(count));
   co_await session.run();
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <deque>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include <boost/asio/co_spawn.hpp>
+#include <boost/asio/dispatch.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -24,7 +24,9 @@
 #include "server/log/log.h"
 #include "server/log/thread_rank.h"
 #include "server/net/error_value.h"
+#include "server/net/handshake.h"
 #include "server/net/http_session.h"
+#include "server/net/log_fault.h"
 #include "server/net/state.h"
 
 namespace semblante::net {
@@ -66,12 +68,6 @@ asio::awaitable<void> turn_away(tcp::socket socket) {
   co_await asio::async_write(socket, asio::buffer(text), error_into(ignored));
 }
 
-/// For co_spawn: an exception that ends a coroutine ends only its connection.
-void log_fault(const std::exception_ptr& fault) {
-  if (!fault) return;
-  log::guarded("a connection ended by a fault", [&] { std::rethrow_exception(fault); });
-}
-
 /// The address whose connections are counted; nullopt for this machine and for proxies.
 template <class Socket>
 std::optional<http::AddressBytes> counted_address(const Socket& socket, const ServerConfig& config) {
@@ -85,12 +81,14 @@ std::optional<http::AddressBytes> counted_address(const Socket& socket, const Se
   return http::client_network(*address);
 }
 
-/// Accepts and starts one connection. False when that failed. `context` returns the TLS context of now, or null.
+/// Accepts and starts one connection, on the context of its listener. False when that failed. `context` returns the TLS
+/// context of now, or null.
 template <class Context>
 asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const Context& context,
                                  const std::shared_ptr<SharedState>& state) {
   boost::system::error_code error;
-  auto socket = co_await acceptor.async_accept(asio::make_strand(state->io), error_into(error));
+  auto socket =
+      co_await acceptor.async_accept(asio::make_strand(co_await asio::this_coro::executor), error_into(error));
   if (error) {
     if (!state->stopping && error != asio::error::operation_aborted) log::warning("cannot accept: " + error.message());
     co_return false;
@@ -109,7 +107,10 @@ asio::awaitable<bool> accept_one(tcp::acceptor& acceptor, const Context& context
     co_return true;
   }
   ConnectionCount count(state, address, tls != nullptr);
-  asio::co_spawn(executor, serve_connection(std::move(socket), std::move(tls), state, std::move(count)), log_fault);
+  if (tls)
+    asio::co_spawn(executor, shake_hands(std::move(socket), std::move(tls), state, std::move(count)), log_fault);
+  else
+    asio::co_spawn(executor, serve_connection(std::move(socket), nullptr, state, std::move(count)), log_fault);
   co_return true;
 }
 
@@ -146,8 +147,7 @@ void drain(const std::shared_ptr<State>& state, std::chrono::steady_clock::time_
   constexpr std::chrono::milliseconds step{20};
   quiet = state->busy == 0 ? quiet + 1 : 0;
   if (quiet >= enough || std::chrono::steady_clock::now() >= end) {
-    state->io.stop();
-    state->live.stop();
+    for (auto* context : {&state->front, &state->io, &state->live}) context->stop();
     return;
   }
   state->drain_step.expires_after(step);
@@ -165,6 +165,7 @@ Server::~Server() {
   // Connections that a stop has cut off, and what was posted after the contexts had stopped.
   state_->live.drop_pending();
   state_->io.drop_pending();
+  state_->front.drop_pending();
 }
 
 Result<std::vector<std::uint16_t>> Server::listen() {
@@ -176,7 +177,9 @@ Result<std::vector<std::uint16_t>> Server::listen() {
     const bool six = address.is_v6();
     const auto place = (six ? "[" + listener.address + "]" : listener.address) + ":" + std::to_string(listener.port);
     const tcp::endpoint endpoint(address, listener.port);
-    auto& acceptor = state_->doors.emplace_back(Door{tcp::acceptor(state_->io), listener.tls}).acceptor;
+    auto& acceptor =
+        state_->doors.emplace_back(Door{tcp::acceptor(listener.tls ? state_->front : state_->io), listener.tls})
+            .acceptor;
     acceptor.open(endpoint.protocol(), error);
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
@@ -230,7 +233,11 @@ void Server::stop() {
   asio::post(state_->io, [state = state_] {
     if (state->stopping.exchange(true)) return;
     boost::system::error_code ignored;
-    for (auto& door : state->doors) door.acceptor.close(ignored);
+    for (auto& door : state->doors)
+      asio::dispatch(door.acceptor.get_executor(), [state, &door] {
+        boost::system::error_code already;
+        door.acceptor.close(already);
+      });
     state->signals.cancel(ignored);
     state->hangup.cancel(ignored);
     if (state->on_stopping) log::guarded("stopping", state->on_stopping);
@@ -246,10 +253,10 @@ void Server::run(const std::function<void()>& on_stopping) {
       const std::lock_guard lock(state->tls_mutex);
       return state->tls;
     };
-    asio::co_spawn(state_->io, accept_connections(door.acceptor, context, state_), log_fault);
+    asio::co_spawn(door.acceptor.get_executor(), accept_connections(door.acceptor, context, state_), log_fault);
   }
   // Threads of their own also for the first: ranks are only lowered, and the caller keeps its own.
-  const auto live_work = asio::make_work_guard(state_->live);
+  const auto live_work = asio::make_work_guard(state_->live), front_work = asio::make_work_guard(state_->front);
   std::vector<std::thread> threads;
   const auto serve = [&threads](asio::io_context& io, log::ThreadRank rank, std::string_view who) {
     threads.emplace_back([&io, rank, who] {
@@ -257,6 +264,7 @@ void Server::run(const std::function<void()>& on_stopping) {
       run_guarded(io, who);
     });
   };
+  serve(state_->front, log::ThreadRank::handshakes, "thread of handshakes");
   for (unsigned i = 0; i < state_->config.io_threads; ++i) {
     serve(state_->live, log::ThreadRank::live, "thread of WebSockets");
     serve(state_->io, log::ThreadRank::requests, "thread of requests");

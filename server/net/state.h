@@ -54,14 +54,16 @@ struct SharedState {
   SharedState(ServerConfig c, http::Application& a)
       : config(std::move(c)),
         application(a),
+        front(1),
         io(static_cast<int>(config.io_threads)),
         live(static_cast<int>(config.io_threads)),
         workers(config.worker_threads) {}
 
   ServerConfig config;
   http::Application& application;
-  Context io;    ///< connections until they become WebSockets
-  Context live;  ///< WebSockets
+  Context front;  ///< listeners with TLS, and handshakes
+  Context io;     ///< connections after that, until they become WebSockets
+  Context live;   ///< WebSockets
   WorkerPool workers;
   AddressCounts addresses;   ///< of connections
   AddressCounts handshakes;  ///< of those whose handshake of TLS is not done

@@ -96,8 +96,10 @@ TEST_F(LogTest, Names_AreThoseOfTheOptions) {
 TEST(ThreadRank, IsOfTheThread_AndRelativeToTheProcess) {
   const auto own = [] { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); };
   const int before = own();
-  for (const auto& [rank, behind] :
-       {std::pair{ThreadRank::live, 0}, {ThreadRank::requests, 10}, {ThreadRank::jobs, 15}})
+  for (const auto& [rank, behind] : {std::pair{ThreadRank::live, 0},
+                                     {ThreadRank::requests, 10},
+                                     {ThreadRank::jobs, 15},
+                                     {ThreadRank::handshakes, 19}})
     std::thread([rank = rank, behind = behind, before, own] {
       set_thread_rank(rank);
       EXPECT_EQ(own(), std::min(before + behind, 19));

@@ -97,6 +97,29 @@ TEST_F(TlsTest, Requests_AreAnsweredInBothVersions) {
   }
 }
 
+TEST_F(TlsTest, Handshakes_AreOfAThreadThatGivesWayToAllOthers) {
+  constexpr int lowest = 19, of_requests = 10;  // steps of nice
+  const int own = rank_of_this_thread();
+  if (own + of_requests >= lowest) GTEST_SKIP() << "there is no room between the ranks";
+  // Nanoseconds of the processor that the threads of a rank have had.
+  const auto time_of = [](int rank) {
+    double time = 0.0;
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+      const auto id = static_cast<id_t>(std::stoul(thread.path().filename().string()));
+      if (::getpriority(PRIO_PROCESS, id) != rank) continue;
+      double had = 0.0;
+      std::ifstream(thread.path() / "schedstat") >> had;
+      time += had;
+    }
+    return time;
+  };
+  if (time_of(own) == 0.0) GTEST_SKIP() << "the kernel does not tell the time of threads";
+  const double handshakes = time_of(lowest), requests = time_of(own + of_requests);
+  constexpr int number = 50;
+  for (int i = 0; i < number; ++i) EXPECT_TRUE(TlsClient(port_).connected());
+  EXPECT_GT(time_of(lowest) - handshakes, time_of(own + of_requests) - requests);
+}
+
 TEST_F(TlsTest, OldVersions_AreRefused) {
   EXPECT_FALSE(TlsClient(port_, TLS1_VERSION, TLS1_1_VERSION).connected());
   EXPECT_TRUE(TlsClient(port_).connected()) << "the others go on";
