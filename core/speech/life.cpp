@@ -26,8 +26,9 @@ Cue cue_of(double time, double duration, CueTarget target) {
 
 class Life {
  public:
-  Life(std::span<const Segment> segments, const Loudness& loudness, std::span<const Interval> taken, std::uint32_t seed)
-      : segments_(segments), loudness_(loudness), taken_(taken), chance_(seed) {}
+  Life(std::span<const Segment> segments, const Loudness& loudness, std::span<const Interval> taken, std::uint32_t seed,
+       double liveliness)
+      : segments_(segments), loudness_(loudness), taken_(taken), chance_(seed), liveliness_(liveliness) {}
 
   std::vector<Cue> cues() {
     const auto phrases = phrases_of(segments_);
@@ -93,7 +94,7 @@ class Life {
     if (is_taken) return;
     for (std::uint8_t fap = 31; fap <= 36; ++fap) {  // inner, middle and outer ends of both brows
       Cue cue = cue_of(time, brow_ms, FapTarget{fap});
-      cue.value = std::round(units);
+      cue.value = std::round(liveliness_ * units);
       cue.attack = brow_lead_ms;
       cue.release = brow_ms - brow_lead_ms - 80.0;
       add(std::move(cue));
@@ -101,7 +102,7 @@ class Life {
   }
 
   void turn(double time, double length, HeadTarget target) {
-    const auto rounded = [](double value) { return std::round(value * 10.0) / 10.0; };
+    const auto rounded = [this](double value) { return std::round(liveliness_ * value * 10.0) / 10.0; };
     target = {rounded(target.pitch), rounded(target.yaw), rounded(target.roll)};
     Cue cue = cue_of(time, length, target);
     cue.attack = 0.4 * length;
@@ -127,6 +128,7 @@ class Life {
   const Loudness& loudness_;
   std::span<const Interval> taken_;
   SplitMix chance_;
+  double liveliness_;
   std::optional<double> last_blink_;
   std::vector<Cue> cues_;
 };
@@ -134,8 +136,8 @@ class Life {
 }  // namespace
 
 std::vector<Cue> life_cues(std::span<const Segment> segments, const Loudness& loudness,
-                           std::span<const Interval> brows_taken, std::uint32_t seed) {
-  return Life(segments, loudness, brows_taken, seed).cues();
+                           std::span<const Interval> brows_taken, std::uint32_t seed, double liveliness) {
+  return Life(segments, loudness, brows_taken, seed, liveliness).cues();
 }
 
 }  // namespace semblante

@@ -32,6 +32,8 @@ std::optional<Interval> time_of(const TextRange& range, const Utterance& utteran
   return found;
 }
 
+constexpr std::array liveliness_of = {0.4, 1.0, 1.6};  ///< by style
+
 bool moves_brows(std::uint8_t expression) { return expression != 1; }  // joy leaves them at rest
 
 /// Eq. 5 leaves an expression 15 % of the mouth beside a viseme. The corners show a mood and are free in speech: they
@@ -83,7 +85,9 @@ PerformanceScript speech_performance(const Utterance& utterance, std::span<const
     script.cues.push_back(std::move(cue));
   }
   for (Cue& cue : mouth_cues(segments, expressive)) script.cues.push_back(std::move(cue));
-  for (Cue& cue : life_cues(segments, loudness, brows_taken, options.seed)) script.cues.push_back(std::move(cue));
+  for (Cue& cue :
+       life_cues(segments, loudness, brows_taken, options.seed, liveliness_of[static_cast<std::size_t>(options.style)]))
+    script.cues.push_back(std::move(cue));
   std::stable_sort(script.cues.begin(), script.cues.end(), [](const Cue& a, const Cue& b) { return a.time < b.time; });
   double end = utterance.duration;
   for (const Cue& cue : script.cues) end = std::max(end, cue.time + cue.duration.value_or(1000.0));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -14,10 +15,15 @@ namespace semblante {
 /// Silence that a face needs around speech, ms: with_silence() adds it.
 inline constexpr double speech_lead_ms = 400.0, speech_tail_ms = 700.0;
 
+/// How much brows and head take part.
+enum class SpeechStyle : std::uint8_t { calm, normal, lively };
+inline constexpr std::array<std::string_view, 3> speech_style_names = {"calm", "normal", "lively"};
+
 struct SpeechOptions {
   std::string name;
   std::string language;    ///< BCP 47; a language without a table of sounds is read by that of English
   std::uint32_t seed = 0;  ///< of what the face does beside speaking
+  SpeechStyle style = SpeechStyle::normal;
 };
 
 /// The face that says an utterance: mouth, expressions, and life, as cues on the time of the sound. An expression
@@ -25,6 +31,10 @@ struct SpeechOptions {
 PerformanceScript speech_performance(const Utterance& utterance, std::span<const EmotionSpan> emotions,
                                      const SpeechOptions& options);
 inline constexpr double emotion_lead_ms = 300.0, emotion_release_ms = 600.0;
+
+/// What is said when, as JSON: duration, sentences, words with their text, phonemes with their stress, the viseme of
+/// each sound, and marks; times in ms. `text`: the one that was spoken.
+std::string timeline_json(const Utterance& utterance, std::string_view text, std::string_view language);
 
 /// The words with their times as WebVTT: a cue for each sentence or, in long ones, part of it, with a time before each
 /// word. `text`: the one that was spoken.

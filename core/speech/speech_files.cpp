@@ -2,10 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
+#include "core/speech/characters.h"
 #include "core/speech/speech.h"
-#include "core/types/printable.h"
 
 namespace semblante {
 namespace {
@@ -19,14 +18,6 @@ std::string time_text(double ms) {
   std::snprintf(text.data(), text.size(), "%02lld:%02lld:%02lld.%03lld", whole / 3'600'000, whole / 60'000 % 60,
                 whole / 1000 % 60, whole % 1000);
   return text.data();
-}
-
-/// The byte at which each character begins, and the end.
-std::vector<std::size_t> character_offsets(std::string_view text) {
-  std::vector<std::size_t> offsets;
-  for (std::size_t at = 0; at < text.size(); at += utf8_step(text.substr(at))) offsets.push_back(at);
-  offsets.push_back(text.size());
-  return offsets;
 }
 
 /// Text as WebVTT has it: on one line, without markup.
@@ -54,8 +45,7 @@ void append_number(std::string& bytes, std::uint32_t value, int count) {
 }  // namespace
 
 std::string web_vtt(const Utterance& utterance, std::string_view text) {
-  const auto offsets = character_offsets(text);
-  const auto byte_of = [&](std::size_t character) { return offsets[std::min(character, offsets.size() - 1)]; };
+  const Characters characters(text);
   const auto& words = utterance.words;
   std::string vtt = "WEBVTT\n";
   for (std::size_t first = 0; first < words.size();) {
@@ -73,12 +63,12 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
     if (end > words[first].time) {
       vtt += "\n" + time_text(words[first].time) + " --> " + time_text(end) + "\n";
       for (std::size_t i = first; i < last; ++i) {
-        const std::size_t begin = byte_of(words[i].range.first);
-        const std::size_t own_end = byte_of(words[i].range.first + words[i].range.count);
+        const std::size_t begin = characters.byte_of(words[i].range.first);
+        const std::size_t own_end = characters.byte_of(words[i].range.first + words[i].range.count);
         // With the signs that follow the word.
         const bool is_last_in_cue = i + 1 == last;
         const bool is_very_last = i + 1 == words.size();
-        std::size_t until = is_very_last ? text.size() : byte_of(words[i + 1].range.first);
+        std::size_t until = is_very_last ? text.size() : characters.byte_of(words[i + 1].range.first);
         if (until < own_end) until = own_end;
         const std::string word = plain(text.substr(begin, until - begin));
         if (i > first && words[i].time > words[first].time && words[i].time < end)

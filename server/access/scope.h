@@ -14,7 +14,7 @@ enum class Scope : std::uint8_t {
   none,     ///< anyone may: health, version, documents, the studio's pages
   read,     ///< look at and fetch everything, subscribe to streams
   publish,  ///< feed streams: frames, performances, .fap files
-  edit,     ///< create, change and remove models, points, expressions, streams, recordings
+  edit,     ///< create, change and remove models, points, expressions, streams, recordings, speeches
   admin,    ///< create and revoke tokens, read metrics
 };
 

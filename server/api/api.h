@@ -22,8 +22,12 @@
 #include "server/store/store.h"
 #include "server/store/trash.h"
 #include "server/streams/stream_hub.h"
+#include "server/voice/voice_process.h"
 
 namespace semblante::api {
+
+/// A speech is made while its request waits.
+inline constexpr std::uint64_t longest_speech_seconds = 30;
 
 struct ApiLimits {
   std::uint64_t max_upload_bytes = std::uint64_t{256} << 20U;
@@ -31,6 +35,8 @@ struct ApiLimits {
   std::size_t max_models = 1000;
   std::size_t max_streams = 256;
   std::size_t max_expressions = 1000;
+  std::size_t max_speeches = 1000;
+  std::size_t max_voices = 1;   ///< that speak at the same time
   std::size_t max_exports = 1;  ///< of recordings, made at the same time
 };
 
@@ -40,6 +46,7 @@ struct ApiConfig {
   std::filesystem::path web_root;  ///< empty: no pages
   Access access;
   Security security = {};
+  voice::VoiceProgram voice = {};  ///< without a command: there is none
 };
 
 /// Writes the counts of the network layer into /metrics.
@@ -61,6 +68,7 @@ struct Context {
   std::shared_ptr<std::atomic<bool>> stopping = nullptr;       ///< made by Api
   std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
+  std::shared_ptr<ExportSlots> voices = nullptr;               ///< made by Api
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The

@@ -1,12 +1,11 @@
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
 #include "server/api/levels.h"
+#include "server/api/stored_file.h"
 #include "server/http/conditional.h"
 #include "server/http/content_coding.h"
 
 namespace semblante::api {
-namespace {
-
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control) {
   const auto path = context.blobs.whole(artefact.sha256);
@@ -24,6 +23,8 @@ http::Response file_response(Context& context, const http::Request& request, con
   if (packed) http::gzip_body(response);
   return response;
 }
+
+namespace {
 
 http::Response model_artefact(Context& context, const http::Request& request, const std::string& name) {
   const auto model = model_of(context, request);

@@ -6,7 +6,7 @@
 
 namespace semblante::api {
 
-/// Bounds the exports that are made at the same time: each keeps a worker thread busy for seconds. Any thread.
+/// Bounds what is made at the same time and keeps a worker thread busy for seconds: exports, speeches. Any thread.
 class ExportSlots {
  public:
   explicit ExportSlots(std::size_t count) : free_(count) {}

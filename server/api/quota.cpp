@@ -25,11 +25,12 @@ struct Row {
 };
 
 constexpr auto rows = std::to_array<Row>({
-    {"bytes", &TokenLimits::bytes, &Usage::bytes, "delete models, recordings or expressions of this token"},
+    {"bytes", &TokenLimits::bytes, &Usage::bytes, "delete models, recordings, speeches or expressions of this token"},
     {"models", &TokenLimits::models, &Usage::models, "delete models of this token"},
     {"expressions", &TokenLimits::expressions, &Usage::sets, "delete expressions of this token"},
     {"streams", &TokenLimits::streams, &Usage::streams, "delete streams of this token"},
     {"recordings", &TokenLimits::recordings, &Usage::recordings, "delete recordings of this token"},
+    {"speeches", &TokenLimits::speeches, &Usage::speeches, "delete speeches of this token"},
     {"jobs", &TokenLimits::jobs, &Usage::jobs, "wait until a job of this token has ended, or cancel one"},
 });
 constexpr std::string_view uploads = "uploads";

@@ -240,8 +240,13 @@ void run_serve(const ServeOptions& options) {
   api_config.limits.max_models = options.max_models;
   api_config.limits.max_streams = options.max_streams;
   api_config.limits.max_expressions = options.max_expressions;
+  api_config.limits.max_speeches = options.max_speeches;
+  const auto program = options.voice_program.empty() ? voice::installed_voice() : options.voice_program;
+  if (!program.empty() && program != "none") api_config.voice.command = {program};
+  api_config.voice.wall_seconds = api::longest_speech_seconds;
+  api_config.voice.temporary = blobs->temporary();
   // Half of the threads at most: the others handle what else is asked.
-  api_config.limits.max_exports = std::max(1U, options.threads / 2);
+  api_config.limits.max_exports = api_config.limits.max_voices = std::max(1U, options.threads / 2);
   api_config.version = SEMBLANTE_VERSION;
   api_config.web_root = options.web_root;
   api_config.access = {hosts, options.allowed_origins, options.frame_origins};

@@ -69,6 +69,10 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--max-expressions", options->max_expressions, "Maximum number of displacement sets, without the library's",
       "MAX_EXPRESSIONS")
       ->check(count);
+  add("--max-speeches", options->max_speeches, "Maximum number of stored speeches", "MAX_SPEECHES")->check(count);
+  add("--voice-program", options->voice_program,
+      "Program that speaks (server/voice/README.md); left out: semblante-voice-espeak beside this one, if it is there; none: no voice",
+      "VOICE_PROGRAM");
   add("--max-streams", options->max_streams, "Maximum number of streams", "MAX_STREAMS")->check(count);
   add("--max-recordings", options->max_recordings, "Maximum number of stored recordings", "MAX_RECORDINGS")
       ->check(count);
@@ -131,13 +135,15 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "Tokens of one address per minute that are not accepted, before it has to wait", "CLIENT_FAILURES")
       ->check(CLI::Range(1.0, 1e6));
   add("--client-creations", options->client_limits.creations_per_minute,
-      "Models, jobs, streams, recordings and expressions together that one address may create per minute; this machine "
+      "Models, jobs, streams, recordings, speeches and expressions together that one address may create per minute; "
+      "this machine "
       "and the scope admin have no such limit; 0: no limit",
       "CLIENT_CREATIONS")
       ->check(CLI::Range(0.0, 1e6));
   auto& of_token = options->token_limits;
   add_size("--token-bytes", of_token.bytes,
-           "Bytes that one token may have stored: of models, recordings and expressions; 0: no limit. Tokens with the "
+           "Bytes that one token may have stored: of models, recordings, speeches and expressions; 0: no limit. Tokens "
+           "with the "
            "scope admin have none of the limits of a token",
            "TOKEN_BYTES");
   const auto add_count = [&](const std::string& name, std::uint64_t& value, const std::string& what,
@@ -148,6 +154,7 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add_count("--token-expressions", of_token.expressions, "Displacement sets of one token", "TOKEN_EXPRESSIONS");
   add_count("--token-streams", of_token.streams, "Streams of one token", "TOKEN_STREAMS");
   add_count("--token-recordings", of_token.recordings, "Stored recordings of one token", "TOKEN_RECORDINGS");
+  add_count("--token-speeches", of_token.speeches, "Stored speeches of one token", "TOKEN_SPEECHES");
   add_count("--token-jobs", of_token.jobs, "Jobs of one token that wait or run", "TOKEN_JOBS");
   add_count("--token-uploads", of_token.uploads, "Files that one token sends at the same time", "TOKEN_UPLOADS");
   add("--max-address-connections", options->max_connections_per_address,

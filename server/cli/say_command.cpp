@@ -7,25 +7,22 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/speech/loudness.h"
 #include "core/speech/marked_text.h"
-#include "core/speech/sounds.h"
 #include "core/speech/speech.h"
-#include "core/types/printable.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/cli/clip_output.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 #include "server/cli/face_formats.h"
 #include "server/cli/files.h"
-#include "server/voice/voice_process.h"
+#include "server/voice/speech_maker.h"
 
 namespace semblante {
 namespace {
 
 struct SayCommand {
   voice::VoiceRequest request;
-  std::string text, program, out, audio, captions, emotion;
+  std::string text, program, out, audio, captions, emotion, style = "normal";
   double intensity = 1.0, fps = 30.0;
   std::uint32_t seed = 0;
   ClipOutput clip;
@@ -39,22 +36,6 @@ std::string text_of(const SayCommand& options) {
   std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::cin.gcount()));
   return text;
-}
-
-MarkedText marked_text(const SayCommand& options, const std::string& text) {
-  MarkedText marked;
-  if (options.request.ssml) {
-    marked.text = text;
-  } else {
-    auto read = read_marked_text(text);
-    if (!read) fail("say", read.error());
-    marked = *std::move(read);
-  }
-  // The whole text; a mark within it is laid over it.
-  const auto expression = static_cast<std::uint8_t>(std::max(0, expression_of(options.emotion)));
-  if (expression != 0)
-    marked.emotions.insert(marked.emotions.begin(), {expression, options.intensity, {0, marked.text.size()}});
-  return marked;
 }
 
 void write_face(SayCommand& options, const PerformanceScript& script, std::vector<std::string>& warnings) {
@@ -80,41 +61,27 @@ void write_face(SayCommand& options, const PerformanceScript& script, std::vecto
 void run(SayCommand& options) {
   if (options.out.empty() && options.audio.empty() && options.captions.empty())
     throw CommandFailure(CommandFailure::bad_input, "say: give --out, --audio or --captions: nothing would be written");
-  // Marks are read before the voice checks the text: it must be text at all.
-  voice::VoiceRequest request = options.request;
-  request.text = text_of(options);
-  if (const auto checked = voice::check(request); !checked) fail("say", checked.error());
-  const MarkedText marked = marked_text(options, request.text);
-  request.text = marked.text;
-  if (!request.ssml) {
-    const Prosody prosody = prosody_of(marked);
-    request.rate = std::clamp(request.rate * prosody.rate, voice::least_factor, voice::most_factor);
-    request.pitch = std::clamp(request.pitch * prosody.pitch, voice::least_factor, voice::most_factor);
-  }
+  voice::SpeechRequest request;
+  request.voice = options.request;
+  request.voice.text = text_of(options);
+  request.expression = static_cast<std::uint8_t>(std::max(0, expression_of(options.emotion)));
+  request.intensity = options.intensity;
+  request.face.name = "speech";
+  request.face.seed = options.seed;
+  request.face.style = static_cast<SpeechStyle>(
+      std::find(speech_style_names.begin(), speech_style_names.end(), options.style) - speech_style_names.begin());
   voice::VoiceProgram program;
   program.command = {options.program.empty() ? voice::installed_voice() : options.program};
-  auto spoken = voice::speak(program, request);
-  if (!spoken) fail("say", spoken.error());
-  const Utterance utterance = with_silence(*std::move(spoken), speech_lead_ms, speech_tail_ms);
+  const auto speech = voice::make_speech(program, request);
+  if (!speech) fail("say", speech.error());
 
-  std::vector<std::string> warnings;
-  if (!has_sound_table(request.language))
-    warnings.push_back(printable(request.language) + " has no table of sounds of its own: mouths are those of English");
-  if (!options.out.empty()) {
-    SpeechOptions speech;
-    speech.name = "speech";
-    speech.language = request.language;
-    speech.seed = options.seed;
-    write_face(options, speech_performance(utterance, marked.emotions, speech), warnings);
-  }
-  if (!options.audio.empty()) {
-    const std::string sound = wav(utterance);
-    write_file(options.audio, [&sound](std::ostream& out) { out << sound; });
-  }
-  if (!options.captions.empty()) {
-    const std::string captions = web_vtt(utterance, marked.text);
-    write_file(options.captions, [&captions](std::ostream& out) { out << captions; });
-  }
+  std::vector<std::string> warnings = speech->warnings;
+  if (!options.out.empty()) write_face(options, speech->performance, warnings);
+  const auto write = [](const std::string& path, const std::string& bytes) {
+    if (!path.empty()) write_file(path, [&bytes](std::ostream& out) { out << bytes; });
+  };
+  write(options.audio, wav(speech->utterance));
+  write(options.captions, web_vtt(speech->utterance, speech->text));
   print_warnings(warnings, options.quiet);
 }
 
@@ -153,6 +120,10 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_INTENSITY");
+  command->add_option("--style", options->style, "How much brows and head take part")
+      ->check(CLI::IsMember(std::vector<std::string>(speech_style_names.begin(), speech_style_names.end())))
+      ->capture_default_str()
+      ->envname("SEMBLANTE_STYLE");
   command->add_option("--seed", options->seed, "Of blinks, nods and glances: another number, another person")
       ->capture_default_str()
       ->envname("SEMBLANTE_SEED");

@@ -52,6 +52,8 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"cancelled", 409, "It was stopped on request"},
     {"damaged-data", 500, "Stored bytes are missing or damaged"},
     {"internal", 500, "A fault of the server"},
+    {"no-voice", 501, "No voice is installed"},
+    {"voice-failed", 502, "The voice cannot say this"},
     {"overloaded", 503, "The server has reached its limit of connections"},
     {"stopping", 503, "The server is stopping"},
     {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},

@@ -54,11 +54,13 @@ std::vector<std::string> check_references(Database& db) {
 std::map<std::string, ReferencedBlob> read_blobs(Database& db) {
   std::map<std::string, ReferencedBlob> blobs;
   {
-    Statement statement(db, "SELECT sha256, bytes, model FROM artefacts");
+    Statement statement(db,
+                        "SELECT sha256, bytes, 'model ' || model FROM artefacts "
+                        "UNION ALL SELECT sha256, bytes, 'speech ' || speech FROM speech_files");
     while (statement.step()) {
       auto& blob = blobs[statement.text(0)];
       blob.bytes = static_cast<std::uint64_t>(statement.integer(1));
-      blob.users.insert("model " + statement.text(2));
+      blob.users.insert(statement.text(2));
     }
   }
   // As all_hashes() of sqlite_artefacts.cpp: a job that has ended does not need its files.

@@ -7,11 +7,12 @@ namespace semblante::store {
 
 /// What the requests of one token have made and what is still there.
 struct Usage {
-  std::uint64_t bytes = 0;  ///< of the artefacts of its models, each content once, of its recordings and its sets
+  std::uint64_t bytes = 0;  ///< of the artefacts of its models, each content once, of its recordings, speeches and sets
   std::uint64_t models = 0;
   std::uint64_t sets = 0;  ///< and extractions that have not ended: each may make one
   std::uint64_t streams = 0;
   std::uint64_t recordings = 0;
+  std::uint64_t speeches = 0;
   std::uint64_t jobs = 0;  ///< that have not ended
 
   bool operator==(const Usage&) const = default;

@@ -239,6 +239,20 @@ struct RecordingRecord {
   bool operator==(const RecordingRecord&) const = default;
 };
 
+/// A text as a face says it (server/voice/speech_maker.h): what was asked for, and its files as blobs.
+struct SpeechRecord {
+  std::string id, created;
+  std::string request;         ///< JSON object: the body of the request
+  std::string text;            ///< what is said, without marks
+  std::string voice;           ///< what made the sound
+  std::uint64_t duration = 0;  ///< ms
+  std::vector<std::string> warnings = {};
+  std::vector<ArtefactRecord> files = {};  ///< by name; see speech_file_names
+  std::string owner = {};                  ///< see Origin; never changes
+
+  bool operator==(const SpeechRecord&) const = default;
+};
+
 /// The idempotency key of a creating request, and what the request created.
 struct IdempotencyRecord {
   std::string key;

@@ -24,7 +24,9 @@ std::optional<ArtefactRecord> SqliteArtefactStore::public_artefact(std::string_v
 std::uint64_t SqliteArtefactStore::artefact_bytes() {
   const std::lock_guard lock(mutex_);
   Statement statement(
-      db_, "SELECT coalesce(sum(bytes), 0) FROM (SELECT max(bytes) AS bytes FROM artefacts GROUP BY sha256)");
+      db_,
+      "SELECT coalesce(sum(bytes), 0) FROM (SELECT sha256, bytes FROM artefacts UNION SELECT sha256, bytes FROM "
+      "speech_files)");
   return statement.step() ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
 }
 

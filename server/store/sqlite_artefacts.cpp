@@ -60,7 +60,7 @@ std::vector<std::string> hashes_of(Database& db, std::string_view model) {
 std::vector<std::string> all_hashes(Database& db) {
   // A job that has ended does not need its files, even if the process was killed before they were removed.
   Statement statement(db,
-                      "SELECT sha256 FROM artefacts "
+                      "SELECT sha256 FROM artefacts UNION SELECT sha256 FROM speech_files "
                       "UNION SELECT f.sha256 FROM job_files f JOIN jobs j ON j.id = f.job WHERE j.state IN (0, 1)");
   return read_texts(statement);
 }
@@ -68,8 +68,9 @@ std::vector<std::string> all_hashes(Database& db) {
 std::vector<std::string> users_of_hash(Database& db, std::string_view sha256) {
   Statement statement(db,
                       "SELECT 'model ' || model FROM artefacts WHERE sha256 = ? "
+                      "UNION SELECT 'speech ' || speech FROM speech_files WHERE sha256 = ? "
                       "UNION SELECT 'job ' || job FROM job_files WHERE sha256 = ?");
-  statement.bind(sha256, sha256);
+  statement.bind(sha256, sha256, sha256);
   return read_texts(statement);
 }
 
@@ -78,8 +79,8 @@ std::vector<std::string> without_reference(Database& db, const std::vector<std::
   for (const auto& hash : hashes) {
     Statement statement(db,
                         "SELECT 1 FROM artefacts WHERE sha256 = ? UNION SELECT 1 FROM job_files WHERE sha256 = ? "
-                        "LIMIT 1");
-    statement.bind(hash, hash);
+                        "UNION SELECT 1 FROM speech_files WHERE sha256 = ? LIMIT 1");
+    statement.bind(hash, hash, hash);
     if (!statement.step()) orphans.push_back(hash);
   }
   return orphans;

@@ -130,6 +130,19 @@ CREATE INDEX recordings_by_owner ON recordings(owner);
 CREATE INDEX unfinished_jobs_by_owner ON jobs(owner) WHERE state IN (0, 1);
 )sql";
 
+/// Files of a speech are blobs, like artefacts.
+constexpr const char* with_speeches = R"sql(
+CREATE TABLE speeches(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE, created TEXT NOT NULL, request TEXT NOT NULL, text TEXT NOT NULL, voice TEXT NOT NULL,
+  duration INTEGER NOT NULL, warnings TEXT NOT NULL, owner TEXT NOT NULL) STRICT;
+CREATE INDEX speeches_by_owner ON speeches(owner);
+CREATE TABLE speech_files(
+  speech TEXT NOT NULL REFERENCES speeches(id) ON DELETE CASCADE, name TEXT NOT NULL, sha256 TEXT NOT NULL,
+  bytes INTEGER NOT NULL, content_type TEXT NOT NULL, PRIMARY KEY(speech, name)) STRICT, WITHOUT ROWID;
+CREATE INDEX speech_files_by_hash ON speech_files(sha256);
+)sql";
+
 /// Step n migrates a file from version n to n + 1; an empty file has version 0. Released steps never change.
 constexpr std::array migrations = {
     first_schema,
@@ -145,6 +158,7 @@ constexpr std::array migrations = {
     with_job_requests,
     with_tokens,
     with_owners,
+    with_speeches,
 };
 constexpr int schema_version = migrations.size();
 

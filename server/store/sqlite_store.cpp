@@ -11,6 +11,7 @@
 #include "server/store/sqlite_recording_store.h"
 #include "server/store/sqlite_schema.h"
 #include "server/store/sqlite_set_store.h"
+#include "server/store/sqlite_speech_store.h"
 #include "server/store/sqlite_stream_store.h"
 #include "server/store/sqlite_token_store.h"
 
@@ -29,6 +30,7 @@ class SqliteStore final : private SqliteConnection,
                           public SqliteSetStore,
                           public SqliteStreamStore,
                           public SqliteRecordingStore,
+                          public SqliteSpeechStore,
                           public SqliteKeyStore,
                           public SqliteTokenStore,
                           public SqliteOwnerStore,
@@ -43,6 +45,7 @@ class SqliteStore final : private SqliteConnection,
         SqliteSetStore(connection()),
         SqliteStreamStore(connection()),
         SqliteRecordingStore(connection()),
+        SqliteSpeechStore(connection()),
         SqliteKeyStore(connection()),
         SqliteTokenStore(connection()),
         SqliteOwnerStore(connection()),

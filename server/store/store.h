@@ -8,6 +8,7 @@
 #include "server/store/owner_store.h"
 #include "server/store/recording_store.h"
 #include "server/store/set_store.h"
+#include "server/store/speech_store.h"
 #include "server/store/store_error.h"
 #include "server/store/stream_store.h"
 #include "server/store/token_store.h"
@@ -25,6 +26,7 @@ class Store : public virtual ModelStore,
               public virtual SetStore,
               public virtual StreamStore,
               public virtual RecordingStore,
+              public virtual SpeechStore,
               public virtual KeyStore,
               public virtual TokenStore,
               public virtual OwnerStore,

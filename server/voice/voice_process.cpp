@@ -17,8 +17,9 @@ constexpr const char* usual_name = "semblante-voice-espeak";
 /// What the voice writes to standard error, for as long as it runs.
 class ErrorFile {
  public:
-  ErrorFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "semblante-voice-XXXXXX").string();
+  explicit ErrorFile(const std::filesystem::path& folder) {
+    std::string name =
+        ((folder.empty() ? std::filesystem::temp_directory_path() : folder) / "semblante-voice-XXXXXX").string();
     const int file = ::mkstemp(name.data());
     if (file < 0) return;
     ::close(file);
@@ -51,7 +52,7 @@ Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request
   if (const auto checked = check(request); !checked) return checked.error();
   if (program.command.empty() || program.command[0].empty())
     return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
-  const ErrorFile errors;
+  const ErrorFile errors(program.temporary);
   if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
 
   jobs::WorkerLimits limits;

@@ -6,12 +6,13 @@ import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 export const root = fileURLToPath(new URL('../../', import.meta.url));
+const voice = join(root, 'server/voice/examples/beeps.py');
 export const buildDir = resolve(process.env.SEMBLANTE_BUILD ?? join(root, 'build'));
 
 /** Starts `semblante serve` on a free port; resolves with its address and a function that stops it. */
 export async function startServer() {
   const data = mkdtempSync(join(tmpdir(), 'semblante-outside-'));
-  const child = spawn(join(buildDir, 'bin/semblante'), ['serve', '--port', '0', '--data', data], {
+  const child = spawn(join(buildDir, 'bin/semblante'), ['serve', '--port', '0', '--data', data, '--voice-program', voice], {
     stdio: ['ignore', 'pipe', 'inherit'],
   });
   const ended = new Promise((done) => child.once('exit', done));

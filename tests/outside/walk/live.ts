@@ -40,6 +40,26 @@ async function readRecording(client: Client, recording: string, glbs: Glbs): Pro
   glbs['recording.glb'] = await content('glb');
 }
 
+async function speak(client: Client, stream: string): Promise<void> {
+  const body: Schemas['SpeechRequest'] = { text: 'Mamma mia! :)', language: 'en', seed: 7, style: 'lively' };
+  const speech = good(await client.POST('/v1/speeches', { body }));
+  assert.deepEqual([speech.text, speech.request], ['Mamma mia! ', body]);
+  const params = { path: { speech: speech.id } };
+  assert.deepEqual(good(await client.GET('/v1/speeches/{speech}', { params })), speech);
+  assert.equal(good(await client.GET('/v1/speeches')).speeches.length, 1);
+  const sound = good(await client.GET('/v1/speeches/{speech}/audio', { params, parseAs: 'arrayBuffer' }));
+  assert.equal(new TextDecoder().decode(new Uint8Array(sound as ArrayBuffer).slice(0, 4)), 'RIFF');
+  assert.equal(good(await client.GET('/v1/speeches/{speech}/timeline', { params })).words[0]?.text, 'Mamma');
+  assert.ok(good(await client.GET('/v1/speeches/{speech}/performance', { params })).cues.length > 0);
+  assert.match(good(await client.GET('/v1/speeches/{speech}/captions', { params, parseAs: 'text' })) as string, /^WEBVTT/);
+  const path = { stream };
+  const said = good(
+    await client.POST('/v1/streams/{stream}/speech', { params: { path }, body: { speech: speech.id, take_over: true } }),
+  );
+  assert.equal(said.kind, 'performance');
+  assert.equal((await client.DELETE('/v1/speeches/{speech}', { params })).response.status, 204);
+}
+
 async function playThings(client: Client, stream: string, recording: string): Promise<void> {
   const params = { path: { stream } };
   const query = { loop: true, take_over: true };
@@ -87,6 +107,7 @@ export async function walkLive(client: Client, model: string, glbs: Glbs): Promi
   assert.equal(good(await client.GET('/v1/streams/{stream}/recordings', { params })).recordings.length, 1);
   good(await client.GET('/v1/streams/{stream}/recording', { params }));
   await readRecording(client, started.id, glbs);
+  await speak(client, made.id);
   await playThings(client, made.id, started.id);
   assert.equal(good(await client.GET('/v1/streams')).streams[0]?.title, 'Walk');
 

@@ -27,6 +27,7 @@
 #include "server/streams/stream_connection.h"
 #include "server/streams/stream_limits.h"
 #include "server/streams/timeline.h"
+#include "server/voice/voice_protocol.h"
 
 namespace semblante::api {
 namespace {
@@ -92,6 +93,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"displacement sets of one token", count(token.expressions)},
       {"streams of one token", count(token.streams)},
       {"recordings of one token", count(token.recordings)},
+      {"speeches of one token", count(token.speeches)},
       {"jobs of one token that wait or run", count(token.jobs)},
       {"files that one token sends at the same time", count(token.uploads)},
       {"JSON body", size(api.max_json_bytes)},
@@ -131,6 +133,11 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"between two pieces of a body or an answer", seconds(net.write_timeout)},
       {"models", count(api.max_models)},
       {"displacement sets, beside the library's", count(api.max_expressions)},
+      {"stored speeches", count(api.max_speeches)},
+      {"text of a speech", count(voice::max_text_bytes) + " bytes"},
+      {"sound of a speech", count(static_cast<std::uint64_t>(voice::max_seconds)) + " s"},
+      {"time in which a voice must have spoken", count(api::longest_speech_seconds) + " s"},
+      {"voices that speak at the same time", "half of `--threads`"},
       {"files of an example, together", size(api.max_upload_bytes)},
       {"streams", count(api.max_streams)},
       {"performance: document, cues, keys",

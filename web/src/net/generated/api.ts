@@ -702,6 +702,133 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/streams/{stream}/speech": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The face of the stream says a text, or a stored speech, from now on
+         * @description As a performance: while it speaks it is the stream's one source. The stream carries the face; the sound of a stored speech is at its own address.
+         */
+        post: operations["speakIntoStream"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All speeches, oldest first */
+        get: operations["listSpeeches"];
+        put?: never;
+        /**
+         * Have a text spoken, and keep its sound and its face
+         * @description A voice, a program of its own, makes the sound; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] in the text give the face an emotion.
+         */
+        post: operations["createSpeech"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches/{speech}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** One speech */
+        get: operations["getSpeech"];
+        put?: never;
+        post?: never;
+        /** Remove it with its files */
+        delete: operations["deleteSpeech"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches/{speech}/audio": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The sound */
+        get: operations["getSpeechAudio"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches/{speech}/timeline": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What is said when */
+        get: operations["getSpeechTimeline"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches/{speech}/performance": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The face */
+        get: operations["getSpeechPerformance"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/speeches/{speech}/captions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The words with their times */
+        get: operations["getSpeechCaptions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/recordings": {
         parameters: {
             query?: never;
@@ -910,15 +1037,176 @@ export interface components {
             /** @constant */
             status: "ok";
         };
+        SpeechRequest: {
+            /** @description At most 20,000 bytes, without control characters except tab and newline */
+            text: string;
+            /**
+             * @description The text is SSML: break, prosody, mark, say-as, emphasis
+             * @default false
+             */
+            ssml?: boolean;
+            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the table of en */
+            language: string;
+            /**
+             * @description A name that the voice program knows; empty: its own choice
+             * @default
+             */
+            voice?: string;
+            /**
+             * @description Times the usual speed
+             * @default 1
+             */
+            rate?: number;
+            /** @default 1 */
+            pitch?: number;
+            /**
+             * @description Of the whole text
+             * @default neutral
+             * @enum {unknown}
+             */
+            emotion?: "neutral" | "joy" | "sadness" | "anger" | "fear" | "disgust" | "surprise";
+            /**
+             * @description Of the emotion
+             * @default 1
+             */
+            intensity?: number;
+            /**
+             * @description How much brows and head take part
+             * @default normal
+             * @enum {unknown}
+             */
+            style?: "calm" | "normal" | "lively";
+            /**
+             * @description Of blinks, nods and glances
+             * @default 0
+             */
+            seed?: number;
+        };
+        /** @description A stored speech, or a text with its language */
+        StreamSpeech: {
+            /** @description Id of a stored speech */
+            speech?: string;
+            /**
+             * @description From whoever publishes or plays
+             * @default false
+             */
+            take_over?: boolean;
+            /** @description At most 20,000 bytes, without control characters except tab and newline */
+            text?: string;
+            /**
+             * @description The text is SSML: break, prosody, mark, say-as, emphasis
+             * @default false
+             */
+            ssml?: boolean;
+            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the table of en */
+            language?: string;
+            /**
+             * @description A name that the voice program knows; empty: its own choice
+             * @default
+             */
+            voice?: string;
+            /**
+             * @description Times the usual speed
+             * @default 1
+             */
+            rate?: number;
+            /** @default 1 */
+            pitch?: number;
+            /**
+             * @description Of the whole text
+             * @default neutral
+             * @enum {unknown}
+             */
+            emotion?: "neutral" | "joy" | "sadness" | "anger" | "fear" | "disgust" | "surprise";
+            /**
+             * @description Of the emotion
+             * @default 1
+             */
+            intensity?: number;
+            /**
+             * @description How much brows and head take part
+             * @default normal
+             * @enum {unknown}
+             */
+            style?: "calm" | "normal" | "lively";
+            /**
+             * @description Of blinks, nods and glances
+             * @default 0
+             */
+            seed?: number;
+        };
+        Speech: {
+            id: string;
+            /** Format: date-time */
+            created: string;
+            request: components["schemas"]["SpeechRequest"];
+            /** @description What is said, without marks */
+            text: string;
+            /** @description The voice, with its version */
+            made_by: string;
+            /** @description ms of sound */
+            duration: number;
+            /** @description Of its files */
+            bytes: number;
+            warnings: string[];
+            links: {
+                self: string;
+                audio: string;
+                timeline: string;
+                performance: string;
+                captions: string;
+            };
+        };
+        Speeches: {
+            speeches: components["schemas"]["Speech"][];
+            /** @description For ?after; null: this is the last page */
+            next: string | null;
+        };
+        /** @description Times are ms of the sound; places in the text are in characters */
+        Timeline: {
+            /** @constant */
+            format: "semblante.timeline";
+            /** @constant */
+            version: 1;
+            duration: number;
+            sentences: {
+                time: number;
+                first: number;
+            }[];
+            words: {
+                time: number;
+                end: number;
+                first: number;
+                count: number;
+                text: string;
+            }[];
+            phonemes: {
+                time: number;
+                end: number;
+                /** @description Empty: a pause */
+                ipa: string;
+                /** @enum {unknown} */
+                stress: "none" | "primary" | "secondary";
+            }[];
+            visemes: {
+                time: number;
+                end: number;
+                viseme: string;
+            }[];
+            marks: {
+                time: number;
+                name: string;
+            }[];
+        };
         Usage: {
             /** @description Whose use this is; null: of requests without a token */
             token: string | null;
             limits: {
                 /**
-                 * @description bytes: stored, of models with all that is made from them, recordings and expressions. jobs: that have not ended. uploads: that arrive at the moment
+                 * @description bytes: stored, of models with all that is made from them, recordings, speeches and expressions. jobs: that have not ended. uploads: that arrive at the moment
                  * @enum {unknown}
                  */
-                name: "bytes" | "models" | "expressions" | "streams" | "recordings" | "jobs" | "uploads";
+                name: "bytes" | "models" | "expressions" | "streams" | "recordings" | "speeches" | "jobs" | "uploads";
                 used: number;
                 /** @description null: none */
                 limit: number | null;
@@ -1977,6 +2265,7 @@ export interface components {
         token: string;
         /** @description Id of a job */
         job: string;
+        speech: string;
         /** @description Id of a recording */
         recording: string;
         /** @description Id of a stream */
@@ -4298,6 +4587,366 @@ export interface operations {
             422: components["responses"]["Problem"];
             503: components["responses"]["StorageUnavailable"];
             507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    speakIntoStream: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a stream */
+                stream: components["parameters"]["stream"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "text": "Olá, mundo! :)",
+                 *       "language": "pt-BR",
+                 *       "seed": 7
+                 *     }
+                 */
+                "application/json": components["schemas"]["StreamSpeech"];
+            };
+        };
+        responses: {
+            /** @description It speaks */
+            202: {
+                headers: {
+                    /** @description Where it can be seen and stopped */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Playing"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            404: components["responses"]["Problem"];
+            409: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
+            501: components["responses"]["Problem"];
+            502: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listSpeeches: {
+        parameters: {
+            query?: {
+                /** @description How many on a page */
+                limit?: components["parameters"]["limit"];
+                /** @description `next` of the page before */
+                after?: components["parameters"]["after"];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description They */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Speeches"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    createSpeech: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The same key with the same request makes one thing only, for a day */
+                "Idempotency-Key"?: components["parameters"]["idempotencyKey"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "text": "Olá, mundo! :)",
+                 *       "language": "pt-BR",
+                 *       "seed": 7
+                 *     }
+                 */
+                "application/json": components["schemas"]["SpeechRequest"];
+            };
+        };
+        responses: {
+            /** @description It is made */
+            201: {
+                headers: {
+                    /** @description The speech */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Speech"];
+                };
+            };
+            400: components["responses"]["Problem"];
+            409: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
+            501: components["responses"]["Problem"];
+            502: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSpeech: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Speech"];
+                };
+            };
+            404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    deleteSpeech: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It is gone */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSpeechAudio: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+                /** @description One byte range */
+                Range?: components["parameters"]["range"];
+            };
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description WAV, 16 bits, one channel, with silence before and after in which the face gets ready and comes to rest */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "audio/wav": unknown;
+                };
+            };
+            /** @description A part of it */
+            206: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "audio/wav": unknown;
+                };
+            };
+            /** @description As it was */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSpeechTimeline: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+                /** @description One byte range */
+                Range?: components["parameters"]["range"];
+            };
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Words, phonemes and visemes */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Timeline"];
+                };
+            };
+            /** @description A part of it */
+            206: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                };
+            };
+            /** @description As it was */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSpeechPerformance: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+                /** @description One byte range */
+                Range?: components["parameters"]["range"];
+            };
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description A performance, on the clock of the sound */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Performance"];
+                };
+            };
+            /** @description A part of it */
+            206: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                };
+            };
+            /** @description As it was */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSpeechCaptions: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+                /** @description One byte range */
+                Range?: components["parameters"]["range"];
+            };
+            path: {
+                speech: components["parameters"]["speech"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description WebVTT, a cue for each line, with a time before each word */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/vtt": unknown;
+                };
+            };
+            /** @description A part of it */
+            206: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/vtt": unknown;
+                };
+            };
+            /** @description As it was */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["Problem"];
+            416: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
             default: components["responses"]["Problem"];
         };
     };

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "core/speech/utterance.h"
+#include "core/types/printable.h"
+
+namespace semblante {
+
+/// A text by its characters (code points).
+class Characters {
+ public:
+  /// The text must outlive this object.
+  explicit Characters(std::string_view text) : text_(text) {
+    for (std::size_t at = 0; at < text.size(); at += utf8_step(text.substr(at))) offsets_.push_back(at);
+    offsets_.push_back(text.size());
+  }
+
+  /// The byte at which a character begins; the end of the text for any beyond it.
+  [[nodiscard]] std::size_t byte_of(std::size_t character) const {
+    return offsets_[std::min(character, offsets_.size() - 1)];
+  }
+  [[nodiscard]] std::string_view of(const TextRange& range) const {
+    const std::size_t begin = byte_of(range.first);
+    return text_.substr(begin, byte_of(range.first + range.count) - begin);
+  }
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> offsets_;
+};
+
+}  // namespace semblante

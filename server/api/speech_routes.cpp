@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <shared_mutex>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/performance/performance.h"
+#include "core/speech/marked_text.h"
+#include "core/speech/speech.h"
+#include "protocol/cpp/performance_document.h"
+#include "protocol/hash/sha256.h"
+#include "server/api/authorization.h"
+#include "server/api/common.h"
+#include "server/api/generated/body_members.h"
+#include "server/api/generated/handlers.h"
+#include "server/api/mapped_file.h"
+#include "server/api/play_options.h"
+#include "server/api/quota.h"
+#include "server/api/storage_problems.h"
+#include "server/api/stored_file.h"
+#include "server/streams/performance_source.h"
+#include "server/voice/speech_maker.h"
+
+namespace semblante::api {
+namespace {
+
+using store::SpeechRecord;
+
+constexpr unsigned retry_after_voices = 1;
+constexpr std::string_view audio = "audio", timeline = "timeline", performance = "performance", captions = "captions";
+
+std::string text_member(const JsonBody& body, const char* name) {
+  if (!body.contains(name)) return {};
+  if (!body[name].is_string()) refuse("invalid-field", "must be a string", std::string("/") + name);
+  return body[name].get<std::string>();
+}
+
+bool flag_member(const JsonBody& body, const char* name) {
+  if (!body.contains(name)) return false;
+  if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);
+  return body[name].get<bool>();
+}
+
+double number_member(const JsonBody& body, const char* name, double otherwise, double least, double most) {
+  if (!body.contains(name)) return otherwise;
+  const double value = body[name].is_number() ? body[name].get<double>() : std::nan("");
+  if (!(value >= least && value <= most))
+    refuse("invalid-field", "must be a number from " + Json(least).dump() + " to " + Json(most).dump(),
+           std::string("/") + name);
+  return value;
+}
+
+/// The index of the member's value among the names; `otherwise` without the member.
+template <class Names>
+std::size_t choice_member(const JsonBody& body, const char* name, const Names& names, std::size_t otherwise) {
+  if (!body.contains(name)) return otherwise;
+  const auto value = text_member(body, name);
+  const auto found = std::find(names.begin(), names.end(), value);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::string list;
+  for (const auto& one : names) list.append(list.empty() ? "" : ", ").append(one);
+  refuse("invalid-field", "must be one of " + list, std::string("/") + name);
+}
+
+voice::SpeechRequest speech_request(const JsonBody& body) {
+  voice::SpeechRequest request;
+  request.voice.text = text_member(body, "text");
+  request.voice.ssml = flag_member(body, "ssml");
+  request.voice.language = text_member(body, "language");
+  request.voice.voice = text_member(body, "voice");
+  request.voice.rate = number_member(body, "rate", 1.0, voice::least_factor, voice::most_factor);
+  request.voice.pitch = number_member(body, "pitch", 1.0, voice::least_factor, voice::most_factor);
+  request.expression = static_cast<std::uint8_t>(choice_member(body, "emotion", emotion_names(), 0));
+  request.intensity = number_member(body, "intensity", 1.0, 0.0, 1.0);
+  request.face.style = static_cast<SpeechStyle>(
+      choice_member(body, "style", speech_style_names, static_cast<std::size_t>(SpeechStyle::normal)));
+  const double seed = number_member(body, "seed", 0.0, 0.0, 4'294'967'295.0);
+  if (seed != std::floor(seed)) refuse("invalid-field", "must be a whole number", "/seed");
+  request.face.seed = static_cast<std::uint32_t>(seed);
+  request.face.name = "speech";
+  if (const auto checked = voice::check(request.voice); !checked)
+    refuse("invalid-field", checked.error().message, "/" + checked.error().where);
+  if (!request.voice.ssml) {
+    if (const auto marked = read_marked_text(request.voice.text); !marked)
+      refuse("invalid-field", marked.error().message, "/text");
+  }
+  return request;
+}
+
+void refuse_without_voice(const Context& context) {
+  if (context.config.voice.command.empty())
+    refuse("no-voice",
+           "no voice is installed on the server: its administrator installs semblante-voice-espeak, or names another "
+           "program by --voice-program");
+}
+
+voice::Speech make(Context& context, const voice::SpeechRequest& request) {
+  const auto slot = context.voices->take();
+  if (!slot)
+    refuse_for_now("as many voices are speaking as the server lets speak at the same time", retry_after_voices);
+  auto speech = voice::make_speech(context.config.voice, request);
+  if (!speech) refuse("voice-failed", "the voice: " + speech.error().message);
+  return *std::move(speech);
+}
+
+SpeechRecord speech_of(Context& context, const http::Request& request) {
+  const auto& id = request.params.at("speech");
+  auto speech = context.store.speech(id);
+  if (!speech) refuse("not-found", "there is no speech " + id);
+  return std::move(*speech);
+}
+
+const store::ArtefactRecord& file_of(const SpeechRecord& speech, std::string_view name) {
+  const auto found = std::find_if(speech.files.begin(), speech.files.end(),
+                                  [name](const store::ArtefactRecord& file) { return file.name == name; });
+  if (found == speech.files.end()) refuse("internal", "the speech has no " + std::string(name));
+  return *found;
+}
+
+http::Response speech_file(Context& context, const http::Request& request, std::string_view name) {
+  return file_response(context, request, file_of(speech_of(context, request), name), "no-cache");
+}
+
+answer::Speech speech_answer(const SpeechRecord& speech) {
+  const std::string self = "/v1/speeches/" + speech.id;
+  const auto link = [&self](std::string_view name) { return self + "/" + std::string(name); };
+  std::uint64_t bytes = 0;
+  for (const auto& file : speech.files) bytes += file.bytes;
+  return {.id = speech.id,
+          .created = speech.created,
+          .request = {speech.request},
+          .text = speech.text,
+          .made_by = speech.voice,
+          .duration = speech.duration,
+          .bytes = bytes,
+          .warnings = speech.warnings,
+          .links = {.self = self,
+                    .audio = link(audio),
+                    .timeline = link(timeline),
+                    .performance = link(performance),
+                    .captions = link(captions)}};
+}
+
+http::Response created(const SpeechRecord& speech) {
+  auto response = json_response(201, speech_answer(speech));
+  response.headers["Location"] = "/v1/speeches/" + speech.id;
+  return response;
+}
+
+/// Stores the files; the caller holds the blobs' references.
+void add_file(Context& context, SpeechRecord& speech, std::string_view name, std::string_view type,
+              std::string_view bytes) {
+  auto blob = context.blobs.put(bytes);
+  if (!blob) refuse_unkept(blob.error());
+  speech.files.push_back({std::string(name), blob->sha256, blob->bytes, std::string(type)});
+}
+
+http::Response play(Context& context, const http::Request& request, const PerformanceScript& script, bool take_over) {
+  const auto& stream = request.params.at("stream");
+  const auto info = context.hub.info(stream);
+  if (!info) refuse("not-found", "there is no stream " + stream);
+  auto compiled = Performance::compile(script);
+  if (!compiled) refuse("internal", "the speech cannot be played: " + compiled.error().message);
+  streams::PlayOptions options;
+  options.take_over = take_over;
+  return play_into(
+      context, stream,
+      streams::make_performance_source(*std::move(compiled), scaled_quantizers(info->settings.quantizer_scale)),
+      options);
+}
+
+}  // namespace
+
+http::Response create_speech(Context& context, http::Request& request) {
+  refuse_without_voice(context);
+  const auto body = body_object(request);
+  refuse_unknown_members(body, body_members::speech_request);
+  const auto wish = speech_request(body);
+  auto check = check_idempotency(context, request, sha256_hex(request.body));
+  if (check.earlier) {
+    if (const auto earlier = context.store.speech(*check.earlier)) return created(*earlier);
+    refuse("conflict", "what this Idempotency-Key created has been removed");
+  }
+  const auto most = context.config.limits.max_speeches;
+  if (context.store.speech_count() >= most)
+    refuse("limit-exceeded", "the server stores at most " + std::to_string(most) + " speeches: delete one");
+  const auto turn = take_quota(context, request, {.bytes = 1, .speeches = 1});
+  const auto made = make(context, wish);
+
+  SpeechRecord speech;
+  speech.id = store::random_id();
+  speech.created = store::timestamp_now();
+  speech.request = body.dump();
+  speech.text = made.text;
+  speech.voice = made.utterance.voice;
+  speech.duration = static_cast<std::uint64_t>(std::llround(made.utterance.duration));
+  speech.warnings = made.warnings;
+  speech.owner = origin_of(request).owner;
+  if (check.record) check.record->resource = speech.id;
+  // Protects the files from removal until the record that refers to them is stored.
+  const std::shared_lock shared(context.blobs.references());
+  add_file(context, speech, audio, "audio/wav", wav(made.utterance));
+  add_file(context, speech, captions, "text/vtt; charset=utf-8", web_vtt(made.utterance, made.text));
+  add_file(context, speech, performance, "application/json", write_performance(made.performance));
+  add_file(context, speech, timeline, "application/json",
+           timeline_json(made.utterance, made.text, wish.voice.language));
+  context.store.create_speech(speech, check.record);
+  return created(speech);
+}
+
+http::Response list_speeches(Context& context, http::Request& request) {
+  const auto limit = page_size(request);
+  auto records = context.store.speeches(request.query_value("after").value_or(""), limit + 1);
+  if (!records) refuse("invalid-argument", "there is no such speech", "?after");
+  answer::Speeches page{.speeches = {}, .next = cut_to_page(*records, limit)};
+  for (const auto& record : *records) page.speeches.push_back(speech_answer(record));
+  return json_response(200, page);
+}
+
+http::Response get_speech(Context& context, http::Request& request) {
+  return json_response(200, speech_answer(speech_of(context, request)));
+}
+
+http::Response delete_speech(Context& context, http::Request& request) {
+  const auto& id = request.params.at("speech");
+  const std::unique_lock alone(context.blobs.references());
+  const auto orphans = context.pending.with_reserve([&] { return context.store.remove_speech(id); });
+  if (!orphans) refuse("not-found", "there is no speech " + id);
+  for (const auto& hash : *orphans) context.blobs.remove(hash);
+  http::Response response;
+  response.status = 204;
+  return response;
+}
+
+http::Response get_speech_audio(Context& context, http::Request& request) {
+  return speech_file(context, request, audio);
+}
+http::Response get_speech_timeline(Context& context, http::Request& request) {
+  return speech_file(context, request, timeline);
+}
+http::Response get_speech_performance(Context& context, http::Request& request) {
+  return speech_file(context, request, performance);
+}
+http::Response get_speech_captions(Context& context, http::Request& request) {
+  return speech_file(context, request, captions);
+}
+
+http::Response speak_into_stream(Context& context, http::Request& request) {
+  if (!context.hub.info(request.params.at("stream")))
+    refuse("not-found", "there is no stream " + request.params.at("stream"));
+  const auto body = body_object(request);
+  refuse_unknown_members(body, body_members::stream_speech);
+  const bool take_over = flag_member(body, "take_over");
+  if (!body.contains("speech")) {
+    refuse_without_voice(context);
+    return play(context, request, make(context, speech_request(body)).performance, take_over);
+  }
+  for (const auto& member : body.items())
+    if (member.key() != "speech" && member.key() != "take_over")
+      refuse("invalid-field", "a stored speech has it: give only one of the two", "/" + member.key());
+  const auto id = checked_text(body["speech"], max_name_bytes, "/speech");
+  const auto& rights = asking_of(request).rights;
+  const auto speech = context.store.speech(id);
+  if (rights.limited() && (!speech || speech->owner != rights.token))
+    refuse("forbidden", "the token may not read this speech", "/speech");
+  if (!speech) refuse("invalid-field", "there is no speech " + id, "/speech");
+  const MappedFile file(context.blobs.whole(file_of(*speech, performance).sha256));
+  const auto script = read_performance(file.text());
+  if (!script) refuse("internal", "the speech cannot be read: " + script.error().message);
+  return play(context, request, *script, take_over);
+}
+
+}  // namespace semblante::api

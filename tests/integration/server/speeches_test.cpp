@@ -1,0 +1,243 @@
+// Texts are spoken by a voice that is a program of its own, kept with sound and face, and said by streams.
+
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/integration/cli/program.h"
+#include "tests/integration/server/model_flow.h"
+
+namespace semblante::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+constexpr const char* beeps = SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py";
+
+void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
+  EXPECT_EQ(reply.status, status) << reply.body;
+  const auto problem = json_of(reply);
+  EXPECT_EQ(problem.value("type", ""), "/problems/" + slug) << reply.body;
+  EXPECT_EQ(problem.value("pointer", ""), pointer) << reply.body;
+}
+
+std::size_t blobs_in(const fs::path& data) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(data / "blobs")) {
+    const bool unfinished = entry.path().parent_path().filename() == "tmp";
+    count += entry.is_regular_file() && !unfinished ? 1 : 0;
+  }
+  return count;
+}
+
+class Speeches : public ::testing::Test {
+ protected:
+  [[nodiscard]] fs::path data() const { return folder_.path() / "data"; }
+  void start(std::vector<std::string> options = {}, const std::string& program = beeps) {
+    options.insert(options.end(), {"--voice-program", program});
+    server_ = std::make_unique<ServerProcess>(data(), options);
+  }
+  [[nodiscard]] Reply ask(const std::string& method, const std::string& target, const std::string& body = {},
+                          const Fields& fields = {}) const {
+    return request(server_->port(), method, target, body, fields);
+  }
+  [[nodiscard]] Reply say(const json& body, Fields fields = {}) const {
+    fields.insert(fields.end(), json_type.begin(), json_type.end());
+    return ask("POST", "/v1/speeches", body.dump(), fields);
+  }
+  [[nodiscard]] std::string path_of(const Reply& reply) const {
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.headers.contains("location") ? reply.headers.at("location") : "";
+  }
+
+  const json hello_ = {{"text", "Mamma mia! :)"}, {"language", "en"}, {"seed", 7}};
+  TemporaryFolder folder_;
+  std::unique_ptr<ServerProcess> server_;
+};
+
+TEST_F(Speeches, TextBecomesSoundFaceTimelineAndCaptions) {
+  start();
+  const auto made = say(hello_);
+  const auto path = path_of(made);
+  const auto speech = json_of(made);
+  EXPECT_EQ(speech["request"], hello_);
+  EXPECT_EQ(speech["text"], "Mamma mia! ") << "without the smiley";
+  EXPECT_EQ(speech["made_by"], "beeps");
+  EXPECT_EQ(json_of(ask("GET", path)), speech);
+  EXPECT_EQ(json_of(ask("GET", "/v1/speeches"))["speeches"], json::array({speech}));
+
+  const auto audio = ask("GET", path + "/audio");
+  EXPECT_EQ(audio.headers.at("content-type"), "audio/wav");
+  EXPECT_EQ(audio.body.substr(0, 4), "RIFF");
+  EXPECT_NEAR(static_cast<double>(audio.body.size() - 44) / 16.0, speech["duration"].get<double>(), 1.0);
+  const auto part = ask("GET", path + "/audio", {}, {{"Range", "bytes=8-11"}});
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.body, "WAVE");
+  EXPECT_EQ(ask("GET", path + "/audio", {}, {{"If-None-Match", audio.headers.at("etag")}}).status, 304);
+
+  const auto timeline = json_of(ask("GET", path + "/timeline"));
+  ASSERT_EQ(timeline["words"].size(), 2U);
+  EXPECT_EQ(timeline["words"][0]["text"], "Mamma");
+  EXPECT_EQ(timeline["words"][0]["time"], 400.0);
+  EXPECT_LE(timeline["words"][0]["end"], timeline["words"][1]["time"]);
+  EXPECT_EQ(timeline["phonemes"][0]["ipa"], "m");
+  EXPECT_EQ(timeline["visemes"][1]["viseme"], "p_b_m") << "after the silence";
+  const auto face = json_of(ask("GET", path + "/performance"));
+  EXPECT_EQ(face["format"], "semblante.performance");
+  EXPECT_EQ(face["idle"]["seed"], 7);
+  EXPECT_TRUE(std::any_of(face["cues"].begin(), face["cues"].end(),
+                          [](const json& cue) { return cue.value("expression", "") == "joy"; }));
+  const auto captions = ask("GET", path + "/captions");
+  EXPECT_THAT(captions.headers.at("content-type"), HasSubstr("text/vtt"));
+  EXPECT_EQ(captions.body.substr(0, 6), "WEBVTT");
+
+  EXPECT_EQ(ask("DELETE", path).status, 204);
+  expect_problem(ask("DELETE", path), 404, "not-found");
+  expect_problem(ask("GET", path + "/audio"), 404, "not-found");
+  EXPECT_EQ(blobs_in(data()), 0U);
+}
+
+TEST_F(Speeches, WhatIsWrongIsNamed) {
+  start({"--max-speeches", "1"});
+  const auto wrong = [&](const char* member, const json& value) {
+    auto body = hello_;
+    body[member] = value;
+    expect_problem(say(body), 422, "invalid-field", std::string("/") + member);
+  };
+  wrong("text", "");
+  wrong("text", 3);
+  wrong("text", "a\x02");
+  wrong("text", std::string(20'001, 'a'));
+  wrong("text", "[joy]a");
+  wrong("language", "p t");
+  wrong("language", "");
+  wrong("voice", "../x");
+  wrong("rate", 9);
+  wrong("pitch", "high");
+  wrong("emotion", "bored");
+  wrong("intensity", 1.5);
+  wrong("style", "odd");
+  wrong("seed", -1);
+  wrong("seed", 0.5);
+  wrong("ssml", 1);
+  wrong("more", 1);
+  for (const char* bomb : {"<!DOCTYPE a [<!ENTITY b 'cc'>]><speak>&b;</speak>",
+                           "<speak><audio src='/etc/passwd'/></speak>", "<speak>", "<speak></speak></speak>", "<a"}) {
+    auto body = hello_;
+    body["ssml"] = true;
+    body["text"] = bomb;
+    expect_problem(say(body), 422, "invalid-field", "/text");
+  }
+  expect_problem(ask("POST", "/v1/speeches", "{\"text\":\"\xff\",\"language\":\"en\"}", json_type), 400,
+                 "malformed-request");
+  expect_problem(ask("POST", "/v1/speeches", std::string(std::size_t{2} << 20U, ' '), json_type), 413,
+                 "content-too-large");
+  expect_problem(ask("GET", "/v1/speeches?after=absent"), 400, "invalid-argument", "?after");
+  EXPECT_EQ(say(hello_).status, 201);
+  expect_problem(say(hello_), 507, "limit-exceeded");
+}
+
+TEST_F(Speeches, WithoutAVoice_OrWithOneThatFails_TheRestWorks) {
+  start({}, "none");
+  expect_problem(say(hello_), 501, "no-voice");
+  EXPECT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+  expect_problem(ask("POST", "/v1/streams/talk/speech", hello_.dump(), json_type), 501, "no-voice");
+  EXPECT_EQ(json_of(ask("GET", "/v1/speeches"))["speeches"].size(), 0U);
+  server_.reset();
+  for (const char* program : {"/bin/false", "/bin/cat", "/nonexistent/voice"}) {
+    start({}, program);
+    expect_problem(say(hello_), 502, "voice-failed");
+    EXPECT_EQ(ask("GET", "/healthz").status, 200);
+    server_.reset();
+  }
+  EXPECT_EQ(blobs_in(data()), 0U);
+}
+
+TEST_F(Speeches, SurviveAKill_AndCheckBackupAndRestoreKnowThem) {
+  start();
+  const auto path = path_of(say(hello_, {{"Idempotency-Key", "once"}}));
+  const auto audio = ask("GET", path + "/audio").body;
+  server_->end(SIGKILL);
+  start();
+  EXPECT_TRUE(ask("GET", path + "/audio").body == audio);
+  EXPECT_EQ(path_of(say(hello_, {{"Idempotency-Key", "once"}})), path) << "created once";
+  EXPECT_EQ(blobs_in(data()), 4U) << "no start takes a file for unknown";
+  const auto etag = ask("GET", path + "/audio").headers.at("etag");
+  EXPECT_EQ(server_->end(SIGTERM), 0);
+
+  const auto backup = folder_.path() / "backup", restored = folder_.path() / "restored";
+  EXPECT_EQ(run_semblante({"check", "--data", data().string()}).exit_code, 0);
+  EXPECT_EQ(run_semblante({"backup", "--data", data().string(), "--to", backup.string()}).exit_code, 0);
+  EXPECT_EQ(run_semblante({"restore", "--from", backup.string(), "--data", restored.string()}).exit_code, 0);
+  {
+    const ServerProcess again(restored, {"--voice-program", "none"});
+    EXPECT_TRUE(request(again.port(), "GET", path + "/audio").body == audio) << "no voice is needed";
+  }
+  const auto hash = etag.substr(std::string("\"sha256-").size(), 64);
+  fs::remove(data() / "blobs" / hash.substr(0, 2) / hash);
+  const auto found = run_semblante({"check", "--data", data().string()});
+  EXPECT_EQ(found.exit_code, 1);
+  EXPECT_THAT(found.out + found.err, HasSubstr("speech " + path.substr(path.rfind('/') + 1)));
+}
+
+TEST_F(Speeches, TwoThatShareAFile_KeepItUntilTheLastIsRemoved) {
+  start();
+  const auto first = path_of(say(hello_)), second = path_of(say(hello_));
+  EXPECT_EQ(blobs_in(data()), 4U);
+  EXPECT_EQ(ask("DELETE", first).status, 204);
+  EXPECT_EQ(ask("GET", second + "/audio").status, 200);
+  EXPECT_EQ(ask("DELETE", second).status, 204);
+  EXPECT_EQ(blobs_in(data()), 0U);
+}
+
+TEST_F(Speeches, StreamSaysATextOrAStoredSpeech) {
+  start();
+  ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+  const auto speak = [&](const json& body) { return ask("POST", "/v1/streams/talk/speech", body.dump(), json_type); };
+  const auto playing = speak(hello_);
+  ASSERT_EQ(playing.status, 202) << playing.body;
+  EXPECT_EQ(json_of(ask("GET", "/v1/streams/talk"))["active_source"], "performance");
+  EXPECT_EQ(json_of(ask("GET", playing.headers.at("location")))["id"], json_of(playing)["id"]);
+  const auto stored = json_of(say(hello_))["id"];
+  expect_problem(speak({{"speech", stored}}), 409, "conflict");
+  EXPECT_EQ(speak({{"speech", stored}, {"take_over", true}}).status, 202);
+  expect_problem(speak({{"speech", "absent"}}), 422, "invalid-field", "/speech");
+  expect_problem(speak({{"speech", stored}, {"text", "a"}}), 422, "invalid-field", "/text");
+  expect_problem(speak({{"text", "a"}}), 422, "invalid-field", "/language");
+  expect_problem(ask("POST", "/v1/streams/absent/speech", hello_.dump(), json_type), 404, "not-found");
+}
+
+TEST_F(Speeches, MouthOfTheStreamMoves) {
+  start();
+  ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+  const auto recording = json_of(ask("POST", "/v1/streams/talk/recordings"))["id"].get<std::string>();
+  ASSERT_EQ(ask("POST", "/v1/streams/talk/speech", hello_.dump(), json_type).status, 202);
+  // It has ended when nothing plays any more.
+  for (int i = 0; i < 600; ++i) {
+    if (json_of(ask("GET", "/v1/streams/talk"))["playing"].is_null()) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  ASSERT_EQ(ask("POST", "/v1/recordings/" + recording + "/stop").status, 200);
+  const auto frames = json_of(ask("GET", "/v1/recordings/" + recording + "/frames?limit=1000"))["frames"];
+  int closed = 0, open = 0, smiles = 0;
+  for (const auto& frame : frames) {
+    const auto viseme = frame.value("viseme", json::object());
+    const int select = viseme.value("select1", 0), blend = viseme.value("blend", 0);
+    const int other = viseme.value("select2", 0);
+    closed += (select == 1 && blend == 63) || (other == 1 && blend == 0 && !viseme.empty()) ? 1 : 0;
+    open += select == 10 && blend > 20 ? 1 : 0;
+    smiles += frame.value("expression", json::object()).value("select1", 0) == 1 ? 1 : 0;
+  }
+  EXPECT_GE(closed, 3) << frames.size();
+  EXPECT_GE(open, 2);
+  EXPECT_GE(smiles, 5);
+}
+
+}  // namespace
+}  // namespace semblante::test
