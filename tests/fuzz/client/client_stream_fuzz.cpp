@@ -50,10 +50,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.first_pause = options.longest_pause = std::chrono::minutes(1);  // one connection
   const auto begin = std::chrono::steady_clock::now();
   client::LiveStream stream(client::Url{"127.0.0.1", server.port(), ""}, "s", options);
-  while (!stream.loss()) {
+  while (true) {
     const auto event = stream.next(options.socket.timeout);
     if (!event && event.error().message.empty()) std::abort();
     if (!event || event->type == SEMBLANTE_EVENT_NONE) break;
+    const auto state = stream.machine().state();
+    if (state == SEMBLANTE_STREAM_WAITING || state == SEMBLANTE_STREAM_CLOSED) break;
   }
   if (stream.loss() && stream.loss()->message.empty()) std::abort();
   stream.close();
