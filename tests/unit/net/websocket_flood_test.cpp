@@ -34,7 +34,7 @@ class WebSocketFlood : public ServerFixture {
     EXPECT_TRUE(all.ends_with("\x03\xF0" + std::string(words))) << all.size() << " bytes";
   }
 
-  const ServerLimits limits_;
+  const ServerLimits limits_{};
 };
 
 std::string repeated(const std::string& frames, double count) {
