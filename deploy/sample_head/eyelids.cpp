@@ -25,10 +25,10 @@ constexpr double outer_corner_z = 0.62;
 /// iris goes on under them, because an eye whose whole iris is seen looks startled.
 constexpr double lid_height = 0.57;
 /// Height of the fold under which the upper lid slides, at the middle.
-constexpr double fold_height = 0.92;
+constexpr double fold_height = 0.88;
 /// Distance of the skin in front of the ball's surface at the lower edge and at the fold.
 constexpr double lower_thickness = 0.17;
-constexpr double fold_front = 1.60;
+constexpr double fold_front = 1.58;
 
 /// y of the line from corner to corner at x.
 double corner_line(double x) { return glm::mix(inner_corner_y, outer_corner_y, 0.5 + 0.5 * x / slit_half_width); }

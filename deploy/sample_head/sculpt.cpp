@@ -75,7 +75,8 @@ double head_distance(const Vec3& p) {
   d = join(d, capsule(q, {2.2, 1.36, 7.95}, {4.6, 1.2, 7.25}, 0.42, 0.45), 0.7);  // fold over the upper lid
   d = join(d, bridge_distance(q), 2.3);
   d = join(d, nose_end_distance(q), 1.15);
-  return join(d, bust_distance(q), 3.4);
+  d = join(d, capsule(q, {0.0, -8.7, 3.0}, {0.0, -12.6, -0.8}, 1.4, 2.0), 2.4);  // floor of the mouth and throat
+  return join(d, bust_distance(q), 3.8);
 }
 
 Vec3 head_normal(const Vec3& p) {

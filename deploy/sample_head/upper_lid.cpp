@@ -18,6 +18,9 @@ constexpr double half_width = 1.38;
 /// down and must not touch the ball when it passes the ball's middle.
 constexpr double front_radius = eye_radius + 0.14;
 
+/// How much lower the edge is at the outer corner than the line of the slit.
+constexpr double outer_droop = 0.105;
+
 /// Distances about the line through the eye's centre along x, on which the lid rolls.
 constexpr double behind_fold = 0.05;
 constexpr double over_ball = 0.06;
@@ -33,9 +36,9 @@ struct Row {
 /// The roof is near the sphere about the eye's centre: the lid rolls about it, and a higher one would come out of the
 /// skin above the fold.
 constexpr Row rows[] = {
-    {0.0, 0.13, 0.0, 0.0},   {0.0, 0.0, 1.0, 0.03},   {0.065, 0.0, 0.0, 0.13}, {0.12, -0.01, 0.0, 0.24},
-    {0.22, -0.01, 0.0, 0.4}, {0.36, 0.015, 0.0, 0.6}, {0.55, 0.12, 0.0, 0.8},  {0.80, 0.33, 0.0, 1.0},
-    {1.00, 0.58, 0.0, 1.0},  {1.12, 0.85, 0.0, 1.0},  {1.15, 1.10, 0.0, 1.0},  {1.12, 1.40, 0.0, 1.0},
+    {0.0, 0.13, 0.0, 0.0},   {0.0, 0.0, 1.0, 0.03},   {0.065, 0.0, 0.0, 0.13}, {0.12, -0.02, 0.0, 0.24},
+    {0.22, -0.05, 0.0, 0.4}, {0.36, -0.07, 0.0, 0.6}, {0.50, -0.06, 0.0, 0.8}, {0.80, 0.26, 0.0, 1.0},
+    {1.00, 0.55, 0.0, 1.0},  {1.12, 0.85, 0.0, 1.0},  {1.15, 1.10, 0.0, 1.0},  {1.12, 1.40, 0.0, 1.0},
     {0.95, 1.85, 0.0, 1.0},  {0.70, 2.35, 0.0, 1.0},  {0.40, 2.70, 0.0, 1.0},
 };
 constexpr std::size_t tips = 1;
@@ -51,7 +54,10 @@ UpperLid make_upper_lid(bool closed) {
     for (int c = 0; c <= columns; ++c) {
       const double t = 2.0 * c / columns - 1.0;
       const double x = t * half_width;
-      const double edge_y = closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x);
+      // Towards the outer corner the edge hangs lower, or the white of the eye would show there from the side in a
+      // blink.
+      const double edge_y =
+          (closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x)) - outer_droop * glm::smoothstep(0.5, 0.9, t);
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
       const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // pointed at 3.1: everything else is behind it
       const double end = t * t * t * t;

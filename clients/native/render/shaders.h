@@ -62,11 +62,12 @@ uniform sampler2DShadow key_shadow;
 uniform sampler2DShadow front_shadow;
 out vec4 color;
 
-float lit(sampler2DShadow map, vec4 place, float slope) {
+// `near`: how much nearer to the light, in depth of the map, something may be without a shadow.
+float lit(sampler2DShadow map, vec4 place, float slope, float near) {
   vec3 p = place.xyz / place.w * 0.5 + 0.5;
   if (any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)))) return 1.0;
   float texel = 1.0 / float(textureSize(map, 0).x);
-  float bias = 0.001 + 0.005 * slope;
+  float bias = 0.001 + 0.005 * slope + near;
   float sum = 0.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
@@ -96,9 +97,10 @@ void main() {
   vec3 v = normalize(camera - at);
   if (!gl_FrontFacing) n = -n;
   vec3 albedo = base.rgb;
-  // Little light enters a mouth: surfaces in the shadow of the front light also get less ambient light.
-  float key = lit(key_shadow, in_light, 1.0 - max(dot(n, key_direction), 0.0));
-  float open = lit(front_shadow, in_front_light, 1.0 - max(dot(n, fill_direction), 0.0));
+  float key = lit(key_shadow, in_light, 1.0 - max(dot(n, key_direction), 0.0), 0.0);
+  // Little light enters a mouth: surfaces in the shadow of the front light also get less ambient light. A shallow
+  // fold, such as that of a lid, shuts out little of either.
+  float open = lit(front_shadow, in_front_light, 1.0 - max(dot(n, fill_direction), 0.0), 0.012);
   float sky = n.y * 0.5 + 0.5;
   vec3 ambient = mix(vec3(0.20, 0.17, 0.155), vec3(0.36, 0.38, 0.41), sky) * mix(0.42, 1.0, open);
   vec3 sum = albedo * ambient;
