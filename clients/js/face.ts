@@ -2,6 +2,7 @@ import { readRig, type RigDocument } from '../../protocol/ts/rig_document.ts';
 import { decodeWeights, type InfluenceTable } from '../../protocol/ts/weights_format.ts';
 import { decodeMesh, type DracoModule, type FaceMesh } from './draco_mesh.ts';
 import { FaceError } from './face_error.ts';
+import type { Runtime } from './runtime.ts';
 import { sha256 } from './sha256.ts';
 
 /** A validated face package: its parts match each other and all indices are within bounds. */
@@ -12,8 +13,9 @@ export interface Face {
 }
 
 export interface LoadOptions {
-  /** Or a promise of it: the parts are requested meanwhile. */
+  /** Or promises of them: the parts are requested meanwhile. */
   draco: DracoModule | Promise<DracoModule>;
+  runtime: Runtime | Promise<Runtime>;
   /** Default: the platform's fetch. */
   fetch?: typeof fetch;
   signal?: AbortSignal;
@@ -50,7 +52,7 @@ async function fetchFace(folder: string, options: LoadOptions): Promise<Face> {
     return new Uint8Array(await response.arrayBuffer());
   };
   const [rig, weights, mesh] = await Promise.all([part('rig.json'), part('weights'), part('mesh.drc')]);
-  return assembleFace(rig, weights, mesh, await options.draco);
+  return assembleFace(rig, weights, mesh, await options.draco, await options.runtime);
 }
 
 function levelQuery(level: LoadOptions['level']): string {
@@ -64,11 +66,14 @@ export async function assembleFace(
   weights: Uint8Array,
   meshDrc: Uint8Array,
   draco: DracoModule,
+  runtime: Runtime,
 ): Promise<Face> {
   const rig = readRig(new TextDecoder().decode(rigJson));
-  const [meshHash, weightsHash] = await Promise.all([sha256(meshDrc), sha256(weights)]);
+  const meshHash = sha256(runtime, meshDrc);
   if (meshHash !== rig.mesh.sha256) throw new FaceError('mismatch', 'the SHA-256 of mesh.drc differs from rig.json');
-  if (weightsHash !== rig.weights.sha256) throw new FaceError('mismatch', 'the SHA-256 of the weights differs from rig.json');
+  if (sha256(runtime, weights) !== rig.weights.sha256) {
+    throw new FaceError('mismatch', 'the SHA-256 of the weights differs from rig.json');
+  }
   const influence = await decodeWeights(weights);
   if (influence.meshSha256 !== meshHash) throw new FaceError('mismatch', 'the weights belong to another mesh');
   if (influence.vertexCount !== rig.mesh.vertices) {

@@ -35,6 +35,8 @@ export interface Functions {
   semblante_player_stats(player: number, statistics: number): number;
   semblante_player_clear(player: number): void;
 
+  semblante_sha256(bytes: number, size: number, digest: number): number;
+
   semblante_evaluate(rig: number, frame: number, pose: number): void;
   semblante_interpolate(a: number, b: number, t: number, out: number): void;
   semblante_ease(before: number, from: number, to: number, after: number, spans: number, t: number, out: number): void;

@@ -171,6 +171,10 @@ semblante_result semblante_head_update_positions(const semblante_head* head, con
 semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
                                         size_t capacity);
 
+/* SHA-256 of the bytes of a package's part, as rig.json names it, for programs that read packages by themselves.
+ * INVALID_ARGUMENT for null, unless `size` is 0. */
+semblante_result semblante_sha256(const uint8_t* bytes, size_t size, uint8_t digest[32]);
+
 /* ---- bridges: faces of other systems ------------------------------------------------------------------------------
  */
 

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include "clients/runtime/semblante.h"
+
 namespace semblante::runtime {
 namespace {
 
@@ -71,3 +73,10 @@ Sha256 sha256(std::span<const std::uint8_t> bytes) {
 }
 
 }  // namespace semblante::runtime
+
+extern "C" semblante_result semblante_sha256(const uint8_t* bytes, size_t size, uint8_t digest[32]) {
+  if (digest == nullptr || (bytes == nullptr && size > 0)) return SEMBLANTE_INVALID_ARGUMENT;
+  const semblante::Sha256 made = semblante::runtime::sha256({bytes, size});
+  std::copy(made.begin(), made.end(), digest);
+  return SEMBLANTE_OK;
+}

@@ -52,13 +52,14 @@ beforeAll(async () => {
   semblante('convert', join(folder, 'frames.json'), '--package', parts, '--out', join(folder, 'clip.glb'));
   clip = readFileSync(join(folder, 'clip.glb'));
   const draco = (await createDecoderModule({})) as DracoModule;
+  const runtime = await Runtime.load(() => readFileSync(join(buildDir, 'wasm/semblante_view.wasm')));
   face = await assembleFace(
     readFileSync(join(parts, 'rig.json')),
     readFileSync(join(parts, 'weights')),
     readFileSync(join(parts, 'mesh.drc')),
     draco,
+    runtime,
   );
-  const runtime = await Runtime.load(() => readFileSync(join(buildDir, 'wasm/semblante_view.wasm')));
   kernel = new Kernel(runtime, face);
 
   browser = await launch();

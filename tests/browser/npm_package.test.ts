@@ -74,8 +74,9 @@ test('Package_InNode_LoadsAFaceAndDeformsIt', async () => {
     join(project, 'use.js'),
     `import { Kernel, loadFace, loadRuntime, neutralFrame } from 'semblante';
 import { loadDraco } from 'semblante/draco';
-const face = await loadFace(process.argv[2], 'sample', { draco: await loadDraco() });
-const kernel = new Kernel(await loadRuntime(), face);
+const runtime = await loadRuntime();
+const face = await loadFace(process.argv[2], 'sample', { draco: await loadDraco(), runtime });
+const kernel = new Kernel(runtime, face);
 const frame = neutralFrame();
 frame.viseme = { select1: 10, select2: 0, blend: 63 };
 kernel.evaluate(frame, 0);

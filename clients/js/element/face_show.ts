@@ -147,17 +147,16 @@ export class FaceShow extends Emitter<ShowEvents> {
   private async load(): Promise<void> {
     const { signal } = this.work;
     const { source } = this.options;
-    const draco = loadDraco();
-    const library = loadRuntime();
+    const libraries = { draco: loadDraco(), runtime: loadRuntime() };
     try {
       const model = await modelOf(source, signal);
       if (model !== this.model) {
         const level = { maxVertices: Math.min(firstVertices, this.budget.maxVertices) };
-        const [face, runtime] = await Promise.all([faceOf(source, model, draco, level, this.images, signal), library]);
+        const face = await faceOf(source, model, libraries, level, this.images, signal);
         const small = smallImages(face.rig.images).map(({ sha256 }) => this.images.get(sha256));
         await Promise.race([Promise.allSettled(small), new Promise((wake) => setTimeout(wake, imagePatience))]);
         if (signal.aborted) return;
-        const kernel = new Kernel(runtime, face, { withVertices: false });
+        const kernel = new Kernel(await libraries.runtime, face, { withVertices: false });
         this.kernel?.dispose();
         this.model = model;
         this.kernel = kernel;
@@ -295,7 +294,8 @@ export class FaceShow extends Emitter<ShowEvents> {
     if (this.loadingLevel) return;
     this.loadingLevel = true;
     try {
-      const face = await faceOf(this.options.source, this.model, loadDraco(), level, this.images, this.work.signal);
+      const libraries = { draco: loadDraco(), runtime: loadRuntime() };
+      const face = await faceOf(this.options.source, this.model, libraries, level, this.images, this.work.signal);
       // The poses are the same for all levels, so the kernel and its player stay.
       this.show(face);
     } catch {

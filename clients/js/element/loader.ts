@@ -1,6 +1,5 @@
 import { loadFace, type Face, type LoadOptions } from '../face.ts';
 import { FaceError } from '../face_error.ts';
-import type { DracoModule } from '../draco_mesh.ts';
 import { ProtocolError } from '../../../protocol/ts/protocol_error.ts';
 import { FaceTrouble, troubleWords, type Trouble } from './words.ts';
 
@@ -48,7 +47,7 @@ export async function modelOf(source: Source, signal: AbortSignal): Promise<stri
 export async function faceOf(
   source: Source,
   model: string,
-  draco: DracoModule | Promise<DracoModule>,
+  { draco, runtime }: Pick<LoadOptions, 'draco' | 'runtime'>,
   level: NonNullable<LoadOptions['level']>,
   images: Images,
   signal: AbortSignal,
@@ -60,7 +59,7 @@ export async function faceOf(
     return response;
   };
   try {
-    return await loadFace(source.base, model, { draco, fetch: tapped, signal, level });
+    return await loadFace(source.base, model, { draco, runtime, fetch: tapped, signal, level });
   } catch (error) {
     if (signal.aborted) throw error;
     if (error instanceof FaceError && error.code === 'http') throw troubleOf(error.status ?? 0, 'model-unready', '');

@@ -1,6 +1,4 @@
-import type { StreamErrorCode } from '../../../protocol/ts/generated/messages.ts';
-import { ProtocolError } from '../../../protocol/ts/protocol_error.ts';
-import { Runtime, type Functions, type ModuleSource, type Refusal } from '../runtime.ts';
+import { Runtime, type Functions, type ModuleSource } from '../runtime.ts';
 
 /** The functions of the whole library that the smaller file for pages does not have. */
 export interface MotionFunctions extends Functions {
@@ -46,29 +44,4 @@ export function loadWhole(source: () => ModuleSource): Promise<Library> {
     throw error;
   });
   return loading;
-}
-
-/** semblante_result, by number from 1. */
-const codes: readonly StreamErrorCode[] = ['invalid_argument', 'malformed', 'unsupported', 'mismatch', 'too_large'];
-/** SEMBLANTE_BUFFER_TOO_SMALL */
-export const bufferTooSmall = 6;
-
-/** What the library refuses in bytes from outside is a ProtocolError. */
-export const refusedBytes: Refusal = (result, where, message) =>
-  new ProtocolError(codes[result - 1] ?? 'internal', where, message);
-
-/** Calls `use` with the address of a copy of the bytes, which is freed afterwards. */
-export function withBytes<Result>(
-  library: Library,
-  given: string | Uint8Array,
-  use: (at: number, size: number) => Result,
-): Result {
-  const bytes = typeof given === 'string' ? new TextEncoder().encode(given) : given;
-  const at = library.alloc(Math.max(1, bytes.length));
-  try {
-    library.bytes.set(bytes, at);
-    return use(at, bytes.length);
-  } finally {
-    library.free(at);
-  }
 }

@@ -2,7 +2,8 @@ import { lastLowLevelFap, neutralFrame, type FaceFrame } from '../../../protocol
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { fapOf, readFrame, readSelects } from '../frames.ts';
 import { frameLayout } from '../layouts.ts';
-import { refusedBytes, withBytes, type Library } from './library.ts';
+import { refusedBytes, withBytes } from '../bytes.ts';
+import type { Library } from './library.ts';
 
 /** The face at one moment, in FAP units. */
 export interface PerformedFace {

@@ -2,7 +2,8 @@ import { neutralFrame, type TimedFrame } from '../../../protocol/ts/face_frame.t
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { readFrame, writeFrame } from '../frames.ts';
 import { takeOptionsLayout, takeWarningLayout, timedFrameLayout } from '../layouts.ts';
-import { bufferTooSmall, refusedBytes, withBytes, type Library } from './library.ts';
+import { bufferTooSmall, refusedBytes, withBytes } from '../bytes.ts';
+import type { Library } from './library.ts';
 
 /** `fap`: protocol/FAP_FILE.md. `live_link_csv`: the CSV of the app Live Link Face. */
 export type TakeFormat = 'fap' | 'live_link_csv';

@@ -24,7 +24,7 @@ export async function loadStageFace(
   signal: AbortSignal,
 ): Promise<LoadedFace> {
   const [draco, runtime] = await Promise.all([sources.draco(), sources.runtime()]);
-  const face = await loadFace(sources.base, model, { draco, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
+  const face = await loadFace(sources.base, model, { draco, runtime, signal, ...(level > 0 ? { level: { lod: level } } : {}) });
   const materials = await loadMaterials(face.rig, (sha256) => sources.image(sha256, signal));
   const kernel = new Kernel(runtime, face, { poseCount });
   return { rig: face.rig, mesh: drawableMesh(face), materials, kernel, packageBytes: face.rig.mesh.bytes + face.rig.weights.bytes };

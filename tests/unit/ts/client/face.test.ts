@@ -1,7 +1,8 @@
 import { readFileSync } from 'node:fs';
 import draco3d from 'draco3d';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { assembleFace, FaceError, loadFace, type DracoModule } from '../../../../clients/js/index.ts';
+import { assembleFace, FaceError, loadFace, type DracoModule, type Runtime } from '../../../../clients/js/index.ts';
+import { loadRuntime } from '../support/runtime.ts';
 
 const file = (name: string): Uint8Array =>
   new Uint8Array(readFileSync(new URL(`../../../../protocol/vectors/face/${name}`, import.meta.url)));
@@ -35,13 +36,15 @@ function changedRig(change: (rig: ChangeableRig) => void): Uint8Array {
 }
 
 let draco: DracoModule;
+let runtime: Runtime;
 beforeAll(async () => {
   draco = (await draco3d.createDecoderModule({})) as unknown as DracoModule;
+  runtime = await loadRuntime();
 });
 
 async function errorOf(rig: Uint8Array, weights: Uint8Array, mesh: Uint8Array): Promise<string> {
   try {
-    await assembleFace(rig, weights, mesh, draco);
+    await assembleFace(rig, weights, mesh, draco, runtime);
   } catch (error) {
     if (error instanceof FaceError) return error.code;
     throw error;
@@ -71,7 +74,7 @@ describe('loadFace', () => {
 
   it('Load_FromAServer_GivesTheFace', async () => {
     const { fetch, requests } = server();
-    const face = await loadFace('http://x/', 'my head', { draco, fetch });
+    const face = await loadFace('http://x/', 'my head', { draco, runtime, fetch });
     expect(requests.map((url) => url.replace(/.*models/, '')).sort()).toEqual(
       ['/my%20head/mesh.drc', '/my%20head/rig.json', '/my%20head/weights'],
     );
@@ -91,7 +94,7 @@ describe('loadFace', () => {
   it('Load_ALevelOfDetail_AsksForItInEveryPart', async () => {
     const ends = async (level: { maxVertices: number } | { lod: number }): Promise<string[]> => {
       const { fetch, requests } = server();
-      await loadFace('http://x', 'm', { draco, fetch, level });
+      await loadFace('http://x', 'm', { draco, runtime, fetch, level });
       return requests.map((url) => url.replace(/.*models/, '')).sort();
     };
     expect(await ends({ maxVertices: 8000 })).toEqual(
@@ -105,17 +108,17 @@ describe('loadFace', () => {
     const { fetch, requests } = server({
       'rig.json': (nth) => new Response((nth === 1 ? old : files['rig.json']) as Uint8Array<ArrayBuffer>),
     });
-    await loadFace('http://x', 'm', { draco, fetch });
+    await loadFace('http://x', 'm', { draco, runtime, fetch });
     expect(requests.length).toBe(6);
   });
 
   it('Load_NotThere_SaysTheStatus', async () => {
     const { fetch } = server({ weights: () => new Response('', { status: 404 }) });
-    await expect(loadFace('http://x', 'm', { draco, fetch })).rejects.toMatchObject({ code: 'http', status: 404 });
+    await expect(loadFace('http://x', 'm', { draco, runtime, fetch })).rejects.toMatchObject({ code: 'http', status: 404 });
   });
 
   it('Load_MeshOfRandomBytes_IsRefused', async () => {
     const { fetch } = server({ 'mesh.drc': () => new Response(new Uint8Array(500).fill(7)) });
-    await expect(loadFace('http://x', 'm', { draco, fetch })).rejects.toMatchObject({ code: 'mismatch' });
+    await expect(loadFace('http://x', 'm', { draco, runtime, fetch })).rejects.toMatchObject({ code: 'mismatch' });
   });
 });
