@@ -12,6 +12,7 @@ import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
 import { h } from './ui/shared/dom.ts';
 import { makeDriverChip } from './ui/page/driver_chip.ts';
 import { FaceDriver } from './ui/stage/face_driver.ts';
+import { flyToPoints } from './ui/page/point_flight.ts';
 import { routeDrops } from './ui/page/file_drop.ts';
 import { pointOutFindings } from './ui/fit/fit_highlight.ts';
 import { FitModel } from './ui/fit/fit_model.ts';
@@ -113,7 +114,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   });
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
-  points.onReview = ({ vertex, position }) => scene.flyTo([position], vertex === null ? [] : [vertex]);
+  flyToPoints(studio, points, scene);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
   takeThumbnails(studio, scene, shelf);

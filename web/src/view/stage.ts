@@ -32,6 +32,11 @@ const directions: Record<ViewName, [number, number, number]> = {
 /** Height of the tools and messages at the top and the bottom of the stage, pixels. */
 const toolRoom = 124;
 
+/** Cosine of the angle up to which two views are from the same side. */
+const sameSide = Math.cos(0.6);
+/** From this distance on, in radii of the head, the face is smaller than half of the picture. */
+const farAway = 2 / Math.tan((fieldOfView * Math.PI) / 360);
+
 /** Half the size that a box needs in the picture; the depth counts less, since the head is seen from in front. */
 function radiusOf(box: Box3): number {
   const size = box.getSize(new Vector3());
@@ -57,7 +62,7 @@ export class Stage {
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
   private readonly flight = new Flight();
-  /** The view before `lookAt`, for `lookBack`: the camera's target and the vector from there to the camera. */
+  /** The view before `lookAt` and `lookFrom`, for `lookBack`: the camera's target and the vector from there to the camera. */
   private before: { target: Vector3; arm: Vector3 } | null = null;
   private radius = 1;
   private dirty = true;
@@ -159,8 +164,7 @@ export class Stage {
 
   /** Moves the camera to a place of the model so that a ball of `radius` fits; `outward`: the surface normal there. */
   lookAt(place: Vector3, radius: number, outward: Vector3): void {
-    const { target } = this.controls;
-    this.before ??= { target: target.clone(), arm: this.arm() };
+    this.remember();
     // The mean of the normal and the front: no view from below or behind because of one triangle's normal.
     const direction = outward
       .clone()
@@ -171,7 +175,19 @@ export class Stage {
     this.fly(place, Math.max(radius, this.radius * 0.4), direction, false);
   }
 
-  /** Restores the view before `lookAt`. */
+  /** Shows the whole face from a side, unless the camera is on that side already; `lookBack` restores the view before. */
+  lookFrom(view: ViewName): void {
+    const side = new Vector3(...directions[view]).normalize();
+    if (this.arm().normalize().dot(side) > sameSide && this.arm().length() < this.radius * farAway) return;
+    this.remember();
+    this.fly(this.center, this.radius * 1.06, side, false);
+  }
+
+  private remember(): void {
+    this.before ??= { target: this.controls.target.clone(), arm: this.arm() };
+  }
+
+  /** Restores the view before `lookAt` and `lookFrom`. */
   lookBack(): void {
     if (!this.before) return;
     const { target, arm } = this.before;

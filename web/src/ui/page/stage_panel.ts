@@ -146,7 +146,7 @@ export class StagePanel {
     }
     if (this.points.chosen.value === null) {
       const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 14);
-      if (marker) this.points.chosen.set(marker.id);
+      if (marker) this.points.pick(marker.id);
       return;
     }
     this.placeAt((x / width) * 2 - 1, 1 - (y / height) * 2);

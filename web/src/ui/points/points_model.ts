@@ -14,6 +14,8 @@ export class PointsModel {
   /** Incremented by every change of the draft or the problems. */
   readonly changed = new Signal(0);
   readonly chosen = new Signal<string | null>(null);
+  /** Whether the point is being chosen on the head itself, where it is seen already. */
+  pickedOnHead = false;
   readonly busy = new Signal(false);
   /** Errors by feature point id; "" holds the errors that concern no single point. */
   problems: ReadonlyMap<string, readonly string[]> = new Map();
@@ -29,11 +31,9 @@ export class PointsModel {
   /** The axes of the open head, in one word. */
   private axes = '';
   /** Whether the draft is the open head's, so that its changes are worth keeping. */
-  private opened = false;
+  opened = false;
   /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
-  /** Called when a proposed point is to be shown for review. */
-  onReview: (point: PlacedPoint) => void = () => {};
 
   constructor(
     private readonly studio: Studio,
@@ -108,6 +108,13 @@ export class PointsModel {
     this.touch();
   }
 
+  /** Chooses a point by its marker on the head. */
+  pick(id: string): void {
+    this.pickedOnHead = true;
+    this.chosen.set(id);
+    this.pickedOnHead = false;
+  }
+
   toggle(id: string): void {
     this.chosen.set(this.chosen.value === id ? null : id);
   }
@@ -151,8 +158,6 @@ export class PointsModel {
       featurePoints.map(({ id }) => id),
       (id) => this.draft.points.get(id)?.proposal !== undefined,
     );
-    const place = this.draft.points.get(this.chosen.value ?? '');
-    if (place) this.onReview(place);
   }
 
   remove(id: string): void {

@@ -1,0 +1,31 @@
+import { bestView } from '../points/guide_data.ts';
+import type { PointsModel } from '../points/points_model.ts';
+import type { Studio } from '../shared/studio.ts';
+import type { SceneView } from '../stage/scene.ts';
+
+/** Half the height of the picture of a chosen point, in radii of the head. */
+const around = 0.5;
+
+/**
+ * Brings the camera in front of each point that is chosen anywhere but on the head; for a point that is not placed yet, to the
+ * side of the face where it lies.
+ */
+export function flyToPoints(studio: Studio, points: PointsModel, scene: SceneView): void {
+  let asked: string | null = null;
+  const fly = (): void => {
+    if (asked === null || studio.tab.value !== 'points' || scene.state.value.kind !== 'ready' || !points.opened) return;
+    const place = points.draft.points.get(asked);
+    const side = bestView(asked) === 'side' ? 'left' : 'front';
+    asked = null;
+    if (place) scene.flyTo([place.position], place.vertex === null ? [] : [place.vertex], scene.stage.headRadius * around);
+    else scene.stage.lookFrom(side);
+  };
+  points.chosen.watch((id) => {
+    asked = points.pickedOnHead ? null : id;
+    fly();
+  });
+  // A link names a point before the head and its points are there.
+  scene.state.watch(fly);
+  points.changed.watch(fly);
+  studio.tab.watch(fly);
+}
