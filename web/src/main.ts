@@ -23,6 +23,7 @@ import { InfluencePanel } from './ui/influence/influence_panel.ts';
 import { InfluenceReader } from './ui/influence/influence_reader.ts';
 import { exposeInspection } from './ui/page/inspect.ts';
 import { makeLayout } from './ui/page/layout.ts';
+import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
 import { LiveModel } from './ui/live/live_model.ts';
@@ -52,7 +53,7 @@ import { Toasts } from './ui/shared/toast.ts';
 function main(root: HTMLElement, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
   const api = new Api();
-  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), languageSelect(), theme);
+  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), keySheetButton(), languageSelect(), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);

@@ -19,7 +19,7 @@ const withoutTexts = /^(face\/(?!feature_points|quick_set)|net\/(?!live|problem|
 /** Parts of the standard's names, commands and names of protocols, which are the same in every language. */
 const notTexts = new Set(['Semblante', 'left of middle', 'right of middle', 'lip middle', 'lip corner', 'lip corners', 'semblante token create', 'ApiError', 'Content-Type']);
 const silentProperties = new Set(['class', 'type', 'role', 'id', 'method', 'autocomplete']);
-const silentCalls = /(querySelector(All)?|closest|addEventListener|classList\.\w+|getAttribute|includes|replaceAll|split|join|matchMedia|heatGradient|svg|Error|DOMException)$/;
+const silentCalls = /(querySelector(All)?|closest|addEventListener|classList\.\w+|getAttribute|includes|replaceAll|split|join|matchMedia|heatGradient|svg|kbd|Error|DOMException)$/;
 
 const looksLikeText = (text: string): boolean =>
   /\p{L}{3}/u.test(text) && (/^[“"(]?[A-Z][a-z ]/.test(text) || /[a-z,:.] [a-z{]/.test(text));

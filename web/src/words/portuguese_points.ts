@@ -127,7 +127,7 @@ export const portuguesePoints = {
   'Import points from a file': 'Importar pontos de um arquivo',
   'Export points to a file': 'Exportar pontos para um arquivo',
   'The twenty points to begin with': 'Os vinte pontos com que se começa',
-  'First 20': 'Primeiros 20',
+  'First 20': '20 primeiros',
   'All 84': 'Todos os 84',
   'Feature points to mark': 'Pontos característicos a marcar',
   '{proposed} of {total} placed, {proposed2} proposed': '{proposed} de {total} colocados, {proposed2} propostos',

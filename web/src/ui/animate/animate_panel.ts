@@ -97,8 +97,6 @@ export class AnimatePanel {
         h('span', { class: 'grow' }),
         this.resetAll,
       ),
-      this.makeIdle(),
-      ...options.views,
       h(
         'section',
         {},
@@ -123,6 +121,8 @@ export class AnimatePanel {
         h('div', { class: 'feelings' }, ...this.makeFeelings()),
       ),
       h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, t('Face parameters'))), this.faps.element),
+      this.makeIdle(),
+      ...options.views,
     );
     this.refresh();
   }

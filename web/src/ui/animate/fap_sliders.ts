@@ -25,15 +25,42 @@ export function fapsWithoutEffect(pose: Pose): ReadonlySet<number> {
   return without;
 }
 
+/** Whether a FAP is one of those that these words look for: by its number, its name in the standard or its title. */
+export function fapMatches(fap: Fap, words: string): boolean {
+  const wanted = words.trim().toLowerCase();
+  if (/^(fap ?)?\d+$/.test(wanted)) return fap.number === Number(wanted.replace(/\D/g, ''));
+  const text = `${fap.name} ${fapTitle(fap.name, fap.group)}`.toLowerCase();
+  return wanted.split(/\s+/).every((word) => text.includes(word));
+}
+
+interface Group {
+  list: readonly Fap[];
+  element: HTMLDetailsElement;
+  /** Makes its sliders, once. */
+  fill: () => void;
+  /** Whether the search has opened it, and not the user. */
+  opened: boolean;
+}
+
 /** Sliders of the low-level FAPs in the standard's groups, collapsed at first. */
 export class FapSliders {
   readonly element = h('div', { class: 'fap-groups' });
   private readonly sliders = new Map<number, Slider>();
   private readonly counts = new Map<number, HTMLElement>();
+  private readonly groups: Group[] = [];
+  private readonly nothing = h('p', { class: 'empty', hidden: true }, t('No face parameter matches.'));
+  private words = '';
   private both = true;
   private without: ReadonlySet<number> = new Set();
 
   constructor(private readonly options: FapSlidersOptions) {
+    const search = h('input', {
+      type: 'search',
+      placeholder: t('Search: jaw, left, 31…'),
+      'aria-label': t('Search face parameters'),
+      on: { input: () => this.search(search.value) },
+    });
+    this.element.append(h('div', { class: 'search' }, icon('search', 16), search));
     const both = h('input', { type: 'checkbox', checked: true, on: { change: () => (this.both = both.checked) } });
     this.element.append(h('label', { class: 'check' }, both, icon('link', 16), t('Move left and right together')));
     const lip = h('input', {
@@ -45,12 +72,36 @@ export class FapSliders {
     this.element.append(h('label', { class: 'check', title: hint }, lip, t('The jaw takes the lower lip along')));
     for (const group of fapGroups)
       if (group.number > 1) this.element.append(this.makeGroup(group.number, faps.slice(group.first - 1, group.last)));
+    this.element.append(this.nothing);
   }
 
   /** Hides the sliders of these FAPs and shows all others. */
   hide(without: ReadonlySet<number>): void {
     this.without = without;
-    for (const [number, slider] of this.sliders) slider.element.hidden = without.has(number);
+    this.draw();
+  }
+
+  /** Opens the groups with a FAP that matches, and shows only the matching ones; no words: everything as it was. */
+  search(words: string): void {
+    this.words = words;
+    const any = words.trim() !== '';
+    for (const group of this.groups) {
+      const matches = any && group.list.some((fap) => this.isShown(fap));
+      if (matches) group.fill();
+      if (matches && !group.element.open) group.opened = group.element.open = true;
+      else if (!any && group.opened) group.opened = group.element.open = false;
+    }
+    this.draw();
+  }
+
+  private isShown(fap: Fap): boolean {
+    return !this.without.has(fap.number) && (this.words.trim() === '' || fapMatches(fap, this.words));
+  }
+
+  private draw(): void {
+    for (const [number, slider] of this.sliders) slider.element.hidden = !this.isShown(faps[number - 1]!);
+    for (const { list, element } of this.groups) element.hidden = !list.some((fap) => this.isShown(fap));
+    this.nothing.hidden = this.groups.some(({ element }) => !element.hidden);
   }
 
   /** Sets the sliders to the frame's values. */
@@ -99,13 +150,14 @@ export class FapSliders {
       body,
     );
     // Sliders are created when a group is first opened: creating all 66 at once is slow on a phone.
-    details.addEventListener('toggle', () => {
-      if (details.open && body.childElementCount === 0) {
-        for (const fap of list) body.append(this.makeSlider(fap).element);
-        this.hide(this.without);
-        this.refresh();
-      }
-    });
+    const fill = (): void => {
+      if (body.childElementCount > 0) return;
+      for (const fap of list) body.append(this.makeSlider(fap).element);
+      this.draw();
+      this.refresh();
+    };
+    details.addEventListener('toggle', () => details.open && fill());
+    this.groups.push({ list, element: details, fill, opened: false });
     return details;
   }
 

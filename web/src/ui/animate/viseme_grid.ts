@@ -13,7 +13,7 @@ export class VisemeGrid {
 
   constructor(options: VisemeGridOptions) {
     visemes.forEach((viseme, number) => {
-      const sounds = number === 0 ? 'rest' : viseme.phonemes.join(' ');
+      const sounds = number === 0 ? t('rest') : viseme.phonemes.join(' ');
       const word = viseme.examples[0] ?? t('silence');
       const button = h(
         'button',

@@ -2,7 +2,7 @@ import type { Direction, FrameWish, LengthUnit, Model, ModelFrame } from '../../
 import { h, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
-import { t } from '../../words/words.ts';
+import { language, t } from '../../words/words.ts';
 
 const units: readonly { unit: LengthUnit; name: string }[] = [
   { unit: 'm', name: t('metres') },
@@ -180,5 +180,5 @@ function sizeWords(model: Model, frame: ModelFrame): string {
   const { min, max } = model.bounds;
   const metres = [0, 1, 2].map((axis) => (max[axis]! - min[axis]!) * frame.metres_per_unit);
   const [name, scale] = Math.max(...metres) < 1.5 ? (['cm', 100] as const) : (['m', 1] as const);
-  return `${metres.map((value) => Number((value * scale).toPrecision(3))).join(' × ')} ${name}`;
+  return `${metres.map((value) => (value * scale).toLocaleString(language, { maximumSignificantDigits: 3 })).join(' × ')} ${name}`;
 }

@@ -131,8 +131,11 @@ export class PartsPanel {
           h(
             'small',
             { class: 'muted number' },
-            `${formatCount(part.vertices)} ${part.triangles === 0 ? t('loose vertices') : 'vertices'} · `,
-            part.role_by_user ? 'yours' : 'guessed',
+            part.triangles === 0
+              ? t('{count} loose vertices', { count: formatCount(part.vertices) })
+              : t('{count} vertices', { count: formatCount(part.vertices) }),
+            ' · ',
+            part.role_by_user ? t('yours') : t('guessed'),
           ),
         ),
       ),

@@ -1,0 +1,84 @@
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+/** Words of the English page that no Portuguese sentence has. */
+const english = /\b(the|of|with|not|head|heads|points|frames|choose|and|stream|streams|save|guessed|placed|by)\b/gi;
+
+const sizes = [
+  { name: 'wide', width: 1440, height: 900 },
+  { name: 'narrow', width: 390, height: 844 },
+];
+
+async function open(width: number, height: number): Promise<StudioPage> {
+  const context = await browser.newContext({ viewport: { width, height }, locale: 'pt-BR', reducedMotion: 'reduce' });
+  const studio = await StudioPage.openIn(context, server.url);
+  await studio.waitForStage('ready');
+  return studio;
+}
+
+const language = (studio: StudioPage): Promise<string> => studio.page.evaluate(() => document.documentElement.lang);
+
+describe('languages', () => {
+  for (const { name, width, height } of sizes) {
+    test(`Language_PortugueseBrowser${name}_NoEnglishOnAnyTab`, async () => {
+      const studio = await open(width, height);
+      const { page } = studio;
+      expect(await language(studio)).toBe('pt-BR');
+      for (const tab of ['animate', 'fit', 'points', 'live']) {
+        await page.locator(`#tab-${tab}`).click();
+        await studio.drawn(10);
+        await studio.keep(`portuguese-${name}-${tab}`);
+        const said = await page.evaluate(() => {
+          const texts = [...document.querySelectorAll<HTMLElement>('[aria-label], [title], [placeholder]')].map(
+            (one) => `${one.getAttribute('aria-label') ?? ''} ${one.title} ${one.getAttribute('placeholder') ?? ''}`,
+          );
+          // Names of heads, streams and parts are whatever their owner called them; the standard's example words are English.
+          const shown = document.body.innerText.replaceAll(/Sample head|Demo/g, '');
+          return [shown, ...texts.filter((text) => !/Sample head|^Visema|^\s*\w+(, \w+)+ *$/.test(text))].join('\n');
+        });
+        const around = (at: number): string => said.slice(Math.max(0, at - 30), at + 30);
+        expect([...said.matchAll(english)].map(({ index }) => around(index)), tab).toEqual([]);
+        const overflow = await page.evaluate(() => [
+          document.documentElement.scrollWidth - innerWidth,
+          document.documentElement.scrollHeight - innerHeight,
+        ]);
+        expect(overflow, tab).toEqual([0, 0]);
+      }
+      // Digits are grouped as in Brazil.
+      await page.getByText('11.478').first().waitFor({ state: 'attached' });
+      expect(studio.errors).toEqual([]);
+      await studio.close();
+    });
+  }
+
+  test('Language_Chosen_IsKeptByTheBrowser', async () => {
+    const studio = await open(880, 560);
+    const { page } = studio;
+    await page.getByLabel('Idioma').selectOption('en');
+    await page.getByLabel('Language').waitFor();
+    await page.locator('#tab-live').getByText('Live', { exact: true }).waitFor();
+    expect(await language(studio)).toBe('en');
+    await page.reload();
+    await page.getByLabel('Language').waitFor();
+    expect(await language(studio)).toBe('en');
+    await page.getByLabel('Language').selectOption('pt-BR');
+    await page.getByLabel('Idioma').waitFor();
+    await studio.waitForStage('ready');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});
