@@ -42,6 +42,8 @@ import { SceneView } from './ui/stage/scene.ts';
 import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
+import { SpeakModel } from './ui/speak/speak_model.ts';
+import { SpeakPanel } from './ui/speak/speak_panel.ts';
 import { Studio } from './ui/shared/studio.ts';
 import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
@@ -88,7 +90,9 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     },
   });
   const clip = new ClipPanel(driver, loadLibrary);
-  animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
+  const sound = new Audio();
+  const speak = new SpeakPanel(new SpeakModel(api, driver, sound, loadLibrary), api);
+  animate.element.append(speak.element, clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
@@ -124,7 +128,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
 
   const address = new Address(studio, points, live);
   void Promise.all([studio.start(), live.refresh()]).then(() => address.start());
-  exposeInspection(scene, studio, driver, live);
+  exposeInspection(scene, studio, driver, live, sound);
 }
 
 function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {

@@ -50,6 +50,7 @@ const takes: Record<MotionSource, () => void> = {
     driver.byClip();
     driver.clip.play();
   },
+  speech: () => driver.bySpeech({ clip: new FrameClip(frames), now: () => 40 }),
   recording: () => driver.byRecording(moment),
   stream: () => driver.byStream(),
 };
@@ -65,8 +66,8 @@ describe('face driver', () => {
     expect(driver.source.value).toBe(to);
     expect(driver.clip.playing).toBe(to === 'clip');
     driver.step(0.016);
-    expect(face.clipTimes).toEqual(to === 'clip' ? [0] : []);
-    expect(face.steps).toEqual(to === 'clip' ? [] : [to === 'stream']);
+    expect(face.clipTimes).toEqual(to === 'clip' ? [0] : to === 'speech' ? [40] : []);
+    expect(face.steps).toEqual(to === 'clip' || to === 'speech' ? [] : [to === 'stream']);
     if (to === 'hand') expect(face.followed.at(-1)).toBe(hand);
     if (to === 'recording') expect(face.followed.at(-1)).toBe(moment);
   });
@@ -99,10 +100,10 @@ describe('face driver', () => {
     expect(driver.source.value).toBe('hand');
   });
 
-  test.each(sources)('IdleSwitchedOff_Under%s_LeavesAClipAndAStreamAlone', async (source) => {
+  test.each(sources)('IdleSwitchedOff_Under%s_LeavesAClipASpeechAndAStreamAlone', async (source) => {
     takes[source]();
     await driver.setIdle(null);
-    expect(driver.source.value).toBe(source === 'clip' || source === 'stream' ? source : 'hand');
+    expect(driver.source.value).toBe(['clip', 'speech', 'stream'].includes(source) ? source : 'hand');
     driver.step(0.016);
     expect(face.enlivened).toBe(0);
   });
@@ -155,7 +156,7 @@ describe('face driver', () => {
     expect(driver.source.value).toBe(source === 'recording' ? 'hand' : source);
     expect([other.client, other.followed]).toEqual([client, [hand]]);
     driver.step(0.016);
-    expect(other.clipTimes).toEqual(source === 'clip' ? [40] : []);
+    expect(other.clipTimes).toEqual(source === 'clip' || source === 'speech' ? [40] : []);
   });
 
   test('NoFace_AnySource_MovesNothing', () => {

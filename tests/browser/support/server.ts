@@ -39,9 +39,9 @@ function makeToken(data: string, scope: string): string {
 /**
  * Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. With
  * `tokenScope` it asks for tokens, and `token` is one of that scope. `pages`: the folder that it serves. `demo`: whether it has
- * that stream.
+ * that stream. `voice`: the program that speaks, or none.
  */
-export async function startServer(tokenScope?: string, pages = webRoot, demo = true): Promise<RunningServer> {
+export async function startServer(tokenScope?: string, pages = webRoot, demo = true, voice = 'none'): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
   const token = tokenScope === undefined ? '' : makeToken(data, tokenScope);
@@ -50,7 +50,7 @@ export async function startServer(tokenScope?: string, pages = webRoot, demo = t
   const start = async (): Promise<{ kill(signal: NodeJS.Signals): Promise<void> }> => {
     const child = spawn(
       join(buildDir, 'bin/semblante'),
-      ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, ...(demo ? ['--demo'] : []), ...(token === '' ? [] : ['--require-tokens'])],
+      ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--voice-program', voice, ...(demo ? ['--demo'] : []), ...(token === '' ? [] : ['--require-tokens'])],
       { stdio: ['ignore', 'pipe', 'pipe'] },
     );
     let output = '';

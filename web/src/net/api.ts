@@ -24,11 +24,14 @@ import type {
   RecordingFormat,
   RecordingPage,
   RecordingPlay,
+  Speech,
+  SpeechRequest,
   StreamInfo,
   NewStream,
   NewToken,
   NewTokenWish,
   StreamPage,
+  Timeline,
   VersionInfo,
 } from './types.ts';
 import { upload } from './upload.ts';
@@ -89,6 +92,28 @@ export class Api {
 
   async deleteModel(id: string): Promise<void> {
     await requestJson(`${this.base}/v1/models/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  /** Has a text spoken; resolves when sound and face are made. */
+  async createSpeech(request: SpeechRequest): Promise<Speech> {
+    return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', json: request })).value;
+  }
+
+  speechUrl(id: string, file: 'audio' | 'captions' | 'performance' | 'timeline'): string {
+    return `${this.base}/v1/speeches/${segment(id)}/${file}`;
+  }
+
+  async speechTimeline(id: string): Promise<Timeline> {
+    return (await requestJson<Timeline>(this.speechUrl(id, 'timeline'))).value;
+  }
+
+  /** The text of the performance document. */
+  async speechPerformance(id: string): Promise<string> {
+    return (await requestBlob(this.speechUrl(id, 'performance'))).text();
+  }
+
+  async deleteSpeech(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/speeches/${segment(id)}`, { method: 'DELETE' });
   }
 
   previewUrl(id: string): string {

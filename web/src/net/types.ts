@@ -50,6 +50,10 @@ export type JobState = Job['state'];
 /** The result of a finished proposal job: the number of proposed points, and why others were not proposed. */
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
 
+export type Speech = Schemas['Speech'];
+export type SpeechRequest = Schemas['SpeechRequest'];
+export type Timeline = Schemas['Timeline'];
+
 export type Session = Schemas['Session'];
 export type NewToken = Schemas['NewToken'];
 export type NewTokenWish = JsonBody<operations['createToken']>;

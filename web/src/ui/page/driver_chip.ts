@@ -24,6 +24,7 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
   /** Description of the clip or recording that drives the face; null when the sliders drive it. */
   const shown = (): string | null => {
     if (driver.source.value === 'recording') return recordings.looksAt;
+    if (driver.source.value === 'speech') return t('Speaking');
     return driver.source.value === 'clip' ? clip.value : null;
   };
   const chip = h('div', { class: 'driver', role: 'status' });

@@ -17,9 +17,15 @@ interface Edit {
 }
 
 /** Exposes the page's state as `window.semblante` to tests and the developer console. The page does not use it. */
-export function exposeInspection(scene: SceneView, studio: Studio, driver: FaceDriver, live: LiveModel): void {
+export function exposeInspection(
+  scene: SceneView,
+  studio: Studio,
+  driver: FaceDriver,
+  live: LiveModel,
+  sound: HTMLAudioElement,
+): void {
   Object.assign(window, {
-    semblante: { scene, studio, driver, live, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
+    semblante: { scene, studio, driver, live, sound, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
   });
 }
 

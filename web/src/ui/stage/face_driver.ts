@@ -3,16 +3,18 @@ import type { Library } from '@client/motion/index.ts';
 import { ClipPlayer } from '../../face/clip.ts';
 import { IdlePlayer } from '../../face/idle_player.ts';
 import type { Performer } from '../../face/performer.ts';
+import { momentOf, type SpokenClip } from '../../face/speech_clock.ts';
 import { Signal } from '../shared/signal.ts';
 
 /**
  * The source that drives the face on this page:
  * - `hand`: the frame set with the sliders; the only source under which idle life runs.
  * - `clip`: a performance document or .fap file played on this page, also while it is paused.
+ * - `speech`: what the server made of a text, on the clock of its sound.
  * - `recording`: one moment of a recording, held still.
  * - `stream`: the stream that the page subscribes to, whatever feeds it on the server.
  */
-export type MotionSource = 'hand' | 'clip' | 'recording' | 'stream';
+export type MotionSource = 'hand' | 'clip' | 'speech' | 'recording' | 'stream';
 
 export type DrivenFace = Pick<Performer, 'follow' | 'showBetween' | 'enliven' | 'step' | 'listen'>;
 
@@ -28,6 +30,7 @@ export class FaceDriver {
   private readonly listeners = new Set<(source: MotionSource) => void>();
   private face: DrivenFace | null = null;
   private client: StreamClient | null = null;
+  private speech: SpokenClip | null = null;
   private idle: IdlePlayer | null = null;
   private loadIdle: (() => Promise<Library>) | null = null;
 
@@ -51,6 +54,12 @@ export class FaceDriver {
   /** Shows what the clip player plays or seeks. */
   byClip(): void {
     this.take('clip');
+  }
+
+  /** Shows a clip as its sound is heard. */
+  bySpeech(speech: SpokenClip): void {
+    this.speech = speech;
+    this.take('speech');
   }
 
   /** Shows a frame of a recording and holds it. */
@@ -88,7 +97,7 @@ export class FaceDriver {
     face?.follow(this.frame);
     const source = this.source.value;
     if (source === 'clip') this.clip.seek(this.clip.position);
-    else if (source !== 'stream') this.take('hand');
+    else if (source !== 'stream' && source !== 'speech') this.take('hand');
   }
 
   /** Sets the subscription whose frames `stream` shows; null: none. */
@@ -102,9 +111,10 @@ export class FaceDriver {
     const { face, clip, idle } = this;
     if (!face) return false;
     const source = this.source.value;
-    const moment = source === 'clip' ? clip.step(deltaSeconds) : null;
+    const spoken = source === 'speech' ? this.speech : null;
+    const moment = spoken ? momentOf(spoken) : source === 'clip' ? clip.step(deltaSeconds) : null;
     if (moment) {
-      face.showBetween(moment.from.state, moment.to.state, moment.t, clip.clip?.steps);
+      face.showBetween(moment.from.state, moment.to.state, moment.t, (spoken ?? clip).clip?.steps);
       return true;
     }
     if (idle && source === 'hand') face.enliven(idle.step(deltaSeconds), idle.steps);
@@ -113,6 +123,7 @@ export class FaceDriver {
 
   private take(source: MotionSource): void {
     if (source !== 'clip') this.clip.pause();
+    if (source !== 'speech') this.speech = null;
     this.source.set(source);
     for (const listener of [...this.listeners]) listener(source);
   }

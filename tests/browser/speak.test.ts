@@ -1,0 +1,119 @@
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+import { root, webRoot } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+/** A voice of tones: the same sound and times everywhere. */
+const beeps = join(root, 'server/voice/examples/beeps.py');
+
+let server: RunningServer;
+let mute: RunningServer;
+let browser: Browser;
+let studio: StudioPage;
+
+beforeAll(async () => {
+  [server, mute, browser] = await Promise.all([
+    startServer(undefined, webRoot, false, beeps),
+    startServer(undefined, webRoot, false, 'none'),
+    launch(),
+  ]);
+});
+afterEach(async () => studio?.close());
+afterAll(async () => {
+  await browser?.close();
+  await Promise.all([server?.stop(), mute?.stop()]);
+});
+
+interface Inside {
+  semblante: {
+    driver: { source: { value: string } };
+    scene: { performer: { value: { pose: { fp: Float32Array } } } };
+  };
+}
+
+/** The opening of the mouth at a time of the sound: how far 2.3 is below 2.2, beyond its place at rest; model units. */
+async function openingAt(page: StudioPage, ms: number): Promise<number> {
+  await page.page.evaluate((time) => {
+    const audio = (window as unknown as { speakSound: HTMLAudioElement }).speakSound;
+    audio.currentTime = time / 1000;
+  }, ms);
+  await page.drawn(4);
+  return page.page.evaluate(() => {
+    const { fp } = (window as unknown as Inside).semblante.scene.performer.value.pose;
+    // Dense numbers 1 and 2 are the points 2.2 and 2.3.
+    return fp[1 * 3 + 1]! - fp[2 * 3 + 1]!;
+  });
+}
+
+async function open(url: string, options = {}): Promise<StudioPage> {
+  const page = await StudioPage.open(browser, url, options);
+  await page.waitForStage('ready');
+  await page.page.getByRole('tab', { name: 'Animate' }).click();
+  return page;
+}
+
+test('Speak_Text_IsHeardSeenAndFollowed_AndTheMouthClosesAtAP', async () => {
+  studio = await open(server.url);
+  const { page } = studio;
+  await page.getByLabel('Text to say').fill('apa upa');
+  await page.getByRole('button', { name: 'Speak' }).click();
+  await page.locator('.driver').getByText('Speaking').waitFor();
+  await page.locator('.said-word.now').first().waitFor();
+  expect(await page.locator('.said-words').textContent()).toBe('apa upa');
+  const id = await page
+    .locator('.speak-files a')
+    .first()
+    .getAttribute('href')
+    .then((href) => /speeches\/(\w+)\/audio/.exec(href!)![1]);
+  const timeline = (await (await fetch(`${server.url}/v1/speeches/${id}/timeline`)).json()) as {
+    phonemes: { time: number; end: number; ipa: string }[];
+  };
+  // Held at single moments, so that a busy machine measures the same.
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await page.locator('.driver').getByText('By hand').waitFor();
+  await page.evaluate(() => {
+    const audio = (window as unknown as { semblante: { sound: HTMLAudioElement } }).semblante.sound;
+    Object.assign(window, { speakSound: audio });
+    audio.playbackRate = 0.0625; // the slowest that browsers play
+  });
+  await page.getByRole('button', { name: 'Again' }).click();
+  await page.locator('.driver').getByText('Speaking').waitFor();
+  const middle = (ipa: string): number => {
+    const phoneme = timeline.phonemes.find((p) => p.ipa === ipa)!;
+    return (phoneme.time + phoneme.end) / 2;
+  };
+  const [open1, closed] = [await openingAt(studio, middle('a')), await openingAt(studio, middle('p'))];
+  expect(open1).toBeGreaterThan(0);
+  expect(closed).toBeLessThan(0.15 * open1);
+  expect(studio.errors).toEqual([]);
+
+  // Another source takes the face: it falls silent.
+  await page.getByLabel('Strength').first().fill('50');
+  await page.locator('.driver').getByText('By hand').waitFor();
+  expect(await page.evaluate(() => (window as unknown as { speakSound: HTMLAudioElement }).speakSound.paused)).toBe(true);
+});
+
+test('Speak_NextText_LeavesOneSpeechOnTheServer', async () => {
+  studio = await open(server.url);
+  const { page } = studio;
+  for (const text of ['mama', 'papa']) {
+    await page.getByLabel('Text to say').fill(text);
+    await page.getByLabel('Text to say').press('Enter');
+    await page.locator('.said-words').getByText(text).waitFor();
+  }
+  await page.waitForFunction(async () => {
+    const answer = (await (await fetch('/v1/speeches')).json()) as { speeches: { text: string }[] };
+    return answer.speeches.filter(({ text }) => text === 'mama').length === 0;
+  });
+  expect(studio.errors).toEqual([]);
+});
+
+test('Speak_ServerWithoutAVoice_SaysWhatIsMissing', async () => {
+  studio = await open(mute.url, { allowed: /501/ });
+  const { page } = studio;
+  await page.getByRole('button', { name: 'Speak' }).click();
+  await page.getByRole('alert').getByText('no voice is installed').waitFor();
+  expect(studio.errors).toEqual([]);
+});

@@ -1,0 +1,179 @@
+import { expressions } from '@protocol/generated/mpeg4.ts';
+import type { Api } from '../../net/api.ts';
+import type { Speech, SpeechRequest, Timeline } from '../../net/types.ts';
+import { h, redraw, replace } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
+import { capital } from '../shared/names.ts';
+import { Slider } from '../shared/slider.ts';
+import { language, nameOf, t } from '../../words/words.ts';
+import type { SpeakModel } from './speak_model.ts';
+import { wordsOf, type Word } from './spoken_words.ts';
+
+/** Languages with mouths of their own first; that of the page is chosen. */
+const languages = [
+  { tag: 'pt-BR', name: 'Português (Brasil)', example: 'Olá, mundo! :) Papai bebe mamão.' },
+  { tag: 'en', name: 'English', example: 'Hello, world! :) My baby bought a purple map.' },
+  { tag: 'es', name: 'Español', example: '¡Hola, mundo! :)' },
+  { tag: 'fr', name: 'Français', example: 'Bonjour, le monde ! :)' },
+  { tag: 'de', name: 'Deutsch', example: 'Hallo, Welt! :)' },
+  { tag: 'it', name: 'Italiano', example: 'Ciao, mondo! :)' },
+] as const;
+
+/** The panel in which a text is typed, heard and seen. */
+export class SpeakPanel {
+  readonly element: HTMLElement;
+  private readonly text: HTMLTextAreaElement;
+  private readonly language: HTMLSelectElement;
+  private readonly voice = h('input', { type: 'text', maxlength: 100, placeholder: t('its own'), autocomplete: 'off' });
+  private readonly emotion: HTMLSelectElement;
+  private readonly rate: Slider;
+  private readonly said = h('div', { class: 'said', 'aria-live': 'polite' });
+  private words: { word: Word; element: HTMLElement }[] = [];
+
+  constructor(
+    private readonly model: SpeakModel,
+    private readonly api: Pick<Api, 'speechUrl'>,
+  ) {
+    const own = languages.find(({ tag }) => tag === language) ?? languages[1];
+    this.text = h('textarea', { rows: 3, maxlength: 20_000, 'aria-label': t('Text to say'), placeholder: own.example });
+    this.language = h(
+      'select',
+      { on: { change: () => this.showExample() } },
+      ...languages.map(({ tag, name }) => h('option', { value: tag, selected: tag === own.tag }, name)),
+    );
+    this.emotion = h(
+      'select',
+      {},
+      ...expressions.map(({ name }, number) =>
+        h('option', { value: number === 0 ? 'neutral' : name }, number === 0 ? t('As the text says') : nameOf(capital(name))),
+      ),
+    );
+    this.rate = new Slider({ label: t('Speed'), note: '%', min: 50, max: 200, value: 100, onInput: () => undefined });
+    this.element = h(
+      'section',
+      { class: 'speak' },
+      h('header', { class: 'section-head' }, h('h2', {}, t('Speak')), h('span', { class: 'muted small' }, t('on this page only'))),
+      h(
+        'form',
+        {
+          class: 'speak-form',
+          on: {
+            submit: (event) => {
+              event.preventDefault();
+              void this.say();
+            },
+          },
+        },
+        this.text,
+        h('div', { class: 'speak-choices' }, field(t('Language'), this.language), field(t('Emotion'), this.emotion), field(t('Voice'), this.voice)),
+        this.rate.element,
+        h('button', { type: 'submit', class: 'primary' }, icon('play', 15), t('Speak')),
+      ),
+      this.said,
+    );
+    this.text.addEventListener('keydown', (event) => {
+      if (event.key === 'Enter' && !event.shiftKey && !event.isComposing) {
+        event.preventDefault();
+        void this.say();
+      }
+    });
+    model.state.watch(() => this.draw());
+    model.playing.watch((playing) => {
+      this.draw();
+      if (playing) this.follow();
+    });
+  }
+
+  private say(): Promise<void> {
+    const emotion = this.emotion.value as NonNullable<SpeechRequest['emotion']>;
+    return this.model.say({
+      text: this.text.value.trim() || this.text.placeholder,
+      language: this.language.value,
+      voice: this.voice.value.trim(),
+      emotion,
+      rate: this.rate.value / 100,
+    });
+  }
+
+  private showExample(): void {
+    this.text.placeholder = languages.find(({ tag }) => tag === this.language.value)?.example ?? '';
+  }
+
+  /** Lights up the word that is heard, until the sound stops. */
+  private follow(): void {
+    const position = this.model.position;
+    for (const { word, element } of this.words)
+      element.classList.toggle('now', this.model.playing.value && position >= word.time && position < word.end);
+    if (this.model.playing.value) requestAnimationFrame(() => this.follow());
+  }
+
+  private draw(): void {
+    redraw(this.said, () => this.drawSaid());
+  }
+
+  private drawSaid(): void {
+    const state = this.model.state.value;
+    this.words = [];
+    if (state.kind === 'empty') return replace(this.said);
+    if (state.kind === 'making') return replace(this.said, h('p', { class: 'muted' }, t('The voice is speaking…')));
+    if (state.kind === 'failed')
+      return replace(
+        this.said,
+        h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, state.message)),
+      );
+    const { speech, timeline } = state;
+    replace(
+      this.said,
+      this.drawWords(speech, timeline),
+      ...speech.warnings.map((warning) => h('p', { class: 'muted small' }, `${capital(warning)}.`)),
+      h(
+        'div',
+        { class: 'row speak-files' },
+        this.playButton(),
+        h('span', { class: 'grow' }),
+        this.download(speech, 'audio', 'WAV', 'speech.wav'),
+        this.download(speech, 'captions', 'VTT', 'speech.vtt'),
+        this.download(speech, 'performance', 'JSON', 'speech.json'),
+      ),
+    );
+  }
+
+  private drawWords(speech: Speech, timeline: Timeline): HTMLElement {
+    const line = h('p', { class: 'said-words', lang: speech.request.language });
+    for (const piece of wordsOf(speech.text, timeline)) {
+      if (typeof piece === 'string') {
+        line.append(piece);
+        continue;
+      }
+      const element = h('span', { class: 'said-word' }, piece.text);
+      this.words.push({ word: piece, element });
+      line.append(element);
+    }
+    return line;
+  }
+
+  private playButton(): HTMLElement {
+    const playing = this.model.playing.value;
+    return h(
+      'button',
+      {
+        type: 'button',
+        'data-focus': 'play',
+        on: { click: () => (playing ? this.model.stop() : void this.model.play()) },
+      },
+      icon(playing ? 'stop' : 'play', 15),
+      playing ? t('Stop') : t('Again'),
+    );
+  }
+
+  private download(speech: Speech, file: 'audio' | 'captions' | 'performance', label: string, name: string): HTMLElement {
+    return h(
+      'a',
+      { class: 'button quiet', href: this.api.speechUrl(speech.id, file), download: name, 'aria-label': t('Download {name}', { name }) },
+      icon('download', 15),
+      label,
+    );
+  }
+}
+
+const field = (label: string, control: HTMLElement): HTMLElement => h('label', { class: 'field' }, h('span', {}, label), control);

@@ -1,0 +1,125 @@
+import { beforeEach, describe, expect, test } from 'vitest';
+import { neutralFrame } from '@client/index.ts';
+import type { Speech, Timeline } from '../src/net/types.ts';
+import { FaceDriver } from '../src/ui/stage/face_driver.ts';
+import { SpeakModel, type Sound } from '../src/ui/speak/speak_model.ts';
+import { wordsOf } from '../src/ui/speak/spoken_words.ts';
+import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
+
+const timeline = {
+  format: 'semblante.timeline',
+  version: 1,
+  duration: 900,
+  sentences: [],
+  words: [
+    { time: 400, end: 500, first: 0, count: 3, text: 'Olá' },
+    { time: 500, end: 700, first: 7, count: 5, text: 'mundo' },
+  ],
+  phonemes: [],
+  visemes: [],
+  marks: [],
+} as Timeline;
+const document = '{"format":"semblante.performance","version":1,"cues":[{"time":0,"duration":900,"viseme":"a"}]}';
+
+class FakeSound {
+  src = '';
+  currentTime = 0;
+  paused = true;
+  readonly listeners = new Map<string, () => void>();
+  refuses = false;
+  play = (): Promise<void> => {
+    if (this.refuses) return Promise.reject(new Error('no sound here'));
+    this.paused = false;
+    return Promise.resolve();
+  };
+  pause = (): void => void (this.paused = true);
+  addEventListener = (name: string, listener: () => void): void => void this.listeners.set(name, listener);
+}
+
+let sound: FakeSound;
+let driver: FaceDriver;
+let model: SpeakModel;
+let removed: string[];
+let made: number;
+let fails: Error | null;
+
+beforeEach(() => {
+  sound = new FakeSound();
+  driver = new FaceDriver(neutralFrame());
+  removed = [];
+  made = 0;
+  fails = null;
+  model = new SpeakModel(
+    {
+      createSpeech: (request) =>
+        fails ? Promise.reject(fails) : Promise.resolve({ id: `s${(made += 1)}`, request, text: 'Olá', warnings: [] } as unknown as Speech),
+      speechTimeline: () => Promise.resolve(timeline),
+      speechPerformance: () => Promise.resolve(document),
+      speechUrl: (id, file) => `/${id}/${file}`,
+      deleteSpeech: (id) => Promise.resolve(void removed.push(id)),
+    },
+    driver,
+    sound as unknown as Sound,
+    loadLibrary,
+  );
+});
+const request = { text: 'Olá', language: 'pt-BR' } as const;
+
+describe('speak model', () => {
+  test('Say_Text_IsHeardAndSeenOnOneClock', async () => {
+    await model.say(request);
+    expect(sound.src).toBe('/s1/audio');
+    expect(sound.paused).toBe(false);
+    expect([driver.source.value, model.playing.value]).toEqual(['speech', true]);
+    sound.currentTime = 0.25;
+    expect(model.position).toBe(250);
+    sound.listeners.get('ended')!();
+    expect([driver.source.value, model.playing.value]).toEqual(['hand', false]);
+    await model.play();
+    expect([sound.currentTime, model.playing.value]).toEqual([0, true]);
+  });
+
+  test('AnotherSource_TakesTheFace_SilencesIt', async () => {
+    await model.say(request);
+    driver.byHand();
+    expect([sound.paused, model.playing.value, driver.source.value]).toEqual([true, false, 'hand']);
+  });
+
+  test('Say_NextText_RemovesTheOneBefore', async () => {
+    await model.say(request);
+    await model.say(request);
+    expect(removed).toEqual(['s1']);
+    expect(sound.src).toBe('/s2/audio');
+  });
+
+  test('Say_TwoAtOnce_PlaysTheLastAlone', async () => {
+    await Promise.all([model.say(request), model.say(request)]);
+    expect(removed).toEqual(['s1']);
+    expect(sound.src).toBe('/s2/audio');
+  });
+
+  test('Say_ServerWithoutAVoice_SaysSo', async () => {
+    fails = new Error('no voice is installed on the server');
+    await model.say(request);
+    expect(model.state.value).toEqual({ kind: 'failed', message: 'no voice is installed on the server' });
+    expect(driver.source.value).toBe('hand');
+  });
+
+  test('Say_BrowserThatPlaysNoSound_SaysSo', async () => {
+    sound.refuses = true;
+    await model.say(request);
+    expect(model.state.value).toEqual({ kind: 'failed', message: 'no sound here' });
+  });
+});
+
+describe('words of a text', () => {
+  test('WordsOf_TextWithSignsAndEmoji_HasEveryCharacterOnce', () => {
+    const pieces = wordsOf('Olá, 😀 mundo!', timeline);
+    expect(pieces).toEqual([
+      { text: 'Olá', time: 400, end: 500 },
+      ', 😀 ',
+      { text: 'mundo', time: 500, end: 700 },
+      '!',
+    ]);
+  });
+});
