@@ -24,7 +24,8 @@ class Routes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data", {"--demo", "--max-upload-bytes", "300000"});
+    server_ = new ServerProcess(folder_->path() / "data", {"--demo", "--max-upload-bytes", "300000", "--voice-program",
+                                                           SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py"});
   }
   static void TearDownTestSuite() {
     EXPECT_EQ(server_->end(SIGTERM), 0) << "a server that is told to stop ends well";
@@ -78,6 +79,10 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
   good["{recording}"] = json_of(request(port(), "POST", "/v1/streams/kept/recordings"))["id"];
   request(port(), "POST", "/v1/streams/kept/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type);
   request(port(), "POST", "/v1/recordings/" + good["{recording}"] + "/stop");
+  const json short_speech = {{"text", "Mamma mia!"}, {"language", "en"}};
+  good["{speech}"] = json_of(request(port(), "POST", "/v1/speeches", short_speech.dump(), json_type))["id"];
+  // Long enough to be still speaking when the rest of the walk asks for it.
+  const json long_speech = {{"text", std::string(2'000, 'a')}, {"language", "en"}, {"take_over", true}};
   struct Body {
     std::string text, type;
   };
@@ -93,6 +98,8 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       {"put /v1/models/{model}/feature-points", {grid_points(), "application/json"}},
       {"post /v1/expressions", {by_hand, "application/json"}},
       {"put /v1/expressions/{expression}", {by_hand, "application/json"}},
+      {"post /v1/speeches", {short_speech.dump(), "application/json"}},
+      {"post /v1/streams/{stream}/speech", {long_speech.dump(), "application/json"}},
       {"post /v1/streams", {R"({"name":"walk","viseme_share":1})", "application/json"}},
       {"post /v1/streams/{stream}/frames", {R"({"frames":[{"faps":{"3":200}}]})", "application/json"}},
       {"post /v1/streams/{stream}/fap", {short_fap, "text/plain"}},
@@ -127,6 +134,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
       if (method + path == "post/v1/streams/{stream}/performances") good["{performance}"] = json_of(reply)["id"];
       // It takes over, and goes on until what follows has recorded it.
       if (method + path == "post/v1/streams/{stream}/plays") good["{performance}"] = json_of(reply)["id"];
+      if (method + path == "post/v1/streams/{stream}/speech") good["{performance}"] = json_of(reply)["id"];
       if (method + path == "post/v1/streams/{stream}/recordings") wait_for_frames(port(), json_of(reply)["id"]);
       // A finished job cannot be cancelled any more; all else succeeds.
       if (upper + path != "DELETE/v1/jobs/{job}") {
@@ -140,6 +148,7 @@ TEST_F(Routes, EveryRoute_AnswersAsDocumented) {
                                         {"{stream}", "absent"},
                                         {"{performance}", "absent"},
                                         {"{recording}", "absent"},
+                                        {"{speech}", "absent"},
                                         {"{expression}", "absent"},
                                         {"{sha256}", std::string(64, '0')},
                                         {"{slug}", "absent"}}),

@@ -87,7 +87,8 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
   const std::string rate = rate_of(flood.frames_per_second, flood.frames_burst);
   const std::vector<std::pair<std::string, std::string>> kept = {
       {"model file", size(api.max_upload_bytes)},
-      {"bytes stored by one token: models with what is made from them (each content once), recordings, expressions",
+      {"bytes stored by one token: models with what is made from them (each content once), recordings, speeches, "
+       "expressions",
        size(token.bytes)},
       {"models of one token", count(token.models)},
       {"displacement sets of one token", count(token.expressions)},
@@ -110,7 +111,8 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"requests of one token, or of one address without one, on a server that asks for tokens",
        rate_of(client.requests_per_second, client.request_burst)},
       {"tokens of one address that are not accepted", count(client.failures_per_minute) + " per minute"},
-      {"models, jobs, streams, recordings and expressions that one address creates, together; this machine and the "
+      {"models, jobs, streams, recordings, speeches and expressions that one address creates, together; this machine "
+       "and the "
        "scope admin have no such limit",
        count(client.creations_per_minute) + " per minute"},
       {"tickets that wait for their use; life of a ticket",
