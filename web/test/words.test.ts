@@ -18,7 +18,8 @@ const files = (readdirSync(source, { recursive: true, encoding: 'utf8' }) as str
 const withoutTexts = /^(face\/(?!feature_points|quick_set)|net\/(?!live|problem|http|upload)|view\/|main\.ts|ui\/(page\/inspect|shared\/icons|animate\/expression_face))/;
 /** Parts of the standard's names, commands and names of protocols, which are the same in every language. */
 const notTexts = new Set(['Semblante', 'left of middle', 'right of middle', 'lip middle', 'lip corner', 'lip corners', 'semblante token create', 'ApiError', 'Content-Type']);
-const silentProperties = new Set(['class', 'type', 'role', 'id', 'method', 'autocomplete']);
+/** `example`: a text of a spoken language, which is not the page's. */
+const silentProperties = new Set(['class', 'type', 'role', 'id', 'method', 'autocomplete', 'example']);
 const silentCalls = /(querySelector(All)?|closest|addEventListener|classList\.\w+|getAttribute|includes|replaceAll|split|join|matchMedia|heatGradient|svg|kbd|Error|DOMException)$/;
 
 const looksLikeText = (text: string): boolean =>

@@ -11,13 +11,16 @@ import { wordsOf, type Word } from './spoken_words.ts';
 
 /** Languages with mouths of their own first; that of the page is chosen. */
 const languages = [
-  { tag: 'pt-BR', name: 'Português (Brasil)', example: 'Olá, mundo! :) Papai bebe mamão.' },
-  { tag: 'en', name: 'English', example: 'Hello, world! :) My baby bought a purple map.' },
-  { tag: 'es', name: 'Español', example: '¡Hola, mundo! :)' },
-  { tag: 'fr', name: 'Français', example: 'Bonjour, le monde ! :)' },
-  { tag: 'de', name: 'Deutsch', example: 'Hallo, Welt! :)' },
-  { tag: 'it', name: 'Italiano', example: 'Ciao, mondo! :)' },
+  { tag: 'pt-BR', example: 'Olá, mundo! :) Papai bebe mamão.' },
+  { tag: 'en', example: 'Hello, world! :) My baby bought a purple map.' },
+  { tag: 'es', example: '¡Hola, mundo! :)' },
+  { tag: 'fr', example: 'Bonjour, le monde ! :)' },
+  { tag: 'de', example: 'Hallo, Welt! :)' },
+  { tag: 'it', example: 'Ciao, mondo! :)' },
 ] as const;
+
+/** A language as those who speak it write it. */
+const ownName = (tag: string): string => capital(new Intl.DisplayNames([tag], { type: 'language' }).of(tag) ?? tag);
 
 /** The panel in which a text is typed, heard and seen. */
 export class SpeakPanel {
@@ -39,7 +42,7 @@ export class SpeakPanel {
     this.language = h(
       'select',
       { on: { change: () => this.showExample() } },
-      ...languages.map(({ tag, name }) => h('option', { value: tag, selected: tag === own.tag }, name)),
+      ...languages.map(({ tag }) => h('option', { value: tag, selected: tag === own.tag }, ownName(tag))),
     );
     this.emotion = h(
       'select',
