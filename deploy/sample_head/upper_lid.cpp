@@ -18,9 +18,6 @@ constexpr double half_width = 1.38;
 /// down and must not touch the ball when it passes the ball's middle.
 constexpr double front_radius = eye_radius + 0.14;
 
-/// How much lower the edge is at the outer corner than the line of the slit.
-constexpr double outer_droop = 0.105;
-
 /// Distances about the line through the eye's centre along x, on which the lid rolls.
 constexpr double behind_fold = 0.05;
 constexpr double over_ball = 0.06;
@@ -54,10 +51,7 @@ UpperLid make_upper_lid(bool closed) {
     for (int c = 0; c <= columns; ++c) {
       const double t = 2.0 * c / columns - 1.0;
       const double x = t * half_width;
-      // Towards the outer corner the edge hangs lower, or the white of the eye would show there from the side in a
-      // blink.
-      const double edge_y =
-          (closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x)) - outer_droop * glm::smoothstep(0.5, 0.9, t);
+      const double edge_y = closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x);
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
       const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // pointed at 3.1: everything else is behind it
       const double end = t * t * t * t;
