@@ -172,7 +172,7 @@ export class SpeakPanel {
   private download(speech: Speech, file: 'audio' | 'captions' | 'performance', label: string, name: string): HTMLElement {
     return h(
       'a',
-      { class: 'button quiet', href: this.api.speechUrl(speech.id, file), download: name, 'aria-label': t('Download {name}', { name }) },
+      { href: this.api.speechUrl(speech.id, file), download: name, 'aria-label': t('Download {name}', { name }) },
       icon('download', 15),
       label,
     );
