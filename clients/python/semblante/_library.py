@@ -198,6 +198,7 @@ functions = {  # name: (result, arguments)
     "semblante_head_positions": (_result, [_handle, _floats, c_size_t]),
     "semblante_head_update_positions": (_result, [_handle, POINTER(Pose), _floats, c_size_t]),
     "semblante_head_normals": (_result, [_handle, _floats, _floats, c_size_t]),
+    "semblante_sha256": (_result, [c_char_p, c_size_t, POINTER(c_uint8 * 32)]),
     "semblante_frame_from_arkit": (_result, [POINTER(c_float), _frame, _error]),
     "semblante_arkit_from_frame": (_result, [_frame, POINTER(c_float)]),
     "semblante_frame_from_oculus": (_result, [POINTER(c_float), _frame, _error]),

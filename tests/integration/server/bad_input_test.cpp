@@ -128,6 +128,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       if (example.contains("points")) example["points"] = points_on_grid(example["points"]["7.1"]);
       if (example.contains("roles")) example["roles"] = {{"0", example["roles"]["3"]}};
       if (example.contains("model")) example["model"] = model;
+      if (path.ends_with("/speech")) example["take_over"] = true;  // the performance of the example before still plays
       if (example.contains("recording")) example["recording"] = recording_of(port(), "hello");
       auto target = path;
       if (const auto at = target.find("{model}"); at != std::string::npos) target.replace(at, 7, model);
@@ -142,7 +143,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 16U);
+  EXPECT_EQ(sent, 18U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

@@ -116,6 +116,7 @@ TEST_F(StoreTest, AStoreOfBeforeThereWereLevels_Opens) {
   ASSERT_EQ(sqlite3_open((folder_ / "facts.sqlite").c_str(), &database), SQLITE_OK);
   EXPECT_EQ(
       sqlite3_exec(database,
+                   "DROP TABLE speech_files; DROP TABLE speeches; "
                    "DROP INDEX models_by_owner; ALTER TABLE models DROP COLUMN owner; "
                    "DROP INDEX streams_by_owner; ALTER TABLE streams DROP COLUMN owner; "
                    "DROP INDEX unfinished_jobs_by_owner; ALTER TABLE jobs DROP COLUMN owner; "

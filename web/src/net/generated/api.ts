@@ -4834,14 +4834,12 @@ export interface operations {
                     "application/json": components["schemas"]["Timeline"];
                 };
             };
-            /** @description A part of it */
+            /** @description The bytes of Range: a part of the text, which is no JSON by itself */
             206: {
                 headers: {
                     [name: string]: unknown;
                 };
-                content: {
-                    "application/json": unknown;
-                };
+                content?: never;
             };
             /** @description As it was */
             304: {
@@ -4881,14 +4879,12 @@ export interface operations {
                     "application/json": components["schemas"]["Performance"];
                 };
             };
-            /** @description A part of it */
+            /** @description The bytes of Range: a part of the text, which is no JSON by itself */
             206: {
                 headers: {
                     [name: string]: unknown;
                 };
-                content: {
-                    "application/json": unknown;
-                };
+                content?: never;
             };
             /** @description As it was */
             304: {
