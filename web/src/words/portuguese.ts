@@ -87,7 +87,7 @@ export const portuguese = {
   'An example…': 'Um exemplo…',
   'Hello: a greeting with a nod and a wink': 'Olá: um cumprimento com aceno e piscadela',
   'A minute: talks, looks about, feels': 'Um minuto: fala, olha em volta, sente',
-  'One deviation from the usual form': 'Um desvio da forma usual',
+  '1 deviation from the usual form': '1 desvio da forma usual',
   '{count} deviations from the usual form': '{count} desvios da forma usual',
   'Fit doctor': 'Exame do rosto',
   'Choose a head to check it.': 'Escolha uma cabeça para examinar.',

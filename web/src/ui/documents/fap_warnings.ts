@@ -7,7 +7,7 @@ export function fapWarnings(sentences: readonly string[]): HTMLElement | null {
   return h(
     'details',
     { class: 'notice clip-warnings' },
-    h('summary', {}, sentences.length === 1 ? t('One deviation from the usual form') : t('{count} deviations from the usual form', { count: sentences.length })),
+    h('summary', {}, sentences.length === 1 ? t('1 deviation from the usual form') : t('{count} deviations from the usual form', { count: sentences.length })),
     h(
       'ul',
       {},
