@@ -68,15 +68,15 @@ describe('languages', () => {
   test('Language_Chosen_IsKeptByTheBrowser', async () => {
     const studio = await open(880, 560);
     const { page } = studio;
-    await page.getByLabel('Idioma').selectOption('en');
-    await page.getByLabel('Language').waitFor();
+    await page.getByLabel('Idioma', { exact: true }).selectOption('en');
+    await page.getByLabel('Language', { exact: true }).waitFor();
     await page.locator('#tab-live').getByText('Live', { exact: true }).waitFor();
     expect(await language(studio)).toBe('en');
     await page.reload();
-    await page.getByLabel('Language').waitFor();
+    await page.getByLabel('Language', { exact: true }).waitFor();
     expect(await language(studio)).toBe('en');
-    await page.getByLabel('Language').selectOption('pt-BR');
-    await page.getByLabel('Idioma').waitFor();
+    await page.getByLabel('Language', { exact: true }).selectOption('pt-BR');
+    await page.getByLabel('Idioma', { exact: true }).waitFor();
     await studio.waitForStage('ready');
     expect(studio.errors).toEqual([]);
     await studio.close();
