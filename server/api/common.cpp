@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,22 @@ std::string checked_text(std::string_view value, std::size_t max, const std::str
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer) {
   if (!value.is_string()) refuse("invalid-field", "it must be a string", pointer);
   return checked_text(std::string_view(value.get_ref<const std::string&>()), max, pointer);
+}
+
+bool flag_member(const JsonBody& body, const char* name) {
+  if (!body.contains(name)) return false;
+  if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);
+  return body[name].get<bool>();
+}
+
+double number_or(const JsonBody& body, const char* name, double otherwise, double least, double most) {
+  if (!body.contains(name)) return otherwise;
+  const JsonBody& value = body[name];
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(number >= least && number <= most))
+    refuse("invalid-field", "it must be a number from " + Json(least).dump() + " to " + Json(most).dump(),
+           std::string("/") + name);
+  return number;
 }
 
 void check_if_match(const http::Request& request, const std::string& etag) {

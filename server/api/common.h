@@ -38,6 +38,11 @@ inline constexpr std::size_t max_name_bytes = 200;
 std::string checked_text(const JsonBody& value, std::size_t max, const std::string& pointer);
 std::string checked_text(std::string_view value, std::size_t max, const std::string& pointer);
 
+/// A member that is true or false; false without it.
+bool flag_member(const JsonBody& body, const char* name);
+/// A member that is a number from `least` to `most`; `otherwise` without it.
+double number_or(const JsonBody& body, const char* name, double otherwise, double least, double most);
+
 /// Refuses with 412 when the request's If-Match does not contain the tag.
 void check_if_match(const http::Request& request, const std::string& etag);
 

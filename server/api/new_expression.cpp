@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <shared_mutex>
 
@@ -29,16 +28,6 @@ struct ExampleRequest {
   std::string model;
   std::string_view expression, neutral;  ///< bytes of files; point into the request's body
 };
-
-double number_or(const JsonBody& options, const char* key, double otherwise, double least, double most) {
-  if (!options.contains(key)) return otherwise;
-  const JsonBody& value = options[key];
-  const double number = value.is_number() ? value.get<double>() : std::nan("");
-  if (!(number >= least && number <= most))
-    refuse("invalid-field", "it must be a number from " + Json(least).dump() + " to " + Json(most).dump(),
-           std::string("/") + key);
-  return number;
-}
 
 std::string text_or_empty(const JsonBody& options, const char* key) {
   if (!options.contains(key)) return {};

@@ -174,11 +174,6 @@ http::Response play_recording(Context& context, http::Request& request) {
   if (!info) refuse("not-found", "there is no stream " + stream);
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::play_recording);
-  const auto flag = [&](const char* name) {
-    if (!body.contains(name)) return false;
-    if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);
-    return body[name].get<bool>();
-  };
   if (!body.contains("recording"))
     refuse("invalid-field", "the id of the recording to be played is missing", "/recording");
   const auto id = checked_text(body["recording"], max_name_bytes, "/recording");
@@ -186,8 +181,8 @@ http::Response play_recording(Context& context, http::Request& request) {
   const auto recording = context.recorder->find(id);
   if (!recording) refuse("invalid-field", "there is no recording " + id, "/recording");
   streams::PlayOptions options;
-  options.loop = flag("loop");
-  options.take_over = flag("take_over");
+  options.loop = flag_member(body, "loop");
+  options.take_over = flag_member(body, "take_over");
   if (body.contains("from")) {
     options.from = body["from"].is_number() ? body["from"].get<double>() : -1.0;
     if (!(options.from >= 0.0 && options.from <= static_cast<double>(recording->record.duration)))

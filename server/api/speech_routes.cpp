@@ -38,21 +38,6 @@ std::string text_member(const JsonBody& body, const char* name) {
   return body[name].get<std::string>();
 }
 
-bool flag_member(const JsonBody& body, const char* name) {
-  if (!body.contains(name)) return false;
-  if (!body[name].is_boolean()) refuse("invalid-field", "must be true or false", std::string("/") + name);
-  return body[name].get<bool>();
-}
-
-double number_member(const JsonBody& body, const char* name, double otherwise, double least, double most) {
-  if (!body.contains(name)) return otherwise;
-  const double value = body[name].is_number() ? body[name].get<double>() : std::nan("");
-  if (!(value >= least && value <= most))
-    refuse("invalid-field", "must be a number from " + Json(least).dump() + " to " + Json(most).dump(),
-           std::string("/") + name);
-  return value;
-}
-
 /// The index of the member's value among the names; `otherwise` without the member.
 template <class Names>
 std::size_t choice_member(const JsonBody& body, const char* name, const Names& names, std::size_t otherwise) {
@@ -71,13 +56,13 @@ voice::SpeechRequest speech_request(const JsonBody& body) {
   request.voice.ssml = flag_member(body, "ssml");
   request.voice.language = text_member(body, "language");
   request.voice.voice = text_member(body, "voice");
-  request.voice.rate = number_member(body, "rate", 1.0, voice::least_factor, voice::most_factor);
-  request.voice.pitch = number_member(body, "pitch", 1.0, voice::least_factor, voice::most_factor);
+  request.voice.rate = number_or(body, "rate", 1.0, voice::least_factor, voice::most_factor);
+  request.voice.pitch = number_or(body, "pitch", 1.0, voice::least_factor, voice::most_factor);
   request.expression = static_cast<std::uint8_t>(choice_member(body, "emotion", emotion_names(), 0));
-  request.intensity = number_member(body, "intensity", 1.0, 0.0, 1.0);
+  request.intensity = number_or(body, "intensity", 1.0, 0.0, 1.0);
   request.face.style = static_cast<SpeechStyle>(
       choice_member(body, "style", speech_style_names, static_cast<std::size_t>(SpeechStyle::normal)));
-  const double seed = number_member(body, "seed", 0.0, 0.0, 4'294'967'295.0);
+  const double seed = number_or(body, "seed", 0.0, 0.0, 4'294'967'295.0);
   if (seed != std::floor(seed)) refuse("invalid-field", "must be a whole number", "/seed");
   request.face.seed = static_cast<std::uint32_t>(seed);
   request.face.name = "speech";
