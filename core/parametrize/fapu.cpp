@@ -41,7 +41,7 @@ std::optional<double> measure(const mpeg4::Measure& wanted, const FeaturePointSe
   return static_cast<double>(to->position[wanted.axis]) - static_cast<double>(from->position[wanted.axis]);
 }
 
-/// Empty without a measure whose points are marked.
+/// Empty when no measure of this FAPU has all its points marked.
 std::optional<double> mean_length(std::size_t unit, const FeaturePointSet& points) {
   double sum = 0.0;
   int count = 0;

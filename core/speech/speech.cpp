@@ -32,7 +32,7 @@ std::optional<Interval> time_of(const TextRange& range, const Utterance& utteran
   return found;
 }
 
-constexpr std::array liveliness_of = {0.4, 1.0, 1.6};  ///< by style
+constexpr std::array liveliness_of = {0.4, 1.0, 1.6};  ///< factor on brows, nods and turns, by SpeechStyle
 
 bool moves_brows(std::uint8_t expression) { return expression != 1; }  // joy leaves them at rest
 

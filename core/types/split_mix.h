@@ -4,7 +4,7 @@
 
 namespace semblante {
 
-/// splitmix64: the same numbers for the same seed, everywhere.
+/// Random numbers by splitmix64: one seed gives the same numbers on every platform.
 class SplitMix {
  public:
   explicit SplitMix(std::uint64_t seed) : state_(seed) {}

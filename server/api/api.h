@@ -46,7 +46,7 @@ struct ApiConfig {
   std::filesystem::path web_root;  ///< empty: no pages
   Access access;
   Security security = {};
-  voice::VoiceProgram voice = {};  ///< without a command: there is none
+  voice::VoiceProgram voice = {};  ///< empty command: the server has no voice
 };
 
 /// Writes the counts of the network layer into /metrics.

@@ -7,7 +7,7 @@
 
 namespace semblante::api {
 
-/// A file of the store: with its ETag, in ranges, JSON packed for who takes that. Throws DamagedBlob.
+/// The response with a stored file: ETag, ranges, and compressed JSON for clients that accept it. Throws DamagedBlob.
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control);
 

@@ -37,7 +37,7 @@ class FrameGuard {
   const std::uint32_t max_fragments_;
   TokenBucket controls_, fragments_;
   std::uint64_t payload_left_ = 0;          ///< of the current frame
-  std::uint32_t fragments_of_message_ = 0;  ///< without its last one
+  std::uint32_t fragments_of_message_ = 0;  ///< received so far, without the last one
   std::array<unsigned char, 14> header_{};  ///< of the current frame, as far as it has arrived
   std::uint8_t header_size_ = 0;
   bool over_ = false;

@@ -16,7 +16,7 @@ struct VoiceProgram {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;
   std::uint64_t cpu_seconds = 60;
   std::uint64_t wall_seconds = 120;
-  std::filesystem::path temporary = {};  ///< folder for what it writes to standard error; empty: the system's
+  std::filesystem::path temporary = {};  ///< folder of the file that receives its standard error; empty: the system's
 };
 
 /// The voice that is installed beside this program, or built beside it; empty if there is none.

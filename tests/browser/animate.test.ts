@@ -35,7 +35,7 @@ describe('animate', () => {
     await search.fill('');
     await page.getByText('Head pitch').waitFor();
     expect(await groups.count()).toBe(all);
-    // What the search opened is closed again; what the user opened is not.
+    // Groups that the search opened are closed again; a group that the user opened stays open.
     expect(await page.locator('.fap-group[open]').evaluateAll((open) => open.map((one) => (one as HTMLElement).dataset['group']))).toEqual(['7']);
     expect(studio.errors).toEqual([]);
     await studio.close();

@@ -38,7 +38,7 @@ interface Inside {
 
 /**
  * The opening of the mouth at a time of the sound: how far 2.3 is below 2.2, beyond its place at rest; model units. The sound
- * is held there, so that a busy machine measures the same.
+ * is paused there, so that the result does not depend on how busy the machine is.
  */
 async function openingAt(page: StudioPage, ms: number): Promise<number> {
   await page.page.evaluate((time) => {

@@ -1,4 +1,4 @@
-// Clients whose frames end no message: pings, pongs, fragments.
+// Clients that send pings, pongs or fragments without end and never complete a message.
 
 #include <string>
 #include <thread>
