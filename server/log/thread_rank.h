@@ -9,7 +9,8 @@ enum class ThreadRank {
   requests,    ///< requests and their answers
   jobs,        ///< worker processes
   handshakes,  ///< of TLS, which strangers may begin by the thousand; in parallel with a stream's batch, a higher rank
-               ///< would give them a tenth of its processor, this one gives a hundredth
+               ///< would give them a tenth of its processor, this one gives a hundredth; their
+               ///< turns are short as well
 };
 
 /// For the calling thread, and for the threads and processes that it starts later; once per thread, as it is relative

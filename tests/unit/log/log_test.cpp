@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <sched.h>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 
 #include "server/log/periodic.h"
 #include "server/log/thread_rank.h"
@@ -106,6 +108,22 @@ TEST(ThreadRank, IsOfTheThread_AndRelativeToTheProcess) {
       EXPECT_EQ(::sched_getscheduler(0), SCHED_BATCH);
     }).join();
   EXPECT_EQ(own(), before);
+}
+
+TEST(ThreadRank, HandshakesHaveShortTurns_WhereLinuxHasThem) {
+  struct {
+    std::uint32_t size = 48, policy = 0;
+    std::uint64_t flags = 0;
+    std::int32_t nice = 0;
+    std::uint32_t priority = 0;
+    std::uint64_t runtime = 0, deadline = 0, period = 0;
+  } attributes;
+  std::thread([&attributes] {
+    set_thread_rank(ThreadRank::handshakes);
+    ASSERT_EQ(::syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0U), 0);
+  }).join();
+  if (attributes.runtime == 0) GTEST_SKIP() << "this Linux gives all threads turns of the same length";
+  EXPECT_EQ(attributes.runtime, 100'000U);
 }
 
 TEST(Periodic, WorksOncePerInterval_AFaultEndsOneTurn_AndItsEndIsPrompt) {
