@@ -54,7 +54,7 @@ std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfaceP
 
 std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye) {
   const std::array<std::string_view, 2> corners =
-      eye == 0 ? std::array<std::string_view, 2>{"3.11", "3.7"} : std::array<std::string_view, 2>{"3.12", "3.8"};
+      eye == 0 ? std::array<std::string_view, 2>{"3.11", "3.7"} : std::array<std::string_view, 2>{"3.8", "3.12"};
   auto upper = lid_edge(surface, points, eye == 0 ? "3.1" : "3.2", corners);
   auto lower = lid_edge(surface, points, eye == 0 ? "3.3" : "3.4", corners);
   if (!upper || !lower) return std::nullopt;

@@ -13,8 +13,9 @@ namespace semblante {
 
 /// The edge of a lid from corner to corner, through its middle point.
 struct LidEdge {
+  static constexpr std::size_t outer = 1;
   SurfacePoint middle;
-  std::array<SurfacePoint, 2> corners;
+  std::array<SurfacePoint, 2> corners;  ///< inner, outer
   std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< shortest paths from the middle
   std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
 };

@@ -17,6 +17,8 @@ namespace {
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_lip = 2;
+/// From the front, radians: so far from the side closed lids show no gap.
+constexpr double side_view = 1.05;
 
 const SurfacePoint* find(std::span<const SurfacePoint> points, const char* name) {
   const auto at = std::find_if(points.begin(), points.end(),
@@ -44,24 +46,44 @@ std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector
   return places;
 }
 
-/// y of the edge at `x`; the mean if it passes `x` several times, nullopt if it does not.
-std::optional<double> height_of(const Surface& surface, const LidEdge& edge, double x) {
+/// y of a path of an edge where it passes the vertical plane through `p` along the line of sight: the view from the
+/// front (`sight` = +z), or from a side. The mean if it passes several times, nullopt if it does not.
+std::optional<double> height_behind(const Surface& surface, std::span<const SurfaceVertexId> path, const glm::dvec3& p,
+                                    const glm::dvec3& sight) {
+  const glm::dvec3 across(sight.z, 0.0, -sight.x);
   double sum = 0.0;
   int count = 0;
-  for (const auto& path : edge.to_corner) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const glm::dvec3& a = surface.positions[path[i - 1].value()];
-      const glm::dvec3& b = surface.positions[path[i].value()];
-      if ((a.x < x) == (b.x < x)) continue;
-      sum += a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
-      ++count;
-    }
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const glm::dvec3& a = surface.positions[path[i - 1].value()];
+    const glm::dvec3& b = surface.positions[path[i].value()];
+    const double from = glm::dot(a - p, across);
+    const double to = glm::dot(b - p, across);
+    if ((from < 0.0) == (to < 0.0)) continue;
+    sum += a.y + (b.y - a.y) * from / (from - to);
+    ++count;
   }
   if (count == 0) return std::nullopt;
   return sum / count;
 }
 
-void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, double travel,
+/// The height at which a vertex of an edge, on its way to corner `c`, meets the other edge: as seen from the front the
+/// other edge's height there. An upper lid in front of the lower one overlaps it at the outer corner, as on real eyes:
+/// it goes down to where they meet as seen from the side, or the eyeball would be seen between them.
+std::optional<double> meeting_height(const Surface& surface, const LidEdge& edge, const LidEdge& other, std::size_t c,
+                                     const glm::dvec3& p, bool is_upper) {
+  std::optional<double> from_front;
+  for (const auto& path : other.to_corner) {
+    if (!from_front) from_front = height_behind(surface, path, p, {0.0, 0.0, 1.0});
+  }
+  if (!is_upper || c != LidEdge::outer) return from_front;
+  const double side = edge.corners[c].position.x < edge.middle.position.x ? -1.0 : 1.0;
+  const auto from_side =
+      height_behind(surface, other.to_corner[c], p, {side * std::sin(side_view), 0.0, std::cos(side_view)});
+  if (!from_front || !from_side) return from_front ? from_front : from_side;
+  return std::min(*from_front, *from_side);
+}
+
+void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, double travel, bool is_upper,
                    std::vector<MarginSite>& sites) {
   const SurfacePoint& a = edge.corners[0];
   const SurfacePoint& b = edge.corners[1];
@@ -72,7 +94,7 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
     for (const SurfaceVertexId vertex : places) {
       const glm::dvec3& p = surface.positions[vertex.value()];
       // Beyond the end of the other edge there is no opening.
-      const double across = height_of(surface, other, p.x).value_or(p.y);
+      const double across = meeting_height(surface, edge, other, c, p, is_upper).value_or(p.y);
       const double middle = std::clamp(std::abs(p.y - across) / travel, 0.0, 1.0);
       const glm::dvec3 axis = b.position - a.position;
       const double to_b = std::clamp(glm::dot(p - a.position, axis) / glm::dot(axis, axis), 0.0, 1.0);
@@ -101,8 +123,8 @@ void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std:
   travel /= open;
   for (const auto& eye : eyes) {
     if (!eye) continue;
-    add_lid_sites(surface, eye->upper, eye->lower, travel, sites);
-    add_lid_sites(surface, eye->lower, eye->upper, travel, sites);
+    add_lid_sites(surface, eye->upper, eye->lower, travel, true, sites);
+    add_lid_sites(surface, eye->lower, eye->upper, travel, false, sites);
   }
 }
 

@@ -3,8 +3,14 @@
 
 #include "tests/bench/foldover/closure.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/lid_edge.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/expressions/contact.h"
 #include "tests/bench/foldover/fold_over.h"
 #include "tests/bench/foldover/posed_face.h"
@@ -61,6 +67,52 @@ TEST(Blink, ShutsTheEyeWithWeightsFittedToOwnShapes) {
     }
   }
   if (fitted == 0) GTEST_SKIP() << "no head with shapes of its own";
+}
+
+/// y of a path where it passes the vertical plane through `p` along `sight`, horizontal.
+std::optional<double> height_behind(const std::vector<glm::dvec3>& path, const glm::dvec3& p, const glm::dvec3& sight) {
+  const glm::dvec3 across(sight.z, 0.0, -sight.x);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double from = glm::dot(path[i - 1] - p, across);
+    const double to = glm::dot(path[i] - p, across);
+    if ((from < 0.0) != (to < 0.0)) return path[i - 1].y + (path[i].y - path[i - 1].y) * from / (from - to);
+  }
+  return std::nullopt;
+}
+
+// An upper lid lies farther in front than the lower one: if it ended at the same height, the eyeball would be seen
+// between them from the side.
+TEST(Blink, SeenFromTheSide_ShowsNoEyeballAtTheOuterCorner) {
+  for (const bench::Head& head : bench::heads_with_lids()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    const auto moved = face.pose(bench::frame_of({{19, 1024.0F}, {20, 1024.0F}}));
+    const double unit = 1024.0 * face.rig().fapu[FapuUnit::irisd].value();
+    const std::vector<SurfacePoint> points = surface_points(head.surface, head.points);
+    for (const std::size_t eye : {std::size_t{0}, std::size_t{1}}) {
+      const auto edges = find_eye_edges(head.surface, points, eye);
+      ASSERT_TRUE(edges.has_value()) << head.name;
+      const auto shut = [&](const LidEdge& edge) {
+        std::vector<glm::dvec3> path;
+        for (const SurfaceVertexId at : edge.to_corner[LidEdge::outer]) {
+          const auto& all = head.surface.surface_of;
+          path.emplace_back(moved[static_cast<std::size_t>(std::find(all.begin(), all.end(), at) - all.begin())]);
+        }
+        return path;
+      };
+      const std::vector<glm::dvec3> lower = shut(edges->lower);
+      std::size_t measured = 0;
+      for (const glm::dvec3& p : shut(edges->upper)) {
+        for (const double angle : {0.0, 0.5, 1.0}) {
+          const glm::dvec3 sight(eye == 0 ? std::sin(angle) : -std::sin(angle), 0.0, std::cos(angle));
+          const auto height = height_behind(lower, p, sight);
+          if (!height) continue;
+          ++measured;
+          EXPECT_LE((p.y - *height) / unit, 0.04) << head.name << ", eye " << eye << ", seen at " << angle;
+        }
+      }
+      EXPECT_GT(measured, 9U) << head.name;
+    }
+  }
 }
 
 struct LidPose {

@@ -85,7 +85,7 @@ TEST(RealExpressions_SmoothWeights, AreCloserToAFaceByThePriorOfOthers) {
   const bench::Figures ict_alone = figures_of(ict, {});
   const bench::Figures makehuman_alone = figures_of(makehuman, {});
   EXPECT_LE(ict_alone.error, 0.131);
-  EXPECT_LE(makehuman_alone.error, 0.24);
+  EXPECT_LE(makehuman_alone.error, 0.242);
 
   const bench::Figures strange = figures_of(ict, WeightPrior(without_ict));
   EXPECT_LE(strange.error, 0.127);
@@ -95,7 +95,7 @@ TEST(RealExpressions_SmoothWeights, AreCloserToAFaceByThePriorOfOthers) {
   EXPECT_LE(other_shapes.visible_error, 0.087);
   EXPECT_LE(other_shapes.roughness, 0.008);
   const bench::Figures other_head = figures_of(makehuman, WeightPrior(without_makehuman));
-  EXPECT_LE(other_head.error, 0.227);
+  EXPECT_LE(other_head.error, 0.229);
   EXPECT_LE(other_head.roughness, 1.01 * makehuman_alone.roughness);
 }
 
