@@ -71,13 +71,16 @@ AuthoredSet read_set(const json& entry, const std::map<std::string, Displacement
 constexpr double unseen = 50.0;
 
 /// If a viseme and an expression move the same point, Eq. 5 keeps only 15 % of the expression. So a viseme omits points
-/// of eyes, cheeks and nose with displacements too small to notice: a smile keeps its cheeks during speech.
+/// of eyes, cheek bones and nose with displacements too small to notice: a smile keeps its cheek bones during speech.
+/// The soft cheeks (5.1, 5.2) stay with the corners of the mouth, which pull them and are in every viseme: if only some
+/// visemes moved them, the cheeks of a smile would rise and fall from sound to sound.
 void leave_to_expressions(AuthoredSet& viseme) {
   std::erase_if(viseme.displacements, [](const auto& item) {
     const auto& [point, d] = item;
     const int group = group_of(point);
     const bool teeth = group == 9 && number_of(point) >= 8 && number_of(point) <= 11;
-    if (group == 2 || group == 6 || group == 8 || teeth) return false;
+    const bool soft_cheek = group == 5 && number_of(point) <= 2;
+    if (group == 2 || group == 6 || group == 8 || teeth || soft_cheek) return false;
     return std::hypot(d[0], d[1], d[2]) < unseen;
   });
 }
