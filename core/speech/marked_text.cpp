@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 
+#include "core/speech/xml_tag.h"
 #include "core/tables/mpeg4.h"
 #include "core/types/printable.h"
 
@@ -70,58 +70,126 @@ std::optional<Tag> tag_at(std::string_view text) {
   return tag;
 }
 
+bool is_emotion_tag(std::string_view text) {
+  constexpr std::string_view begin = "<emotion", end = "</emotion";
+  const std::string_view tag = text.starts_with(begin) ? begin : end;
+  return text.starts_with(tag) && !(text.size() > tag.size() && is_letter(text[tag.size()]));
+}
+
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}
 
   Result<MarkedText> read() {
-    while (at_ < text_.size()) {
-      if (const auto tag = tag_at(text_.substr(at_))) {
-        if (auto fault = take(*tag)) return *std::move(fault);
-      } else if (const Smiley* const smiley = smiley_here()) {
-        take(*smiley);
-      } else {
-        take_character();
-      }
-    }
-    if (!open_.empty())
-      return Error{
-          ErrorCode::malformed, "text",
-          "[" + std::string(mpeg4::expressions[marked_.emotions[open_.back()].expression].name) + "] is not closed"};
+    while (at_ < text_.size())
+      if (auto fault = step()) return *std::move(fault);
+    if (!open_.empty()) return Error{ErrorCode::malformed, "text", open_.back().tag + " is not closed"};
     // A smiley is about its sentence to the end, whether or not it stands there.
     for (const Pending& pending : pending_) end_at(pending, sentence_end(pending.sentence));
     std::erase_if(marked_.emotions, [](const EmotionSpan& span) { return span.range.count == 0; });
     return std::move(marked_);
   }
 
+  Result<TextParts> split() {
+    while (at_ < text_.size() && !(may_end_here() && !belongs_to_what_was_said()))
+      if (auto fault = step()) return *std::move(fault);
+    TextParts parts{std::string(text_.substr(0, at_)), {}};
+    const std::string_view rest = text_.substr(at_);
+    if (std::all_of(rest.begin(), rest.end(), is_space)) return TextParts{std::string(text_), {}};
+    for (const Open& open : open_) parts.rest += open.source;
+    parts.rest += rest;
+    for (auto open = open_.rbegin(); open != open_.rend(); ++open) parts.first += open->closing;
+    return parts;
+  }
+
  private:
+  /// Whether the first part is long enough, and something ends here.
+  [[nodiscard]] bool may_end_here() const {
+    constexpr std::size_t least = 40, long_clause = 160, longest = 320;  // characters
+    const std::string_view before = text_.substr(0, at_);
+    if (characters_ < least || before.empty()) return false;
+    if (!said_since_end_) return !ends_.empty();
+    if (!is_space(before.back())) return false;
+    const bool is_clause =
+        before.size() > 1 && std::string_view(",;:").find(before[before.size() - 2]) != std::string_view::npos;
+    return characters_ >= longest || (characters_ >= long_clause && is_clause);
+  }
+  /// Spaces, signs, smileys and ends of spans go with the sentence before them.
+  [[nodiscard]] bool belongs_to_what_was_said() const {
+    const std::string_view rest = text_.substr(at_);
+    const auto tag = tag_at(rest);
+    return is_space(rest[0]) || ends_sentence(rest[0]) || (tag && tag->closes) || rest.starts_with("</emotion") ||
+           smiley_here() != nullptr;
+  }
+
+  std::optional<Error> step() {
+    const std::string_view rest = text_.substr(at_);
+    if (const auto tag = tag_at(rest)) return take(*tag);
+    if (is_emotion_tag(rest)) return take_xml(rest);
+    if (const Smiley* const smiley = smiley_here())
+      take(*smiley);
+    else
+      take_character();
+    return std::nullopt;
+  }
+
   struct Pending {
     std::size_t emotion, sentence;
   };
 
+  /// A span that is not closed yet.
+  struct Open {
+    std::string tag;          ///< as errors name it
+    std::string closing;      ///< its end
+    std::string_view source;  ///< as it is written
+    std::size_t emotion;      ///< its index
+  };
+
+  [[nodiscard]] Error fail(const std::string& message) const {
+    return {ErrorCode::malformed, "text", message + " (byte " + std::to_string(at_) + ")"};
+  }
+
+  /// `tag`: of the beginning.
+  std::optional<Error> close(const std::string& tag, const std::string& closing) {
+    if (open_.empty() || open_.back().tag != tag) return fail(closing + " closes what is not open");
+    EmotionSpan& span = marked_.emotions[open_.back().emotion];
+    span.range.count = characters_ - span.range.first;
+    open_.pop_back();
+    return std::nullopt;
+  }
+  /// `bytes`: of the tag as it is written.
+  void open(std::string tag, std::string closing, std::size_t bytes, std::uint8_t expression, double intensity) {
+    open_.push_back({std::move(tag), std::move(closing), text_.substr(at_, bytes), marked_.emotions.size()});
+    marked_.emotions.push_back({expression, intensity, {characters_, 0}});
+  }
+
   std::optional<Error> take(const Tag& tag) {
-    const auto fail = [this](std::string message) {
-      return Error{ErrorCode::malformed, "text", std::move(message) + " (byte " + std::to_string(at_) + ")"};
-    };
     const std::string name(mpeg4::expressions[tag.expression].name);
     if (tag.closes) {
-      if (open_.empty() || marked_.emotions[open_.back()].expression != tag.expression)
-        return fail("[/" + name + "] closes what is not open");
-      EmotionSpan& span = marked_.emotions[open_.back()];
-      span.range.count = characters_ - span.range.first;
-      open_.pop_back();
+      if (auto fault = close("[" + name + "]", "[/" + name + "]")) return fault;
     } else {
-      double intensity = 1.0;
-      if (!tag.intensity.empty()) {
-        const char* const end = tag.intensity.data() + tag.intensity.size();
-        const auto read = std::from_chars(tag.intensity.data(), end, intensity);
-        if (read.ec != std::errc() || read.ptr != end || !(intensity >= 0.0 && intensity <= 1.0))
-          return fail("the intensity of [" + name + "] must be 0 to 1");
-      }
-      open_.push_back(marked_.emotions.size());
-      marked_.emotions.push_back({tag.expression, intensity, {characters_, 0}});
+      const auto intensity = tag.intensity.empty() ? 1.0 : read_intensity(tag.intensity);
+      if (!intensity) return fail("the intensity of [" + name + "] must be 0 to 1");
+      open("[" + name + "]", "[/" + name + "]", tag.bytes, tag.expression, *intensity);
     }
     at_ += tag.bytes;
+    return std::nullopt;
+  }
+
+  std::optional<Error> take_xml(std::string_view rest) {
+    const std::string name = "<emotion>";
+    const auto tag = read_xml_tag(rest);
+    if (!tag) return fail(tag.error().message);
+    if (tag->closes) {
+      if (auto fault = close(name, "</emotion>")) return fault;
+    } else {
+      const auto emotion = emotion_of(*tag, "name");
+      if (!emotion) return fail(emotion.error().message);
+      if (tag->is_empty || tag->attributes.size() != (tag->attribute("intensity") ? 2U : 1U))
+        return fail(name + " has only a name and an intensity, and a text in it");
+      open(name, "</emotion>", tag->bytes, emotion->expression, emotion->intensity);
+    }
+    at_ += tag->bytes;
     return std::nullopt;
   }
 
@@ -184,7 +252,7 @@ class Reader {
   std::size_t sentence_ = 0, previous_sentence_ = 0;  ///< their first characters
   bool said_since_end_ = false;
   std::vector<std::size_t> ends_;  ///< of sentences, one past the last character
-  std::vector<std::size_t> open_;  ///< emotions whose end is to come
+  std::vector<Open> open_;         ///< emotions whose end is to come
   std::vector<Pending> pending_;
   MarkedText marked_;
 };
@@ -205,6 +273,13 @@ std::vector<std::string> emotion_names() {
 }
 
 Result<MarkedText> read_marked_text(std::string_view text) { return Reader(text).read(); }
+
+Result<TextParts> first_part(std::string_view text) { return Reader(text).split(); }
+
+Prosody prosody_of(const NamedEmotion& emotion) {
+  const Prosody& whole = prosodies[emotion.expression];
+  return {1.0 + emotion.intensity * (whole.rate - 1.0), 1.0 + emotion.intensity * (whole.pitch - 1.0)};
+}
 
 Prosody prosody_of(const MarkedText& text) {
   std::size_t characters = 0;

@@ -28,16 +28,27 @@ int expression_of(std::string_view name);
 /// "neutral", then the expressions in the order of their numbers.
 std::vector<std::string> emotion_names();
 
-/// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", which nest; emoticons
-/// (":)", ":-(") and emoji. A smiley colours the sentence that it stands in, or ends; before the first word, the first
-/// one. Brackets with other words in them are text. Errors name the byte: a span that is not closed, or closed and not
-/// open; an intensity that is not 0 to 1.
+/// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", or
+/// <emotion name="joy" intensity="0.5">...</emotion>, which nest; emoticons (":)", ":-(") and emoji. A smiley colours
+/// the sentence that it stands in, or ends; before the first word, the first one. Brackets with other words in them are
+/// text. Errors name the byte: a span that is not closed, or closed and not open; an intensity that is not 0 to 1.
 Result<MarkedText> read_marked_text(std::string_view text);
+
+/// A text in two, both with their marks; spans that go on are closed in the first and opened again in the rest.
+struct TextParts {
+  std::string first;
+  std::string rest;  ///< empty: the text was short
+};
+/// Cuts a text after its first sentences, or after a clause of a long one, so that the first part can be heard while
+/// the rest is made. Errors as those of read_marked_text(), of the first part.
+Result<TextParts> first_part(std::string_view text);
 
 /// How an expression changes the voice: factors of rate and pitch at full intensity; 1 for none.
 struct Prosody {
   double rate = 1.0, pitch = 1.0;
 };
+struct NamedEmotion;
+Prosody prosody_of(const NamedEmotion& emotion);
 /// The mean over the characters of a text.
 Prosody prosody_of(const MarkedText& text);
 

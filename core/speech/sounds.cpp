@@ -14,6 +14,9 @@ const std::array<SoundTable, 2>& tables() {
   return all;
 }
 
+/// Of tests/golden/speech.
+constexpr std::array<std::string_view, 4> measured_languages = {"pt", "pt-BR", "en", "en-US"};
+
 constexpr Sound neutral = {"", sounds::e, sounds::a, 0.6F, 0.5F, SoundKind::vowel};
 
 const SoundTable* find_table(std::string_view language) {
@@ -30,6 +33,12 @@ const SoundTable* find_table(std::string_view language) {
 std::span<const SoundTable> sound_tables() { return tables(); }
 
 bool has_sound_table(std::string_view language) { return find_table(language) != nullptr; }
+
+LanguageQuality quality_of(std::string_view language) {
+  if (std::find(measured_languages.begin(), measured_languages.end(), language) != measured_languages.end())
+    return LanguageQuality::measured;
+  return has_sound_table(language) ? LanguageQuality::table : LanguageQuality::english;
+}
 
 const SoundTable& sound_table(std::string_view language) {
   const SoundTable* const table = find_table(language);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -42,6 +43,15 @@ std::span<const SoundTable> sound_tables();
 /// The table of "pt-BR" or "en"; of English for a language without one, whose vowels and consonants it reads by IPA.
 const SoundTable& sound_table(std::string_view language);
 bool has_sound_table(std::string_view language);
+
+/// How well a language is said.
+enum class LanguageQuality : std::uint8_t {
+  measured,  ///< a table of its own, and measured on heads against the sound
+  table,     ///< a relative of one of these, read by its table
+  english    ///< read by the table of English
+};
+inline constexpr std::array<std::string_view, 3> language_quality_names = {"measured", "table", "english"};
+LanguageQuality quality_of(std::string_view language);
 
 /// The sounds of one symbol, in order: one, or several of a diphthong or a syllable ("aɪ", "əl"). Marks of length,
 /// stress, nasality and syllables are skipped; a symbol of unknown letters alone is a neutral vowel.

@@ -14,9 +14,15 @@
 namespace semblante {
 namespace {
 
-/// When the words of a range are said: from the first one's beginning to the last one's end.
+/// When the words of a range are said: from the first one's beginning to the last one's end. Of an utterance whose
+/// words are not known, everything.
 std::optional<Interval> time_of(const TextRange& range, const Utterance& utterance, std::span<const Segment> segments) {
   std::optional<Interval> found;
+  if (utterance.words.empty()) {
+    for (const Segment& segment : segments)
+      if (!segment.is_silence()) found = Interval{found ? found->begin : segment.begin, segment.end};
+    return found;
+  }
   for (std::size_t i = 0; i < utterance.words.size(); ++i) {
     const SpokenWord& word = utterance.words[i];
     if (word.range.first >= range.first + range.count || word.range.first + word.range.count <= range.first) continue;

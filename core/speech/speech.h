@@ -12,8 +12,9 @@
 
 namespace semblante {
 
-/// Silence that a face needs around speech, ms: with_silence() adds it.
-inline constexpr double speech_lead_ms = 400.0, speech_tail_ms = 700.0;
+/// Silence that a face needs around speech, ms: with_silence() adds it. Before it, so long as the mouth moves before a
+/// sound; whoever waits for the voice hears every ms of it.
+inline constexpr double speech_lead_ms = 120.0, speech_tail_ms = 700.0;
 
 /// How much brows and head take part.
 enum class SpeechStyle : std::uint8_t { calm, normal, lively };
@@ -39,8 +40,5 @@ std::string timeline_json(const Utterance& utterance, std::string_view text, std
 /// The words with their times as WebVTT: a cue for each sentence or, in long ones, part of it, with a time before each
 /// word. `text`: the one that was spoken.
 std::string web_vtt(const Utterance& utterance, std::string_view text);
-
-/// The sound as a WAV file, 16 bits, one channel.
-std::string wav(const Utterance& utterance);
 
 }  // namespace semblante

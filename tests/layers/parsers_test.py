@@ -34,6 +34,7 @@ REACHED = {
     "read_ply": "ply",
     "read_recording_faces": "recording",
     "read_stl": "stl",
+    "read_xml_tag": "marked_ssml",
     "webp_size": "image",
 }
 INSIDE = {

@@ -21,6 +21,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (span.range.first > marked->text.size() || span.range.count > marked->text.size() - span.range.first)
       std::abort();
   }
+  // Its parts are texts as well, and say no more than it.
+  const auto parts = first_part(text);
+  if (!parts) std::abort();
+  const auto first = read_marked_text(parts->first), rest = read_marked_text(parts->rest);
+  if (!first || !rest || first->text.size() + rest->text.size() > marked->text.size() ||
+      first->text.empty() != marked->text.empty())
+    std::abort();
   const Prosody prosody = prosody_of(*marked);
   if (!std::isfinite(prosody.rate) || !std::isfinite(prosody.pitch) || prosody.rate <= 0.0 || prosody.pitch <= 0.0)
     std::abort();

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/speech/speech.h"
+#include "core/speech/wav.h"
 #include "server/voice/voice_protocol.h"
 
 using namespace semblante;

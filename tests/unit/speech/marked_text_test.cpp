@@ -29,6 +29,15 @@ TEST(MarkedText, Spans_AreTakenOut_AndMayNest) {
   expect_span(text, 1, anger, {6, 2});
 }
 
+TEST(MarkedText, Spans_HaveAFormInXml) {
+  const auto text =
+      marked("Não <emotion name=\"joy\" intensity='0.5'>é [anger]ão[/anger] mau</emotion>. a < b <emotions>");
+  EXPECT_EQ(text.text, "Não é ão mau. a < b <emotions>");
+  expect_span(text, 0, joy, {4, 8});
+  EXPECT_EQ(text.emotions[0].intensity, 0.5);
+  expect_span(text, 1, anger, {6, 2});
+}
+
 TEST(MarkedText, Smileys_ColourTheSentenceTheyEndOrStandIn) {
   const auto after = marked("Tudo mal. Olá, mundo! :)");
   EXPECT_EQ(after.text, "Tudo mal. Olá, mundo! ");
@@ -47,9 +56,41 @@ TEST(MarkedText, OtherBrackets_AreText) {
 
 TEST(MarkedText, BrokenMarks_AreErrorsWithTheirPlace) {
   for (const char* const text :
-       {"[joy]a", "a[/joy]", "[joy][anger]a[/joy][/anger]", "[joy 2]a[/joy]", "[joy x]a[/joy]"})
+       {"[joy]a", "a[/joy]", "[joy][anger]a[/joy][/anger]", "[joy 2]a[/joy]", "[joy x]a[/joy]", "<emotion name='joy'>a",
+        "a</emotion>", "[joy]<emotion name='anger'>a[/joy]</emotion>", "<emotion name='bored'>a</emotion>",
+        "<emotion name='joy' intensity='x'>a</emotion>", "<emotion name='joy'/>a",
+        "<emotion name='joy' id='x'>a</emotion>", "<emotion", "<emotion name='joy"})
     EXPECT_FALSE(read_marked_text(text).ok()) << text;
   EXPECT_NE(read_marked_text("ab[/joy]").error().message.find("byte 2"), std::string::npos);
+}
+
+TEST(MarkedText, FirstPart_IsTheFirstSentences_AndBothKeepTheirMarks) {
+  const auto parts = [](std::string_view text) {
+    const auto cut = first_part(text);
+    EXPECT_TRUE(cut.ok()) << cut.error().message;
+    return cut ? std::pair(cut->first, cut->rest) : std::pair<std::string, std::string>();
+  };
+  using Both = std::pair<std::string, std::string>;
+  EXPECT_EQ(parts("Short. Also. "), Both("Short. Also. ", ""));
+  EXPECT_EQ(parts("Oi. This one is long enough to be heard alone?! :) And more."),
+            Both("Oi. This one is long enough to be heard alone?! :) ", "And more."));
+  EXPECT_EQ(
+      parts("[joy 0.5]<emotion name='anger'>This one is long enough to be heard alone. And</emotion> more.[/joy] End"),
+      Both("[joy 0.5]<emotion name='anger'>This one is long enough to be heard alone. </emotion>[/joy]",
+           "[joy 0.5]<emotion name='anger'>And</emotion> more.[/joy] End"));
+  EXPECT_EQ(parts("[joy]This one is long enough to be heard alone.[/joy] End").first,
+            "[joy]This one is long enough to be heard alone.[/joy] ");
+  // Without sentences: at a clause, then at any space, else not at all.
+  std::string clauses;
+  for (int i = 0; i < 30; ++i) clauses += "seven words that end with, ";
+  const auto [clause, others] = parts(clauses);
+  EXPECT_TRUE(clause.ends_with("with, ")) << clause;
+  EXPECT_EQ(clause + others, clauses);
+  std::string words;
+  for (int i = 0; i < 300; ++i) words += "\u00E1 ";
+  EXPECT_EQ(parts(words).first.size(), 3U * 160U) << "320 characters";
+  EXPECT_EQ(parts(std::string(900, 'a')).second, "");
+  EXPECT_FALSE(first_part("a[/joy]").ok());
 }
 
 TEST(MarkedText, Prosody_FollowsTheShareOfTheText) {

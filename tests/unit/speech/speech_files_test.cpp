@@ -3,6 +3,7 @@
 
 #include "core/speech/loudness.h"
 #include "core/speech/speech.h"
+#include "core/speech/wav.h"
 
 namespace semblante {
 namespace {

@@ -38,10 +38,6 @@ std::string plain(std::string_view text) {
   return safe.substr(first, safe.find_last_not_of(' ') - first + 1);
 }
 
-void append_number(std::string& bytes, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
-}
-
 }  // namespace
 
 std::string web_vtt(const Utterance& utterance, std::string_view text) {
@@ -79,25 +75,6 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
     first = last;
   }
   return vtt;
-}
-
-std::string wav(const Utterance& utterance) {
-  const auto size = static_cast<std::uint32_t>(utterance.samples.size() * 2);
-  std::string bytes = "RIFF";
-  append_number(bytes, 36 + size, 4);
-  bytes += "WAVEfmt ";
-  append_number(bytes, 16, 4);
-  append_number(bytes, 1, 2);  // PCM
-  append_number(bytes, 1, 2);  // channels
-  append_number(bytes, utterance.sample_rate, 4);
-  append_number(bytes, utterance.sample_rate * 2, 4);
-  append_number(bytes, 2, 2);   // bytes of a frame
-  append_number(bytes, 16, 2);  // bits of a sample
-  bytes += "data";
-  append_number(bytes, size, 4);
-  bytes.reserve(bytes.size() + size);
-  for (const std::int16_t sample : utterance.samples) append_number(bytes, static_cast<std::uint16_t>(sample), 2);
-  return bytes;
 }
 
 }  // namespace semblante
