@@ -95,8 +95,29 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   return pid;
 }
 
+/// Holds back SIGPIPE of this thread for as long as it lives, and takes away what came meanwhile.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    constexpr timespec at_once{};
+    if (sigismember(&before_, SIGPIPE) == 0) sigtimedwait(&pipe_, nullptr, &at_once);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+ private:
+  sigset_t pipe_{}, before_{};
+};
+
 /// The request may exceed a pipe's buffer, and the worker may die before it reads: must neither hang nor raise SIGPIPE.
 void feed_input(Pipe& in, std::string_view& input) {
+  const NoPipeSignal no_signal;
   while (!input.empty() && in.write_end() >= 0) {
     const auto written = ::write(in.write_end(), input.data(), input.size());
     if (written < 0 && errno == EINTR) continue;
