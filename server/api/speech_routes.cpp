@@ -7,9 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/read_json.h"
 #include "core/performance/performance.h"
+#include "core/speech/marked_ssml.h"
 #include "core/speech/marked_text.h"
+#include "core/speech/sounds.h"
 #include "core/speech/speech.h"
+#include "core/speech/wav.h"
 #include "protocol/cpp/performance_document.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/authorization.h"
@@ -21,6 +25,8 @@
 #include "server/api/quota.h"
 #include "server/api/storage_problems.h"
 #include "server/api/stored_file.h"
+#include "server/http/media_type.h"
+#include "server/http/multipart.h"
 #include "server/streams/performance_source.h"
 #include "server/voice/speech_maker.h"
 
@@ -50,6 +56,19 @@ std::size_t choice_member(const JsonBody& body, const char* name, const Names& n
   refuse("invalid-field", "must be one of " + list, std::string("/") + name);
 }
 
+/// What texts and timelines have in common.
+template <class Wish>
+void read_manner(const JsonBody& body, Wish& wish) {
+  wish.expression = static_cast<std::uint8_t>(choice_member(body, "emotion", emotion_names(), 0));
+  wish.intensity = number_or(body, "intensity", 1.0, 0.0, 1.0);
+  wish.face.style = static_cast<SpeechStyle>(
+      choice_member(body, "style", speech_style_names, static_cast<std::size_t>(SpeechStyle::normal)));
+  const double seed = number_or(body, "seed", 0.0, 0.0, 4'294'967'295.0);
+  if (seed != std::floor(seed)) refuse("invalid-field", "must be a whole number", "/seed");
+  wish.face.seed = static_cast<std::uint32_t>(seed);
+  wish.face.name = "speech";
+}
+
 voice::SpeechRequest speech_request(const JsonBody& body) {
   voice::SpeechRequest request;
   request.voice.text = text_member(body, "text");
@@ -58,19 +77,15 @@ voice::SpeechRequest speech_request(const JsonBody& body) {
   request.voice.voice = text_member(body, "voice");
   request.voice.rate = number_or(body, "rate", 1.0, voice::least_factor, voice::most_factor);
   request.voice.pitch = number_or(body, "pitch", 1.0, voice::least_factor, voice::most_factor);
-  request.expression = static_cast<std::uint8_t>(choice_member(body, "emotion", emotion_names(), 0));
-  request.intensity = number_or(body, "intensity", 1.0, 0.0, 1.0);
-  request.face.style = static_cast<SpeechStyle>(
-      choice_member(body, "style", speech_style_names, static_cast<std::size_t>(SpeechStyle::normal)));
-  const double seed = number_or(body, "seed", 0.0, 0.0, 4'294'967'295.0);
-  if (seed != std::floor(seed)) refuse("invalid-field", "must be a whole number", "/seed");
-  request.face.seed = static_cast<std::uint32_t>(seed);
-  request.face.name = "speech";
+  request.part = flag_member(body, "part");
+  read_manner(body, request);
   if (const auto checked = voice::check(request.voice); !checked)
     refuse("invalid-field", checked.error().message, "/" + checked.error().where);
-  if (!request.voice.ssml) {
-    if (const auto marked = read_marked_text(request.voice.text); !marked)
+  if (request.voice.ssml) {
+    if (const auto marked = read_marked_ssml(request.voice.text); !marked)
       refuse("invalid-field", marked.error().message, "/text");
+  } else if (const auto marked = read_marked_text(request.voice.text); !marked) {
+    refuse("invalid-field", marked.error().message, "/text");
   }
   return request;
 }
@@ -82,10 +97,15 @@ void refuse_without_voice(const Context& context) {
            "program by --voice-program");
 }
 
-voice::Speech make(Context& context, const voice::SpeechRequest& request) {
-  const auto slot = context.voices->take();
+auto take_voice_slot(Context& context) {
+  auto slot = context.voices->take();
   if (!slot)
     refuse_for_now("as many voices are speaking as the server lets speak at the same time", retry_after_voices);
+  return slot;
+}
+
+voice::Speech make(Context& context, const voice::SpeechRequest& request) {
+  const auto slot = take_voice_slot(context);
   auto speech = voice::make_speech(context.config.voice, request);
   if (!speech) refuse("voice-failed", "the voice: " + speech.error().message);
   return *std::move(speech);
@@ -101,7 +121,7 @@ SpeechRecord speech_of(Context& context, const http::Request& request) {
 const store::ArtefactRecord& file_of(const SpeechRecord& speech, std::string_view name) {
   const auto found = std::find_if(speech.files.begin(), speech.files.end(),
                                   [name](const store::ArtefactRecord& file) { return file.name == name; });
-  if (found == speech.files.end()) refuse("internal", "the speech has no " + std::string(name));
+  if (found == speech.files.end()) refuse("not-found", "the speech has no " + std::string(name));
   return *found;
 }
 
@@ -109,21 +129,34 @@ http::Response speech_file(Context& context, const http::Request& request, std::
   return file_response(context, request, file_of(speech_of(context, request), name), "no-cache");
 }
 
+/// What a speech of a part leaves to say. It follows from the request, and is not stored.
+std::string rest_of(const SpeechRecord& speech) {
+  const auto request = read_json(speech.request);
+  if (!request || !request->value("part", false) || request->value("ssml", false)) return {};
+  const auto parts = first_part(request->value("text", ""));
+  return parts ? parts->rest : std::string();
+}
+
 answer::Speech speech_answer(const SpeechRecord& speech) {
   const std::string self = "/v1/speeches/" + speech.id;
   const auto link = [&self](std::string_view name) { return self + "/" + std::string(name); };
   std::uint64_t bytes = 0;
-  for (const auto& file : speech.files) bytes += file.bytes;
+  bool sounds = false;
+  for (const auto& file : speech.files) {
+    bytes += file.bytes;
+    sounds |= file.name == audio;
+  }
   return {.id = speech.id,
           .created = speech.created,
           .request = {speech.request},
           .text = speech.text,
+          .rest = rest_of(speech),
           .made_by = speech.voice,
           .duration = speech.duration,
           .bytes = bytes,
           .warnings = speech.warnings,
           .links = {.self = self,
-                    .audio = link(audio),
+                    .audio = sounds ? std::optional(link(audio)) : std::nullopt,
                     .timeline = link(timeline),
                     .performance = link(performance),
                     .captions = link(captions)}};
@@ -157,14 +190,11 @@ http::Response play(Context& context, const http::Request& request, const Perfor
       options);
 }
 
-}  // namespace
-
-http::Response create_speech(Context& context, http::Request& request) {
-  refuse_without_voice(context);
-  const auto body = body_object(request);
-  refuse_unknown_members(body, body_members::speech_request);
-  const auto wish = speech_request(body);
-  auto check = check_idempotency(context, request, sha256_hex(request.body));
+/// Makes and keeps a speech, unless an earlier request with the same key and fingerprint has.
+template <class Make>
+http::Response create(Context& context, http::Request& request, std::string wish, const std::string& fingerprint,
+                      Make make_it) {
+  auto check = check_idempotency(context, request, fingerprint);
   if (check.earlier) {
     if (const auto earlier = context.store.speech(*check.earlier)) return created(*earlier);
     refuse("conflict", "what this Idempotency-Key created has been removed");
@@ -173,12 +203,12 @@ http::Response create_speech(Context& context, http::Request& request) {
   if (context.store.speech_count() >= most)
     refuse("limit-exceeded", "the server stores at most " + std::to_string(most) + " speeches: delete one");
   const auto turn = take_quota(context, request, {.bytes = 1, .speeches = 1});
-  const auto made = make(context, wish);
+  const voice::Speech made = make_it();
 
   SpeechRecord speech;
   speech.id = store::random_id();
   speech.created = store::timestamp_now();
-  speech.request = body.dump();
+  speech.request = std::move(wish);
   speech.text = made.text;
   speech.voice = made.utterance.voice;
   speech.duration = static_cast<std::uint64_t>(std::llround(made.utterance.duration));
@@ -187,13 +217,70 @@ http::Response create_speech(Context& context, http::Request& request) {
   if (check.record) check.record->resource = speech.id;
   // Protects the files from removal until the record that refers to them is stored.
   const std::shared_lock shared(context.blobs.references());
-  add_file(context, speech, audio, "audio/wav", wav(made.utterance));
+  if (!made.utterance.samples.empty()) add_file(context, speech, audio, "audio/wav", wav(made.utterance));
   add_file(context, speech, captions, "text/vtt; charset=utf-8", web_vtt(made.utterance, made.text));
   add_file(context, speech, performance, "application/json", write_performance(made.performance));
-  add_file(context, speech, timeline, "application/json",
-           timeline_json(made.utterance, made.text, wish.voice.language));
+  add_file(context, speech, timeline, "application/json", timeline_json(made.utterance, made.text, made.sounds));
   context.store.create_speech(speech, check.record);
   return created(speech);
+}
+
+http::Response create_from_timeline(Context& context, http::Request& request) {
+  const MappedFile mapped(request.body_file->path());
+  const auto parts =
+      http::parse_multipart(mapped.text(), http::parameter(request.header("Content-Type").value_or(""), "boundary"));
+  if (!parts) refuse("malformed-request", "the form cannot be read: " + parts.error().message);
+  const auto part = [&](std::string_view name) {
+    const auto found = std::find_if(parts->begin(), parts->end(), [&](const auto& one) { return one.name == name; });
+    return found == parts->end() ? std::string_view() : found->content;
+  };
+  voice::TimelineRequest wish;
+  wish.timeline = part("timeline");
+  wish.sound = part("audio");
+  if (wish.timeline.empty()) refuse("invalid-field", "the form has no part \"timeline\"", "/timeline");
+  http::Request options;
+  options.body = std::string(part("options"));
+  const auto body = body_object(options);
+  refuse_unknown_members(body, body_members::timeline_speech_request);
+  wish.text = text_member(body, "text");
+  wish.language = text_member(body, "language");
+  if (body.contains("format"))
+    wish.format = static_cast<TimelineFormat>(choice_member(body, "format", timeline_format_names, 0));
+  read_manner(body, wish);
+  // The fingerprint is not that of the raw body, because a retry has another boundary.
+  const auto fingerprint = sha256_hex(sha256_hex(options.body) + sha256_hex(wish.timeline) + sha256_hex(wish.sound));
+  return create(context, request, body.dump(), fingerprint, [&] {
+    const auto slot = take_voice_slot(context);
+    auto speech = voice::make_speech(wish);
+    if (!speech) refuse("invalid-field", speech.error().message, "/" + speech.error().where);
+    return *std::move(speech);
+  });
+}
+
+}  // namespace
+
+http::Response create_speech(Context& context, http::Request& request) {
+  if (request.body_file) return create_from_timeline(context, request);
+  refuse_without_voice(context);
+  const auto body = body_object(request);
+  refuse_unknown_members(body, body_members::speech_request);
+  const auto wish = speech_request(body);
+  return create(context, request, body.dump(), sha256_hex(request.body), [&] { return make(context, wish); });
+}
+
+http::Response list_voices(Context& context, http::Request&) {
+  refuse_without_voice(context);
+  const auto slot = take_voice_slot(context);
+  const auto names = voice::list_voices(context.config.voice);
+  if (!names) refuse("voice-failed", "the voice: " + names.error().message);
+  answer::Voices page;
+  for (const auto& name : *names)
+    page.voices.push_back(
+        {.voice = name.voice,
+         .label = name.label,
+         .language = name.language,
+         .quality = std::string(language_quality_names[static_cast<std::size_t>(quality_of(name.language))])});
+  return json_response(200, page);
 }
 
 http::Response list_speeches(Context& context, http::Request& request) {

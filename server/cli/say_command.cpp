@@ -8,7 +8,9 @@
 #include <CLI/CLI.hpp>
 
 #include "core/speech/marked_text.h"
+#include "core/speech/sounds.h"
 #include "core/speech/speech.h"
+#include "core/speech/wav.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/cli/clip_output.h"
 #include "server/cli/command_failure.h"
@@ -22,11 +24,11 @@ namespace {
 
 struct SayCommand {
   voice::VoiceRequest request;
-  std::string text, program, out, audio, captions, emotion, style = "normal";
+  std::string text, program, out, audio, captions, emotion, style = "normal", timeline, timeline_format, audio_in;
   double intensity = 1.0, fps = 30.0;
   std::uint32_t seed = 0;
   ClipOutput clip;
-  bool quiet = false;
+  bool quiet = false, list_voices = false;
 };
 
 /// "-" is standard input.
@@ -58,21 +60,72 @@ void write_face(SayCommand& options, const PerformanceScript& script, std::vecto
   write_file(options.out, [&text](std::ostream& out) { out << text; });
 }
 
-void run(SayCommand& options) {
-  if (options.out.empty() && options.audio.empty() && options.captions.empty())
-    throw CommandFailure(CommandFailure::bad_input, "say: give --out, --audio or --captions: nothing would be written");
-  voice::SpeechRequest request;
-  request.voice = options.request;
-  request.voice.text = text_of(options);
+std::string bytes_of(const std::string& path, std::uint64_t most) {
+  if (path.empty()) return {};
+  auto bytes = read_file(path, most);
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class Request>
+void read_manner(const SayCommand& options, Request& request) {
   request.expression = static_cast<std::uint8_t>(std::max(0, expression_of(options.emotion)));
   request.intensity = options.intensity;
   request.face.name = "speech";
   request.face.seed = options.seed;
   request.face.style = static_cast<SpeechStyle>(
       std::find(speech_style_names.begin(), speech_style_names.end(), options.style) - speech_style_names.begin());
+}
+
+voice::VoiceProgram program_of(const SayCommand& options) {
   voice::VoiceProgram program;
   program.command = {options.program.empty() ? voice::installed_voice() : options.program};
-  const auto speech = voice::make_speech(program, request);
+  return program;
+}
+
+/// A line for each: its name, its language, how well that is said, and the voice's own description, between tabs.
+void print_voices(const SayCommand& options) {
+  const auto names = voice::list_voices(program_of(options));
+  if (!names) fail("say", names.error());
+  for (const voice::VoiceName& name : *names)
+    if (options.request.language.empty() || name.language.starts_with(options.request.language))
+      std::cout << name.voice << "\t" << name.language << "\t"
+                << language_quality_names[static_cast<std::size_t>(quality_of(name.language))] << "\t" << name.label
+                << "\n";
+}
+
+Result<voice::Speech> speak(const SayCommand& options) {
+  voice::SpeechRequest request;
+  request.voice = options.request;
+  request.voice.text = text_of(options);
+  read_manner(options, request);
+  return voice::make_speech(program_of(options), request);
+}
+
+Result<voice::Speech> read_timeline(const SayCommand& options) {
+  constexpr std::uint64_t most_sound_bytes = std::uint64_t{1} << 30U;
+  const std::string timeline = bytes_of(options.timeline, max_timeline_bytes);
+  const std::string sound = bytes_of(options.audio_in, most_sound_bytes);
+  voice::TimelineRequest request;
+  request.timeline = timeline;
+  request.sound = sound;
+  if (!options.timeline_format.empty())
+    request.format = static_cast<TimelineFormat>(
+        std::find(timeline_format_names.begin(), timeline_format_names.end(), options.timeline_format) -
+        timeline_format_names.begin());
+  request.text = text_of(options);
+  request.language = options.request.language;
+  read_manner(options, request);
+  return voice::make_speech(request);
+}
+
+void run(SayCommand& options) {
+  if (options.list_voices) return print_voices(options);
+  if (options.request.language.empty()) throw CommandFailure(CommandFailure::bad_input, "say: --language is required");
+  if (options.out.empty() && options.audio.empty() && options.captions.empty())
+    throw CommandFailure(CommandFailure::bad_input, "say: give --out, --audio or --captions: nothing would be written");
+  if (options.timeline.empty() && options.text.empty())
+    throw CommandFailure(CommandFailure::bad_input, "say: give a text, or --timeline");
+  const auto speech = options.timeline.empty() ? speak(options) : read_timeline(options);
   if (!speech) fail("say", speech.error());
 
   std::vector<std::string> warnings = speech->warnings;
@@ -80,6 +133,8 @@ void run(SayCommand& options) {
   const auto write = [](const std::string& path, const std::string& bytes) {
     if (!path.empty()) write_file(path, [&bytes](std::ostream& out) { out << bytes; });
   };
+  if (!options.audio.empty() && speech->utterance.samples.empty())
+    throw CommandFailure(CommandFailure::bad_input, "say: --audio: a timeline without --audio-in has no sound");
   write(options.audio, wav(speech->utterance));
   write(options.captions, web_vtt(speech->utterance, speech->text));
   print_warnings(warnings, options.quiet);
@@ -93,11 +148,12 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       "say",
       "Say a text: the face as a performance (.json) or an animated head (.glb), the sound (WAV), the words with their "
       "times (WebVTT), all on one clock. Emoticons, emoji and spans as [joy]...[/joy] (joy, sadness, anger, fear, "
-      "disgust, surprise; [joy 0.5] is half as strong) give it an emotion. A voice makes the sound: "
+      "disgust, surprise; [joy 0.5] is half as strong) or <emotion name=\"joy\">...</emotion> give it an emotion. A "
+      "voice makes the sound: "
       "semblante-voice-espeak, or any program that speaks its protocol (server/voice/README.md).");
-  command->add_option("TEXT", options->text, "What to say; - reads it from standard input")->required();
+  command->add_option("TEXT", options->text,
+                      "What to say; - reads it from standard input. With --timeline it may be left out");
   command->add_option("--language", options->request.language, "Language of the text; mouths are made for pt-BR and en")
-      ->required()
       ->envname("SEMBLANTE_LANGUAGE");
   command->add_option("--voice", options->request.voice, "Name of a voice that the voice program knows")
       ->envname("SEMBLANTE_VOICE");
@@ -105,7 +161,29 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       ->add_option("--voice-program", options->program,
                    "Program that speaks; left out: semblante-voice-espeak beside this one")
       ->envname("SEMBLANTE_VOICE_PROGRAM");
-  command->add_flag("--ssml", options->request.ssml, "The text is SSML: break, prosody, mark, say-as, emphasis")
+  CLI::Option* const timeline =
+      command
+          ->add_option(
+              "--timeline", options->timeline,
+              "What another voice has said when, in place of a voice: visemes of Azure, speech marks of Amazon "
+              "Polly, Rhubarb's TSV, XML or JSON, an answer of HeadTTS, lines of begin, end (s) and a phoneme "
+              "(IPA) between tabs, or a timeline of the server")
+          ->envname("SEMBLANTE_TIMELINE");
+  command->add_option("--timeline-format", options->timeline_format, "Left out: what the file looks like")
+      ->check(CLI::IsMember(std::vector<std::string>(timeline_format_names.begin(), timeline_format_names.end())))
+      ->needs(timeline)
+      ->envname("SEMBLANTE_TIMELINE_FORMAT");
+  command->add_option("--audio-in", options->audio_in, "The sound of --timeline, a WAV file")
+      ->needs(timeline)
+      ->envname("SEMBLANTE_AUDIO_IN");
+  command->add_flag(
+      "--list-voices", options->list_voices,
+      "Print the voices of the voice program, of --language if it is given: name, language, quality of its "
+      "mouths (measured, table of a relative, table of English), description");
+  command
+      ->add_flag("--ssml", options->request.ssml,
+                 "The text is SSML: break, prosody, mark, say-as, emphasis; <emotion name=\"joy\"> and <prosody "
+                 "emotion=\"joy\"> are expressions")
       ->envname("SEMBLANTE_SSML");
   for (auto [name, value, what] :
        {std::tuple{"--rate", &options->request.rate, "Times the usual speed of the voice"},

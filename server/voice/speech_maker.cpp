@@ -4,40 +4,111 @@
 #include <utility>
 
 #include "core/speech/loudness.h"
+#include "core/speech/marked_ssml.h"
 #include "core/speech/marked_text.h"
 #include "core/speech/sounds.h"
 #include "core/types/printable.h"
 
 namespace semblante::voice {
+namespace {
+
+constexpr const char* sounds_of_visemes = "en";  // the table that has the sounds of viseme_symbols.h
+
+std::string no_table_warning(const std::string& language) {
+  return printable(language) + " has no table of sounds of its own: mouths are those of English";
+}
+
+Error in(const char* part, const Error& error) {
+  const bool pointer = error.where.starts_with('/');
+  return {error.code, part + (pointer ? error.where : ""),
+          error.where.empty() || pointer ? error.message : error.where + ": " + error.message};
+}
+
+void add_whole(MarkedText& marked, std::uint8_t expression, double intensity) {
+  if (expression != 0)
+    marked.emotions.insert(marked.emotions.begin(), {expression, intensity, {0, marked.text.size()}});
+}
+
+}  // namespace
 
 Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& request) {
   // Marks are read after the checks: it must be text at all.
   if (const auto checked = check(request.voice); !checked) return checked.error();
   VoiceRequest wish = request.voice;
-  MarkedText marked{wish.text, {}};
-  if (!wish.ssml) {
+  MarkedText marked;
+  MarkedSsml ssml;
+  bool ends_here = true;
+  if (wish.ssml) {
+    auto read = read_marked_ssml(wish.text);
+    if (!read) return read.error();
+    ssml = *std::move(read);
+    marked = ssml.said;
+  } else {
     auto read = read_marked_text(wish.text);
-    if (!read) return Error{read.error().code, "/text", read.error().message};
+    if (!read) return read.error();
     marked = *std::move(read);
   }
-  if (request.expression != 0)
-    marked.emotions.insert(marked.emotions.begin(), {request.expression, request.intensity, {0, marked.text.size()}});
-  wish.text = marked.text;
+  add_whole(marked, request.expression, request.intensity);
   if (!wish.ssml) {
     const Prosody prosody = prosody_of(marked);
     wish.rate = std::clamp(wish.rate * prosody.rate, least_factor, most_factor);
     wish.pitch = std::clamp(wish.pitch * prosody.pitch, least_factor, most_factor);
   }
+  if (request.part && !wish.ssml) {
+    const auto parts = first_part(wish.text);
+    if (!parts) return parts.error();
+    auto read = read_marked_text(parts->first);
+    if (!read) return read.error();
+    marked = *std::move(read);
+    add_whole(marked, request.expression, request.intensity);
+    ends_here = parts->rest.empty();
+  }
+  wish.text = wish.ssml ? ssml.document : marked.text;
   auto spoken = speak(program, wish);
   if (!spoken) return spoken.error();
+  if (wish.ssml) place_in_text(ssml, *spoken);
   Speech speech;
   speech.text = std::move(marked.text);
-  speech.utterance = with_silence(*std::move(spoken), speech_lead_ms, speech_tail_ms);
-  if (!has_sound_table(wish.language))
-    speech.warnings.push_back(printable(wish.language) +
-                              " has no table of sounds of its own: mouths are those of English");
+  speech.utterance = with_silence(*std::move(spoken), speech_lead_ms, ends_here ? speech_tail_ms : 0.0);
+  if (!has_sound_table(wish.language)) speech.warnings.push_back(no_table_warning(wish.language));
   SpeechOptions face = request.face;
-  face.language = wish.language;
+  face.language = speech.sounds = wish.language;
+  speech.performance = speech_performance(speech.utterance, marked.emotions, face);
+  return speech;
+}
+
+Result<Speech> make_speech(const TimelineRequest& request) {
+  if (const auto checked = check_language(request.language); !checked) return checked.error();
+  const auto timeline = read_voice_timeline(request.timeline, request.format);
+  if (!timeline) return in("timeline", timeline.error());
+  MarkedText marked{text_of(*timeline), {}};
+  if (!request.text.empty()) {
+    if (const auto checked = check_text(request.text); !checked) return checked.error();
+    auto read = read_marked_text(request.text);
+    if (!read) return in("text", {read.error().code, "", read.error().message});
+    marked = *std::move(read);
+  }
+  add_whole(marked, request.expression, request.intensity);
+  std::optional<Recording> sound;
+  if (!request.sound.empty()) {
+    auto read = read_wav(request.sound);
+    if (!read) return in("audio", read.error());
+    sound = *std::move(read);
+  }
+  std::size_t missing = 0;
+  auto said = utterance_of(*timeline, marked.text, std::move(sound), &missing);
+  if (!said) return in("audio", said.error());
+  Speech speech;
+  speech.text = std::move(marked.text);
+  speech.utterance = *std::move(said);
+  speech.sounds = timeline->of_visemes ? sounds_of_visemes : request.language;
+  if (!has_sound_table(speech.sounds)) speech.warnings.push_back(no_table_warning(request.language));
+  if (missing > 0)
+    speech.warnings.push_back(std::to_string(missing) + " of " + std::to_string(timeline->words.size()) +
+                              " words of the timeline are not in the text");
+  if (timeline->words.empty()) speech.warnings.emplace_back("the timeline has no words: there are no captions");
+  SpeechOptions face = request.face;
+  face.language = speech.sounds;
   speech.performance = speech_performance(speech.utterance, marked.emotions, face);
   return speech;
 }

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/performance/cue.h"
 #include "core/speech/speech.h"
 #include "core/speech/utterance.h"
+#include "core/speech/voice_timeline.h"
 #include "core/types/result.h"
 #include "server/voice/voice_process.h"
 #include "server/voice/voice_protocol.h"
@@ -18,6 +21,7 @@ struct SpeechRequest {
   VoiceRequest voice;           ///< its text has marks, unless it is SSML
   std::uint8_t expression = 0;  ///< of the whole text, 0..6; a mark within it is laid over it
   double intensity = 1.0;       ///< of `expression`
+  bool part = false;            ///< only first_part() of the text, as it is within the whole; of SSML the whole
   SpeechOptions face;           ///< its language is the voice's
 };
 
@@ -26,11 +30,28 @@ struct Speech {
   std::string text;  ///< that was spoken, without marks
   Utterance utterance;
   PerformanceScript performance;
+  std::string sounds;  ///< language of the table of its phonemes
   std::vector<std::string> warnings;
 };
 
 /// Takes the marks out of the text, has the voice speak it, faster or slower and higher or lower as the emotions want,
 /// and makes the face. Blocks as speak(). Errors: those of check(), read_marked_text() and speak().
 Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& request);
+
+/// What another voice has said, and how a face says it.
+struct TimelineRequest {
+  std::string_view timeline;  ///< a file of one of the formats
+  std::optional<TimelineFormat> format;
+  std::string_view sound;       ///< a WAV file; empty: there is none
+  std::string text;             ///< with marks; empty: what the timeline knows of it
+  std::string language;         ///< BCP 47
+  std::uint8_t expression = 0;  ///< of the whole text, 0..6
+  double intensity = 1.0;       ///< of `expression`
+  SpeechOptions face;           ///< its language is `language`
+};
+
+/// The face of a timeline, on the clock of its sound, to which no silence is added. Errors: `where` begins with
+/// "timeline", "audio", "text" or "language".
+Result<Speech> make_speech(const TimelineRequest& request);
 
 }  // namespace semblante::voice

@@ -41,15 +41,8 @@ std::string with_last_words(std::string message, const std::string& words) {
   return last.empty() ? message : message + ": " + printable(last);
 }
 
-}  // namespace
-
-std::string installed_voice() {
-  const auto path = std::filesystem::path(jobs::own_executable()).parent_path() / usual_name;
-  return ::access(path.c_str(), X_OK) == 0 ? path.string() : std::string();
-}
-
-Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request) {
-  if (const auto checked = check(request); !checked) return checked.error();
+/// Has the voice answer to its end.
+Result<VoiceAnswer> ask(const VoiceProgram& program, const VoiceRequest& request) {
   if (program.command.empty() || program.command[0].empty())
     return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
   const ErrorFile errors(program.temporary);
@@ -80,7 +73,29 @@ Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request
   if (exit->code != 0)
     return Error{ErrorCode::io, "voice",
                  with_last_words("failed with exit code " + std::to_string(exit->code), exit->last_words)};
-  return std::move(answer).finish();
+  return answer;
+}
+
+}  // namespace
+
+std::string installed_voice() {
+  const auto path = std::filesystem::path(jobs::own_executable()).parent_path() / usual_name;
+  return ::access(path.c_str(), X_OK) == 0 ? path.string() : std::string();
+}
+
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request) {
+  if (const auto checked = check(request); !checked) return checked.error();
+  auto answer = ask(program, request);
+  if (!answer) return answer.error();
+  return (*std::move(answer)).finish();
+}
+
+Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program) {
+  VoiceRequest request;
+  request.list = true;
+  auto answer = ask(program, request);
+  if (!answer) return answer.error();
+  return (*std::move(answer)).finish_list();
 }
 
 }  // namespace semblante::voice

@@ -28,4 +28,7 @@ std::string installed_voice();
 /// error.
 Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request);
 
+/// The voices that the program knows. Errors as those of speak().
+Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program);
+
 }  // namespace semblante::voice

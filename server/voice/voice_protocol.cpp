@@ -30,22 +30,6 @@ bool is_name(std::string_view text) {
 
 bool is_factor(double value) { return value >= least_factor && value <= most_factor; }  // false for NaN
 
-Status check_text(std::string_view text) {
-  if (text.empty()) return Error{ErrorCode::empty, "text", "there is nothing to say"};
-  if (text.size() > max_text_bytes)
-    return Error{ErrorCode::too_large, "text", "is longer than " + std::to_string(max_text_bytes) + " bytes"};
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text.substr(at));
-    if (length == 0) return Error{ErrorCode::malformed, "text", "is not UTF-8 at byte " + std::to_string(at)};
-    const auto first = static_cast<unsigned char>(text[at]);
-    const bool control = (first < 0x20 && text[at] != '\n' && text[at] != '\t') || first == 0x7F ||
-                         (first == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
-    if (control) return Error{ErrorCode::malformed, "text", "has a control character at byte " + std::to_string(at)};
-    at += length;
-  }
-  return Unit{};
-}
-
 /// What a reader of XML would expand or fetch has no place in a text to say.
 Status check_ssml(std::string_view text) {
   std::size_t depth = 0;
@@ -86,13 +70,34 @@ Status in_order(const Events& events, const char* what) {
 
 }  // namespace
 
+Status check_text(std::string_view text) {
+  if (text.empty()) return Error{ErrorCode::empty, "text", "there is nothing to say"};
+  if (text.size() > max_text_bytes)
+    return Error{ErrorCode::too_large, "text", "is longer than " + std::to_string(max_text_bytes) + " bytes"};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) return Error{ErrorCode::malformed, "text", "is not UTF-8 at byte " + std::to_string(at)};
+    const auto first = static_cast<unsigned char>(text[at]);
+    const bool control = (first < 0x20 && text[at] != '\n' && text[at] != '\t') || first == 0x7F ||
+                         (first == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
+    if (control) return Error{ErrorCode::malformed, "text", "has a control character at byte " + std::to_string(at)};
+    at += length;
+  }
+  return Unit{};
+}
+
+Status check_language(std::string_view language) {
+  if (language.empty() || !is_name(language))
+    return Error{ErrorCode::invalid_argument, "language", "must be a tag such as pt-BR or en"};
+  return Unit{};
+}
+
 Status check(const VoiceRequest& request) {
   if (const auto checked = check_text(request.text); !checked) return checked;
   if (request.ssml) {
     if (const auto checked = check_ssml(request.text); !checked) return checked;
   }
-  if (request.language.empty() || !is_name(request.language))
-    return Error{ErrorCode::invalid_argument, "language", "must be a tag such as pt-BR or en"};
+  if (const auto checked = check_language(request.language); !checked) return checked;
   if (!is_name(request.voice)) return Error{ErrorCode::invalid_argument, "voice", "takes letters, digits, -, _ and +"};
   for (const auto& [name, value] : {std::pair{"rate", request.rate}, std::pair{"pitch", request.pitch}})
     if (!is_factor(value)) return Error{ErrorCode::out_of_range, name, "must be 0.5 to 2"};
@@ -100,6 +105,7 @@ Status check(const VoiceRequest& request) {
 }
 
 std::string to_json(const VoiceRequest& request) {
+  if (request.list) return line({{"protocol", protocol_version}, {"list", true}});
   return line({{"protocol", protocol_version},
                {"text", request.text},
                {"ssml", request.ssml},
@@ -117,6 +123,8 @@ Result<VoiceRequest> request_from_json(std::string_view text) {
   root.must_be_object();
   VoiceRequest request;
   (void)root.member("protocol").integer(protocol_version, protocol_version);
+  request.list = root.boolean_or("list", false);
+  if (request.list) return report ? Result<VoiceRequest>(*report) : request;
   request.text = root.member("text").text(max_text_bytes);
   request.ssml = root.boolean_or("ssml", false);
   request.language = root.member("language").text(64);
@@ -153,6 +161,9 @@ std::string line_of(const SpokenSentence& sentence) {
   return line({{"sentence", sentence.first}, {"time", sentence.time}});
 }
 std::string line_of(const SpokenMark& mark) { return line({{"mark", mark.name}, {"time", mark.time}}); }
+std::string line_of(const VoiceName& name) {
+  return line({{"voice", name.voice}, {"label", name.label}, {"language", name.language}});
+}
 std::string end_line() { return line({{"end", true}}); }
 std::string error_line(std::string_view message) { return line({{"error", message}}); }
 
@@ -187,6 +198,15 @@ Status VoiceAnswer::take(std::string_view text) {
   }
   if (const auto end = root.optional_member("end")) {
     ended_ = true;
+    return Unit{};
+  }
+  if (const auto name = root.optional_member("voice")) {
+    VoiceName known{name->text(64), printable(root.text_or("label", "")), root.member("language").text(64)};
+    if (report) return failed();
+    if (!is_name(known.voice) || !check_language(known.language))
+      return refused(ErrorCode::malformed, "voice", "names have letters, digits, -, _ and + alone");
+    if (voices_.size() == max_voices) return refused(ErrorCode::too_large, "voice", "has too many voices");
+    voices_.push_back(std::move(known));
     return Unit{};
   }
   if (++events_ > max_events) return refused(ErrorCode::too_large, "", "has too many events");
@@ -224,6 +244,11 @@ Status VoiceAnswer::take_audio(std::string_view base64) {
     utterance_.samples.push_back(static_cast<std::int16_t>(bits));
   }
   return Unit{};
+}
+
+Result<std::vector<VoiceName>> VoiceAnswer::finish_list() && {
+  if (!ended_) return refused(ErrorCode::truncated, "", "has no end");
+  return std::move(voices_);
 }
 
 Result<Utterance> VoiceAnswer::finish() && {

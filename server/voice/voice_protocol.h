@@ -15,8 +15,7 @@ inline constexpr std::size_t max_text_bytes = 20'000;
 inline constexpr std::size_t max_request_bytes = 160'000;  ///< every byte of the text escaped as six, and the rest
 inline constexpr std::size_t max_line_bytes = 65'536;      ///< of an answer
 inline constexpr std::size_t max_events = 200'000;         ///< of all kinds together
-inline constexpr double max_seconds = 1'200.0;             ///< of sound
-inline constexpr std::uint32_t least_sample_rate = 8'000, most_sample_rate = 48'000;
+inline constexpr double max_seconds = max_speech_seconds;  ///< of sound
 inline constexpr std::size_t max_symbol_bytes = 32;
 inline constexpr std::size_t max_name_bytes = 200;
 inline constexpr double least_factor = 0.5, most_factor = 2.0;  ///< of rate and pitch
@@ -28,10 +27,21 @@ struct VoiceRequest {
   std::string voice;     ///< a name that the voice program knows; empty: its own choice
   double rate = 1.0;     ///< times the usual speed
   double pitch = 1.0;    ///< times the usual pitch
+  bool list = false;     ///< it asks which voices there are; the rest means nothing
 };
+
+/// One that a voice program knows.
+struct VoiceName {
+  std::string voice;     ///< for VoiceRequest::voice
+  std::string label;     ///< for people
+  std::string language;  ///< BCP 47
+};
+inline constexpr std::size_t max_voices = 2'000;
 
 /// Checks what the request must be before any voice sees it. Errors name the member.
 Status check(const VoiceRequest& request);
+Status check_text(std::string_view text);
+Status check_language(std::string_view language);
 
 std::string to_json(const VoiceRequest& request);
 /// Reads and checks the request, as a voice does.
@@ -44,6 +54,7 @@ std::string line_of(const SpokenPhoneme& phoneme);
 std::string line_of(const SpokenWord& word);
 std::string line_of(const SpokenSentence& sentence);
 std::string line_of(const SpokenMark& mark);
+std::string line_of(const VoiceName& name);
 std::string end_line();
 std::string error_line(std::string_view message);
 
@@ -54,11 +65,14 @@ class VoiceAnswer {
   Status take(std::string_view line);
   /// The utterance, once `end` has come.
   Result<Utterance> finish() &&;
+  /// The voices, once `end` has come, of an answer to a request with `list`.
+  Result<std::vector<VoiceName>> finish_list() &&;
 
  private:
   Status take_audio(std::string_view base64);
 
   Utterance utterance_;
+  std::vector<VoiceName> voices_;
   std::size_t events_ = 0;
   bool begun_ = false, ended_ = false;
 };

@@ -41,12 +41,17 @@ std::string render_body_members(const Json& document) {
   Bodies bodies(document);
   for (const auto& operation : operations(document)) {
     if (!operation.json->contains("requestBody")) continue;
-    for (const auto& [type, media] : operation.json->at("requestBody").at("content").items())
-      if (type.ends_with("json") && media.contains("schema")) bodies.add(operation.function, media["schema"]);
+    for (const auto& [type, media] : operation.json->at("requestBody").at("content").items()) {
+      if (!media.contains("schema")) continue;
+      if (type.ends_with("json")) bodies.add(operation.function, media["schema"]);
+      if (type != "multipart/form-data") continue;
+      for (const auto& [part, rule] : media["schema"].at("properties").items())
+        if (!component_name(rule).empty()) bodies.add(part, rule);  // a part of JSON
+    }
   }
   return generated_notice() +
          "#pragma once\n\n#include <array>\n#include <string_view>\n\n/// The names of the members that a JSON body "
-         "may "
+         "or a part of a form may "
          "have, by its schema or, where that has no name, its operation.\nnamespace semblante::api::body_members "
          "{\n\n" +
          bodies.text() + "\n}  // namespace semblante::api::body_members\n";

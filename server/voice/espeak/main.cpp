@@ -1,10 +1,12 @@
 // A voice: reads a request, writes sound and what is said when (server/voice/README.md), by libespeak-ng.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <espeak-ng/speak_lib.h>
 #include <sys/resource.h>
@@ -99,6 +101,43 @@ std::string isolate() {
   return isolated ? "" : isolated.error().message;
 }
 
+/// "pt-br" -> "pt-BR": two letters after the first part are a country. The library's "pt" is Portugal's; a request for
+/// "pt" gets Brazil's (choose_voice()).
+std::string as_tag(std::string language) {
+  if (language == "pt") return "pt-PT";
+  const std::size_t dash = language.find('-');
+  if (dash != std::string::npos &&
+      (language.size() == dash + 3 || (language.size() > dash + 3 && language[dash + 3] == '-')))
+    for (std::size_t i = dash + 1; i < dash + 3; ++i)
+      language[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(language[i])));
+  return language;
+}
+
+/// The library's voices by the names by which it finds them, and each with other throats (its "variants").
+int list_voices(int rate) {
+  constexpr std::array<const char*, 3> variants = {"f2", "f4", "m3"};
+  say(header_line("espeak-ng", static_cast<std::uint32_t>(rate)));
+  const espeak_VOICE** const known = espeak_ListVoices(nullptr);
+  std::vector<VoiceName> names;
+  for (const espeak_VOICE** voice = known; voice != nullptr && *voice != nullptr; ++voice) {
+    // A byte of priority, then the tag.
+    const std::string language =
+        (*voice)->languages != nullptr && (*voice)->languages[0] != 0 ? (*voice)->languages + 1 : "";
+    const std::string file = (*voice)->identifier != nullptr ? (*voice)->identifier : "";
+    names.push_back(
+        {file.substr(file.rfind('/') + 1), (*voice)->name != nullptr ? (*voice)->name : "", as_tag(language)});
+  }
+  for (const VoiceName& name : names) {
+    if (espeak_SetVoiceByName(name.voice.c_str()) != EE_OK) continue;
+    say(line_of(name));
+    for (const char* const variant : variants)
+      say(line_of(VoiceName{name.voice + "+" + variant, name.label + ", " + variant, name.language}));
+  }
+  say(end_line());
+  std::cout.flush();
+  return std::cout ? 0 : 1;
+}
+
 int run() {
   std::string text(max_request_bytes + 1, '\0');
   std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -113,6 +152,7 @@ int run() {
       espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
                         espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
   if (rate <= 0) return refuse("espeak-ng finds no data: is espeak-ng-data installed?");
+  if (request->list) return list_voices(rate);
   if (!choose_voice(*request)) return refuse("there is no voice " + request->voice + " for " + request->language);
   espeak_SetParameter(espeakRATE, static_cast<int>(usual_words_per_minute * request->rate), 0);
   espeak_SetParameter(espeakPITCH, std::min(99, static_cast<int>(usual_pitch * request->pitch)), 0);

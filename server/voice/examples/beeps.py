@@ -25,6 +25,11 @@ def sound(ms, hertz):
     clock += 1000 * len(samples) / RATE
 
 
+if request["protocol"] == 1 and request.get("list"):
+    say(protocol=1, name="beeps", sample_rate=RATE)
+    say(voice="beeps", label="Tones", language="en")
+    say(end=True)
+    sys.exit(0)
 if request["protocol"] != 1 or request.get("ssml"):
     say(error="this voice speaks protocol 1 and plain text")
     sys.exit(2)

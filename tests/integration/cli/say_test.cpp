@@ -29,9 +29,44 @@ TEST(Say, AnyVoice_GivesAPerformanceSoundAndCaptions) {
   for (double ms = 0; ms < face->duration(); ms += 40) smiles |= face->frame_at(ms).expression1 == 1;
   EXPECT_TRUE(smiles);
   const std::string captions = read_text(work.path("a.vtt"));
-  EXPECT_EQ(captions.find("WEBVTT\n\n00:00:00.400 --> 00:00:0"), 0U) << captions;
-  EXPECT_NE(captions.find("\nMamma <00:00:00.9"), std::string::npos) << captions;
+  EXPECT_EQ(captions.find("WEBVTT\n\n00:00:00.120 --> 00:00:0"), 0U) << captions;
+  EXPECT_NE(captions.find("\nMamma <00:00:00.7"), std::string::npos) << captions;
   EXPECT_NE(captions.find(">mia!\n"), std::string::npos) << captions;
+}
+
+TEST(Say, TimelineOfAnotherVoice_NeedsNoVoice) {
+  const Workspace work;
+  const auto hi = work.write("hi.tsv", "0.00\tX\n0.50\tA\n0.60\tD\n0.90\tX\n1.50\tX\n");
+  const auto done =
+      run_semblante({"say", "--timeline", hi, "--language", "en", "--out", work.path("a.json"), "--emotion", "joy"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("no captions"), std::string::npos) << done.err;
+  const auto script = read_performance(read_text(work.path("a.json")));
+  ASSERT_TRUE(script.ok());
+  const auto face = Performance::compile(*script);
+  ASSERT_TRUE(face.ok());
+  const auto closed = face->frame_at(550);
+  EXPECT_TRUE(closed.viseme1 == 1 || closed.viseme2 == 1) << "at the shape A";
+  EXPECT_EQ(face->frame_at(700).expression1, 1) << "joy";
+
+  const auto fails = [&](std::vector<std::string> arguments, const char* reason) {
+    arguments.insert(arguments.begin(), {"say", "--language", "en", "--out", work.path("b.json")});
+    const auto refused = run_semblante(arguments);
+    EXPECT_NE(refused.exit_code, 0) << reason;
+    EXPECT_NE(refused.err.find(reason), std::string::npos) << refused.err;
+  };
+  fails({}, "give a text, or --timeline");
+  fails({"--timeline", work.write("bad.tsv", "0.0\tX\n0.1\tQ\n")}, "line 2");
+  fails({"--timeline", hi, "--audio", work.path("b.wav")}, "--audio-in");
+  fails({"--timeline", hi, "--audio-in", hi}, "no WAV");
+  fails({"--timeline", hi, "--timeline-format", "smoke"}, "--timeline-format");
+}
+
+TEST(Say, ListsVoices) {
+  const auto done = run_semblante({"say", "--list-voices", "--voice-program", beeps});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "beeps\ten\tmeasured\tTones\n");
+  EXPECT_EQ(run_semblante({"say", "--list-voices", "--language", "pt", "--voice-program", beeps}).out, "");
 }
 
 TEST(Say, WithoutAVoiceOrWithHostileText_SaysWhatIsWrong) {

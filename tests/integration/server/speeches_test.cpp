@@ -84,7 +84,7 @@ TEST_F(Speeches, TextBecomesSoundFaceTimelineAndCaptions) {
   const auto timeline = json_of(ask("GET", path + "/timeline"));
   ASSERT_EQ(timeline["words"].size(), 2U);
   EXPECT_EQ(timeline["words"][0]["text"], "Mamma");
-  EXPECT_EQ(timeline["words"][0]["time"], 400.0);
+  EXPECT_EQ(timeline["words"][0]["time"], 120.0);
   EXPECT_LE(timeline["words"][0]["end"], timeline["words"][1]["time"]);
   EXPECT_EQ(timeline["phonemes"][0]["ipa"], "m");
   EXPECT_EQ(timeline["visemes"][1]["viseme"], "p_b_m") << "after the silence";
@@ -127,8 +127,10 @@ TEST_F(Speeches, WhatIsWrongIsNamed) {
   wrong("seed", 0.5);
   wrong("ssml", 1);
   wrong("more", 1);
-  for (const char* bomb : {"<!DOCTYPE a [<!ENTITY b 'cc'>]><speak>&b;</speak>",
-                           "<speak><audio src='/etc/passwd'/></speak>", "<speak>", "<speak></speak></speak>", "<a"}) {
+  for (const char* bomb :
+       {"<!DOCTYPE a [<!ENTITY b 'cc'>]><speak>&b;</speak>", "<speak><audio src='/etc/passwd'/></speak>", "<speak>",
+        "<speak></speak></speak>", "<a", "<speak><emotion name='bored'>a</emotion></speak>",
+        "<speak><emotion name='joy'/></speak>"}) {
     auto body = hello_;
     body["ssml"] = true;
     body["text"] = bomb;
@@ -141,6 +143,111 @@ TEST_F(Speeches, WhatIsWrongIsNamed) {
   expect_problem(ask("GET", "/v1/speeches?after=absent"), 400, "invalid-argument", "?after");
   EXPECT_EQ(say(hello_).status, 201);
   expect_problem(say(hello_), 507, "limit-exceeded");
+}
+
+TEST_F(Speeches, APartOfALongText_IsItsFirstSentences_WithTheTimesOfTheWhole) {
+  start();
+  const std::string text = "[joy]A voice that says a long sentence first. Then it goes[/joy] on.";
+  const json request = {{"text", text}, {"language", "en"}};
+  auto part_request = request;
+  part_request["part"] = true;
+  const auto path = path_of(say(part_request)), whole_path = path_of(say(request));
+  const auto part = json_of(ask("GET", path)), whole = json_of(ask("GET", whole_path));
+  EXPECT_EQ(part["text"], "A voice that says a long sentence first. ");
+  EXPECT_EQ(part["rest"], "[joy]Then it goes[/joy] on.");
+  EXPECT_EQ(whole["rest"], "");
+  const auto words = json_of(ask("GET", path + "/timeline"))["words"];
+  const auto all = json_of(ask("GET", whole_path + "/timeline"))["words"];
+  ASSERT_EQ(words.size(), 8U);
+  for (std::size_t i = 0; i < words.size(); ++i) EXPECT_EQ(words[i]["time"], all[i]["time"]) << i;
+  EXPECT_LE(part["duration"].get<double>(), all[8]["time"].get<double>()) << "no silence after it";
+  auto short_request = hello_;
+  short_request["part"] = true;
+  EXPECT_EQ(json_of(say(short_request))["rest"], "");
+}
+
+TEST_F(Speeches, VoicesAreListed_WithTheQualityOfTheirLanguage) {
+  start();
+  EXPECT_EQ(json_of(ask("GET", "/v1/voices")),
+            json::parse(R"({"voices":[{"voice":"beeps","label":"Tones","language":"en","quality":"measured"}]})"));
+  server_.reset();
+  start({}, "none");
+  expect_problem(ask("GET", "/v1/voices"), 501, "no-voice");
+  server_.reset();
+  start({}, "/bin/false");
+  expect_problem(ask("GET", "/v1/voices"), 502, "voice-failed");
+}
+
+/// A form with the parts, in their order.
+std::string form_of(const std::vector<std::pair<std::string, std::string>>& parts) {
+  std::string form;
+  for (const auto& [name, content] : parts)
+    form +=
+        "--border\r\nContent-Disposition: form-data; name=\"" + name + "\"; filename=\"a\"\r\n\r\n" + content + "\r\n";
+  return form + "--border--\r\n";
+}
+const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
+
+TEST_F(Speeches, TimelineOfAnotherVoice_BecomesAFaceOnItsSound_WithoutAVoice) {
+  start({}, "none");
+  const std::string options = R"({"language":"en","text":"[joy]Maps help.[/joy]"})";
+  const std::string headtts = R"({"words":["Maps ","help."],"wtimes":[400,760],"wdurations":[300,350],
+    "visemes":["PP","aa","PP","SS","E","PP"],"vtimes":[400,470,560,640,800,950],"vdurations":[75,95,80,60,150,90]})";
+  const auto le = [](std::uint32_t value, int count) {
+    std::string bytes;
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
+    return bytes;
+  };
+  const std::string sound = "RIFF" + le(0, 4) + "WAVEfmt " + le(16, 4) + le(1, 2) + le(1, 2) + le(8000, 4) +
+                            le(16000, 4) + le(2, 2) + le(16, 2) + "data" + le(24000, 4) + std::string(24000, '\x11');
+  const auto send = [&](const std::vector<std::pair<std::string, std::string>>& parts, Fields fields = {}) {
+    fields.insert(fields.end(), form_type.begin(), form_type.end());
+    return ask("POST", "/v1/speeches", form_of(parts), fields);
+  };
+  const auto made = send({{"options", options}, {"timeline", headtts}, {"audio", sound}}, {{"Idempotency-Key", "k"}});
+  const auto path = path_of(made);
+  const auto speech = json_of(made);
+  EXPECT_EQ(speech["request"], json::parse(options));
+  EXPECT_EQ(speech["made_by"], "headtts");
+  EXPECT_EQ(speech["text"], "Maps help.");
+  EXPECT_EQ(speech["duration"], 1500);
+  EXPECT_EQ(speech["warnings"], json::array());
+  EXPECT_EQ(path_of(send({{"options", options}, {"timeline", headtts}, {"audio", sound}}, {{"Idempotency-Key", "k"}})),
+            path);
+  EXPECT_TRUE(ask("GET", path + "/audio").body.substr(44) == sound.substr(44)) << "the sound as it was";
+  const auto timeline = json_of(ask("GET", path + "/timeline"));
+  EXPECT_EQ(timeline["words"][1]["text"], "help.");
+  EXPECT_EQ(timeline["words"][1]["time"], 760.0) << "no silence is added";
+  EXPECT_EQ(timeline["visemes"][1]["viseme"], "p_b_m");
+  const auto face = json_of(ask("GET", path + "/performance"));
+  EXPECT_TRUE(std::any_of(face["cues"].begin(), face["cues"].end(),
+                          [](const json& cue) { return cue.value("expression", "") == "joy"; }));
+  EXPECT_THAT(ask("GET", path + "/captions").body, HasSubstr("Maps <00:00:00.760>help."));
+
+  // The timeline of the server, edited, is one as well; it has no sound.
+  const auto again = send({{"options", R"({"language":"en"})"}, {"timeline", timeline.dump()}});
+  const auto silent = path_of(again);
+  EXPECT_EQ(json_of(again)["links"]["audio"], nullptr);
+  EXPECT_EQ(json_of(again)["made_by"], "semblante");
+  expect_problem(ask("GET", silent + "/audio"), 404, "not-found");
+  EXPECT_EQ(json_of(ask("GET", silent + "/timeline"))["visemes"], timeline["visemes"]);
+  ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+  EXPECT_EQ(ask("POST", "/v1/streams/talk/speech", json{{"speech", json_of(again)["id"]}}.dump(), json_type).status,
+            202);
+
+  expect_problem(send({{"options", options}}), 422, "invalid-field", "/timeline");
+  expect_problem(send({{"timeline", headtts}}), 422, "invalid-field", "/language");
+  expect_problem(send({{"options", options}, {"timeline", "no timeline"}}), 422, "invalid-field", "/timeline");
+  expect_problem(send({{"options", options}, {"timeline", R"({"visemes":["Q"],"vtimes":[0],"vdurations":[1]})"}}), 422,
+                 "invalid-field", "/timeline/visemes/0");
+  expect_problem(send({{"options", options}, {"timeline", headtts}, {"audio", "MP3"}}), 422, "invalid-field", "/audio");
+  expect_problem(send({{"options", R"({"language":"en","format":"smoke"})"}, {"timeline", headtts}}), 422,
+                 "invalid-field", "/format");
+  expect_problem(send({{"options", R"({"language":"en","text":"[joy]"})"}, {"timeline", headtts}}), 422,
+                 "invalid-field", "/text");
+  expect_problem(send({{"options", R"({"language":"en","rate":1})"}, {"timeline", headtts}}), 422, "invalid-field",
+                 "/rate");
+  expect_problem(ask("POST", "/v1/speeches", "x", form_type), 400, "malformed-request");
 }
 
 TEST_F(Speeches, WithoutAVoice_OrWithOneThatFails_TheRestWorks) {

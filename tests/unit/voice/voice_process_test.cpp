@@ -61,6 +61,21 @@ TEST(Voice, LimitsHoldBeforeItReads) {
   EXPECT_NE(speak(busy, asking("a")).error().message.find("signal"), std::string::npos);
 }
 
+TEST(Voice, ListsItsNames_OrSaysThatItHasNone) {
+  const auto listed = [](const std::string& line) {
+    return list_voices(shell("cat > /dev/null;" + fake_header + "echo '" + line + "'; echo '{\"end\":true}'"));
+  };
+  const auto one = listed(R"({"voice":"pt+f2","label":"P","language":"pt-BR"})");
+  ASSERT_TRUE(one.ok()) << one.error().message;
+  ASSERT_EQ(one->size(), 1U);
+  EXPECT_EQ(one->front().voice, "pt+f2");
+  EXPECT_FALSE(listed(R"({"voice":"../x","language":"pt"})").ok());
+  EXPECT_FALSE(listed(R"({"voice":"x","language":"p t"})").ok());
+  EXPECT_FALSE(listed(R"({"voice":"x"})").ok());
+  EXPECT_FALSE(list_voices(shell("cat > /dev/null; echo '{\"error\":\"no text\"}'")).ok());
+  EXPECT_FALSE(list_voices(shell("cat > /dev/null;" + fake_header + R"(yes '{"voice":"x","language":"pt"}')")).ok());
+}
+
 TEST(Voice, TheExampleInPython_Speaks) {
   VoiceProgram program;
   program.command = {SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py"};
@@ -86,6 +101,33 @@ TEST(VoiceEspeak, SaysPortuguese_WithStressWordsAndSentences) {
   EXPECT_EQ(got->phonemes[0].stress, Stress::none);
   EXPECT_EQ(got->phonemes[2].symbol, "a");
   EXPECT_EQ(got->phonemes[2].stress, Stress::primary);
+}
+
+TEST(VoiceEspeak, SpeaksWithEachVoiceThatItLists) {
+  const auto names = list_voices(espeak);
+  ASSERT_TRUE(names.ok()) << names.error().message;
+  int portuguese = 0, english = 0;
+  for (const VoiceName& name : *names) {
+    if (name.language != "pt-BR" && name.language != "en-US") continue;
+    (name.language == "pt-BR" ? portuguese : english) += 1;
+    auto request = asking("Oi.", name.language);
+    request.voice = name.voice;
+    EXPECT_TRUE(speak(espeak, request).ok()) << name.voice;
+  }
+  EXPECT_GE(portuguese, 4);
+  EXPECT_GE(english, 4);
+}
+
+TEST(VoiceEspeak, SsmlProsody_ChangesTheRateOfItsSpan) {
+  auto ssml = asking("<speak>Uma frase <prosody rate=\"50%\">bem comprida</prosody> aqui</speak>");
+  ssml.ssml = true;
+  auto plain = ssml;
+  plain.text = "<speak>Uma frase bem comprida aqui</speak>";
+  const auto slow = speak(espeak, ssml), usual = speak(espeak, plain);
+  ASSERT_TRUE(slow.ok() && usual.ok());
+  ASSERT_EQ(slow->words.size(), usual->words.size());
+  EXPECT_NEAR(slow->words[2].time, usual->words[2].time, 100.0);
+  EXPECT_GT(slow->words[4].time - slow->words[2].time, 1.3 * (usual->words[4].time - usual->words[2].time));
 }
 
 TEST(VoiceEspeak, IsTheSameEachTime_AndFasterAtRate) {
