@@ -1,9 +1,10 @@
-import { beforeEach, describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { neutralFrame } from '@client/index.ts';
 import type { Speech, Timeline } from '../src/net/types.ts';
 import { FaceDriver } from '../src/ui/stage/face_driver.ts';
 import { SpeakModel, type Sound } from '../src/ui/speak/speak_model.ts';
 import { wordsOf } from '../src/ui/speak/spoken_words.ts';
+import { voicesOf } from '../src/ui/speak/voices_of.ts';
 import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
 
 const timeline = {
@@ -18,6 +19,12 @@ const timeline = {
   phonemes: [],
   visemes: [],
   marks: [],
+} as Timeline;
+/** Of a text that begins with that of `timeline`. */
+const longer = {
+  ...timeline,
+  duration: 2000,
+  words: [...timeline.words, { time: 870, end: 1200, first: 14, count: 2, text: 'Oi' }],
 } as Timeline;
 const document = '{"format":"semblante.performance","version":1,"cues":[{"time":0,"duration":900,"viseme":"a"}]}';
 
@@ -42,6 +49,10 @@ let model: SpeakModel;
 let removed: string[];
 let made: number;
 let fails: Error | null;
+/** What the next speech of a part leaves to say. */
+let rest: string;
+/** Lets the speeches without `part` be made. */
+let whole: Promise<void>;
 
 beforeEach(() => {
   sound = new FakeSound();
@@ -49,11 +60,17 @@ beforeEach(() => {
   removed = [];
   made = 0;
   fails = null;
+  rest = '';
+  whole = Promise.resolve();
   model = new SpeakModel(
     {
-      createSpeech: (request) =>
-        fails ? Promise.reject(fails) : Promise.resolve({ id: `s${(made += 1)}`, request, text: 'Olá', warnings: [] } as unknown as Speech),
-      speechTimeline: () => Promise.resolve(timeline),
+      createSpeech: async (request) => {
+        if (fails) throw fails;
+        const id = `s${(made += 1)}`;
+        if (!request.part) await whole;
+        return { id, request, text: 'Olá', rest: request.part ? rest : '', warnings: [] } as unknown as Speech;
+      },
+      speechTimeline: (id) => Promise.resolve(id === 's2' ? longer : timeline),
       speechPerformance: () => Promise.resolve(document),
       speechUrl: (id, file) => `/${id}/${file}`,
       deleteSpeech: (id) => Promise.resolve(void removed.push(id)),
@@ -77,6 +94,48 @@ describe('speak model', () => {
     expect([driver.source.value, model.playing.value]).toEqual(['hand', false]);
     await model.play();
     expect([sound.currentTime, model.playing.value]).toEqual([0, true]);
+  });
+
+  test('Say_LongText_PlaysItsFirstSentences_AndGoesOnInTheWhole', async () => {
+    rest = 'Oi';
+    let finish = (): void => undefined;
+    whole = new Promise((resolve) => (finish = resolve));
+    await model.say(request);
+    expect([sound.src, sound.paused, made]).toEqual(['/s1/audio', false, 2]);
+    sound.currentTime = 0.9;
+    sound.listeners.get('ended')!();
+    expect(model.playing.value).toBe(true); // it waits for what is being made
+    expect(sound.src).toBe('/s1/audio');
+    finish();
+    await vi.waitFor(() => expect(sound.src).toBe('/s2/audio'));
+    await vi.waitFor(() => expect(sound.currentTime).toBeCloseTo(0.83)); // before the first word that was not said
+    expect(removed).toEqual(['s1']);
+    expect(model.state.value).toMatchObject({ kind: 'ready', speech: { id: 's2' } });
+    sound.listeners.get('ended')!();
+    expect([driver.source.value, model.playing.value]).toEqual(['hand', false]);
+  });
+
+  test('Say_LongText_WhoseWholeFails_SaysSoWhereItIsMissing', async () => {
+    rest = 'Oi';
+    whole = Promise.reject(new Error('the voice has gone'));
+    whole.catch(() => undefined);
+    await model.say(request);
+    expect(model.playing.value).toBe(true);
+    sound.listeners.get('ended')!();
+    await vi.waitFor(() => expect(model.state.value).toEqual({ kind: 'failed', message: 'the voice has gone' }));
+    expect(removed).toEqual(['s1']);
+  });
+
+  test('Say_NextText_WhileAWholeIsMade_LeavesNothingOnTheServer', async () => {
+    rest = 'Oi';
+    let finish = (): void => undefined;
+    whole = new Promise((resolve) => (finish = resolve));
+    await model.say(request);
+    rest = '';
+    await model.say(request);
+    finish();
+    await vi.waitFor(() => expect(removed.sort()).toEqual(['s1', 's2']));
+    expect(sound.src).toBe('/s3/audio');
   });
 
   test('AnotherSource_TakesTheFace_SilencesIt', async () => {
@@ -109,6 +168,21 @@ describe('speak model', () => {
     sound.refuses = true;
     await model.say(request);
     expect(model.state.value).toEqual({ kind: 'failed', message: 'no sound here' });
+  });
+});
+
+describe('voices of a language', () => {
+  test('VoicesOf_TagWithoutACountry_HasThoseOfAllCountries', () => {
+    const voices = ['en-US', 'en-GB', 'pt-BR', 'pt-PT', 'pt', 'fr'].map((language) => ({
+      voice: language,
+      label: language,
+      language,
+      quality: 'table' as const,
+    }));
+    const tags = (tag: string): string[] => voicesOf(voices, tag).map(({ language }) => language);
+    expect(tags('en')).toEqual(['en-US', 'en-GB']);
+    expect(tags('pt-BR')).toEqual(['pt-BR', 'pt']);
+    expect(tags('de')).toEqual([]);
   });
 });
 

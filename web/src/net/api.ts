@@ -32,6 +32,8 @@ import type {
   NewTokenWish,
   StreamPage,
   Timeline,
+  VoiceName,
+  Voices,
   VersionInfo,
 } from './types.ts';
 import { upload } from './upload.ts';
@@ -97,6 +99,10 @@ export class Api {
   /** Has a text spoken; resolves when sound and face are made. */
   async createSpeech(request: SpeechRequest): Promise<Speech> {
     return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', json: request })).value;
+  }
+
+  async voices(): Promise<VoiceName[]> {
+    return (await requestJson<Voices>(`${this.base}/v1/voices`)).value.voices;
   }
 
   speechUrl(id: string, file: 'audio' | 'captions' | 'performance' | 'timeline'): string {

@@ -53,6 +53,8 @@ export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: nu
 export type Speech = Schemas['Speech'];
 export type SpeechRequest = Schemas['SpeechRequest'];
 export type Timeline = Schemas['Timeline'];
+export type Voices = Schemas['Voices'];
+export type VoiceName = Voices['voices'][number];
 
 export type Session = Schemas['Session'];
 export type NewToken = Schemas['NewToken'];

@@ -456,6 +456,8 @@ export const portuguese = {
   'an unnamed performance': 'uma performance sem nome',
   'Text to say': 'Texto a dizer',
   'its own': 'a sua própria',
+  'Mouths are those of English: this language has no table of its own.':
+    'As bocas são as do inglês: este idioma não tem tabela própria.',
   'As the text says': 'Como diz o texto',
   Speed: 'Velocidade',
   Speak: 'Falar',

@@ -722,6 +722,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/voices": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The voices that the voice program knows, and how well each language is said
+         * @description Without an installed voice: 501, `no-voice`; with one that has no names: 502, `voice-failed`.
+         */
+        get: operations["listVoices"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/speeches": {
         parameters: {
             query?: never;
@@ -733,8 +753,8 @@ export interface paths {
         get: operations["listSpeeches"];
         put?: never;
         /**
-         * Have a text spoken, and keep its sound and its face
-         * @description A voice, a program of its own, makes the sound; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] in the text give the face an emotion.
+         * Have a text spoken, or take what another voice has spoken, and keep its sound and its face
+         * @description A voice, a program of its own, makes the sound of a text; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] or <emotion name="joy">...</emotion> in the text give the face an emotion. What another voice has spoken is a form with its timeline and, if there is one, its sound; it needs no installed voice.
          */
         post: operations["createSpeech"];
         delete?: never;
@@ -1041,7 +1061,7 @@ export interface components {
             /** @description At most 20,000 bytes, without control characters except tab and newline */
             text: string;
             /**
-             * @description The text is SSML: break, prosody, mark, say-as, emphasis
+             * @description The text is SSML: break, prosody, mark, say-as, emphasis; <emotion name="joy" intensity="0.5">, and prosody with an attribute emotion, give the face an expression
              * @default false
              */
             ssml?: boolean;
@@ -1081,6 +1101,44 @@ export interface components {
              * @default 0
              */
             seed?: number;
+            /**
+             * @description Only the first sentences of a long text, as they are within the whole, so that they can be heard while the whole is made; `rest` is what comes after. Of SSML the whole
+             * @default false
+             */
+            part?: boolean;
+        };
+        TimelineSpeechRequest: {
+            /**
+             * @description Of the timeline; left out: what it looks like
+             * @enum {unknown}
+             */
+            format?: "semblante" | "azure" | "polly" | "rhubarb" | "headtts" | "phonemes";
+            /** @description What is said, for words, captions and emotions; left out: what the timeline knows of it. At most 20,000 bytes, without control characters except tab and newline */
+            text?: string;
+            /** @description BCP 47, of the text. Phonemes are read by its table; visemes are those of their system in every language */
+            language: string;
+            /**
+             * @description Of the whole text
+             * @default neutral
+             * @enum {unknown}
+             */
+            emotion?: "neutral" | "joy" | "sadness" | "anger" | "fear" | "disgust" | "surprise";
+            /**
+             * @description Of the emotion
+             * @default 1
+             */
+            intensity?: number;
+            /**
+             * @description How much brows and head take part
+             * @default normal
+             * @enum {unknown}
+             */
+            style?: "calm" | "normal" | "lively";
+            /**
+             * @description Of blinks, nods and glances
+             * @default 0
+             */
+            seed?: number;
         };
         /** @description A stored speech, or a text with its language */
         StreamSpeech: {
@@ -1094,7 +1152,7 @@ export interface components {
             /** @description At most 20,000 bytes, without control characters except tab and newline */
             text?: string;
             /**
-             * @description The text is SSML: break, prosody, mark, say-as, emphasis
+             * @description The text is SSML: break, prosody, mark, say-as, emphasis; <emotion name="joy" intensity="0.5">, and prosody with an attribute emotion, give the face an expression
              * @default false
              */
             ssml?: boolean;
@@ -1139,10 +1197,12 @@ export interface components {
             id: string;
             /** Format: date-time */
             created: string;
-            request: components["schemas"]["SpeechRequest"];
+            request: components["schemas"]["SpeechRequest"] | components["schemas"]["TimelineSpeechRequest"];
             /** @description What is said, without marks */
             text: string;
-            /** @description The voice, with its version */
+            /** @description Of a request with `part`: the text, with its marks, that this speech does not say */
+            rest: string;
+            /** @description The voice, with its version; of a timeline, its format */
             made_by: string;
             /** @description ms of sound */
             duration: number;
@@ -1151,11 +1211,27 @@ export interface components {
             warnings: string[];
             links: {
                 self: string;
-                audio: string;
+                /** @description null: a timeline without a sound */
+                audio: string | null;
                 timeline: string;
                 performance: string;
                 captions: string;
             };
+        };
+        Voices: {
+            voices: {
+                /** @description For `voice` of a request */
+                voice: string;
+                /** @description For people */
+                label: string;
+                /** @description BCP 47 */
+                language: string;
+                /**
+                 * @description Of the mouth in this language: measured on heads against the sound; by the table of a relative; by the table of English
+                 * @enum {unknown}
+                 */
+                quality: "measured" | "table" | "english";
+            }[];
         };
         Speeches: {
             speeches: components["schemas"]["Speech"][];
@@ -1183,7 +1259,7 @@ export interface components {
             phonemes: {
                 time: number;
                 end: number;
-                /** @description Empty: a pause */
+                /** @description Empty: a pause. Of a timeline of visemes: a sound that looks like the viseme */
                 ipa: string;
                 /** @enum {unknown} */
                 stress: "none" | "primary" | "secondary";
@@ -4638,6 +4714,30 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    listVoices: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description They */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Voices"];
+                };
+            };
+            429: components["responses"]["Problem"];
+            501: components["responses"]["Problem"];
+            502: components["responses"]["Problem"];
+            default: components["responses"]["Problem"];
+        };
+    };
     listSpeeches: {
         parameters: {
             query?: {
@@ -4686,6 +4786,13 @@ export interface operations {
                  *     }
                  */
                 "application/json": components["schemas"]["SpeechRequest"];
+                "multipart/form-data": {
+                    options: components["schemas"]["TimelineSpeechRequest"];
+                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server */
+                    timeline: string;
+                    /** @description The sound that belongs to it: WAV, PCM of 8 to 32 bits or floats, 8,000 to 48,000 samples a second, at most 1,200 s */
+                    audio?: string;
+                };
             };
         };
         responses: {
@@ -4702,6 +4809,7 @@ export interface operations {
             };
             400: components["responses"]["Problem"];
             409: components["responses"]["Problem"];
+            411: components["responses"]["Problem"];
             413: components["responses"]["Problem"];
             415: components["responses"]["Problem"];
             422: components["responses"]["Problem"];
@@ -4778,7 +4886,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description WAV, 16 bits, one channel, with silence before and after in which the face gets ready and comes to rest */
+            /** @description WAV, 16 bits, one channel; that of a text has silence before and after, in which the face gets ready and comes to rest */
             200: {
                 headers: {
                     [name: string]: unknown;

@@ -17,12 +17,26 @@ export type SpeakState =
   | { kind: 'ready'; speech: Speech; timeline: Timeline }
   | { kind: 'failed'; message: string };
 
-/** Has texts spoken by the server, and plays their sound together with the face on this page. */
+/** A speech that is ready to be played. */
+interface Take {
+  speech: Speech;
+  timeline: Timeline;
+  clip: SpokenClip;
+}
+
+/** A seam is this long before the first word after it, ms. */
+const seam = 40;
+
+/**
+ * Has texts spoken by the server, and plays their sound together with the face on this page. Of a long text the first sentences
+ * are made and played first; the whole is made meanwhile, and goes on where they end: up to there both have the same times.
+ */
 export class SpeakModel {
   readonly state = new Signal<SpeakState>({ kind: 'empty' });
   readonly playing = new Signal(false);
-  private clip: SpokenClip | null = null;
-  private made: Speech | null = null;
+  private take: Take | null = null;
+  /** The whole of the text whose first sentences `take` is. */
+  private whole: Promise<Take> | null = null;
   private newest = 0;
 
   /** `load` gives the library that evaluates performances. */
@@ -32,9 +46,9 @@ export class SpeakModel {
     private readonly sound: Sound,
     private readonly load: () => Promise<Library>,
   ) {
-    sound.addEventListener('ended', () => this.stop());
+    sound.addEventListener('ended', () => void this.goOn());
     sound.addEventListener('error', () => {
-      if (this.clip) this.fail(t('The sound cannot be played.'));
+      if (this.take) this.fail(t('The sound cannot be played.'));
     });
     driver.onTake((source) => {
       if (source !== 'speech') this.silence();
@@ -50,43 +64,99 @@ export class SpeakModel {
   async say(request: SpeechRequest): Promise<void> {
     const number = (this.newest += 1);
     this.stop();
-    this.clip = null;
     this.forget();
     this.state.set({ kind: 'making' });
-    let speech: Speech | null = null;
     try {
-      const library = await this.load();
-      speech = await this.api.createSpeech(request);
-      const [timeline, document] = await Promise.all([
-        this.api.speechTimeline(speech.id),
-        this.api.speechPerformance(speech.id),
-      ]);
-      if (number !== this.newest) return this.remove(speech);
-      this.made = speech;
-      this.clip = { clip: new PerformanceClip(new Performance(library, document)), now: () => this.position };
-      this.sound.src = this.api.speechUrl(speech.id, 'audio');
-      this.state.set({ kind: 'ready', speech, timeline });
+      const take = await this.make({ ...request, part: true }, (speech) => {
+        // The sound is on its way while its face is fetched.
+        if (number === this.newest) this.sound.src = this.api.speechUrl(speech.id, 'audio');
+      });
+      if (number !== this.newest) return this.remove(take.speech);
+      this.take = take;
+      this.state.set({ kind: 'ready', speech: take.speech, timeline: take.timeline });
+      if (take.speech.rest !== '') this.makeWhole(request, number);
       await this.play();
     } catch (error) {
       if (number === this.newest) this.fail(messageOf(error));
-      if (speech !== null && speech !== this.made) this.remove(speech);
     }
   }
 
-  /** From the beginning. */
+  /** From the beginning; the whole, if it has been made. */
   async play(): Promise<void> {
-    const { clip } = this;
-    if (!clip) return;
-    this.sound.currentTime = 0;
-    await this.sound.play();
-    if (clip !== this.clip) return; // another one was made meanwhile
-    this.driver.bySpeech(clip);
-    this.playing.set(true);
+    const { state, whole } = this;
+    const known = state.value.kind === 'ready' && state.value.speech !== this.take?.speech;
+    if (whole && known) this.use(await whole);
+    await this.playFrom(0);
   }
 
   stop(): void {
     this.silence();
     this.driver.release('speech');
+  }
+
+  private async playFrom(ms: number): Promise<void> {
+    const { take } = this;
+    if (!take) return;
+    this.sound.currentTime = ms / 1000;
+    await this.sound.play();
+    if (take !== this.take) return; // another one was made meanwhile
+    this.driver.bySpeech(take.clip);
+    this.playing.set(true);
+  }
+
+  /** `onSpeech`: as soon as the server has it. What is made and cannot be used is removed. */
+  private async make(request: SpeechRequest, onSpeech?: (speech: Speech) => void): Promise<Take> {
+    const library = this.load();
+    library.catch(() => undefined); // it is awaited below
+    const speech = await this.api.createSpeech(request);
+    try {
+      onSpeech?.(speech);
+      const [timeline, document] = await Promise.all([
+        this.api.speechTimeline(speech.id),
+        this.api.speechPerformance(speech.id),
+      ]);
+      const clip = new PerformanceClip(new Performance(await library, document));
+      return { speech, timeline, clip: { clip, now: () => this.position } };
+    } catch (error) {
+      this.remove(speech);
+      throw error;
+    }
+  }
+
+  private makeWhole(request: SpeechRequest, number: number): void {
+    const whole = this.make(request);
+    this.whole = whole;
+    whole.then(
+      (take) => {
+        if (number === this.newest && this.whole === whole)
+          this.state.set({ kind: 'ready', speech: take.speech, timeline: take.timeline });
+      },
+      () => undefined, // goOn() tells it
+    );
+  }
+
+  /** The sound has ended: that of all, or of the first sentences. */
+  private async goOn(): Promise<void> {
+    const { take: first, whole } = this;
+    if (!first || !whole || !this.playing.value) return this.stop();
+    try {
+      const take = await whole;
+      if (this.whole !== whole) return;
+      this.use(take);
+      if (!this.playing.value) return;
+      const next = take.timeline.words[first.timeline.words.length];
+      await this.playFrom(Math.min(first.timeline.duration, next ? next.time - seam : Infinity));
+    } catch (error) {
+      if (this.whole === whole) this.fail(messageOf(error));
+    }
+  }
+
+  /** Takes the place of the first sentences. */
+  private use(take: Take): void {
+    if (this.take) this.remove(this.take.speech);
+    this.take = take;
+    this.whole = null;
+    this.sound.src = this.api.speechUrl(take.speech.id, 'audio');
   }
 
   private silence(): void {
@@ -101,13 +171,13 @@ export class SpeakModel {
   }
 
   private forget(): void {
-    if (this.made) this.remove(this.made);
-    this.made = null;
+    if (this.take) this.remove(this.take.speech);
+    this.whole?.then((take) => this.remove(take.speech), () => undefined);
+    this.take = this.whole = null;
   }
 
   private fail(message: string): void {
     this.stop();
-    this.clip = null;
     this.forget();
     this.state.set({ kind: 'failed', message });
   }

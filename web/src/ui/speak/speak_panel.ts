@@ -1,6 +1,6 @@
 import { expressions } from '@protocol/generated/mpeg4.ts';
 import type { Api } from '../../net/api.ts';
-import type { Speech, SpeechRequest, Timeline } from '../../net/types.ts';
+import type { Speech, SpeechRequest, Timeline, VoiceName } from '../../net/types.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
@@ -8,6 +8,7 @@ import { Slider } from '../shared/slider.ts';
 import { language, nameOf, t } from '../../words/words.ts';
 import type { SpeakModel } from './speak_model.ts';
 import { wordsOf, type Word } from './spoken_words.ts';
+import { voicesOf } from './voices_of.ts';
 
 /** Languages with mouths of their own first; that of the page is chosen. */
 const languages = [
@@ -27,7 +28,9 @@ export class SpeakPanel {
   readonly element: HTMLElement;
   private readonly text: HTMLTextAreaElement;
   private readonly language: HTMLSelectElement;
-  private readonly voice = h('input', { type: 'text', maxlength: 100, placeholder: t('its own'), autocomplete: 'off' });
+  private readonly voice = h('select', {});
+  private readonly quality = h('p', { class: 'muted small' });
+  private voices: readonly VoiceName[] = [];
   private readonly emotion: HTMLSelectElement;
   private readonly rate: Slider;
   private readonly said = h('div', { class: 'said', 'aria-live': 'polite' });
@@ -35,13 +38,13 @@ export class SpeakPanel {
 
   constructor(
     private readonly model: SpeakModel,
-    private readonly api: Pick<Api, 'speechUrl'>,
+    private readonly api: Pick<Api, 'speechUrl' | 'voices'>,
   ) {
     const own = languages.find(({ tag }) => tag === language) ?? languages[1];
     this.text = h('textarea', { rows: 3, maxlength: 20_000, 'aria-label': t('Text to say'), placeholder: own.example });
     this.language = h(
       'select',
-      { on: { change: () => this.showExample() } },
+      { on: { change: () => this.showLanguage() } },
       ...languages.map(({ tag }) => h('option', { value: tag, selected: tag === own.tag }, ownName(tag))),
     );
     this.emotion = h(
@@ -69,6 +72,7 @@ export class SpeakPanel {
         },
         this.text,
         h('div', { class: 'speak-choices' }, field(t('Language'), this.language), field(t('Emotion'), this.emotion), field(t('Voice'), this.voice)),
+        this.quality,
         this.rate.element,
         h('button', { type: 'submit', class: 'primary' }, icon('play', 15), t('Speak')),
       ),
@@ -80,6 +84,15 @@ export class SpeakPanel {
         void this.say();
       }
     });
+    this.showLanguage();
+    // Without the list there is the voice program's own choice.
+    api.voices().then(
+      (voices) => {
+        this.voices = voices;
+        this.showLanguage();
+      },
+      () => undefined,
+    );
     model.state.watch(() => this.draw());
     model.playing.watch((playing) => {
       this.draw();
@@ -92,14 +105,24 @@ export class SpeakPanel {
     return this.model.say({
       text: this.text.value.trim() || this.text.placeholder,
       language: this.language.value,
-      voice: this.voice.value.trim(),
+      voice: this.voice.value,
       emotion,
       rate: this.rate.value / 100,
     });
   }
 
-  private showExample(): void {
-    this.text.placeholder = languages.find(({ tag }) => tag === this.language.value)?.example ?? '';
+  /** The example, the voices and the quality of the language that is chosen. */
+  private showLanguage(): void {
+    const tag = this.language.value;
+    this.text.placeholder = languages.find((one) => one.tag === tag)?.example ?? '';
+    const fitting = voicesOf(this.voices, tag);
+    replace(
+      this.voice,
+      h('option', { value: '' }, t('its own')),
+      ...fitting.map(({ voice, label }) => h('option', { value: voice }, label || voice)),
+    );
+    this.quality.hidden = fitting[0]?.quality !== 'english';
+    this.quality.textContent = t('Mouths are those of English: this language has no table of its own.');
   }
 
   /** Lights up the word that is heard, until the sound stops. */
