@@ -105,4 +105,30 @@ class Image(unittest.TestCase):
             self.assertEqual(told.returncode, 0, told.stdout)
 
 
+class VoiceInTheFileSystem(unittest.TestCase):
+    """deploy/image/rootfs --voice: the voice speaks with the libraries and the data of the image alone."""
+
+    def test_it_speaks(self):
+        if os.geteuid() != 0:
+            self.skipTest("a file system of its own needs root here")
+        support.need("unshare", "chroot")
+        if not (BUILD / "bin/semblante-voice-espeak").is_file() or not (TOP / "web/dist/index.html").is_file() or not (BUILD / "sample/sample-head.glb").is_file():
+            self.skipTest("the voice, the studio or the sample head is not built: deploy/run --build-only")
+        with support.temporary_folder() as folder:
+            made = run(TOP / "deploy/image/rootfs", "--voice", folder, environment=support.clean_environment(SEMBLANTE_BUILD=BUILD), timeout=LONG)
+            self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+            root = folder / "rootfs"
+            os.chmod(folder, 0o755)
+            data = folder / "data"
+            data.mkdir()
+            os.chown(data, 10001, 10001)
+            (root / "var/lib/semblante").mkdir()
+            told = run("unshare", "--mount", "sh", "-c", CONTAINER, "sh", root, data, "--userspec=10001:10001", root, "/usr/bin/semblante", "say", "Olá!",
+                       "--language", "pt-BR", "--audio", "/var/lib/semblante/ola.wav")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            self.assertGreater((data / "ola.wav").stat().st_size, 20_000)
+            self.assertIn("GPL-3", (root / "usr/share/doc/semblante-voice-espeak/copyright").read_text())
+            self.assertTrue((root / "usr/share/doc/libespeak-ng1/copyright").is_file())
+
+
 support.main()

@@ -47,6 +47,21 @@ class Installation(unittest.TestCase):
         self.assertNotIn("not found", libraries)
         self.assertNotIn(str(BUILD), libraries)
 
+    def test_the_voice_is_a_component_that_the_program_finds(self):
+        if not (BUILD / "bin/semblante-voice-espeak").is_file():
+            self.skipTest("semblante-voice-espeak is not built")
+        self.install("--prefix", self.prefix, "--component", "server")
+        say = (self.prefix / "bin/semblante", "say", "Olá!", "--language", "pt-BR", "--audio", self.folder / "ola.wav")
+        told = run(*say)
+        self.assertNotEqual(told.returncode, 0)
+        self.assertIn("semblante-voice-espeak is not installed", told.stderr)
+        self.install("--prefix", self.prefix, "--component", "voice")
+        told = run(*say)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual((self.folder / "ola.wav").read_bytes()[:4], b"RIFF")
+        notice = (self.prefix / "share/doc/semblante-voice-espeak/copyright").read_text()
+        self.assertIn("License: GPL-3+", notice)
+
     def test_what_is_installed(self):
         self.install("--prefix", self.prefix)
         self.assertEqual((self.prefix / "share/doc/semblante/copyright").read_bytes(), (TOP / "LICENSE").read_bytes())

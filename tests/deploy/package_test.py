@@ -7,6 +7,7 @@ Not among the tests of ctest: it takes minutes and a mirror. As root, with deboo
 SEMBLANTE_BARE_SYSTEM: a folder made by `debootstrap --variant=minbase bookworm FOLDER`, which is copied instead of made again."""
 
 import contextlib
+import json
 import os
 import pathlib
 import subprocess
@@ -62,16 +63,17 @@ class Package(unittest.TestCase):
     def build(self, folder):
         result = support.run("cpack", "-G", "DEB", "-B", folder, cwd=BUILD, timeout=LONG)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        return next(folder.glob("*.deb"))
+        return {package.name.split("_")[0]: package for package in folder.glob("*.deb")}
 
     def serve(self, system):
         return support.Server(DATA, "--config", CONFIG, command=system.command("/usr/bin/semblante", "serve", account="semblante"))
 
     def test_install_start_remove(self):
         with support.temporary_folder() as folder:
-            package = self.build(folder / "package")
+            packages = self.build(folder / "package")
             system = BareSystem(folder)
-            (system.root / "semblante.deb").write_bytes(package.read_bytes())
+            for name, package in packages.items():
+                (system.root / f"{name}.deb").write_bytes(package.read_bytes())
             with system.proc():
                 self.life(system)
 
@@ -91,7 +93,18 @@ class Package(unittest.TestCase):
             self.assertEqual(support.get(server.url + "/")[2], (TOP / "web/dist/index.html").read_bytes())
             # The sample head goes through the worker process, which needs every library.
             support.eventually(lambda: support.get_json(server.url + "/v1/models/sample")["state"] == "parametrized", "the sample head")
+            # Without a voice the rest works; with its package the server speaks.
+            text = json.dumps({"text": "Olá!", "language": "pt-BR"}).encode()
+            self.assertEqual(support.get(server.url + "/v1/speeches", text, {"Content-Type": "application/json"})[0], 501)
             self.assertEqual(server.stop(), 0)
+        voice = ("apt-get", "-qq", "-y", "--no-install-recommends", "install", "/semblante-voice-espeak.deb")
+        if (system.root / voice[-1][1:]).exists():
+            system.run(*voice)
+            self.assertIn("GPL-3", system.run("cat", "/usr/share/doc/semblante-voice-espeak/copyright"))
+            with self.serve(system) as server:
+                self.assertEqual(support.get(server.url + "/v1/speeches", text, {"Content-Type": "application/json"})[0], 201)
+                self.assertEqual(server.stop(), 0)
+            system.run("apt-get", "-qq", "-y", "purge", "semblante-voice-espeak")
 
         (system.root / CONFIG[1:]).write_text("data = '/var/lib/semblante'\nmax-models = 7\n")
         system.run("apt-get", "-qq", "-y", "remove", "semblante")

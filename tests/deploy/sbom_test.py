@@ -16,7 +16,7 @@ LICENCE = re.compile(r"[A-Za-z0-9.-]+( (WITH|OR|AND) [A-Za-z0-9.-]+)*")
 INCLUDED = {"boost/": "libboost", "nlohmann/": "nlohmann-json3-dev", "glm/": "libglm-dev", "CLI/": "libcli11-dev", "tiny_gltf.h": "libtinygltf-dev",
             "stb/": "libstb-dev", "openssl/": "libssl", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
             "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh"}
-# A program of its own, under the licence of its library: no package and no image has it.
+# A program of its own, under the licence of its library; in a package of its own.
 APART = "server/voice/espeak"
 SYSTEM = re.compile(r"(sys|net|netinet|arpa|linux|asm)/|[a-z0-9_]+(\.h)?$")
 
@@ -73,6 +73,19 @@ class Sbom(unittest.TestCase):
         loaded = set(re.findall(r"^\s*(?:\S*/)?(\S+?)(?: =>.*)? \(0x", run("ldd", support.PROGRAM).stdout, re.MULTILINE)) - {"linux-vdso.so.1"}
         self.assertGreater(len(loaded), 8)
         self.assertEqual(listed, loaded)
+
+    def test_the_voice_is_apart_and_under_the_licence_of_its_library(self):
+        if "voice" not in self.documents:
+            self.skipTest("semblante-voice-espeak is not built")
+        packages = {package["name"]: package for package in self.documents["voice"]["packages"]}
+        self.assertEqual(packages["voice"]["licenseConcluded"], "GPL-3.0-or-later")
+        self.assertEqual(packages["libespeak-ng1"]["licenseConcluded"], "GPL-3.0-or-later")
+        self.assertNotIn("libespeak-ng1", self.names("semblante"))
+        for package in self.documents["semblante"]["packages"]:
+            self.assertNotRegex(package["licenseConcluded"], r"^A?GPL-[\d.]+(-only|-or-later)$", package["name"])
+        listed = {name for package in packages.values() for name in package.get("comment", "").split()}
+        loaded = set(re.findall(r"^\s*(?:\S*/)?(\S+?)(?: =>.*)? \(0x", run("ldd", BUILD / "bin/semblante-voice-espeak").stdout, re.MULTILINE))
+        self.assertEqual(listed, loaded - {"linux-vdso.so.1"})
 
     def test_every_include_of_the_program(self):
         used, unknown = set(), set()
