@@ -106,6 +106,54 @@ test('Speak_Text_IsHeardSeenAndFollowed_AndTheMouthClosesAtAP', async () => {
   expect(await page.evaluate(() => (window as unknown as { speakSound: HTMLAudioElement }).speakSound.paused)).toBe(true);
 });
 
+test('Speak_LongText_BeginsWithItsFirstSentence_AndGoesOnToItsEnd', async () => {
+  studio = await open(server.url);
+  const { page } = studio;
+  // The fastest that browsers play: the text takes half a minute.
+  await page.evaluate(() => {
+    const audio = (window as unknown as { semblante: { sound: HTMLAudioElement } }).semblante.sound;
+    const heard: string[] = [];
+    audio.addEventListener('playing', () => heard.push(audio.src));
+    Object.assign(window, { speakSound: audio, heard });
+    audio.defaultPlaybackRate = audio.playbackRate = 16;
+  });
+  const first = 'uma primeira frase que dura o bastante para si.';
+  const text = `${first} ${'e outra que vem depois. '.repeat(12)}`;
+  await page.getByLabel('Text to say').fill(text);
+  await page.getByLabel('Text to say').press('Enter');
+  // The words of the whole are shown as soon as it is made; the voice goes on in it.
+  await page.locator('.said-words').getByText('depois').first().waitFor();
+  await page.waitForFunction(() => {
+    const { heard } = window as unknown as { heard: string[] };
+    return new Set(heard).size === 2;
+  });
+  expect(await page.locator('.said-words').textContent()).toBe(text.trim());
+  await page.locator('.driver').getByText('By hand').waitFor();
+  const duration = await page.evaluate(() => (window as unknown as { speakSound: HTMLAudioElement }).speakSound.duration);
+  expect(duration).toBeGreaterThan(20);
+  const left = (await (await fetch(`${server.url}/v1/speeches`)).json()) as { speeches: { rest: string }[] };
+  expect(left.speeches.filter(({ rest }) => rest !== '')).toEqual([]);
+  expect(studio.errors).toEqual([]);
+});
+
+test('Speak_Voices_AreThoseOfTheLanguage', async () => {
+  studio = await open(server.url);
+  const { page } = studio;
+  await page.getByLabel('Language', { exact: true }).selectOption('en');
+  const voice = page.getByLabel('Voice', { exact: true });
+  await voice.getByRole('option', { name: 'Tones' }).waitFor({ state: 'attached' });
+  await voice.selectOption('beeps');
+  await page.getByLabel('Text to say').fill('oh');
+  const [request] = await Promise.all([
+    page.waitForRequest((one) => one.method() === 'POST' && one.url().endsWith('/v1/speeches')),
+    page.getByRole('button', { name: 'Speak' }).click(),
+  ]);
+  expect(request.postDataJSON()).toMatchObject({ voice: 'beeps', language: 'en' });
+  await page.getByLabel('Language', { exact: true }).selectOption('pt-BR');
+  expect(await voice.getByRole('option').count()).toBe(1);
+  expect(studio.errors).toEqual([]);
+});
+
 test('Speak_NextText_LeavesOneSpeechOnTheServer', async () => {
   studio = await open(server.url);
   const { page } = studio;

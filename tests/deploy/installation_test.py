@@ -50,7 +50,8 @@ class Installation(unittest.TestCase):
     def test_the_voice_is_a_component_that_the_program_finds(self):
         if not (BUILD / "bin/semblante-voice-espeak").is_file():
             self.skipTest("semblante-voice-espeak is not built")
-        self.install("--prefix", self.prefix, "--component", "server")
+        for component in ("server", "libraries"):
+            self.install("--prefix", self.prefix, "--component", component)
         say = (self.prefix / "bin/semblante", "say", "Olá!", "--language", "pt-BR", "--audio", self.folder / "ola.wav")
         told = run(*say)
         self.assertNotEqual(told.returncode, 0)

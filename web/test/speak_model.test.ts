@@ -132,9 +132,12 @@ describe('speak model', () => {
     whole = new Promise((resolve) => (finish = resolve));
     await model.say(request);
     rest = '';
-    await model.say(request);
+    const said = model.say(request);
+    await Promise.resolve();
+    expect(made).toBe(2); // one voice at a time
     finish();
-    await vi.waitFor(() => expect(removed.sort()).toEqual(['s1', 's2']));
+    await said;
+    expect(removed.sort()).toEqual(['s1', 's2']);
     expect(sound.src).toBe('/s3/audio');
   });
 

@@ -69,7 +69,7 @@ void print_waits() {
   std::printf("\nfirst sound: ms to make the speech, silence before its first sound, both; s of sound\n");
   std::printf("%-6s %9s %-6s %8s %8s %8s %8s\n", "text", "bytes", "", "made", "silence", "first", "s");
   for (const Pangram& pangram : pangrams()) {
-    for (const std::size_t repeated : {1U, 12U, 240U}) {
+    for (const std::size_t repeated : {1U, 12U, 120U}) {
       std::string text;
       for (std::size_t i = 0; i < repeated && text.size() + 100 < voice::max_text_bytes; ++i)
         text += std::string(pangram.text) + " ";
@@ -77,7 +77,7 @@ void print_waits() {
         voice::SpeechRequest request;
         request.voice = {.text = text, .language = pangram.language, .voice = ""};
         request.part = part;
-        const Wait wait = wait_for(request, repeated > 100 && !part ? 1 : 5);
+        const Wait wait = wait_for(request, repeated > 12 && !part ? 1 : 5);
         std::printf("%-6s %9zu %-6s %8.0f %8.0f %8.0f %8.1f\n", pangram.language, text.size(), part ? "part" : "whole",
                     wait.made, wait.silence, wait.made + wait.silence, wait.seconds);
       }

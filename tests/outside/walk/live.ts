@@ -42,6 +42,7 @@ async function readRecording(client: Client, recording: string, glbs: Glbs): Pro
 
 async function speak(client: Client, stream: string): Promise<void> {
   const body: Schemas['SpeechRequest'] = { text: 'Mamma mia! :)', language: 'en', seed: 7, style: 'lively' };
+  assert.deepEqual(good(await client.GET('/v1/voices')).voices.map(({ voice }) => voice), ['beeps']);
   const speech = good(await client.POST('/v1/speeches', { body }));
   assert.deepEqual([speech.text, speech.request], ['Mamma mia! ', body]);
   const params = { path: { speech: speech.id } };
