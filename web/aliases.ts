@@ -13,6 +13,7 @@ export const aliases = [
 
 export const packagesForTests = [
   { find: /^vitest$/, replacement: here('node_modules/vitest/dist/index.js') },
+  { find: /^axe-core$/, replacement: here('node_modules/axe-core/axe.js') },
   { find: /^draco3d$/, replacement: here('node_modules/draco3d/draco3d.js') },
   { find: /^playwright-core$/, replacement: here('node_modules/playwright-core/index.mjs') },
   { find: /^gltf-validator$/, replacement: here('node_modules/gltf-validator/module.mjs') },

@@ -46,7 +46,15 @@ export default defineConfig({
   base: './',
   resolve: { alias: aliases, dedupe: ['three'] },
   plugins: [runtimeAssets()],
-  build: { target: 'es2022', chunkSizeWarningLimit: 900, assetsInlineLimit: 0 },
+  build: {
+    target: 'es2022',
+    chunkSizeWarningLimit: 1100,
+    assetsInlineLimit: 0,
+    rollupOptions: {
+      input: { index: here('index.html'), worker: here('offline/worker/studio.ts') },
+      output: { entryFileNames: ({ name }) => (name === 'worker' ? 'worker.js' : 'assets/[name]-[hash].js') },
+    },
+  },
   server: {
     fs: { allow: ['..'] },
     proxy: {

@@ -41,6 +41,8 @@ import { saveFile } from './ui/shared/save_file.ts';
 import { SceneView } from './ui/stage/scene.ts';
 import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
+import { offlineNote } from './ui/page/offline_note.ts';
+import { progressSaid } from './ui/page/progress_said.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
 import { SpeakModel } from './ui/speak/speak_model.ts';
 import { SpeakPanel } from './ui/speak/speak_panel.ts';
@@ -48,6 +50,7 @@ import { Studio } from './ui/shared/studio.ts';
 import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
+import { keepOffline } from '../offline/register.ts';
 import { language } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
@@ -91,7 +94,12 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   });
   const clip = new ClipPanel(driver, loadLibrary);
   const sound = new Audio();
-  const speak = new SpeakPanel(new SpeakModel(api, driver, sound, loadLibrary), api);
+  const speech = new SpeakModel(api, driver, sound, loadLibrary);
+  const speak = new SpeakPanel(speech, api);
+  // A page that the browser keeps for Back still has its speech.
+  window.addEventListener('pagehide', ({ persisted }) => {
+    if (!persisted) speech.leave();
+  });
   animate.element.append(speak.element, clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
@@ -108,8 +116,13 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     animate: animate.element,
     live: livePanel.element,
   };
-  const layout = makeLayout(studio, panels, stagePanel.element, extras);
-  root.replaceChildren(layout, toasts.element);
+  const back = async (): Promise<void> => {
+    await Promise.all([studio.start(), live.refresh()]);
+    if (scene.state.value.kind === 'failed' && studio.selected.value) void scene.open(studio.selected.value);
+  };
+  const layout = makeLayout(studio, panels, stagePanel.element, extras, offlineNote(api.base, () => void back()));
+  layout.append(progressSaid(studio, scene), toasts.element);
+  root.replaceChildren(layout);
 
   scene.animate = (delta) => driver.step(delta);
   live.subscriber.watch((subscriber) => driver.setClient(subscriber?.client ?? null));
@@ -117,12 +130,19 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     animate.showFace(performer?.pose ?? null);
     driver.setFace(performer);
   });
+  stagePanel.onUpload = shelf.choose;
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   flyToPoints(studio, points, scene);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
   takeThumbnails(studio, scene, shelf);
+  // The first head is what is kept first; the development server's pages change all the time.
+  const kept = scene.state.watch(({ kind }) => {
+    if (kind !== 'ready' || !import.meta.env.PROD) return;
+    keepOffline();
+    queueMicrotask(() => kept());
+  });
   routeDrops(layout, studio, performance, clip);
   startPolling({ studio, scene, live, livePanel, recordings, performance, clip });
 
@@ -166,7 +186,9 @@ document.documentElement.lang = language;
 if (root) {
   const theme = themeButton(); // the sign-in has its colours too
   letIn('', root)
-    .then((session) => main(root, session, theme))
+    .then((session) => {
+      main(root, session, theme);
+    })
     .catch((error: unknown) => {
       root.replaceChildren(
         h(

@@ -1,7 +1,7 @@
 import './view.css';
 import { type Connection, SemblanteFace } from 'semblante/element';
 import { acceptInvitation } from './invitation.ts';
-import { keepOffline } from './offline.ts';
+import { keepOffline } from '../offline/register.ts';
 import { stayAwake } from './wake_lock.ts';
 
 /** "/view/demo", also below a path of a proxy: the server's address and the stream's id. */

@@ -119,7 +119,8 @@ export class Api {
   }
 
   async deleteSpeech(id: string): Promise<void> {
-    await requestJson(`${this.base}/v1/speeches/${segment(id)}`, { method: 'DELETE' });
+    // A page that closes sends it too.
+    await requestJson(`${this.base}/v1/speeches/${segment(id)}`, { method: 'DELETE', keepalive: true });
   }
 
   previewUrl(id: string): string {

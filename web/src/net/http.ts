@@ -1,4 +1,5 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
+import { noteAnswer } from './reach.ts';
 import { t } from '../words/words.ts';
 
 export interface Answer<T> {
@@ -14,6 +15,8 @@ export interface RequestOptions {
   contentType?: string;
   headers?: Record<string, string>;
   signal?: AbortSignal;
+  /** Whether the request is sent although its page closes. */
+  keepalive?: boolean;
 }
 
 async function send(path: string, options: RequestOptions): Promise<Response> {
@@ -26,14 +29,17 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
     headers.set('Content-Type', options.contentType ?? 'application/octet-stream');
     init.body = options.body;
   }
+  if (options.keepalive) init.keepalive = true;
   if (options.signal) init.signal = options.signal;
   let response: Response;
   try {
     response = await fetch(path, init);
   } catch (error) {
     if (error instanceof DOMException && error.name === 'AbortError') throw error;
+    noteAnswer(null);
     throw new ApiError(unreachable(t('{method} {path} got no answer.', { method: init.method ?? 'GET', path })));
   }
+  noteAnswer(response);
   if (!response.ok) {
     const body = await response.text().catch(() => '');
     throw new ApiError(

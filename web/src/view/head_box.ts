@@ -68,6 +68,16 @@ export function findHead(pieces: readonly Piece[]): Box | null {
   return null;
 }
 
+/** Room below the chin, as a share of the head's height. */
+const belowChin = 0.08;
+
+/** The head as the camera shows it, with room below the chin; null where all of it is the head. */
+export function framedHead(pieces: readonly Piece[]): Box | null {
+  const found = findHead(pieces);
+  if (found) found.min[1] -= belowChin * (found.max[1] - found.min[1]);
+  return found;
+}
+
 /** The width from in front in every slice, from the top down; 0 where there is nothing. */
 function outline(pieces: readonly Piece[], top: number, height: number): Float64Array {
   const left = new Float64Array(slices).fill(Infinity);

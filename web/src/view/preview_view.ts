@@ -15,7 +15,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
 import type { PartRole } from '@protocol/rig_document.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
-import { findHead, type Box } from './head_box.ts';
+import { framedHead, type Box } from './head_box.ts';
 
 /** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
 export interface Pick {
@@ -34,8 +34,6 @@ export interface Meant {
   depth: number;
 }
 
-/** Room below the chin, in heights of the head. */
-const belowChin = 0.08;
 
 /** The imported model: still, with its materials, and with the file's vertex number of every vertex. */
 export class PreviewView {
@@ -92,7 +90,7 @@ export class PreviewView {
 
   /** The box of the head, with room below the chin, where it is a part of a body or a bust; otherwise null. */
   head(): Box | null {
-    const found = findHead(
+    return framedHead(
       this.meshes.map((mesh) => {
         const placed = mesh.geometry.getAttribute('position').clone().applyMatrix4(mesh.matrixWorld);
         const positions = Float32Array.from({ length: placed.count * 3 }, (_, i) => placed.getComponent(Math.floor(i / 3), i % 3));
@@ -100,8 +98,6 @@ export class PreviewView {
         return { positions, triangles };
       }),
     );
-    if (found) found.min[1] -= belowChin * (found.max[1] - found.min[1]);
-    return found;
   }
 
   /**

@@ -255,9 +255,14 @@ export class Stage {
     this.invalidate();
   }
 
-  /** A small image of the current picture, as a data URL, for the shelf. */
+  /** A small image of the face from in front, as a data URL, for the shelf; the camera stays where it is. */
   thumbnail(size: number): string {
-    this.renderer.render(this.scene, this.camera);
+    const camera = this.camera.clone();
+    const half = (camera.fov * Math.PI) / 360;
+    camera.position.copy(this.center).add(new Vector3(0, 0, (this.radius * 1.06) / Math.tan(half) / Math.min(1, camera.aspect)));
+    camera.lookAt(this.center);
+    this.renderer.render(this.scene, camera);
+    this.invalidate();
     const from = this.renderer.domElement;
     const side = Math.min(from.width, from.height);
     const to = document.createElement('canvas');

@@ -76,8 +76,7 @@ export const portuguese = {
   '{number} units': '{number} unidades',
   'Error at most {still}, in expressions {faces}': 'Erro de no máximo {still}, nas expressões {faces}',
   'Error at most {still}': 'Erro de no máximo {still}',
-  'Viseme 0: silence': 'Visema 0: silêncio',
-  'Viseme {number}: {sounds}, as in {list}': 'Visema {number}: {sounds}, como em {list}',
+  'Viseme {number}': 'Visema {number}',
   'The value of a FAP in a frame that omits it': 'O valor de um FAP num quadro que o omite',
   'Omitted FAPs': 'FAPs omitidos',
   'FAPs that a frame omits': 'FAPs que um quadro omite',
@@ -501,4 +500,13 @@ export const portuguese = {
   '1 vertex': '1 vértice',
   '1 subscriber': '1 assistindo',
   '1 publisher': '1 publicando',
+  'Done.': 'Pronto.',
+  measured: 'medida',
+  'Asking the server for heads': 'Perguntando ao servidor pelas cabeças',
+  'Drop a file ({formatList}) anywhere on this page. The next steps are its points and a press of a button; then it talks.':
+    'Solte um arquivo ({formatList}) em qualquer lugar desta página. Depois vêm os pontos e um botão; então ela fala.',
+  'No connection to the server.': 'Sem conexão com o servidor.',
+  'Heads that were opened in this browser can be seen and animated, and points set: they wait here until they can be saved. ':
+    'Cabeças que foram abertas neste navegador podem ser vistas e animadas, e pontos postos: eles esperam aqui até poderem ser salvos. ',
+  'Uploading, parametrizing, speaking and streams need the server.': 'Enviar, parametrizar, falar e transmitir precisam do servidor.',
 } as const;

@@ -35,6 +35,8 @@ export function fapMatches(fap: Fap, words: string): boolean {
 
 interface Group {
   list: readonly Fap[];
+  /** The group with the button that resets it: a control inside of a summary cannot be reached by every reader. */
+  seat: HTMLElement;
   element: HTMLDetailsElement;
   /** Makes its sliders, once. */
   fill: () => void;
@@ -100,8 +102,8 @@ export class FapSliders {
 
   private draw(): void {
     for (const [number, slider] of this.sliders) slider.element.hidden = !this.isShown(faps[number - 1]!);
-    for (const { list, element } of this.groups) element.hidden = !list.some((fap) => this.isShown(fap));
-    this.nothing.hidden = this.groups.some(({ element }) => !element.hidden);
+    for (const { list, seat } of this.groups) seat.hidden = !list.some((fap) => this.isShown(fap));
+    this.nothing.hidden = this.groups.some(({ seat }) => !seat.hidden);
   }
 
   /** Sets the sliders to the frame's values. */
@@ -125,8 +127,7 @@ export class FapSliders {
         'aria-label': t('Reset {title}', { title }),
         title: t('Reset {title}', { title }),
         on: {
-          click: (event) => {
-            event.preventDefault();
+          click: () => {
             for (const fap of list) this.options.frame.levels[fap.number] = 0;
             this.changed();
           },
@@ -145,10 +146,10 @@ export class FapSliders {
         h('span', { class: 'grow' }, title),
         count,
         h('span', { class: 'muted small' }, String(list.length)),
-        reset,
       ),
       body,
     );
+    const seat = h('div', { class: 'fap-seat' }, details, reset);
     // Sliders are created when a group is first opened: creating all 66 at once is slow on a phone.
     const fill = (): void => {
       if (body.childElementCount > 0) return;
@@ -157,8 +158,8 @@ export class FapSliders {
       this.refresh();
     };
     details.addEventListener('toggle', () => details.open && fill());
-    this.groups.push({ list, element: details, fill, opened: false });
-    return details;
+    this.groups.push({ list, seat, element: details, fill, opened: false });
+    return seat;
   }
 
   private makeSlider(fap: Fap): Slider {

@@ -1,5 +1,6 @@
 import { visemes } from '@protocol/generated/mpeg4.ts';
 import { h } from '../shared/dom.ts';
+import { rove } from '../shared/roving.ts';
 import { t } from '../../words/words.ts';
 
 export interface VisemeGridOptions {
@@ -22,16 +23,18 @@ export class VisemeGrid {
           class: 'viseme',
           'data-viseme': number,
           'aria-pressed': 'false',
-          'aria-label': number === 0 ? t('Viseme 0: silence') : t('Viseme {number}: {sounds}, as in {list}', { number, sounds, list: viseme.examples.join(', ') }),
           title: viseme.examples.join(', '),
           on: { click: () => options.onChoose(number) },
         },
+        h('span', { class: 'visually-hidden' }, `${t('Viseme {number}', { number })}: `),
         h('span', { class: 'sound' }, sounds),
+        ' ',
         h('span', { class: 'word' }, word),
       );
       this.buttons.push(button);
       this.element.append(button);
     });
+    rove(this.element, 'button');
   }
 
   show(viseme: number | null): void {

@@ -3,10 +3,12 @@ import { adviceFor } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
 import { h, replace } from '../shared/dom.ts';
+import { formatPercent } from '../shared/format.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
 import { headSize } from './head_size.ts';
 import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
+import { rove } from '../shared/roving.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -31,6 +33,8 @@ export class Shelf {
     'aria-label': t('Model files'),
   });
 
+  /** Opens the chooser of model files. */
+  readonly choose = (): void => this.input.click();
   /** Thumbnails as data URLs, by model id. */
   readonly thumbnails = new Map<string, string>();
 
@@ -39,7 +43,6 @@ export class Shelf {
       if (this.input.files) void studio.upload([...this.input.files]);
       this.input.value = '';
     });
-    const choose = (): void => this.input.click();
     this.element = h(
       'div',
       { class: 'panel shelf-panel' },
@@ -54,7 +57,7 @@ export class Shelf {
             class: 'quiet square',
             'aria-label': t('Upload a head'),
             title: t('Upload a head'),
-            on: { click: choose },
+            on: { click: this.choose },
           },
           icon('plus'),
         ),
@@ -62,13 +65,14 @@ export class Shelf {
       this.list,
       h(
         'button',
-        { type: 'button', class: 'drop', on: { click: choose } },
+        { type: 'button', class: 'drop', on: { click: this.choose } },
         icon('upload', 22),
         h('span', {}, h('strong', {}, t('Choose a head')), t(' or drop it here')),
         h('small', {}, formatList),
       ),
       this.input,
     );
+    rove(this.list, '[data-model] button');
     const draw = (): void => this.draw();
     studio.models.watch(draw);
     studio.selected.watch(draw);
@@ -90,11 +94,11 @@ export class Shelf {
         this.list,
         h(
           'li',
-          { class: 'notice error', role: 'alert' },
+          { class: 'notice error' },
           icon('warning'),
           h(
             'div',
-            {},
+            { role: 'alert' },
             h('strong', {}, state.problem.title),
             advice ? h('p', {}, advice) : null,
             h('button', { type: 'button', on: { click: () => void studio.start() } }, t('Try again')),
@@ -196,7 +200,7 @@ export class Shelf {
           'span',
           { class: 'head-text' },
           h('strong', {}, activity.title),
-          h('span', { class: 'muted small' }, `${Math.round((activity.progress ?? 0) * 100)} %`),
+          h('span', { class: 'muted small' }, formatPercent(activity.progress ?? 0)),
         ),
       ),
       activity.cancel

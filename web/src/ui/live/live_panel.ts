@@ -6,6 +6,7 @@ import { formatBytes, formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { LiveModel } from './live_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
+import { rove } from '../shared/roving.ts';
 import { PhoneDialog } from './phone_dialog.ts';
 import { askForStream } from './stream_dialog.ts';
 import { StreamFacts } from './stream_facts.ts';
@@ -27,9 +28,9 @@ const longestDelay = 2000;
 function networkWords({ clock, jitter, starved }: Player['stats']): string {
   if (clock === null || Number.isNaN(clock.uncertainty)) return '';
   const words = [
-    t('Round trip {number} ms', { number: clock.roundTrip.toFixed(0) }),
-    t('jitter {number} ms', { number: jitter.toFixed(0) }),
-    t('clock within {number} ms', { number: Math.max(1, clock.uncertainty).toFixed(0) }),
+    t('Round trip {number} ms', { number: formatCount(Math.round(clock.roundTrip)) }),
+    t('jitter {number} ms', { number: formatCount(Math.round(jitter)) }),
+    t('clock within {number} ms', { number: formatCount(Math.round(Math.max(1, clock.uncertainty))) }),
   ];
   if (starved > 0) words.push(starved === 1 ? t('frames late once') : t('frames late {starved} times', { starved }));
   return words.join(' · ');
@@ -46,7 +47,7 @@ export class LivePanel {
     latency: h('dd'),
     frames: h('dd'),
   };
-  private readonly network = h('p', { class: 'muted small', 'aria-label': t('Network') });
+  private readonly network = h('p', { class: 'muted small', role: 'group', 'aria-label': t('Network') });
   private readonly publishBox = h('input', { type: 'checkbox', id: 'publish', role: 'switch' });
   private readonly target = h('select', { 'aria-label': t('Stream to send to') });
   private readonly publishNote = h('p', { class: 'muted small' });
@@ -123,6 +124,7 @@ export class LivePanel {
         this.publishNote,
       ),
     );
+    rove(this.list, '.stream button');
     live.streams.watch(() => this.drawList());
     live.following.watch(() => this.drawList());
     live.problem.watch(() => this.drawList());
@@ -136,7 +138,7 @@ export class LivePanel {
     const playhead = player?.playhead ?? NaN;
     const { stats } = this.live;
     const open = this.live.status.value.kind === 'open';
-    setText(this.figures.rate, open ? stats.framesPerSecond.toFixed(0) : '–');
+    setText(this.figures.rate, open ? formatCount(Math.round(stats.framesPerSecond)) : '–');
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
     // While another source drives the face the playhead stands still, so its distance to the stream is meaningless.
     const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
@@ -178,9 +180,9 @@ export class LivePanel {
         this.list,
         h(
           'li',
-          { class: 'notice error', role: 'alert' },
+          { class: 'notice error' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, problem.title), h('p', {}, t('Retrying every few seconds.'))),
+          h('div', { role: 'alert' }, h('strong', {}, problem.title), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;

@@ -2,7 +2,7 @@ import { pointById } from '../../face/feature_points.ts';
 import type { LiveModel } from '../live/live_model.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { Studio } from '../shared/studio.ts';
-import { isNarrow } from './layout.ts';
+import { isNarrow, tabTitle } from './layout.ts';
 import { formatRoute, isStep, parseRoute, type Route } from './route.ts';
 import { t } from '../../words/words.ts';
 
@@ -92,7 +92,7 @@ export class Address {
       stream: this.namedStream(),
     };
     const address = formatRoute(to);
-    document.title = [studio.selected.value?.name, 'Semblante'].filter(Boolean).join(' · ');
+    document.title = [studio.selected.value?.name, tabTitle(tab), 'Semblante'].filter(Boolean).join(' · ');
     if (address === formatRoute(this.route)) return;
     // The first address is completed, not left.
     const step = this.route.tab !== null && isStep(this.route, to);

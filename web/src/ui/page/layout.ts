@@ -20,11 +20,13 @@ const tabs: { tab: Tab; title: string; icon: IconName }[] = [
   { tab: 'live', title: t('Live'), icon: 'live' },
 ];
 
+export const tabTitle = (tab: Tab): string => tabs.find((one) => one.tab === tab)!.title;
+
 /** Whether the shelf is a tab of its own. */
 export const isNarrow = (): MediaQueryList => matchMedia('(max-width: 1080px)');
 
 /** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
-export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, extras: HTMLElement): HTMLElement {
+export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, extras: HTMLElement, note: HTMLElement): HTMLElement {
   const buttons = new Map<Tab, HTMLButtonElement>();
   const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': t('Work on the head') });
   for (const { tab, title, icon: name } of tabs) {
@@ -104,6 +106,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: HTMLElement, e
       h('span', { class: 'grow' }),
       extras,
     ),
+    note,
     shelfHome,
     h('main', { class: 'stage' }, stage),
     inspector,

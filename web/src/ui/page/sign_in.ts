@@ -1,6 +1,7 @@
 import { problemOf } from '../../net/problem.ts';
 import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
 import type { Session } from '../../net/types.ts';
+import { forgetKept } from '../../../offline/register.ts';
 import { h } from '../shared/dom.ts';
 import { t } from '../../words/words.ts';
 
@@ -30,7 +31,7 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
 /** Forgets the token in this browser; null on a server that does not ask for one. */
 export function signOutButton(base: string, session: Session | null): HTMLElement | null {
   if (!session?.asks_for_tokens) return null;
-  const leave = () => void signOut(base).finally(() => location.reload());
+  const leave = () => void Promise.allSettled([signOut(base), forgetKept()]).then(() => location.reload());
   return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, t('Sign out'));
 }
 

@@ -1,51 +1,77 @@
 import { formatList } from '../../net/model_formats.ts';
 import { adviceFor } from '../../net/problem.ts';
+import type { Problem } from '../../net/types.ts';
 import { h } from '../shared/dom.ts';
+import { formatPercent } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { SceneState } from '../stage/scene.ts';
-import type { Activity } from '../shared/studio.ts';
+import type { Activity, ShelfState } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
+/** What the card needs beside the state of the stage. */
+export interface OverlayFacts {
+  activity: Activity | undefined;
+  /** Opens the shown head again; null when that cannot help. */
+  again: (() => void) | null;
+  shelf: ShelfState;
+  /** Whether the server has heads. */
+  heads: boolean;
+  reload: () => void;
+  upload: () => void;
+}
+
 /** The card over the stage while no head is shown. */
-export function overlayCard(
-  state: SceneState,
-  activity: Activity | undefined,
-  again: (() => void) | null,
-): HTMLElement | null {
+export function overlayCard(state: SceneState, facts: OverlayFacts): HTMLElement | null {
   switch (state.kind) {
     case 'ready':
       return null;
     case 'empty':
-      return h(
-        'div',
-        { class: 'stage-card' },
-        icon('head', 40),
-        h('h2', {}, t('No head on the stage')),
-        h('p', {}, t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })),
-      );
+      if (facts.shelf.kind === 'failed') return failure(facts.shelf.problem, facts.reload);
+      return facts.shelf.kind === 'loading' ? waiting(t('Asking the server for heads')) : invitation(facts);
     case 'loading': {
-      const progress = activity?.progress ?? null;
-      const percent = progress === null ? '' : ` ${Math.round(progress * 100)} %`;
-      return h(
-        'div',
-        { class: 'stage-card', role: 'status' },
-        h('div', { class: 'spinner', 'aria-hidden': 'true' }),
-        h('p', {}, `${activity?.title ?? state.title}…${percent}`),
-      );
+      const progress = facts.activity?.progress ?? null;
+      return waiting(facts.activity?.title ?? state.title, progress === null ? '' : ` ${formatPercent(progress)}`);
     }
-    case 'failed': {
-      const { problem } = state;
-      const advice = adviceFor(problem);
-      return h(
-        'div',
-        { class: 'stage-card error', role: 'alert' },
-        icon('warning', 32),
-        h('h2', {}, problem.title),
-        problem.detail ? h('p', {}, problem.detail) : null,
-        problem.pointer ? h('code', {}, problem.pointer) : null,
-        advice ? h('p', { class: 'advice' }, advice) : null,
-        again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
-      );
-    }
+    case 'failed':
+      return failure(state.problem, facts.again);
   }
+}
+
+function invitation({ heads, upload }: OverlayFacts): HTMLElement {
+  const words = heads
+    ? t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
+    : t('Drop a file ({formatList}) anywhere on this page. The next steps are its points and a press of a button; then it talks.', {
+        formatList,
+      });
+  return h(
+    'div',
+    { class: 'stage-card' },
+    icon('head', 40),
+    h('h2', {}, heads ? t('No head on the stage') : t('No heads yet.')),
+    h('p', {}, words),
+    h('button', { type: 'button', class: heads ? '' : 'primary', on: { click: upload } }, t('Upload a head')),
+  );
+}
+
+// Progress is said by ui/page/progress_said.ts, not by this card, which is drawn again at each step.
+const waiting = (title: string, progress = ''): HTMLElement =>
+  h(
+    'div',
+    { class: 'stage-card' },
+    h('div', { class: 'spinner', 'aria-hidden': 'true' }),
+    h('p', {}, `${title}…${progress}`),
+  );
+
+function failure(problem: Problem, again: (() => void) | null): HTMLElement {
+  const advice = adviceFor(problem);
+  return h(
+    'div',
+    { class: 'stage-card error', role: 'alert' },
+    icon('warning', 32),
+    h('h2', {}, problem.title),
+    problem.detail ? h('p', {}, problem.detail) : null,
+    problem.pointer ? h('code', {}, problem.pointer) : null,
+    advice ? h('p', { class: 'advice' }, advice) : null,
+    again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
+  );
 }

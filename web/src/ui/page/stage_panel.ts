@@ -1,6 +1,7 @@
 import type { ViewName } from '../../view/stage.ts';
 import { h, replace, setText } from '../shared/dom.ts';
 import { formatBytes } from '../shared/format.ts';
+import { rove } from '../shared/roving.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { pointById } from '../../face/feature_points.ts';
 import type { PointsModel } from '../points/points_model.ts';
@@ -30,6 +31,8 @@ export class StagePanel {
   private readonly figures = h('output', { class: 'figures', 'aria-label': t('Display rate') });
   private down: { x: number; y: number; time: number } | null = null;
   private lastFigures = 0;
+  /** Called when a head is to be uploaded. */
+  onUpload: () => void = () => {};
   /** Called when a part is clicked while parts can be selected. */
   onPart: (part: number) => void = () => {};
 
@@ -70,7 +73,7 @@ export class StagePanel {
     canvas.addEventListener('dblclick', (event) => this.focus(event));
     canvas.addEventListener('keydown', (event) => this.key(event));
     scene.state.watch(() => this.drawOverlay());
-    studio.activities.watch(() => this.drawOverlay());
+    for (const signal of [studio.activities, studio.shelf, studio.models] as Signal<unknown>[]) signal.watch(() => this.drawOverlay());
     const hint = (): void => this.drawHint();
     studio.tab.watch(hint);
     points.chosen.watch(hint);
@@ -103,7 +106,7 @@ export class StagePanel {
       path.textContent = gpu ? 'GPU' : 'WASM';
       path.setAttribute('aria-label', gpu ? t('Deform on the GPU') : t('Deform with WebAssembly'));
     });
-    return h(
+    const tools = h(
       'div',
       { class: 'tools', role: 'toolbar', 'aria-label': t('View') },
       views.map(({ name, label, key }) =>
@@ -123,6 +126,8 @@ export class StagePanel {
       wire,
       path,
     );
+    rove(tools, 'button');
+    return tools;
   }
 
   private click(event: PointerEvent): void {
@@ -247,7 +252,17 @@ export class StagePanel {
     const activity = model ? this.studio.activities.value.get(model.id) : undefined;
     this.overlay.hidden = state.kind === 'ready';
     const again = model && model.state !== 'failed' ? () => void this.scene.open(model) : null;
-    replace(this.overlay, overlayCard(state, activity, again));
+    replace(
+      this.overlay,
+      overlayCard(state, {
+        activity,
+        again,
+        shelf: this.studio.shelf.value,
+        heads: this.studio.models.value.length > 0,
+        reload: () => location.reload(),
+        upload: () => this.onUpload(),
+      }),
+    );
   }
 
   private drawFigures(): void {

@@ -1,4 +1,5 @@
 import { h, replace, setText } from '../shared/dom.ts';
+import { formatNumber, formatPercent } from '../shared/format.ts';
 import { ParametrizeOptions } from './parametrize_options.ts';
 import type { Parametrizer } from './parametrizer.ts';
 import type { PointsModel } from './points_model.ts';
@@ -43,7 +44,7 @@ export class ParametrizeBox {
     const busy = this.points.busy.value || activity !== undefined;
     const fapu = Object.entries(this.points.fapu);
     this.fapu.hidden = fapu.length === 0;
-    const lengths = fapu.map(([unit, length]) => `${unit} = ${Number(length.toPrecision(5))}`).join(', ');
+    const lengths = fapu.map(([unit, length]) => `${unit} = ${formatNumber(length, 5)}`).join(' · ');
     setText(
       this.fapu,
       t('Units set by hand: {lengths}', { lengths }),
@@ -66,7 +67,7 @@ export class ParametrizeBox {
             { class: 'row small' },
             h('span', { class: 'grow' }, activity.title),
             activity.progress !== null
-              ? h('span', { class: 'number' }, `${Math.round(activity.progress * 100)} %`)
+              ? h('span', { class: 'number' }, formatPercent(activity.progress))
               : null,
             activity.cancel
               ? h('button', { type: 'button', class: 'quiet small', on: { click: activity.cancel } }, t('Cancel'))

@@ -1,6 +1,7 @@
 import { pointById } from '../../face/feature_points.ts';
 import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
 import { h, redraw, replace, type Child } from '../shared/dom.ts';
+import { formatNumber } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
@@ -72,7 +73,7 @@ export class PointCard {
   private where(id: string): string {
     const place = this.points.draft.points.get(id);
     if (!place) return t('Click on the head to place it.');
-    if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => value.toPrecision(4)).join(', ') });
+    if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
     return t('On vertex {vertex}. Click elsewhere to move it.', { vertex: place.vertex });
   }
 

@@ -4,6 +4,7 @@ import { quickSet } from '../../face/quick_set.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
+import { rove } from '../shared/roving.ts';
 import type { PointsModel } from './points_model.ts';
 import { confidenceWords, pointStateWords } from './proposal_words.ts';
 import { t } from '../../words/words.ts';
@@ -31,6 +32,7 @@ export class PointList {
       h('option', { value: 'proposed' }, t('Proposed')),
     );
     this.search = h('div', { class: 'search' }, icon('search', 16), this.words, this.filter);
+    rove(this.element, '.point-row');
     points.changed.watch(() => this.draw());
     points.guided.watch(() => this.draw());
     points.chosen.watch((id) => {

@@ -50,6 +50,7 @@ export class PointsPanel {
     this.element = h(
       'div',
       { class: 'panel points' },
+      h('h2', { class: 'visually-hidden' }, t('Feature points')),
       h(
         'header',
         { class: 'section-head' },

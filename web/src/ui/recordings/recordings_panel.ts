@@ -103,7 +103,7 @@ export class RecordingsPanel {
     const line = this.running.get(id);
     if (!line) return;
     const since = new Date(created).toLocaleTimeString(language, { timeStyle: 'short' });
-    const words = [t('since {since}', { since }), `${(duration / 1000).toFixed(0)} s`, t('{frames} frames', { frames: formatCount(frames) }), formatBytes(bytes)];
+    const words = [t('since {since}', { since }), `${formatCount(Math.round(duration / 1000))} s`, t('{frames} frames', { frames: formatCount(frames) }), formatBytes(bytes)];
     if (lost > 0) words.push(t('{lost} lost', { lost: formatCount(lost) }));
     setText(line, words.join(' · '));
   }
@@ -170,9 +170,9 @@ export class RecordingsPanel {
         this.list,
         h(
           'li',
-          { class: 'notice error', role: 'alert' },
+          { class: 'notice error' },
           icon('warning', 16),
-          h('div', {}, h('strong', {}, capital(detail ?? title)), h('p', {}, t('Retrying every few seconds.'))),
+          h('div', { role: 'alert' }, h('strong', {}, capital(detail ?? title)), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;

@@ -17,6 +17,16 @@ export function formatCount(count: number): string {
   return count.toLocaleString(language);
 }
 
+/** A number with at most so many significant digits and the language's decimal sign. */
+export function formatNumber(value: number, digits: number): string {
+  return value.toLocaleString(language, { maximumSignificantDigits: digits, useGrouping: false });
+}
+
+/** 0.25 -> "25%". */
+export function formatPercent(share: number): string {
+  return share.toLocaleString(language, { style: 'percent' });
+}
+
 /** 83400 ms -> "1:23.4". */
 export function formatTime(ms: number): string {
   const tenths = Math.max(0, Math.floor(ms / 100));

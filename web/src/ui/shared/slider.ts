@@ -13,7 +13,10 @@ export interface SliderOptions {
   onInput: (value: number) => void;
 }
 
-/** A range input with its value beside it. The fill starts at zero; a double click resets to zero. */
+/**
+ * A range input with its value beside it. The fill starts at zero; a double click resets to zero. One stop of the Tab key: a digit
+ * that is typed on the range goes into the value.
+ */
 export class Slider {
   readonly element: HTMLElement;
   private readonly range: HTMLInputElement;
@@ -27,7 +30,11 @@ export class Slider {
       max,
       step,
       'aria-label': label,
-      on: { input: () => this.take(Number(this.range.value)), dblclick: () => this.take(0) },
+      on: {
+        input: () => this.take(Number(this.range.value)),
+        dblclick: () => this.take(0),
+        keydown: (event) => this.type(event),
+      },
     });
     this.number = h('input', {
       type: 'number',
@@ -35,7 +42,13 @@ export class Slider {
       max,
       step,
       'aria-label': t('{label}, value', { label }),
-      on: { change: () => this.take(Number(this.number.value) || 0) },
+      tabindex: -1,
+      on: {
+        change: () => this.take(Number(this.number.value) || 0),
+        keydown: (event) => {
+          if (event.key === 'Enter' || event.key === 'Escape') this.range.focus();
+        },
+      },
     });
     this.element = h(
       'div',
@@ -62,6 +75,13 @@ export class Slider {
     this.range.style.setProperty('--from', `${Math.min(zero, place(value))}%`);
     this.range.style.setProperty('--to', `${Math.max(zero, place(value))}%`);
     this.element.classList.toggle('moved', value !== 0);
+  }
+
+  /** Begins the value anew with a digit or sign; the browser writes it, since the focus is there by then. */
+  private type({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
+    if (!/^[\d-]$/.test(key) || ctrlKey || metaKey || altKey) return;
+    this.number.focus();
+    this.number.select();
   }
 
   private take(value: number): void {

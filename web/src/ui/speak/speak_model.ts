@@ -97,6 +97,12 @@ export class SpeakModel {
     this.driver.release('speech');
   }
 
+  /** The page closes: nobody will ask for its speech again. */
+  leave(): void {
+    this.newest += 1; // one that is being made is removed when it is done
+    this.forget();
+  }
+
   private async playFrom(ms: number): Promise<void> {
     const { take } = this;
     if (!take) return;

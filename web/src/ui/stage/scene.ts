@@ -9,6 +9,7 @@ import { FaceView, type DeformPath } from '@client/three/face_view.ts';
 import { ballAround, Highlight, type HighlightTarget } from '../../view/highlight.ts';
 import type { UnitLines } from '../../view/unit_lines.ts';
 import type { InfluenceView } from '../../view/influence_view.ts';
+import { framedHead } from '../../view/head_box.ts';
 import { Markers, type Marker } from '../../view/markers.ts';
 import { PreviewView } from '../../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../../view/quality.ts';
@@ -53,6 +54,8 @@ export class SceneView {
   private model: Model | null = null;
   private shown = '';
   private previewKey = '';
+  /** The head and axes for which the camera was set up. */
+  private framed = '';
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -103,13 +106,15 @@ export class SceneView {
     }
     this.state.set({ kind: 'loading', title: t('Opening the head') });
     try {
-      const parts = {
-        preview: this.openPreview(model, opening.signal),
-        face: model.state === 'parametrized' ? this.openFace(model, opening.signal) : Promise.resolve(null),
-      };
-      const [preview, face] = await Promise.all([parts.preview, parts.face]);
+      const animated = model.state === 'parametrized';
+      // A visitor who only looks at the face does not wait for the still model.
+      const load = (): Promise<PreviewView> | null =>
+        !animated || this.wanted === 'preview' ? this.openPreview(model, opening.signal) : null;
+      const [early, face] = await Promise.all([load(), animated ? this.openFace(model, opening.signal) : null]);
+      const preview = early ?? (await load()); // the tab may have changed meanwhile
       if (opening.signal.aborted) return;
-      this.install(preview, face);
+      if (preview === null && this.previewKey !== previewKeyOf(model)) this.setPreview(null, '');
+      this.install(model, preview, face);
       this.state.set({ kind: 'ready' });
     } catch (error) {
       if (opening.signal.aborted) return;
@@ -127,9 +132,11 @@ export class SceneView {
   /** Switches between the still model with its markers and the animated face (if there is one). */
   show(what: 'preview' | 'face'): void {
     this.wanted = what;
+    if (what === 'preview') void this.fetchPreview();
     const face = what === 'face' && this.face !== null;
     if (this.preview) this.preview.object.visible = !face;
-    if (this.face) this.face.object.visible = face;
+    // Until the still model is there, the face stands in its place.
+    if (this.face) this.face.object.visible = face || this.preview === null;
     this.markers.object.visible = what === 'preview' && this.preview !== null;
     this.highlight.object.visible = this.markers.object.visible;
     this.faceShown.set(face);
@@ -215,13 +222,15 @@ export class SceneView {
     this.stage.invalidate();
   }
 
-  /** A small image of the head as it is, without its weights. */
+  /** A small image of the head, without its weights and points. */
   thumbnail(size: number): string {
     const { painted } = this;
     const on = painted?.on ?? false;
     if (painted) painted.on = false;
+    this.markers.object.visible = this.highlight.object.visible = false;
     const image = this.stage.thumbnail(size);
     if (painted) painted.on = on;
+    this.show(this.wanted);
     return image;
   }
 
@@ -236,11 +245,33 @@ export class SceneView {
 
   /** Loads the preview; the shown one is kept unless the axes of the head have changed. */
   private async openPreview(model: Model, signal: AbortSignal): Promise<PreviewView> {
-    const key = `${model.id}:${JSON.stringify(model.frame?.axes)}`;
-    if (this.preview && this.previewKey === key) return this.preview;
-    const preview = await PreviewView.load(await this.sources.preview(model, signal), this.quality.richSkin);
-    if (!signal.aborted) this.previewKey = key;
-    return preview;
+    if (this.preview && this.previewKey === previewKeyOf(model)) return this.preview;
+    return PreviewView.load(await this.sources.preview(model, signal), this.quality.richSkin);
+  }
+
+  /** Loads the still model of the shown face, once it is to be seen. */
+  private async fetchPreview(): Promise<void> {
+    const { model, opening } = this;
+    if (this.preview || !model || !opening || this.state.value.kind !== 'ready') return;
+    this.state.set({ kind: 'loading', title: t('Opening the head') });
+    try {
+      const preview = await this.openPreview(model, opening.signal);
+      if (opening.signal.aborted) return;
+      this.setPreview(preview, previewKeyOf(model));
+      preview.wireframe = this.wire;
+      this.show(this.wanted);
+      this.state.set({ kind: 'ready' });
+    } catch (error) {
+      if (!opening.signal.aborted) this.state.set({ kind: 'failed', problem: problemOf(error) });
+    }
+  }
+
+  private setPreview(preview: PreviewView | null, key: string): void {
+    this.highlight.clear();
+    this.preview?.dispose();
+    this.preview = preview;
+    this.previewKey = key;
+    if (preview) this.stage.scene.add(preview.object);
   }
 
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
@@ -249,14 +280,10 @@ export class SceneView {
     return { view: new FaceView(loaded.mesh, materials), loaded };
   }
 
-  private install(preview: PreviewView, face: { view: FaceView; loaded: LoadedFace } | null): void {
-    const another = preview !== this.preview;
-    if (another) {
-      this.highlight.clear();
-      this.preview?.dispose();
-      this.preview = preview;
-      this.stage.scene.add(preview.object);
-    }
+  private install(model: Model, preview: PreviewView | null, face: { view: FaceView; loaded: LoadedFace } | null): void {
+    const key = previewKeyOf(model);
+    const another = key !== this.framed;
+    if (preview && preview !== this.preview) this.setPreview(preview, key);
     this.performer.value?.dispose();
     this.influence = null;
     this.units = null;
@@ -275,7 +302,12 @@ export class SceneView {
       this.performer.set(null);
     }
     this.wireframe = this.wire;
-    if (another) this.stage.frameObject(preview.object, preview.head());
+    if (another && preview) this.stage.frameObject(preview.object, preview.head());
+    else if (another && face) {
+      const { positions, indices } = face.view.mesh;
+      this.stage.frameObject(face.view.object, framedHead([{ positions, triangles: indices }]));
+    }
+    this.framed = key;
     this.show(this.wanted);
   }
 
@@ -289,9 +321,9 @@ export class SceneView {
     this.highlight.clear();
     this.influence = null;
     this.units = null;
-    this.preview?.dispose();
+    this.setPreview(null, '');
+    this.framed = '';
     this.face?.dispose();
-    this.preview = null;
     this.face = null;
     this.rig = null;
     this.packageBytes.set(0);
@@ -301,4 +333,5 @@ export class SceneView {
   }
 }
 
+const previewKeyOf = (model: Model): string => `${model.id}:${JSON.stringify(model.frame?.axes)}`;
 const packageOf = (model: Model | null): string => model?.package?.parametrization ?? '';

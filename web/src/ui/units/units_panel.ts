@@ -3,6 +3,7 @@ import { UnitLines, type LabelledLine } from '../../view/unit_lines.ts';
 import type { Parametrizer } from '../points/parametrizer.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
+import { formatNumber } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -76,7 +77,7 @@ export class UnitsPanel {
     const longest = Math.max(...lines.map(({ length }) => length), 0);
     this.scene.units = new UnitLines(
       lines.map(({ unit, length, from, to }): LabelledLine => {
-        const words = labelled.has(unit) ? '' : `${unit} ${lengthWords(length)}`;
+        const words = labelled.has(unit) ? '' : `${unit} ${formatNumber(length, 4)}`;
         labelled.add(unit);
         return { from, to, words, side: sides[unit] };
       }),
@@ -136,7 +137,7 @@ export class UnitsPanel {
       h('label', { for: `unit-${unit}`, title: capital(meaning) }, h('strong', {}, unit), h('small', { class: 'muted' }, shortMeanings[unit])),
       input,
       byHand === undefined
-        ? h('small', { class: 'muted unit-origin' }, 'measured')
+        ? h('small', { class: 'muted unit-origin' }, t('measured'))
         : h(
             'button',
             {

@@ -1,5 +1,5 @@
 /**
- * Registers the service worker, which keeps this page and its face for the time without a network. What was loaded before
+ * Registers a service worker, which keeps this page and its faces for the time without a network. What was loaded before
  * it was there is named to it; the browser's cache has it.
  */
 export function keepOffline(): void {
@@ -13,4 +13,10 @@ export function keepOffline(): void {
   };
   // The larger level and the images come first; a refusal (no TLS) leaves the page as it is.
   setTimeout(() => void start().catch(() => undefined), 4000);
+}
+
+/** Lets the service worker forget what it has kept: the next user of this browser may be another one. */
+export async function forgetKept(): Promise<void> {
+  const registration = await navigator.serviceWorker?.getRegistration();
+  registration?.active?.postMessage({ forget: true });
 }

@@ -1,0 +1,159 @@
+import axe, { type AxeResults } from 'axe-core';
+import type { Browser, BrowserContextOptions } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { sampleHead, webRoot } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(undefined, webRoot, false), launch()]);
+  // Streams and a head without points, so that lists have what their items have.
+  await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"title":"Mine"}' });
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+/** Serious and critical findings of axe on the page as it is. */
+async function findings({ page }: StudioPage, where: string): Promise<string[]> {
+  await page.evaluate(axe.source);
+  const { violations } = await page.evaluate(
+    () =>
+      (window as unknown as { axe: typeof axe }).axe.run(document, {
+        resultTypes: ['violations'],
+        runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'],
+      }) as Promise<AxeResults>,
+  );
+  return violations
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${where}: ${id} ${target.join(' ')}: ${failureSummary}`));
+}
+
+interface Look {
+  name: string;
+  options: BrowserContextOptions;
+}
+
+const wide = { viewport: { width: 1440, height: 900 } };
+const narrow = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
+const looks: Look[] = [
+  { name: 'wide light', options: { ...wide, colorScheme: 'light' } },
+  { name: 'wide dark', options: { ...wide, colorScheme: 'dark', locale: 'pt-BR' } },
+  { name: 'narrow light', options: { ...narrow, colorScheme: 'light', locale: 'pt-BR' } },
+  { name: 'narrow dark', options: { ...narrow, colorScheme: 'dark' } },
+];
+
+async function open({ options }: Look, at: string, allowed?: RegExp): Promise<StudioPage> {
+  const context = await browser.newContext({ reducedMotion: 'reduce', ...options });
+  return StudioPage.openIn(context, server.url + at, allowed ? { allowed } : {});
+}
+
+describe('accessibility', () => {
+  for (const look of looks) {
+    test(`Axe_${look.name.replace(' ', '')}_NothingSeriousOnAnyTabOrDialog`, async () => {
+      const studio = await open(look, '/#sample/animate');
+      const { page } = studio;
+      const found: string[] = [];
+      const check = async (where: string): Promise<void> => {
+        found.push(...(await findings(studio, where)));
+      };
+      await studio.waitForStage('ready');
+      // Everything of the tab that is folded or switched on by hand.
+      for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
+      for (const summary of await page.locator('.animate summary').all()) await summary.click();
+      await page.locator('[data-expression="1"]').click();
+      await page.locator('[data-viseme="2"]').click();
+      await check('animate');
+
+      await page.locator('#tab-fit').click();
+      await page.locator('.fit summary').first().waitFor();
+      for (const summary of await page.locator('.fit details:not([open]) > summary').all()) await summary.click();
+      await page.locator('.finding-show').first().click();
+      await check('fit');
+
+      await page.locator('#tab-points').click();
+      for (const mode of await page.locator('.points .section-head .segments button').all()) {
+        await mode.click();
+        await check('points');
+      }
+      await page.locator('[data-point="8.1"]').click();
+      await page.locator('.points .options summary').click();
+      await check('a chosen point');
+
+      await page.locator('#tab-live').click();
+      await page.locator('.stream').first().waitFor();
+      await check('live');
+      await page.locator('.stream .square').first().click();
+      await page.locator('dialog[open]').waitFor();
+      await check('the dialog of a phone');
+      await page.keyboard.press('Escape');
+      await page.locator('.live .section-head .square').first().click();
+      await page.locator('dialog[open]').waitFor();
+      await check('the dialog of a stream');
+      await page.keyboard.press('Escape');
+      await page.locator('#tab-live').press('?');
+      await page.locator('dialog[open] dl.keys').first().waitFor();
+      await check('the sheet of keys');
+      await page.keyboard.press('Escape');
+
+      if (look.options.viewport!.width < 1080) await page.locator('#tab-heads').click();
+      await page.locator('.head').first().hover();
+      await check('heads');
+      await page.locator('.head-actions button').last().click();
+      await page.locator('dialog[open]').waitFor();
+      await check('the dialog of a deletion');
+      await page.keyboard.press('Escape');
+      await page.locator('.head-actions button').first().click();
+      await page.locator('dialog[open] input').waitFor();
+      await check('the dialog of a name');
+      await page.keyboard.press('Escape');
+      expect(found).toEqual([]);
+      expect(studio.errors).toEqual([]);
+      await studio.close();
+    });
+  }
+
+  test.each(looks)('Axe_$name_NothingSeriousWhereSomethingFails', async (look) => {
+    const studio = await open(look, '/#sample/animate', /status of 4\d\d|ERR_FAILED/);
+    const { page } = studio;
+    const found: string[] = [];
+    await studio.waitForStage('ready');
+    // A file that is no head, and a head without points.
+    await studio.drop(sampleHead.replace(/\.glb$/, '.fps.json'), 'letter.glb');
+    await page.locator('.toast-error, .stage-card.error').first().waitFor();
+    found.push(...(await findings(studio, 'a refused head')));
+    await studio.drop(sampleHead, `${look.name}.glb`);
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    found.push(...(await findings(studio, 'a new head')));
+    // A server that does not answer.
+    await page.route('**/v1/**', (route) => route.abort());
+    await page.reload();
+    await page.locator('.notice.error').first().waitFor();
+    found.push(...(await findings(studio, 'no server')));
+    expect(found).toEqual([]);
+    await studio.close();
+  });
+});
+
+test('Axe_SignIn_NothingSerious', async () => {
+  const closed = await startServer('edit');
+  try {
+    for (const colorScheme of ['light', 'dark'] as const) {
+      const context = await browser.newContext({ colorScheme });
+      const studio = await StudioPage.openIn(context, closed.url, { allowed: /status of 401/ });
+      await studio.page.getByLabel('Token').fill('smb_wrong_token');
+      await studio.page.getByRole('button', { name: 'Sign in' }).click();
+      await studio.page.getByRole('alert').getByText('not accepted').waitFor();
+      expect(await findings(studio, `sign-in, ${colorScheme}`)).toEqual([]);
+      await studio.close();
+    }
+  } finally {
+    await closed.stop();
+  }
+});
