@@ -1,7 +1,7 @@
 import axe, { type AxeResults } from 'axe-core';
 import type { Browser, BrowserContextOptions } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { sampleHead, webRoot } from './support/paths.ts';
+import { samplePoints, webRoot } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -10,8 +10,10 @@ let browser: Browser;
 
 beforeAll(async () => {
   [server, browser] = await Promise.all([startServer(undefined, webRoot, false), launch()]);
-  // Streams and a head without points, so that lists have what their items have.
+  // A stream, and a head with findings, so that lists have what their items have. Nothing moves: axe needs the machine for itself.
   await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"title":"Mine"}' });
+  const odd = ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'v 0 0 1', 'v 0 0 -1', 'f 1 2 3', 'f 1 2 4', 'f 1 2 5', 'f 1 3 4'].join('\n');
+  await fetch(`${server.url}/v1/models?name=Odd`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: odd });
 });
 
 afterAll(async () => {
@@ -33,6 +35,10 @@ async function findings({ page }: StudioPage, where: string): Promise<string[]> 
     .filter(({ impact }) => impact === 'serious' || impact === 'critical')
     .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${where}: ${id} ${target.join(' ')}: ${failureSummary}`));
 }
+
+/** Opens everything that is folded. */
+const unfold = ({ page }: StudioPage): Promise<void> =>
+  page.evaluate(() => document.querySelectorAll('details').forEach((one) => (one.open = true)));
 
 interface Look {
   name: string;
@@ -65,15 +71,13 @@ describe('accessibility', () => {
       await studio.waitForStage('ready');
       // Everything of the tab that is folded or switched on by hand.
       for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
-      for (const summary of await page.locator('.animate summary').all()) await summary.click();
+      await unfold(studio);
       await page.locator('[data-expression="1"]').click();
       await page.locator('[data-viseme="2"]').click();
       await check('animate');
 
       await page.locator('#tab-fit').click();
-      await page.locator('.fit summary').first().waitFor();
-      for (const summary of await page.locator('.fit details:not([open]) > summary').all()) await summary.click();
-      await page.locator('.finding-show').first().click();
+      await unfold(studio);
       await check('fit');
 
       await page.locator('#tab-points').click();
@@ -82,7 +86,6 @@ describe('accessibility', () => {
         await check('points');
       }
       await page.locator('[data-point="8.1"]').click();
-      await page.locator('.points .options summary').click();
       await check('a chosen point');
 
       await page.locator('#tab-live').click();
@@ -118,27 +121,31 @@ describe('accessibility', () => {
     });
   }
 
-  test.each(looks)('Axe_$name_NothingSeriousWhereSomethingFails', async (look) => {
-    const studio = await open(look, '/#sample/animate', /status of 4\d\d|ERR_FAILED/);
-    const { page } = studio;
-    const found: string[] = [];
-    await studio.waitForStage('ready');
-    // A file that is no head, and a head without points.
-    await studio.drop(sampleHead.replace(/\.glb$/, '.fps.json'), 'letter.glb');
-    await page.locator('.toast-error, .stage-card.error').first().waitFor();
-    found.push(...(await findings(studio, 'a refused head')));
-    await studio.drop(sampleHead, `${look.name}.glb`);
-    await studio.waitForState('ready');
-    await studio.waitForStage('ready');
-    found.push(...(await findings(studio, 'a new head')));
-    // A server that does not answer.
-    await page.route('**/v1/**', (route) => route.abort());
-    await page.reload();
-    await page.locator('.notice.error').first().waitFor();
-    found.push(...(await findings(studio, 'no server')));
-    expect(found).toEqual([]);
-    await studio.close();
-  });
+  for (const look of looks) {
+    test(`Axe_${look.name.replace(' ', '')}_NothingSeriousWhereSomethingIsWrong`, async () => {
+      const studio = await open(look, '/#sample/fit', /status of 4\d\d|ERR_FAILED/);
+      const { page } = studio;
+      const found: string[] = [];
+      await studio.waitForStage('ready');
+      // A head with findings, and a file that is no head.
+      if (look.options.viewport!.width < 1080) await page.locator('#tab-heads').click();
+      await page.locator('.head', { hasText: 'Odd' }).locator('.open').click();
+      await page.locator('#tab-fit').click();
+      await page.locator('.finding-show').first().click();
+      await unfold(studio);
+      found.push(...(await findings(studio, 'findings')));
+      await studio.drop(samplePoints, 'letter.glb');
+      await page.locator('.toast-error, .stage-card.error').first().waitFor();
+      found.push(...(await findings(studio, 'a refused head')));
+      // A server that does not answer.
+      await page.route('**/v1/**', (route) => route.abort());
+      await page.reload();
+      await page.locator('.stage-card.error').waitFor();
+      found.push(...(await findings(studio, 'no server')));
+      expect(found).toEqual([]);
+      await studio.close();
+    });
+  }
 });
 
 test('Axe_SignIn_NothingSerious', async () => {

@@ -35,7 +35,7 @@ test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   // The first frame of the stream that changes the face.
   await page.waitForFunction(() => {
     const { semblante } = window as unknown as Inside;
-    return semblante?.scene.state.value.kind === 'ready' && semblante.driver.source.value === 'stream' && semblante.scene.stage.framesPerSecond > 0;
+    return semblante?.scene.state.value.kind === 'ready' && (semblante.scene.performer.value?.player?.playhead ?? NaN) > 0;
   });
   const movedAt = Date.now();
   const before = [...loads.values()].filter(({ at }) => at <= movedAt);

@@ -183,7 +183,7 @@ export class Shelf {
       ),
       activity ? progressBar(activity) : null,
       selected && model.state === 'failed' && model.problem
-        ? h('p', { class: 'head-problem' }, model.problem.detail ?? model.problem.title)
+        ? h('p', { class: 'head-problem' }, [model.problem.pointer, model.problem.detail ?? model.problem.title].filter(Boolean).join(' '))
         : null,
     );
   }

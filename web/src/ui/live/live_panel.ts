@@ -124,7 +124,7 @@ export class LivePanel {
         this.publishNote,
       ),
     );
-    rove(this.list, '.stream button');
+    rove(this.list, '[data-stream] button');
     live.streams.watch(() => this.drawList());
     live.following.watch(() => this.drawList());
     live.problem.watch(() => this.drawList());

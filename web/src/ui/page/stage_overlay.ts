@@ -69,8 +69,7 @@ function failure(problem: Problem, again: (() => void) | null): HTMLElement {
     { class: 'stage-card error', role: 'alert' },
     icon('warning', 32),
     h('h2', {}, problem.title),
-    problem.detail ? h('p', {}, problem.detail) : null,
-    problem.pointer ? h('code', {}, problem.pointer) : null,
+    problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, problem.detail) : null,
     advice ? h('p', { class: 'advice' }, advice) : null,
     again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
   );

@@ -36,8 +36,7 @@ export class Toasts {
         'div',
         {},
         h('strong', {}, what),
-        h('p', {}, detail),
-        problem.pointer ? h('p', { class: 'pointer' }, h('code', {}, problem.pointer)) : null,
+        h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, detail),
         advice ? h('p', { class: 'advice' }, advice) : null,
       ),
     );
